@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "base/mailbox.hpp"
+#include "base/scope.hpp"
+
+namespace lapwing::base {
+namespace {
+
+using namespace std::chrono_literals;
+
+Loop::Pace constexpr unpaced{.speedup = 1.0, .unpaced = true};
+
+Task<int> answer_after(Loop& loop, Duration delay) {
+  co_await loop.sleep(delay);
+  co_return 42;
+}
+
+TEST(Loop, UnpacedTimeJumpsToTheNextTimer) {
+  Loop loop(unpaced);
+  EXPECT_EQ(loop.run_until_done(answer_after(loop, 10h)), 42);
+  EXPECT_EQ(loop.now().time_since_epoch(), 10h);
+}
+
+TEST(Loop, SpeedupScalesTheWall) {
+  Loop loop(Loop::Pace{.speedup = 1000.0});
+  auto const before = std::chrono::steady_clock::now();
+  loop.run_until_done(answer_after(loop, 10s));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, 5s);
+  EXPECT_GE(loop.now().time_since_epoch(), 10s);
+}
+
+TEST(Loop, TimersFireInOrderOfDeadlineThenOfCall) {
+  Loop loop(unpaced);
+  std::vector<std::string> order;
+  Scope scope(loop);
+  auto say = [&](std::string name, Duration delay) -> Task<void> {
+    co_await loop.sleep(delay);
+    order.push_back(name);
+  };
+  scope.spawn(say("late", 2s));
+  scope.spawn(say("first", 1s));
+  scope.spawn(say("second", 1s));
+  loop.run_until_done(answer_after(loop, 3s));
+  EXPECT_EQ(order, (std::vector<std::string>{"first", "second", "late"}));
+}
+
+TEST(Scope, DestroyingItCancelsWhatStillRunsAndRunsDestructors) {
+  Loop loop(unpaced);
+  bool ended = false;
+  bool destroyed = false;
+  struct Guard {
+    bool& flag;
+    ~Guard() { flag = true; }
+  };
+  {
+    Scope scope(loop);
+    auto sleeper = [&]() -> Task<void> {
+      Guard guard{destroyed};
+      co_await loop.sleep(1h);
+      ended = true;
+    };
+    scope.spawn(sleeper());
+    loop.run_until_done(answer_after(loop, 1s));
+    EXPECT_EQ(scope.size(), 1u);
+  }
+  EXPECT_TRUE(destroyed);
+  loop.run_until_done(answer_after(loop, 2h));
+  EXPECT_FALSE(ended);
+}
+
+TEST(Scope, ForgetsTasksThatHaveEnded) {
+  Loop loop(unpaced);
+  Scope scope(loop);
+  auto brief = [&]() -> Task<void> { co_await loop.turn(); };
+  for (int i = 0; i < 100; ++i) scope.spawn(brief());
+  loop.run_until_done(answer_after(loop, 1s));
+  EXPECT_TRUE(scope.empty());
+}
+
+TEST(Task, AwaitingOneThatEndsAtOnceManyTimesDoesNotGrowTheStack) {
+  Loop loop(unpaced);
+  auto one = []() -> Task<int> { co_return 1; };
+  auto many = [&]() -> Task<int> {
+    int sum = 0;
+    for (int i = 0; i < 200'000; ++i) sum += co_await one();
+    co_return sum;
+  };
+  EXPECT_EQ(loop.run_until_done(many()), 200'000);
+}
+
+TEST(Mailbox, ReceiveTimesOutAndLosesNothingAfterwards) {
+  Loop loop(unpaced);
+  Mailbox<int> box(loop, 2);
+  auto exchange = [&]() -> Task<int> {
+    auto const nothing = co_await box.receive(10ms);
+    EXPECT_EQ(nothing.error(), ReceiveError::timed_out);
+    EXPECT_TRUE(box.post(7));
+    auto const got = co_await box.receive(10ms);
+    co_return *got;
+  };
+  EXPECT_EQ(loop.run_until_done(exchange()), 7);
+}
+
+TEST(Mailbox, RefusesWhenFullAndDeliversWhatWasPostedBeforeClosing) {
+  Loop loop(unpaced);
+  Mailbox<int> box(loop, 1);
+  EXPECT_TRUE(box.post(1));
+  EXPECT_FALSE(box.post(2));
+  box.close();
+  auto drain = [&]() -> Task<std::vector<int>> {
+    std::vector<int> all;
+    for (;;) {
+      auto const got = co_await box.receive(1s);
+      if (!got) break;
+      all.push_back(*got);
+    }
+    co_return all;
+  };
+  EXPECT_EQ(loop.run_until_done(drain()), std::vector<int>{1});
+}
+
+TEST(Mailbox, ReceiverDestroyedWhileWaitingIsNeverWoken) {
+  Loop loop(unpaced);
+  Mailbox<int> box(loop, 4);
+  {
+    Scope scope(loop);
+    auto waiting = [&]() -> Task<void> { (void)co_await box.receive(1h); };
+    scope.spawn(waiting());
+  }
+  EXPECT_TRUE(box.post(1));
+  loop.run_until_done(answer_after(loop, 2h));
+  EXPECT_EQ(box.size(), 1u);
+}
+
+TEST(Notifier, WaitForLooksAtTheConditionAfterEachNotification) {
+  Loop loop(unpaced);
+  Notifier changed(loop);
+  int value = 0;
+  Scope scope(loop);
+  auto counting = [&]() -> Task<void> {
+    for (int i = 0; i < 5; ++i) {
+      co_await loop.sleep(1s);
+      ++value;
+      changed.notify_all();
+    }
+  };
+  scope.spawn(counting());
+  EXPECT_TRUE(loop.run_until_done(changed.wait_for([&] { return value == 3; }, 1h)));
+  EXPECT_EQ(loop.now().time_since_epoch(), 3s);
+  EXPECT_FALSE(loop.run_until_done(changed.wait_for([&] { return value == 9; }, 1min)));
+}
+
+}  // namespace
+}  // namespace lapwing::base
