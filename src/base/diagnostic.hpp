@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/source.hpp"
+
+/// Messages about texts that people wrote. Readers append to a sink and recover, so that one run shows every mistake.
+namespace lapwing::base {
+
+enum class Severity { note, warning, error };
+
+[[nodiscard]] std::string_view to_string(Severity severity);
+
+/// A second place that explains the first: "first defined here".
+struct DiagnosticNote {
+  Span span;
+  std::string message;
+};
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  Span span;                               ///< what the caret underlines
+  std::string message;                     ///< what is wrong, lower case, no full stop
+  std::string hint = {};                   ///< what to write instead: "did you mean takeOff?" (may be empty)
+  std::vector<DiagnosticNote> notes = {};  ///< further places
+};
+
+/// One diagnostic with its places worked out, for `--json` and editors. Lines and columns count from 1; the end is
+/// exclusive.
+struct DiagnosticRecord {
+  std::string file;
+  LineColumn begin;
+  LineColumn end;
+  std::string severity;
+  std::string message;
+  std::string hint;
+  std::vector<DiagnosticRecord> notes;
+};
+
+/// Collects what is wrong with one source text. Keeps at most `limit` errors and as many warnings and notes, and counts
+/// the rest, so that a hostile input cannot fill memory with complaints. The source must outlive the sink.
+class Diagnostics {
+ public:
+  static constexpr std::size_t default_limit = 100;
+
+  explicit Diagnostics(SourceFile const& source, std::size_t limit = default_limit) : source_(source), limit_(limit) {}
+
+  void report(Diagnostic diagnostic);
+  void error(Span span, std::string message, std::string hint = {});
+  void warning(Span span, std::string message, std::string hint = {});
+
+  [[nodiscard]] SourceFile const& source() const { return source_; }
+  [[nodiscard]] std::size_t error_count() const { return errors_; }
+  [[nodiscard]] std::size_t warning_count() const { return warnings_; }
+  [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  /// How many were counted but not kept.
+  [[nodiscard]] std::size_t dropped_count() const { return errors_ + warnings_ + others_ - kept_.size(); }
+  /// What was kept, in order of place.
+  [[nodiscard]] std::vector<Diagnostic> sorted() const;
+
+ private:
+  SourceFile const& source_;
+  std::size_t limit_;
+  std::size_t errors_ = 0;
+  std::size_t warnings_ = 0;
+  std::size_t others_ = 0;
+  std::vector<Diagnostic> kept_;
+};
+
+/// One diagnostic as people read it:
+///
+///     survey.dolphin:35:17: error: surveyAreaNorth is not defined
+///       35 |            then ((surveyAreaNorth / {battery(v1) < 0.3})
+///          |                   ^~~~~~~~~~~~~~~ did you mean surveyNorth?
+///
+/// Tabs widen to multiples of 4; wide characters count one column. A span over several lines is underlined to the end
+/// of its first.
+[[nodiscard]] std::string render(Diagnostic const& diagnostic, SourceFile const& source);
+/// Everything kept, in order of place, and a last line when something was left out.
+[[nodiscard]] std::string render(Diagnostics const& diagnostics);
+
+[[nodiscard]] std::vector<DiagnosticRecord> to_records(Diagnostics const& diagnostics);
+
+}  // namespace lapwing::base
