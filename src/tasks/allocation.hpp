@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "tasks/task.hpp"
+
+namespace lapwing::tasks {
+
+/// One platform task of a tree and the vehicle that will do it.
+struct Assignment {
+  int occurrence = 0;  ///< counts the platform tasks of the tree depth first, left to right, from 0
+  std::string task;
+  VehicleId vehicle;
+};
+
+/// Which vehicle does what, decided before anything starts. In the order in which the choices were made.
+struct Allocation {
+  std::vector<Assignment> assignments;
+};
+
+/// Gives every occurrence of a platform task one of the `available` vehicles (language spec, 4.5).
+///
+/// Of the suitable ones the first is taken, or the nearest to the task's reference position if it has one. Parts of a
+/// sequence, and the branches of a choice or allOf, share vehicles; parts of a concurrent never do, and those of its
+/// parts that are bound to vehicle sets choose first. On failure nothing is assigned, and the error names the task and
+/// why each vehicle was rejected.
+[[nodiscard]] base::Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const& available);
+
+}  // namespace lapwing::tasks
