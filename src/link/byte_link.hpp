@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/loop.hpp"
+#include "link/url.hpp"
+
+namespace lapwing::link {
+
+/// The far end of a link. A link that waits for others (udp in, tcp in) has many; each keeps its key while it stays at
+/// the same address. The key means something to its link only.
+struct Peer {
+  std::uint64_t key = 0;
+  friend constexpr auto operator<=>(Peer const&, Peer const&) = default;
+};
+
+using Bytes = std::span<std::uint8_t const>;
+
+enum class LinkState {
+  opening,  ///< not there yet, or gone and being tried again
+  open,
+  closed,  ///< for good
+};
+
+struct LinkCounters {
+  std::uint64_t bytes_received = 0;
+  std::uint64_t bytes_sent = 0;
+  std::uint64_t chunks_received = 0;  ///< datagrams, or reads of a stream
+  std::uint64_t chunks_sent = 0;
+  std::uint64_t send_failures = 0;  ///< chunks that the operating system or a full queue refused
+};
+
+/// A carrier of bytes to one or many peers. Does not know what the bytes mean.
+///
+/// Thread-bound to its loop. Stream links come back by themselves after the far end went away. Destroying it closes it;
+/// it must not be destroyed from within its own callback.
+class ByteLink {
+ public:
+  using Receive = std::function<void(Peer, Bytes)>;
+  virtual ~ByteLink() = default;
+
+  /// For people: the URL.
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// For people: the address of one peer.
+  [[nodiscard]] virtual std::string peer_name(Peer peer) const = 0;
+  /// Begins to deliver what arrives. Call once.
+  virtual void start(Receive receive) = 0;
+  /// False when the bytes were dropped (peer unknown, link not open, queue full); also counted.
+  virtual bool send(Peer peer, Bytes bytes) = 0;
+  /// Peers that may be spoken to before they spoke: the target of udp out, an open serial line, connected TCP ends.
+  [[nodiscard]] virtual std::vector<Peer> standing_peers() const = 0;
+  [[nodiscard]] virtual LinkState state() const = 0;
+  /// Why it is not open; empty when it is.
+  [[nodiscard]] virtual std::string last_error() const = 0;
+  [[nodiscard]] virtual LinkCounters counters() const = 0;
+};
+
+/// The link that `url` names. Error (io): the port is taken, the address is not this machine's; says what to do. Far
+/// ends that are not there yet (TCP server, serial device) are no error: the link tries again.
+[[nodiscard]] base::Result<std::unique_ptr<ByteLink>> open(base::Loop& loop, Url const& url);
+
+}  // namespace lapwing::link

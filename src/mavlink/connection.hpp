@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/scope.hpp"
+#include "link/byte_link.hpp"
+#include "mavlink/codec.hpp"
+
+namespace lapwing::mavlink {
+
+/// One far end as the connection knows it.
+struct PeerRef {
+  std::size_t link = 0;  ///< in the order of `add_link`
+  link::Peer peer;
+  friend constexpr auto operator<=>(PeerRef const&, PeerRef const&) = default;
+};
+
+/// A message as it came in. References live for the callback.
+struct Received {
+  Message const& message;
+  Address source;
+  PeerRef from;
+  base::TimePoint at;
+};
+
+/// What one source (system and component) sent over one link.
+struct SourceCounters {
+  std::uint64_t received = 0;  ///< without duplicates
+  std::uint64_t lost = 0;      ///< gaps in the sequence that nothing filled later
+  std::uint64_t duplicated = 0;
+  std::uint64_t out_of_order = 0;
+};
+
+/// Two senders use one system id: nobody can be commanded safely under it.
+struct Conflict {
+  std::uint8_t system_id = 0;
+  std::string first;  ///< link and address of each
+  std::string second;
+};
+
+/// Keeps a handler subscribed while it lives.
+class [[nodiscard]] Subscription {
+ public:
+  using Handler = std::function<void(Received const&)>;
+  Subscription() = default;
+  explicit Subscription(std::shared_ptr<Handler> handler) : handler_(std::move(handler)) {}
+
+ private:
+  std::shared_ptr<Handler> handler_;  // the connection holds it weakly: dropping it during a call is safe
+};
+
+/// A MAVLink node: owns links, turns their bytes into messages and messages into bytes.
+///
+/// Remembers where each system was last heard and sends there, from the socket on which it listens. Sends MAVLink 2,
+/// and MAVLink 1 to a peer that never spoke anything else. Its heartbeat goes to every link that can be spoken to, to
+/// every peer that spoke MAVLink, and at once to a new one (vehicles send texts only where they have heard a ground
+/// station). Thread-bound to the loop.
+class Connection {
+ public:
+  struct Options {
+    Address self{255, 190};
+    /// What the heartbeat says, asked each time. Empty: no heartbeats.
+    std::function<Heartbeat()> heartbeat = ground_station_heartbeat;
+    base::Duration heartbeat_period = std::chrono::seconds(1);
+  };
+  [[nodiscard]] static Heartbeat ground_station_heartbeat();
+
+  Connection(base::Loop& loop, Options options, base::Logger log);
+  Connection(Connection const&) = delete;
+  Connection& operator=(Connection const&) = delete;
+  ~Connection();
+
+  /// Starts `link` at once. Returns its number, which PeerRef::link uses.
+  std::size_t add_link(std::unique_ptr<link::ByteLink> link);
+
+  /// Sends to where the system was last heard, with `target` written into the message if it has a target.
+  /// Errors: lost (never heard, or its link is down), refused (two vehicles use this system id; names both).
+  base::Result<> send(Address target, Message message);
+  /// Sends on every link: to peers that spoke MAVLink and to standing peers. For heartbeats and a simulated vehicle's
+  /// telemetry.
+  void send_to_all(Message const& message);
+
+  /// `handler` sees every decoded message from now on (of one system, if given) until the subscription is destroyed.
+  Subscription subscribe(Subscription::Handler handler);
+  Subscription subscribe(std::uint8_t system_id, Subscription::Handler handler);
+
+  enum class Direction { received, sent };
+  /// Shows every frame, unknown messages included. For recordings.
+  using FrameHook = std::function<void(Direction, Frame const&, base::TimePoint)>;
+  void set_frame_hook(FrameHook hook);
+
+  /// Link and address at which the system was last heard, for people: "udpin://0.0.0.0:14550 from 127.0.0.1:40001".
+  [[nodiscard]] std::optional<std::string> whereabouts(std::uint8_t system_id) const;
+  /// Set while two peers both keep claiming to be the autopilot of one system. One that falls silent for 5 s has left.
+  [[nodiscard]] std::optional<Conflict> conflict(std::uint8_t system_id) const;
+  [[nodiscard]] SourceCounters counters(Address source) const;
+  /// Summed over the peers of one link.
+  [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
+  [[nodiscard]] std::vector<std::unique_ptr<link::ByteLink>> const& links() const { return links_; }
+
+  [[nodiscard]] base::Loop& loop() const { return loop_; }
+  [[nodiscard]] Address self() const { return options_.self; }
+
+ private:
+  struct Routes;  // who was heard where: connection_routes.hpp
+  struct Listener;
+
+  void receive(PeerRef from, link::Bytes bytes);
+  void accept(PeerRef from, Frame const& frame);
+  void dispatch(Received const& received);
+  bool send_frame(PeerRef to, Frame frame);
+  base::Task<void> beat();
+
+  base::Loop& loop_;
+  Options options_;
+  base::Logger log_;
+  std::vector<std::unique_ptr<link::ByteLink>> links_;
+  std::unique_ptr<Routes> routes_;
+  std::vector<Listener> listeners_;
+  FrameHook frame_hook_;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::mavlink

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mavlink/connection.hpp"
+
+/// The mission protocol (https://mavlink.io/en/services/mission.html) from the ground's side: missions, fences and
+/// rally points.
+namespace lapwing::mavlink {
+
+struct TransferOptions {
+  base::Duration reply_timeout = std::chrono::milliseconds(1500);  ///< until COUNT or a request is repeated
+  int tries = 5;                                                   ///< of one message
+  base::Duration silence_limit =
+      std::chrono::seconds(8);  ///< an upload in which nothing comes for this long has failed
+  int restarts = 0;  ///< how often a transfer that timed out begins anew; the vehicle forgets an upload it gave up
+};
+
+/// Called after each step with the number of items that have gone over, and the total.
+using TransferProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// Replaces what the vehicle holds. Item numbers are set to 0, 1, 2 ... and `type` by the function; on ArduPilot item 0
+/// of a mission is the home position. Errors: refused (names the item and the reason), timed_out, those of
+/// Connection::send. After an error the vehicle may hold a mixture of old and new items: upload again or clear.
+/// Destroying the task before its end sends OPERATION_CANCELLED.
+base::Task<base::Result<>> upload_mission(Connection& connection, Address target, std::vector<MissionItem> items,
+                                          MissionType type = MissionType::mission, TransferOptions options = {},
+                                          TransferProgress progress = {});
+
+/// What the vehicle holds.
+base::Task<base::Result<std::vector<MissionItem>>> download_mission(Connection& connection, Address target,
+                                                                    MissionType type = MissionType::mission,
+                                                                    TransferOptions options = {},
+                                                                    TransferProgress progress = {});
+
+base::Task<base::Result<>> clear_mission(Connection& connection, Address target,
+                                         MissionType type = MissionType::mission, TransferOptions options = {});
+
+/// One thing in which the vehicle's copy differs from what was sent, for people: "item 3: altitude 40.00 m, sent 35.00
+/// m".
+using Difference = std::string;
+
+/// Compares a read-back with what was sent, forgiving what ArduPilot normalises when it stores items (item 0 is home;
+/// frames 5, 6, 11 become 0, 3, 10; commands without a place get frame 0; altitudes are cut to centimetres; hold times,
+/// turns and yaw are rounded or dropped; autocontinue and current are its own). Empty: the vehicle holds the mission.
+[[nodiscard]] std::vector<Difference> compare_readback(std::span<MissionItem const> sent,
+                                                       std::span<MissionItem const> got, MavAutopilot autopilot);
+
+}  // namespace lapwing::mavlink
