@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <memory>
 #include <vector>
 
 #include "base/error.hpp"
@@ -11,7 +11,7 @@ namespace lapwing::tasks {
 /// One platform task of a tree and the vehicle that will do it.
 struct Assignment {
   int occurrence = 0;  ///< counts the platform tasks of the tree depth first, left to right, from 0
-  std::string task;
+  std::shared_ptr<PlatformTask const> task;
   VehicleId vehicle;
 };
 

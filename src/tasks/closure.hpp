@@ -21,6 +21,8 @@ struct Failure {
   /// The script's own exception value, untouched on its way from the closure to the watch handler or to `execute`'s
   /// caller. Shared because a failure is copied freely and its owner, the language, is unknown here.
   std::shared_ptr<void const> payload = {};
+  /// Which task failed, on which vehicle, for people: "survey on a1". Empty when no platform task was the cause.
+  std::string culprit = {};
 };
 
 /// `{ battery(v) < 0.3 }`: evaluated at once, every tick while it matters. Its side effects are part of a script's

@@ -35,7 +35,7 @@ class Execution {
   using Observer = std::function<void(TaskEvent const&)>;
 
   /// `platform` and what `observer` refers to outlive the execution. `allocation` is that of `tree`.
-  Execution(TaskTree tree, Allocation const& allocation, Platform& platform, Observer observer = {});
+  Execution(TaskTree tree, Allocation allocation, Platform& platform, Observer observer = {});
   /// Stops what still runs.
   ~Execution();
   Execution(Execution const&) = delete;
@@ -55,10 +55,7 @@ class Execution {
   [[nodiscard]] TaskView view() const;
 
  private:
-  void finish(Outcome outcome);
-
   std::unique_ptr<internal::Context> context_;
-  TaskTree tree_;
   Allocation allocation_;
   std::unique_ptr<internal::Executor> root_;
   std::optional<Outcome> outcome_;

@@ -90,6 +90,8 @@ class PlatformTask {
  public:
   virtual ~PlatformTask() = default;
   [[nodiscard]] virtual std::string name() const = 0;
+  /// What views call it: "mission".
+  [[nodiscard]] virtual std::string kind() const { return "task"; }
   /// Why the vehicle cannot do it ("no payload Camera"), or nothing.
   [[nodiscard]] virtual std::optional<std::string> unsuited(VehicleInfo const& vehicle) const = 0;
   /// Where it begins, so that allocation can prefer the nearest vehicle; nothing: the first suitable one.

@@ -1,0 +1,124 @@
+#include "tasks/harness_platform.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace lapwing::tasks {
+namespace {
+
+using base::Duration;
+using base::ErrorKind;
+using base::fail;
+
+/// `X:d` of the conformance cases.
+class TimedTask final : public PlatformTask {
+ public:
+  TimedTask(std::string name, Duration length) : name_(std::move(name)), length_(length) {}
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const&) const override { return std::nullopt; }
+  [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override { return std::nullopt; }
+  [[nodiscard]] Duration length() const { return length_; }
+  [[nodiscard]] bool fails() const { return name_ == "fail"; }
+
+ private:
+  std::string name_;
+  Duration length_;
+};
+
+/// Ends when its time has come, with an error if it has one.
+class TimedRun final : public TaskRun {
+ public:
+  TimedRun(base::Loop& loop, Duration length, std::string error)
+      : loop_(loop), started_(loop.now()), length_(length), error_(std::move(error)) {}
+  [[nodiscard]] RunState state() const override {
+    if (loop_.now() - started_ < length_) return RunState::in_progress;
+    return error_.empty() ? RunState::done : RunState::failed;
+  }
+  [[nodiscard]] std::string error() const override { return error_; }
+  [[nodiscard]] std::string progress() const override {
+    return fmt::format("{:.1f}/{:.1f} s", base::to_seconds(loop_.now() - started_), base::to_seconds(length_));
+  }
+  void stop() override {}
+
+ private:
+  base::Loop& loop_;
+  base::TimePoint started_;
+  Duration length_;
+  std::string error_;
+};
+
+std::vector<VehicleInfo> conformance_vehicles() {
+  auto const vehicle = [](std::string id, std::string type, std::vector<std::string> payload, double lat_deg) {
+    return VehicleInfo{.id = {std::move(id)},
+                       .type = std::move(type),
+                       .payload = std::move(payload),
+                       .position = geo::Wgs84::from_degrees(lat_deg, -8.0),
+                       .battery = 1.0,
+                       .connection_timeout = std::chrono::seconds(20)};
+  };
+  return {vehicle("a1", "UAV", {"Camera", "Sidescan"}, 41.0), vehicle("a2", "UAV", {"Camera"}, 41.01),
+          vehicle("u1", "UUV", {"Sidescan", "Multibeam"}, 41.0), vehicle("u2", "UUV", {}, 42.0)};
+}
+
+}  // namespace
+
+HarnessPlatform::HarnessPlatform(base::Loop& loop) : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()) {}
+
+base::Result<std::shared_ptr<PlatformTask const>> HarnessPlatform::named_task(std::string_view name) const {
+  auto const colon = name.rfind(':');
+  double seconds = -1.0;
+  if (colon != std::string_view::npos) {
+    auto const* const end = name.data() + name.size();
+    auto const [stop, error] = std::from_chars(name.data() + colon + 1, end, seconds);
+    if (error != std::errc() || stop != end) seconds = -1.0;
+  }
+  double constexpr longest_s = 1e9;  // what a base::Duration holds with room to spare
+  if (!(seconds >= 0.0 && seconds <= longest_s)) {
+    return fail(ErrorKind::not_found, fmt::format("there is no plan called '{}'", name),
+                "plans of the test platform are written 'NAME:SECONDS', as in task('A:0.3')");
+  }
+  return std::make_shared<TimedTask const>(std::string(name.substr(0, colon)), base::from_seconds(seconds));
+}
+
+std::optional<VehicleInfo> HarnessPlatform::find(VehicleId const& id) const {
+  auto const found = std::ranges::find(vehicles_, id, &VehicleInfo::id);
+  if (found == vehicles_.end()) return std::nullopt;
+  return *found;
+}
+
+void HarnessPlatform::set_connection_timeout(VehicleId const& id, base::Duration timeout) {
+  auto const found = std::ranges::find(vehicles_, id, &VehicleInfo::id);
+  if (found != vehicles_.end()) found->connection_timeout = timeout;
+}
+
+std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask const> task, VehicleId const& id) {
+  auto const vehicle = find(id);
+  auto const failing = [&](std::string why) {
+    return std::make_unique<TimedRun>(loop_, Duration::zero(), std::move(why));
+  };
+  if (!vehicle || !vehicle->connected) return failing(fmt::format("vehicle {} is lost", id.text));
+  if (auto const* const timed = dynamic_cast<TimedTask const*>(task.get())) {
+    return std::make_unique<TimedRun>(loop_, timed->length(), timed->fails() ? "boom" : "");
+  }
+  return failing(fmt::format("{} is a task of another platform", task->name()));
+}
+
+base::Task<void> HarnessPlatform::settle() {
+  co_return;
+}
+
+void HarnessPlatform::set_vehicle(VehicleInfo vehicle) {
+  auto const found = std::ranges::find(vehicles_, vehicle.id, &VehicleInfo::id);
+  if (found == vehicles_.end()) {
+    vehicles_.push_back(std::move(vehicle));
+  } else {
+    *found = std::move(vehicle);
+  }
+  changed_.notify_all();
+}
+
+}  // namespace lapwing::tasks

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/loop.hpp"
+#include "base/notifier.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::tasks {
+
+/// The test platform of the language's conformance cases: four vehicles that exist only here and tasks that only take
+/// time.
+///
+/// | id | type | payload | at |
+/// |---|---|---|---|
+/// | a1 | UAV | Camera, Sidescan | 41 N, 8 W |
+/// | a2 | UAV | Camera | 41.01 N, 8 W |
+/// | u1 | UUV | Sidescan, Multibeam | 41 N, 8 W |
+/// | u2 | UUV | | 42 N, 8 W |
+///
+/// The named task `X:d` is done after d seconds, `fail:d` fails with "boom" after d seconds. A mission takes as long as
+/// it is estimated to. Any number of tasks may run on one vehicle; keeping them apart is what allocation is tested for.
+class HarnessPlatform final : public Platform {
+ public:
+  explicit HarnessPlatform(base::Loop& loop);
+
+  [[nodiscard]] std::span<BuilderSpec const> builders() const override { return builders_; }
+  [[nodiscard]] base::Result<std::shared_ptr<PlatformTask const>> named_task(std::string_view name) const override;
+  [[nodiscard]] std::vector<VehicleInfo> vehicles() const override { return vehicles_; }
+  [[nodiscard]] std::optional<VehicleInfo> find(VehicleId const& id) const override;
+  [[nodiscard]] base::Notifier& vehicles_changed() override { return changed_; }
+  void set_connection_timeout(VehicleId const& id, base::Duration timeout) override;
+  [[nodiscard]] std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task, VehicleId const& id) override;
+  [[nodiscard]] base::Task<void> settle() override;
+
+  /// Replaces the vehicle of the same id, or adds it: what happens to vehicles while a script runs.
+  void set_vehicle(VehicleInfo vehicle);
+
+ private:
+  base::Loop& loop_;
+  base::Notifier changed_;
+  std::vector<VehicleInfo> vehicles_;
+  std::vector<BuilderSpec> builders_;
+};
+
+}  // namespace lapwing::tasks
