@@ -310,6 +310,7 @@ struct Stmt {
 struct Program {
   Block body;
   std::vector<Span> comments;  ///< in order, for formatters and hover texts
+  std::vector<Span> unread;    ///< what the parser passed over after mistakes: names in it may be defined there
 };
 
 }  // namespace lapwing::dolphin::ast

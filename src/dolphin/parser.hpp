@@ -1,14 +1,9 @@
 #pragma once
 
-#include <cstddef>
-
 #include "base/diagnostic.hpp"
 #include "dolphin/ast.hpp"
 
 namespace lapwing::dolphin {
-
-/// Larger scripts are refused with a diagnostic.
-inline constexpr std::size_t max_source_size = std::size_t{32} << 20u;
 
 /// Reads the script that `diagnostics` is about (`diagnostics.source()`). Never fails: what is wrong is reported and
 /// left out of the tree (or an ErrorExpr), so the tree may be checked but must not be run when

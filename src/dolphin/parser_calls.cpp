@@ -1,0 +1,359 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "dolphin/internal/literals.hpp"
+#include "dolphin/internal/parser.hpp"
+
+namespace lapwing::dolphin {
+
+using base::Span;
+using enum TokenKind;
+
+namespace {
+
+struct ChainWords {
+  ast::ChainKind kind;
+  std::string_view head;
+  std::string_view word;
+  std::string_view pattern;
+};
+constexpr auto chains = std::to_array<ChainWords>({
+    {ast::ChainKind::wait_for, "waitFor", "then", "waitFor { condition } then task"},
+    {ast::ChainKind::when, "when", "then", "when { condition } then task"},
+    {ast::ChainKind::until, "until", "run", "until { condition } run task"},
+    {ast::ChainKind::during, "during", "run", "during 30.seconds run task"},
+    {ast::ChainKind::watch, "watch", "onError", "watch task onError { ... }"},
+});
+
+ChainWords const& words_of(ast::ChainKind kind) {
+  return *std::ranges::find(chains, kind, &ChainWords::kind);
+}
+
+/// Words between two operands: never the first argument of a command call.
+bool is_chain_word(std::string_view word) {
+  return word == "then" || word == "run" || word == "onError" || word == "during";
+}
+
+/// Instructions without a value: `message (1) + 2` can only mean `message ((1) + 2)` (REC-9).
+constexpr auto void_instructions = std::to_array<std::string_view>(
+    {"execute", "halt", "message", "pause", "post", "print", "println", "release", "setConnectionTimeout"});
+
+bool is_void_instruction(std::string_view word) {
+  return std::ranges::find(void_instructions, word) != void_instructions.end();
+}
+
+bool joins_values(TokenKind kind) {
+  return (kind >= plus && kind <= power) || (kind >= shift_left && kind <= bit_xor && kind != logical_not);
+}
+
+}  // namespace
+
+// ---- command calls
+// ------------------------------------------------------------------------------------------------------
+
+/// An expression where a call may go without parentheses: a statement, the right side of = and return, the inside of
+/// parentheses.
+ast::ExprPtr Parser::command() {
+  auto const begin = token().span.begin;
+  if (at_wrapped_argument()) return wrapped_argument();
+  auto const callee = command_callee_size();
+  return misplaced_chain_word(callee > 0 ? command_call(callee) : expression(), begin);
+}
+
+/// The number of tokens of the callee when a command call begins here, else 0.
+std::size_t Parser::command_callee_size() const {
+  if (!at(identifier) || chain_head()) return 0;
+  std::size_t size = 1;
+  while (kind(size) == dot && (kind(size + 1) == identifier || is_reserved_word(kind(size + 1))) &&
+         on_same_line(size + 1))
+    size += 2;
+  if (starts_argument(size)) return size;
+  bool const takes_names_below = size == 1 && (at_word("execute") || at_word("setConnectionTimeout"));
+  return takes_names_below && token(1).newline_before && at_argument_name(1) ? 1 : 0;  // REC-7f
+}
+
+bool Parser::starts_argument(std::size_t ahead) const {
+  if (!on_same_line(ahead)) return false;
+  if (at_argument_name(ahead)) return true;
+  switch (kind(ahead)) {
+    case identifier: return !is_chain_word(text(token(ahead)));
+    case integer:
+    case decimal:
+    case string:
+    case string_open:
+    case kw_true:
+    case kw_false:
+    case kw_null:
+    case kw_new: return true;
+    default: return false;
+  }
+}
+
+bool Parser::at_argument_name(std::size_t ahead) const {
+  return kind(ahead + 1) == colon &&
+         (kind(ahead) == identifier || kind(ahead) == string || is_reserved_word(kind(ahead)));
+}
+
+ast::ExprPtr Parser::callee_path(std::size_t size) {
+  auto const begin = token().span.begin;
+  auto const& first = advance();
+  auto callee = make(ast::Name{std::string(text(first))}, first.span);
+  for (std::size_t i = 1; i < size; i += 2) {
+    advance();
+    auto name = identifier_of(advance());
+    callee = make(ast::Member{std::move(callee), std::move(name)}, since(begin));
+  }
+  return callee;
+}
+
+ast::ExprPtr Parser::command_call(std::size_t callee_size) {
+  auto const begin = token().span.begin;
+  ast::Call made;
+  made.callee = callee_path(callee_size);
+  auto const is_void = callee_size == 1 && is_void_instruction(text(tokens_[next_ - 1]));
+  made.arguments = arguments_until_line_end();
+  if (is_void) {
+    auto& last = made.arguments.back().value;
+    auto const last_begin = last->span.begin;
+    last = misplaced_chain_word(std::move(last), last_begin);
+  }
+  made.style = ast::CallStyle::command;
+  return make(std::move(made), since(begin));
+}
+
+std::vector<ast::Argument> Parser::arguments_until_line_end() {
+  std::vector<ast::Argument> out;
+  do {
+    out.push_back(argument());
+  } while (accept(comma));
+  return out;
+}
+
+ast::Argument Parser::argument() {
+  ast::Argument made;
+  if (at_argument_name()) {
+    auto const& word = advance();
+    made.name = identifier_of(word);
+    if (word.kind == string) {
+      Span const inside{word.span.begin + 1, std::max(word.span.begin + 1, word.span.end - 1)};
+      made.name->text = decode_string(inside, diagnostics_);
+    }
+    advance();
+  }
+  auto const begin = token().span.begin;
+  made.value = expression();
+  bool const takes_chain_word = made.name || !newlines_matter_;
+  if (takes_chain_word) made.value = misplaced_chain_word(std::move(made.value), begin);
+  return made;
+}
+
+bool Parser::at_wrapped_argument() const {
+  if (!at(identifier) || kind(1) != left_paren || !on_same_line(1) || !token(1).blank_before) return false;
+  if (token(1).partner == Token::unclosed ||
+      std::ranges::find(void_instructions, text(token())) == void_instructions.end())
+    return false;
+  auto const& after = tokens_[token(1).partner + 1];
+  bool const continues = !newlines_matter_ || !after.newline_before || (after.kind != plus && after.kind != minus);
+  return joins_values(after.kind) && continues;
+}
+
+ast::ExprPtr Parser::wrapped_argument() {
+  auto const begin = token().span.begin;
+  ast::Call made;
+  made.callee = callee_path(1);
+  auto const name = text(tokens_[next_ - 1]);
+  made.arguments = arguments_until_line_end();
+  auto const argument = made.arguments.front().value->span;
+  diagnostics_.warning(argument, fmt::format("all of this is taken as the argument of {}", name),
+                       fmt::format("write {}(...) round it", name));
+  return make(std::move(made), since(begin));
+}
+
+/// `task 't1' during 2.seconds` is read as `during 2.seconds run (task 't1')`; the other chain words need their head.
+ast::ExprPtr Parser::misplaced_chain_word(ast::ExprPtr left, std::uint32_t begin) {
+  while (at_word("during") && on_same_line() && !quiet_) {
+    auto const head = advance().span;
+    auto limit = expression();
+    diagnostics_.warning(head, "'during' stands before its task",
+                         fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
+    left = make(ast::Chain{ast::ChainKind::during, std::move(limit), std::move(left), head}, since(begin));
+  }
+  return left;
+}
+
+// ---- postfix
+// ------------------------------------------------------------------------------------------------------------
+
+ast::ExprPtr Parser::postfix() {
+  auto const begin = token().span.begin;
+  return postfix_of(primary(), begin);
+}
+
+ast::ExprPtr Parser::postfix_of(ast::ExprPtr object, std::uint32_t begin) {
+  while (true) {
+    bool const adjacent = !newlines_matter_ || on_same_line();
+    bool const callable = std::holds_alternative<ast::Name>(object->node) ||
+                          std::holds_alternative<ast::Member>(object->node) ||
+                          std::holds_alternative<ast::Call>(object->node);
+    if ((at(dot) || at(safe_dot)) && operator_continues()) {
+      if (quiet_) return object;
+      object = member(std::move(object), begin);
+    } else if (at(left_paren) && adjacent) {
+      object = call(std::move(object), begin);
+    } else if (at(left_bracket) && adjacent) {
+      object = index(std::move(object), begin);
+    } else if (at(left_brace) && on_same_line() && callable) {
+      object = trailing_closure(std::move(object), begin);
+    } else if ((at(plus_plus) || at(minus_minus)) && on_same_line()) {
+      int const by = advance().kind == plus_plus ? 1 : -1;
+      object = make(ast::Step{std::move(object), by, false}, since(begin));
+    } else {
+      return object;
+    }
+  }
+}
+
+ast::ExprPtr Parser::member(ast::ExprPtr object, std::uint32_t begin) {
+  bool const safe = advance().kind == safe_dot;
+  if (!at(identifier) && !is_reserved_word(kind())) {
+    expected("a name after the point");
+    return object;
+  }
+  auto name = identifier_of(advance());
+  return make(ast::Member{std::move(object), std::move(name), safe}, since(begin));
+}
+
+std::vector<ast::Argument> Parser::arguments_in_parentheses() {
+  std::vector<ast::Argument> out;
+  auto const opener = next_;
+  advance();
+  Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
+  while (!at(right_paren) && !at_statement_end()) {
+    out.push_back(argument());
+    if (!accept(comma)) break;
+  }
+  close(opener);
+  return out;
+}
+
+/// `t.during(10.seconds)` is an old spelling of a chain, everything else a call.
+ast::ExprPtr Parser::call(ast::ExprPtr callee, std::uint32_t begin) {
+  auto arguments = arguments_in_parentheses();
+  auto* old = std::get_if<ast::Member>(&callee->node);
+  if (old && old->name.text == "during" && arguments.size() == 1) {
+    diagnostics_.warning(old->name.span, "'during' stands before its task",
+                         fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
+    auto const head = old->name.span;
+    auto task = std::move(old->object);
+    return make(ast::Chain{ast::ChainKind::during, std::move(arguments[0].value), std::move(task), head}, since(begin));
+  }
+  return make(ast::Call{std::move(callee), std::move(arguments)}, since(begin));
+}
+
+ast::ExprPtr Parser::trailing_closure(ast::ExprPtr callee, std::uint32_t begin) {
+  ast::Argument last{std::nullopt, closure()};
+  if (auto* call = std::get_if<ast::Call>(&callee->node); call && !callee->in_parentheses) {
+    auto extended = std::move(*call);
+    extended.arguments.push_back(std::move(last));
+    return make(std::move(extended), since(begin));
+  }
+  ast::Call made;
+  made.callee = std::move(callee);
+  made.arguments.push_back(std::move(last));
+  return make(std::move(made), since(begin));
+}
+
+/// `imcPlan['survey1']`, printed so in the report that describes the language, is a call.
+ast::ExprPtr Parser::index(ast::ExprPtr object, std::uint32_t begin) {
+  auto const opener = next_;
+  advance();
+  ast::ExprPtr inside;
+  {
+    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
+    inside = expression();
+    if (at(comma)) error(token().span, "an element has one index");
+    close(opener);
+  }
+  if (auto const* name = std::get_if<ast::Name>(&object->node); name && name->text == "imcPlan") {
+    ast::Call made;
+    made.callee = std::move(object);
+    made.arguments.push_back({std::nullopt, std::move(inside)});
+    return make(std::move(made), since(begin));
+  }
+  return make(ast::Index{std::move(object), std::move(inside)}, since(begin));
+}
+
+// ---- chains
+// -------------------------------------------------------------------------------------------------------------
+
+/// Whether a chain begins here; the heads are words like others where nothing follows that a chain could begin with.
+std::optional<ast::ChainKind> Parser::chain_head() const {
+  auto const found = std::ranges::find_if(chains, [&](ChainWords const& words) { return at_word(words.head); });
+  if (found == chains.end() || !on_same_line(1)) return std::nullopt;
+  bool const opens = kind(1) == left_brace || kind(1) == left_paren;
+  if (!opens && (kind(1) == colon || kind(2) == colon || !starts_argument(1))) return std::nullopt;
+  return found->kind;
+}
+
+ast::ExprPtr Parser::chain(ast::ChainKind kind) {
+  auto const& words = words_of(kind);
+  auto const head = advance().span;
+  auto const partner = token().partner;
+  bool const as_method = (at(left_paren) || at(left_brace)) && partner != Token::unclosed &&
+                         tokens_[partner + 1].kind == dot && partner + 2 < tokens_.size() &&
+                         text(tokens_[partner + 2]) == words.word;
+  auto subject = as_method ? primary() : chain_subject(kind);
+  if (as_method) advance();
+  if (!chain_word(kind)) {
+    error(head, fmt::format("{} needs {}", words.head, words.word), fmt::format("write {}", words.pattern));
+    return broken();
+  }
+  ast::ExprPtr body;
+  if (as_method && at(left_paren)) {
+    body = in_parentheses();
+  } else {
+    body = chain_body(kind);
+  }
+  return make(ast::Chain{kind, std::move(subject), std::move(body), head}, since(head.begin));
+}
+
+ast::ExprPtr Parser::chain_subject(ast::ChainKind kind) {
+  if (kind == ast::ChainKind::during || kind == ast::ChainKind::watch) return expression();
+  if (at(left_brace)) return closure();
+  if (at(left_paren)) return in_parentheses();
+  auto const& words = words_of(kind);
+  error(token().span, fmt::format("{} needs a closure", words.head), fmt::format("write {}", words.pattern));
+  return expression();
+}
+
+/// `then`, `run` or `onError`, also at the beginning of the next line (REC-7d). `waitFor ... run` is an old spelling.
+bool Parser::chain_word(ast::ChainKind kind) {
+  auto const& words = words_of(kind);
+  if (at_word(words.word)) {
+    advance();
+    return true;
+  }
+  bool const is_other = at_word("then") || at_word("run") || at_word("onError");
+  if (!is_other) return false;
+  auto const& found = advance();
+  if (kind == ast::ChainKind::wait_for && text(found) == "run") {
+    diagnostics_.warning(found.span, "waitFor takes 'then'", fmt::format("write {}", words.pattern));
+  } else {
+    error(found.span, fmt::format("{} takes '{}', not '{}'", words.head, words.word, text(found)),
+          fmt::format("write {}", words.pattern));
+  }
+  return true;
+}
+
+ast::ExprPtr Parser::chain_body(ast::ChainKind kind) {
+  if (kind != ast::ChainKind::watch) return expression();
+  if (at(left_brace)) return closure();
+  if (at(left_paren)) return in_parentheses();
+  error(here(), "onError needs a closure", fmt::format("write {}", words_of(kind).pattern));
+  return broken();
+}
+
+}  // namespace lapwing::dolphin

@@ -1,0 +1,458 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "dolphin/internal/literals.hpp"
+#include "dolphin/internal/parser.hpp"
+
+namespace lapwing::dolphin {
+
+using enum TokenKind;
+
+namespace {
+
+constexpr auto type_names =
+    std::to_array<std::string_view>({"boolean", "byte", "char", "double", "float", "int", "long", "short", "void"});
+
+/// Where two words stand alone, a capital letter makes the first one a type, as readers of Groovy expect.
+bool is_type_name(std::string_view word) {
+  return (word[0] >= 'A' && word[0] <= 'Z') || std::ranges::find(type_names, word) != type_names.end();
+}
+
+std::optional<ast::BinaryOp> compound(TokenKind kind) {
+  switch (kind) {
+    case plus_assign: return ast::BinaryOp::add;
+    case minus_assign: return ast::BinaryOp::subtract;
+    case times_assign: return ast::BinaryOp::multiply;
+    case divide_assign: return ast::BinaryOp::divide;
+    default: return std::nullopt;
+  }
+}
+
+bool is_assignment(TokenKind kind) {
+  return kind == assign || compound(kind);
+}
+
+/// `move -5, 0, 0` reads as a subtraction; the name in front when `expr` looks like that.
+ast::Name const* subtracted_from(ast::Expr const& expr) {
+  auto const* binary = std::get_if<ast::Binary>(&expr.node);
+  if (!binary || expr.in_parentheses) return nullptr;
+  auto const* name = std::get_if<ast::Name>(&binary->left->node);
+  if (name && binary->op == ast::BinaryOp::subtract) return name;
+  return subtracted_from(*binary->left);
+}
+
+}  // namespace
+
+ast::Block Parser::script() {
+  return statements(end_of_file);
+}
+
+/// Up to `end`; kw_case stands for the end of one case of a switch.
+ast::Block Parser::statements(TokenKind end) {
+  ast::Block block;
+  auto const begin = token().span.begin;
+  bool const outer_quiet = quiet_;
+  Lines const lines(newlines_matter_, true);
+  while (true) {
+    while (accept(semicolon)) {
+    }
+    if (at(end_of_file) || at(end)) break;
+    if (end == kw_case && (at(kw_default) || at(right_brace))) break;
+    if (end != end_of_file && (at(right_paren) || at(right_bracket) || at(right_brace) || at(interpolation_close)))
+      break;
+    statement_into(block);
+  }
+  quiet_ = outer_quiet;
+  block.span = since(begin);
+  return block;
+}
+
+void Parser::statement_into(ast::Block& block) {
+  quiet_ = false;
+  auto const first = next_;
+  auto made = statement();
+  if (at(comma) && made) {
+    auto const* expr = std::get_if<ast::ExprStmt>(&made->node);
+    if (auto const* name = expr ? subtracted_from(*expr->expr) : nullptr) {
+      auto const span = expr->expr->span;
+      auto const argument = diagnostics_.source().text(span).substr(name->text.size());
+      auto const begin = argument.find_first_not_of(" \t");
+      error(span, fmt::format("this subtracts from '{}'", name->text),
+            fmt::format("write {} ({}), ...", name->text, argument.substr(begin)));
+      made = nullptr;
+    }
+  }
+  if (made) block.statements.push_back(std::move(made));
+  if (!at_statement_end() || next_ == first) {
+    expected("the end of the statement");
+    skip_statement();
+    if (next_ == first) advance();
+  }
+}
+
+ast::StmtPtr Parser::statement() {
+  Nesting const nesting(*this);
+  if (!nesting) {
+    quiet_ = true;
+    return nullptr;
+  }
+  if (is_reserved_word(kind())) return keyword_statement();
+  if (at_typed_declaration()) return declaration();
+  if (at(identifier) && kind(1) == colon && !at_word("execute")) return labelled();
+  return simple_statement();
+}
+
+ast::StmtPtr Parser::keyword_statement() {
+  auto const begin = token().span.begin;
+  switch (kind()) {
+    case kw_def: return declaration();
+    case kw_if: return if_statement();
+    case kw_while: return while_statement();
+    case kw_for: return for_statement();
+    case kw_switch: return switch_statement();
+    case kw_try: return try_statement();
+    case kw_return: return return_statement();
+    case kw_throw: return throw_statement();
+    case kw_assert: return assert_statement();
+    case kw_import: return import_statement();
+    case kw_break: advance(); return make_statement(ast::Break{}, begin);
+    case kw_continue: advance(); return make_statement(ast::Continue{}, begin);
+    case kw_new:
+    case kw_null:
+    case kw_true:
+    case kw_false: return simple_statement();
+    default: return unsupported_statement();
+  }
+}
+
+ast::StmtPtr Parser::unsupported_statement() {
+  auto const& word = advance();
+  if (word.kind == kw_else) {
+    error(word.span, "this else belongs to no if");
+  } else if (word.kind == kw_catch || word.kind == kw_finally) {
+    error(word.span, fmt::format("this {} belongs to no try", text(word)));
+  } else if (word.kind == kw_case || word.kind == kw_default) {
+    error(word.span, fmt::format("this {} belongs to no switch", text(word)));
+  } else if (word.kind == kw_do) {
+    error(word.span, "do is not part of the language", "write while (true) { ... if (done) break }");
+  } else {
+    error(word.span, fmt::format("{} cannot begin a statement", text(word)));
+  }
+  // The body of a class is no code of ours: its braces are passed over unread.
+  bool const is_foreign = word.kind == kw_class || word.kind == kw_interface || word.kind == kw_enum;
+  while (is_foreign && !at_statement_end() && !at(left_brace)) advance();
+  if (is_foreign && at(left_brace) && token().partner != Token::unclosed) next_ = token().partner + 1;
+  return nullptr;
+}
+
+ast::StmtPtr Parser::simple_statement() {
+  auto const begin = token().span.begin;
+  auto expr = command();
+  if (is_assignment(kind()) && on_same_line()) return assignment(std::move(expr), begin);
+  return make_statement(ast::ExprStmt{std::move(expr)}, begin);
+}
+
+ast::StmtPtr Parser::assignment(ast::ExprPtr target, std::uint32_t begin) {
+  auto const& sign = advance();
+  bool const assignable =
+      std::holds_alternative<ast::Name>(target->node) || std::holds_alternative<ast::Member>(target->node) ||
+      std::holds_alternative<ast::Index>(target->node) || std::holds_alternative<ast::ErrorExpr>(target->node);
+  if (!assignable) {
+    error(target->span, "nothing can be assigned to this", "assign to a variable, a member or an element");
+  }
+  auto value = command();
+  if (is_assignment(kind()) && on_same_line()) {
+    error(token().span, "one statement assigns once", "write each assignment on its own line");
+  }
+  return make_statement(ast::Assign{std::move(target), compound(sign.kind), std::move(value)}, begin);
+}
+
+/// `type: 'UAV'`: a field of a builder with a needless colon, which the checker judges (REC-10).
+ast::StmtPtr Parser::labelled() {
+  auto const begin = token().span.begin;
+  auto const& word = advance();
+  advance();
+  if (is_reserved_word(kind()) && !starts_argument(0)) {
+    error(word.span, "labels are not part of the language");
+    quiet_ = false;
+    return statement();
+  }
+  ast::Call call;
+  call.callee = make(ast::Name{std::string(text(word))}, word.span);
+  call.arguments = arguments_until_line_end();
+  call.style = ast::CallStyle::label;
+  auto expr = make(std::move(call), since(begin));
+  return make_statement(ast::ExprStmt{std::move(expr)}, begin);
+}
+
+// ---- declarations
+// -------------------------------------------------------------------------------------------------------
+
+bool Parser::at_typed_declaration() const {
+  if (!at(identifier) || kind(1) != identifier || !on_same_line(1) || !is_type_name(text(token()))) return false;
+  auto const& after = token(2);
+  if (after.kind == left_paren && after.partner != Token::unclosed)
+    return tokens_[after.partner + 1].kind == left_brace;
+  return after.kind == assign || after.kind == semicolon || after.kind == end_of_file || after.kind == right_brace ||
+         after.newline_before;
+}
+
+ast::StmtPtr Parser::declaration() {
+  auto const begin = token().span.begin;
+  std::optional<ast::Identifier> type;
+  if (auto const& first = advance(); first.kind == identifier) type = identifier_of(first);
+  if (!type && at_typed_declaration()) type = identifier_of(advance());  // def int n = 1
+  if (at(left_paren)) return unpacking(begin);
+  if (!at(identifier)) {
+    expected("a name");
+    return nullptr;
+  }
+  auto name = identifier_of(advance());
+  if (at(left_paren) && on_same_line()) return function(std::move(name), begin);
+  ast::VarDecl made{.type = std::move(type), .names = {}, .value = nullptr};
+  made.names.push_back(std::move(name));
+  while (at(comma) && kind(1) == identifier && kind(2) != assign) {
+    advance();
+    made.names.push_back(identifier_of(advance()));
+  }
+  if (made.names.size() == 1 && accept(assign)) made.value = command();
+  if (at(comma)) error(token().span, "one declaration gives one variable a value", "write each on its own line");
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::unpacking(std::uint32_t begin) {
+  ast::VarDecl made;
+  made.unpacks = true;
+  auto const opener = next_;
+  advance();
+  {
+    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
+    while (at(identifier)) {
+      if (kind(1) == identifier) advance();  // def (int a, int b)
+      made.names.push_back(identifier_of(advance()));
+      if (!accept(comma)) break;
+    }
+    close(opener);
+  }
+  if (expect(assign, "'=' and a list")) made.value = command();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::function(ast::Identifier name, std::uint32_t begin) {
+  ast::FunctionDecl made;
+  made.name = std::move(name);
+  auto const opener = next_;
+  advance();
+  {
+    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
+    made.parameters = parameters(right_paren);
+    close(opener);
+  }
+  made.body = braces("'{' and the body of the function");
+  return make_statement(std::move(made), begin);
+}
+
+/// `a, int b, c = 2`.
+std::vector<ast::Parameter> Parser::parameters(TokenKind end) {
+  std::vector<ast::Parameter> out;
+  while (!at(end) && !at(end_of_file)) {
+    ast::Parameter made;
+    bool const has_type = kind(1) == identifier && (at(identifier) || at(kw_def));
+    if (has_type && at(identifier)) made.type = identifier_of(token());
+    if (has_type) advance();
+    if (!at(identifier)) {
+      expected("the name of a parameter");
+      break;
+    }
+    made.name = identifier_of(advance());
+    if (accept(assign)) made.fallback = expression();
+    out.push_back(std::move(made));
+    if (!accept(comma)) break;
+  }
+  return out;
+}
+
+// ---- control flow
+// -------------------------------------------------------------------------------------------------------
+
+ast::ExprPtr Parser::condition(std::string_view what) {
+  if (!at(left_paren)) {
+    expected(fmt::format("'(' and {}", what));
+    return broken();
+  }
+  return in_parentheses();
+}
+
+ast::Block Parser::block() {
+  if (at(left_brace)) return braces("'{'");
+  ast::Block block;
+  auto const begin = token().span.begin;
+  if (!at(semicolon)) {
+    if (auto made = statement()) block.statements.push_back(std::move(made));
+  }
+  block.span = since(begin);
+  return block;
+}
+
+ast::Block Parser::braces(std::string_view what) {
+  if (!at(left_brace)) {
+    expected(what);
+    return {};
+  }
+  auto const opener = next_;
+  auto const begin = advance().span.begin;
+  auto block = statements(right_brace);
+  close(opener);
+  block.span = since(begin);
+  return block;
+}
+
+ast::StmtPtr Parser::if_statement() {
+  auto const begin = advance().span.begin;
+  ast::If made;
+  made.condition = condition("a condition");
+  if (quiet_ && !at(left_brace)) return make_statement(std::move(made), begin);
+  made.then = block();
+  if (at(semicolon) && kind(1) == kw_else) advance();
+  if (accept(kw_else)) made.otherwise = block();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::while_statement() {
+  auto const begin = advance().span.begin;
+  ast::While made;
+  made.condition = condition("a condition");
+  if (quiet_ && !at(left_brace)) return make_statement(std::move(made), begin);
+  made.body = block();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::for_statement() {
+  auto const begin = advance().span.begin;
+  if (!at(left_paren)) {
+    expected("'(' after for", "write for (x in list) { ... }");
+    return nullptr;
+  }
+  auto const opener = next_;
+  advance();
+  auto const typed = kind(1) == identifier && (at(identifier) || at(kw_def)) ? std::size_t{1} : std::size_t{0};
+  if (kind(typed + 1) == kw_in || kind(typed + 1) == colon) return for_in(opener, begin);
+  ast::For made;
+  {
+    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
+    if (!at(semicolon)) made.init = statement();
+    if (expect(semicolon, "';'") && !at(semicolon)) made.condition = expression();
+    if (expect(semicolon, "';'") && !at(right_paren)) made.update = simple_statement();
+    close(opener);
+  }
+  made.body = block();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::for_in(std::size_t opener, std::uint32_t begin) {
+  ast::ForIn made;
+  {
+    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
+    if (kind(1) == identifier) advance();  // the type
+    made.variable = identifier_of(advance());
+    advance();
+    made.iterable = command();
+    close(opener);
+  }
+  made.body = block();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::switch_statement() {
+  auto const begin = advance().span.begin;
+  ast::Switch made;
+  made.subject = condition("a value");
+  if (!at(left_brace)) {
+    expected("'{' and cases");
+    return make_statement(std::move(made), begin);
+  }
+  auto const opener = next_;
+  advance();
+  while (at(kw_case) || at(kw_default)) made.cases.push_back(switch_case());
+  close(opener);
+  return make_statement(std::move(made), begin);
+}
+
+ast::SwitchCase Parser::switch_case() {
+  ast::SwitchCase made;
+  quiet_ = false;
+  if (advance().kind == kw_case) made.value = expression();
+  expect(colon, "':'");
+  made.body = statements(kw_case);
+  return made;
+}
+
+ast::StmtPtr Parser::try_statement() {
+  auto const begin = advance().span.begin;
+  ast::Try made;
+  made.body = braces("'{'");
+  while (at(kw_catch)) made.catches.push_back(catch_clause());
+  if (accept(kw_finally)) made.finally = braces("'{'");
+  if (made.catches.empty() && !made.finally) {
+    error({begin, begin + 3}, "try needs catch or finally", "add catch (e) { ... }");
+  }
+  return make_statement(std::move(made), begin);
+}
+
+/// `catch (e)`, `catch (TaskError e)`, `catch (A | B e)`.
+ast::Catch Parser::catch_clause() {
+  ast::Catch made;
+  advance();
+  auto const opener = next_;
+  if (expect(left_paren, "'(' and the name of the error")) {
+    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
+    while (at(identifier) && (kind(1) == identifier || kind(1) == bit_or || kind(1) == dot)) {
+      made.types.push_back(identifier_of(advance()));
+      while (accept(dot)) made.types.back() = identifier_of(advance());  // java.lang.Exception is Exception
+      accept(bit_or);
+    }
+    if (at(identifier)) {
+      made.name = identifier_of(advance());
+    } else {
+      expected("the name of the error");
+    }
+    close(opener);
+  }
+  made.body = braces("'{'");
+  return made;
+}
+
+ast::StmtPtr Parser::return_statement() {
+  auto const begin = advance().span.begin;
+  ast::Return made;
+  if (!at_statement_end()) made.value = command();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::throw_statement() {
+  auto const begin = advance().span.begin;
+  return make_statement(ast::Throw{expression()}, begin);
+}
+
+ast::StmtPtr Parser::assert_statement() {
+  auto const begin = advance().span.begin;
+  ast::Assert made{expression(), nullptr};
+  if (accept(colon) || accept(comma)) made.message = expression();
+  return make_statement(std::move(made), begin);
+}
+
+ast::StmtPtr Parser::import_statement() {
+  auto const begin = advance().span.begin;
+  if (at_word("static")) advance();
+  auto const path = token().span.begin;
+  while (!at_statement_end()) advance();
+  auto text = std::string(diagnostics_.source().text(since(path)));
+  auto made = make_statement(ast::Import{std::move(text)}, begin);
+  diagnostics_.report({base::Severity::note, since(begin), "imports are not needed and do nothing"});
+  return made;
+}
+
+}  // namespace lapwing::dolphin
