@@ -145,16 +145,15 @@ ast::Argument Parser::argument() {
   }
   auto const begin = token().span.begin;
   made.value = expression();
-  bool const takes_chain_word = made.name || !newlines_matter_;
-  if (takes_chain_word) made.value = misplaced_chain_word(std::move(made.value), begin);
+  if (made.name) made.value = misplaced_chain_word(std::move(made.value), begin);
   return made;
 }
 
 bool Parser::at_wrapped_argument() const {
   if (!at(identifier) || kind(1) != left_paren || !on_same_line(1) || !token(1).blank_before) return false;
-  if (token(1).partner == Token::unclosed ||
-      std::ranges::find(void_instructions, text(token())) == void_instructions.end())
+  if (token(1).partner == Token::unclosed || !is_void_instruction(text(token()))) {
     return false;
+  }
   auto const& after = tokens_[token(1).partner + 1];
   bool const continues = !newlines_matter_ || !after.newline_before || (after.kind != plus && after.kind != minus);
   return joins_values(after.kind) && continues;
@@ -232,7 +231,10 @@ std::vector<ast::Argument> Parser::arguments_in_parentheses() {
   advance();
   Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
   while (!at(right_paren) && !at_statement_end()) {
-    out.push_back(argument());
+    auto const begin = token().span.begin;
+    auto made = argument();
+    made.value = misplaced_chain_word(std::move(made.value), begin);
+    out.push_back(std::move(made));
     if (!accept(comma)) break;
   }
   close(opener);
