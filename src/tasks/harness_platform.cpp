@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "plan/estimate.hpp"
+#include "tasks/mission_builder.hpp"
+
 namespace lapwing::tasks {
 namespace {
 
@@ -29,25 +32,27 @@ class TimedTask final : public PlatformTask {
   Duration length_;
 };
 
-/// Ends when its time has come, with an error if it has one.
+/// Ends when its time has come, if ever, with an error if it has one.
 class TimedRun final : public TaskRun {
  public:
-  TimedRun(base::Loop& loop, Duration length, std::string error)
+  TimedRun(base::Loop& loop, std::optional<Duration> length, std::string error)
       : loop_(loop), started_(loop.now()), length_(length), error_(std::move(error)) {}
   [[nodiscard]] RunState state() const override {
-    if (loop_.now() - started_ < length_) return RunState::in_progress;
+    if (!length_ || loop_.now() - started_ < *length_) return RunState::in_progress;
     return error_.empty() ? RunState::done : RunState::failed;
   }
   [[nodiscard]] std::string error() const override { return error_; }
   [[nodiscard]] std::string progress() const override {
-    return fmt::format("{:.1f}/{:.1f} s", base::to_seconds(loop_.now() - started_), base::to_seconds(length_));
+    auto const passed_s = base::to_seconds(loop_.now() - started_);
+    if (!length_) return fmt::format("{:.1f} s", passed_s);
+    return fmt::format("{:.1f}/{:.1f} s", passed_s, base::to_seconds(*length_));
   }
   void stop() override {}
 
  private:
   base::Loop& loop_;
   base::TimePoint started_;
-  Duration length_;
+  std::optional<Duration> length_;
   std::string error_;
 };
 
@@ -66,7 +71,8 @@ std::vector<VehicleInfo> conformance_vehicles() {
 
 }  // namespace
 
-HarnessPlatform::HarnessPlatform(base::Loop& loop) : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()) {}
+HarnessPlatform::HarnessPlatform(base::Loop& loop)
+    : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()), builders_{mission_builder()} {}
 
 base::Result<std::shared_ptr<PlatformTask const>> HarnessPlatform::named_task(std::string_view name) const {
   auto const colon = name.rfind(':');
@@ -103,6 +109,11 @@ std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask con
   if (!vehicle || !vehicle->connected) return failing(fmt::format("vehicle {} is lost", id.text));
   if (auto const* const timed = dynamic_cast<TimedTask const*>(task.get())) {
     return std::make_unique<TimedRun>(loop_, timed->length(), timed->fails() ? "boom" : "");
+  }
+  if (auto const* const flown = dynamic_cast<MissionTask const*>(task.get())) {
+    auto const estimate = plan::estimate(flown->mission());
+    auto const length = estimate.is_endless ? std::nullopt : std::optional(estimate.duration);
+    return std::make_unique<TimedRun>(loop_, length, "");
   }
   return failing(fmt::format("{} is a task of another platform", task->name()));
 }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plan/mission_builder.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::tasks::internal {
+
+/// What a command does with its complete arguments; `overload` as in its spec.
+using Apply = base::Result<> (*)(plan::MissionBuilder& builder, std::size_t overload,
+                                 std::span<Argument const> arguments);
+
+struct MissionCommand {
+  CommandSpec spec;
+  Apply apply;
+};
+
+/// Commands to somewhere: homes, waypoints, take-offs, loiters, landings, surveys.
+[[nodiscard]] std::vector<MissionCommand> movement_commands();
+/// Commands on the way: name, speed, delay, photos, jumps.
+[[nodiscard]] std::vector<MissionCommand> other_commands();
+
+// Readers of arguments that the language has checked against the parameters.
+[[nodiscard]] double number(Argument const& argument);
+[[nodiscard]] int integer(Argument const& argument);
+[[nodiscard]] std::string const& text(Argument const& argument);
+[[nodiscard]] geo::Wgs84 position(Argument const& argument);
+
+}  // namespace lapwing::tasks::internal

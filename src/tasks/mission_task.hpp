@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "plan/mission.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::tasks {
+
+/// A mission as a task: what `mission { ... }` builds, for every platform that flies missions.
+class MissionTask final : public PlatformTask {
+ public:
+  explicit MissionTask(plan::Mission mission) : mission_(std::move(mission)) {}
+  [[nodiscard]] plan::Mission const& mission() const { return mission_; }
+
+  [[nodiscard]] std::string name() const override { return mission_.name; }
+  [[nodiscard]] std::string kind() const override { return "mission"; }
+  /// Photos need a vehicle with the payload "Camera"; one of which no payload at all is known gets the benefit of the
+  /// doubt.
+  [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override;
+  /// Nothing: missions take the first suitable vehicle. Of vehicles parked side by side the nearest is a matter of
+  /// chance.
+  [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override { return std::nullopt; }
+
+ private:
+  plan::Mission mission_;
+};
+
+}  // namespace lapwing::tasks
