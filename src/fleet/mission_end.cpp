@@ -1,0 +1,47 @@
+#include "fleet/mission_end.hpp"
+
+#include <fmt/format.h>
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using Kind = MissionVerdict::Kind;
+
+namespace {
+
+// A mission that ended before may still be called complete until the autopilot has begun the new one.
+constexpr base::Duration begun_for_sure = 3s;
+// Autopilots disarm by themselves after landing; one that is set up not to is done as well.
+constexpr base::Duration landed_for_good = 5s;
+
+bool last_item_was_current(MissionShape const& shape, MissionSight const& sight) {
+  return sight.current_seq.value_or(-1) >= shape.last_nav_seq || sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
+}
+
+MissionVerdict outside_auto(MissionShape const& shape, MissionSight const& sight) {
+  if (sight.mode_is_return && last_item_was_current(shape, sight)) return {Kind::done};
+  // Disarmed after landing, then put into another mode: the mission had ended before.
+  if (!sight.armed && last_item_was_current(shape, sight) && shape.ending == MissionEnding::on_ground)
+    return {Kind::done};
+  if (!sight.failsafe.empty())
+    return {Kind::failed, fmt::format("mode changed to {} by the vehicle: {}", sight.mode, sight.failsafe)};
+  return {Kind::failed, fmt::format("mode changed to {} by operator", sight.mode)};
+}
+
+}  // namespace
+
+MissionVerdict judge(MissionShape const& shape, MissionSight const& sight) {
+  if (!sight.mode_is_auto) return outside_auto(shape, sight);
+  if (sight.reports_complete && (sight.was_active || sight.since_start >= begun_for_sure)) return {Kind::done};
+  bool const last_reached = sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
+  if (shape.ending == MissionEnding::at_place && last_reached) return {Kind::done};
+  if (shape.ending == MissionEnding::on_ground && last_item_was_current(shape, sight)) {
+    if (!sight.armed) return {Kind::done};
+    if (sight.on_ground_for.value_or(0s) >= landed_for_good) return {Kind::done};
+  }
+  if (!sight.armed)
+    return {Kind::failed, fmt::format("disarmed at item {} of {}", sight.current_seq.value_or(0), shape.last_nav_seq)};
+  return {};
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/time.hpp"
+
+namespace lapwing::fleet {
+
+/// How the last navigation item of a mission ends.
+enum class MissionEnding {
+  at_place,   ///< a waypoint or a limited loiter: done when reached
+  on_ground,  ///< LAND or RTL: done when down
+  never,      ///< an unlimited loiter, or a jump at the end: only the autopilot's word or a stop ends it
+};
+
+/// What the completion rules need to know of a mission. Sequence numbers as on the vehicle.
+struct MissionShape {
+  int last_nav_seq = 0;
+  MissionEnding ending = MissionEnding::at_place;
+};
+
+/// What the vehicle tells about its mission run, gathered since AUTO was confirmed.
+struct MissionSight {
+  base::Duration since_start{};
+  bool mode_is_auto = true;
+  bool mode_is_return = false;  ///< RTL or one of its relatives
+  std::string mode = {};        ///< name, for people
+  bool armed = true;
+  bool was_active = false;  ///< the autopilot called the mission anything but complete since the start
+  bool reports_complete = false;
+  std::optional<int> current_seq = {};               ///< the highest seen
+  std::optional<int> reached_seq = {};               ///< the highest seen
+  std::optional<base::Duration> on_ground_for = {};  ///< nothing while flying, or unknown
+  std::string failsafe = {};                         ///< the autopilot's text when it has just announced a failsafe
+};
+
+struct MissionVerdict {
+  enum class Kind { running, done, failed };
+  Kind kind = Kind::running;
+  std::string reason = {};
+};
+
+/// Whether the mission is over, by the language specification's rules (5.4, phase 7): completion by the autopilot's
+/// word, by the last item reached, by a landing, by the autopilot's own return after the last item; and everything else
+/// that takes the vehicle out of AUTO is somebody else's decision.
+[[nodiscard]] MissionVerdict judge(MissionShape const& shape, MissionSight const& sight);
+
+}  // namespace lapwing::fleet
