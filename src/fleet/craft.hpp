@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/notifier.hpp"
+#include "fleet/message_rates.hpp"
+#include "fleet/status_text.hpp"
+#include "mavlink/connection.hpp"
+#include "vehicle/vehicle_state.hpp"
+
+namespace lapwing::fleet {
+
+/// What a vehicle has told about its mission since somebody last cleared this.
+struct MissionTrace {
+  std::optional<int> current_seq;  ///< the highest
+  std::optional<int> reached_seq;  ///< the highest
+  bool was_active = false;         ///< the mission was called anything but complete
+  bool reports_complete = false;   ///< the last word
+  std::optional<base::TimePoint> on_ground_since;
+  base::TimePoint on_ground_heard{};
+
+  [[nodiscard]] std::optional<base::Duration> on_ground_for() const {
+    if (!on_ground_since) return std::nullopt;
+    return on_ground_heard - *on_ground_since;
+  }
+};
+
+/// One vehicle as the fleet needs it to fly missions, beyond what `vehicle::VehicleState` shows to everybody.
+///
+/// Written by `Fleet`; mission runs read it and wait on `changed`, which tells of every message from the vehicle and of
+/// its loss. Thread-bound; lives as long as its fleet, so references to it may be kept.
+struct Craft {
+  Craft(base::Loop& loop, vehicle::VehicleState& shown) : state(shown), changed(loop) {}
+
+  vehicle::VehicleState& state;  ///< the registry's
+  mavlink::Address address{};
+  mavlink::MavAutopilot mav_autopilot{};
+  std::string type;  ///< "UAV"
+  base::Duration connection_timeout{};
+  mavlink::PeerRef from{};  ///< where the last heartbeat came from
+  int boots = 1;            ///< grows with every restart that was noticed
+
+  std::uint32_t custom_mode = 0;
+  bool is_armed = false;
+  bool mission_mode_pending = false;  ///< we commanded the mission mode, and no heartbeat has shown what came of it
+  MissionTrace trace;
+
+  // What telemetry keeps between messages.
+  std::optional<base::Duration> since_boot;  ///< the vehicle's clock, to notice that it began anew
+  std::optional<mavlink::GpsFix> fix;
+  std::optional<geo::Wgs84> track_end;  ///< up to where `track_m` has been counted
+  base::TimePoint track_end_heard{};
+  StatusTexts texts;
+  std::optional<MessageRates> rates;
+  bool is_asking = false;  ///< message intervals are being asked for
+
+  base::Notifier changed;
+
+  [[nodiscard]] vehicle::VehicleId const& id() const { return state.id; }
+  [[nodiscard]] bool is_connected() const { return state.connection == vehicle::Connection::ok; }
+};
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,231 @@
+#include "fleet/fleet.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fleet/telemetry.hpp"
+#include "fleet/vehicle_actions.hpp"
+#include "fleet/vehicle_kind.hpp"
+#include "mavlink/message_interval.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using base::Duration;
+using base::TimePoint;
+using vehicle::Connection;
+using vehicle::VehicleId;
+
+namespace {
+
+constexpr std::string_view camera = "Camera";  // the language's name for it (specification, REC-44)
+constexpr Duration watch_period = 250ms;
+// Telemetry may arrive out of order; a clock that goes back further than that began anew.
+constexpr Duration clock_slack = 3s;
+
+std::string vehicle_name(vehicle::Family family, std::uint8_t system_id) {
+  if (family == vehicle::Family::unknown) return fmt::format("vehicle {}", system_id);
+  return fmt::format("{} {}", vehicle::to_string(family), system_id);
+}
+
+void set_kind(Craft& craft, VehicleKind const& kind, mavlink::MavAutopilot autopilot) {
+  craft.state.family = kind.family;
+  craft.state.autopilot = kind.autopilot;
+  craft.state.name = vehicle_name(kind.family, craft.address.system);
+  craft.type = kind.type;
+  craft.mav_autopilot = autopilot;
+}
+
+bool has_moved(Craft const& craft, mavlink::Received const& received) {
+  return received.from != craft.from && received.from.link == craft.from.link;
+}
+
+/// An autopilot on the same link that speaks from a new place and has lost its arming or mode has restarted. (That its
+/// clock began anew shows only once telemetry flows again.)
+bool heartbeat_tells_restart(Craft const& craft, mavlink::Received const& received,
+                             mavlink::Heartbeat const& heartbeat) {
+  auto const status = heartbeat.system_status;
+  if (status == mavlink::MavState::uninit || status == mavlink::MavState::boot)
+    return craft.is_armed;  // nobody boots armed
+  return has_moved(craft, received) &&
+         ((craft.is_armed && !heartbeat.armed()) || craft.custom_mode != heartbeat.custom_mode);
+}
+
+void write(base::Logger const& log, std::string const& name, vehicle::StatusText const& text) {
+  auto line = fmt::format("{}: {}", name, text.text);
+  constexpr int error = 3;
+  constexpr int notice = 5;
+  if (text.severity <= error) return log.error(std::move(line));
+  if (text.severity < notice) return log.warn(std::move(line));
+  log.info(std::move(line));
+}
+
+}  // namespace
+
+Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log)
+    : connection_(connection),
+      registry_(registry),
+      options_(std::move(options)),
+      log_(std::move(log)),
+      subscription_(connection.subscribe([this](mavlink::Received const& received) { take(received); })),
+      scope_(connection.loop()) {
+  scope_.spawn(watch());
+}
+
+Craft* Fleet::find(VehicleId const& id) {
+  return const_cast<Craft*>(std::as_const(*this).find(id));
+}
+
+Craft const* Fleet::find(VehicleId const& id) const {
+  auto const found = std::ranges::find_if(crafts_, [&](auto const& entry) { return entry.second->id() == id; });
+  return found == crafts_.end() ? nullptr : found->second.get();
+}
+
+std::vector<Craft const*> Fleet::all() const {
+  std::vector<Craft const*> crafts;
+  for (auto const& [system_id, craft] : crafts_) crafts.push_back(craft.get());
+  return crafts;
+}
+
+void Fleet::set_connection_timeout(VehicleId const& id, Duration timeout) {
+  if (auto* craft = find(id)) craft->connection_timeout = timeout;
+}
+
+void Fleet::take(mavlink::Received const& received) {
+  if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message)) take_heartbeat(received, *heartbeat);
+  if (received.source.component != mavlink::autopilot_component) return;
+  auto const found = crafts_.find(received.source.system);
+  if (found == crafts_.end()) return;
+  take_from_autopilot(*found->second, received);
+}
+
+void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat) {
+  if (is_camera(received.source, heartbeat)) note_camera(received.source.system);
+  auto const kind = kind_of(received.source, heartbeat);
+  if (!kind) return;
+  auto const found = crafts_.find(received.source.system);
+  bool const is_new = found == crafts_.end();
+  auto& craft = is_new ? discover(received) : *found->second;
+  set_kind(craft, *kind, heartbeat.autopilot);
+  if (!is_new && heartbeat_tells_restart(craft, received, heartbeat)) note_restart(craft, received.at);
+  if (!is_new && has_moved(craft, received) && craft.rates) craft.rates->restart(received.at);
+
+  craft.from = received.from;
+  craft.custom_mode = heartbeat.custom_mode;
+  craft.is_armed = heartbeat.armed();
+  if (in_mission_mode(craft)) craft.mission_mode_pending = false;
+  auto& state = craft.state;
+  state.heartbeat_heard = received.at;
+  state.mode.set(mavlink::mode_name(state.autopilot, state.family, heartbeat.custom_mode), received.at);
+  state.armed.set(heartbeat.armed(), received.at);
+  state.link = connection_.whereabouts(received.source.system).value_or("");
+  if (is_new) {
+    log_.info(fmt::format("{} found at {}", state.name, state.link));
+    registry_.touch_membership(craft.id());
+  }
+  check_connection(craft);
+}
+
+Craft& Fleet::discover(mavlink::Received const& received) {
+  auto const system_id = received.source.system;
+  auto& state = registry_.edit(VehicleId{std::to_string(system_id)});
+  state.system_id = system_id;
+  auto& craft = *crafts_.emplace(system_id, std::make_unique<Craft>(loop(), state)).first->second;
+  craft.address = received.source;
+  craft.connection_timeout = options_.connection_timeout;
+  craft.from = received.from;
+  if (auto const names = options_.payload.find(system_id); names != options_.payload.end())
+    state.payload = names->second;
+  if (cameras_.contains(system_id)) note_camera(system_id);
+  return craft;
+}
+
+void Fleet::note_camera(std::uint8_t system_id) {
+  cameras_.insert(system_id);
+  auto const found = crafts_.find(system_id);
+  if (found == crafts_.end()) return;
+  auto& payload = found->second->state.payload;
+  if (std::ranges::find(payload, camera) == payload.end()) payload.emplace_back(camera);
+}
+
+void Fleet::note_restart(Craft& craft, TimePoint now) {
+  ++craft.boots;
+  craft.since_boot.reset();
+  craft.fix.reset();
+  craft.trace = {};
+  craft.mission_mode_pending = false;
+  craft.state.health.value.reset();
+  if (craft.rates) craft.rates->restart(now);
+  log_.warn(fmt::format("{} restarted", craft.state.name));
+}
+
+void Fleet::take_from_autopilot(Craft& craft, mavlink::Received const& received) {
+  if (auto const clock = boot_time(received.message)) {
+    if (craft.since_boot && *clock + clock_slack < *craft.since_boot && craft.is_connected())
+      note_restart(craft, received.at);
+    craft.since_boot = clock;
+  }
+  if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
+  if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
+    for (auto const& text : take_text(craft, *chunk, received.at)) write(log_, craft.state.name, text);
+  (void)take_telemetry(craft, received.message, received.at);
+  registry_.touch(craft.id());
+  craft.changed.notify_all();
+}
+
+/// Lost, back, in conflict: looked at with every heartbeat and, for silence, now and then.
+void Fleet::check_connection(Craft& craft) {
+  auto const conflict = connection_.conflict(craft.address.system);
+  auto const silence = loop().now() - craft.state.heartbeat_heard;
+  auto const now = conflict                             ? Connection::conflict
+                   : silence > craft.connection_timeout ? Connection::lost
+                                                        : Connection::ok;
+  auto const before = std::exchange(craft.state.connection, now);
+  if (now == before) return;
+  auto const& name = craft.state.name;
+  if (now == Connection::ok) log_.info(fmt::format("{} is back at {}", name, craft.state.link));
+  if (now == Connection::lost) log_.warn(fmt::format("{} lost: silent for {:.0f} s", name, base::to_seconds(silence)));
+  if (now == Connection::conflict)
+    log_.error(fmt::format(
+        "two vehicles use system id {}: {} and {}; give one of them another id, until then neither is commanded",
+        craft.address.system, conflict->first, conflict->second));
+  registry_.touch_membership(craft.id());
+  craft.changed.notify_all();
+}
+
+base::Task<> Fleet::watch() {
+  while (true) {
+    co_await loop().sleep(watch_period);
+    for (auto& [system_id, craft] : crafts_) {
+      check_connection(*craft);
+      if (!options_.asks_for_messages || !craft->is_connected() || craft->is_asking) continue;
+      if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
+      auto due = craft->rates->due(loop().now());
+      if (!due.empty()) scope_.spawn(ask_for_messages(*craft, std::move(due)));
+    }
+  }
+}
+
+/// One after the other: acknowledgements name the command only, not the message that was asked for.
+base::Task<> Fleet::ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted) {
+  craft.is_asking = true;
+  int const boots = craft.boots;
+  for (auto const& message : wanted) {
+    if (!craft.is_connected()) break;
+    mavlink::CommandOptions const options{.tries = 3, .ack_timeout = 1s};
+    auto const asked =
+        co_await mavlink::set_message_interval(connection_, craft.address, message.id, message.interval, options);
+    if (craft.boots != boots) break;
+    if (asked || asked.error().kind != base::ErrorKind::refused) continue;
+    craft.rates->denied(message.id, loop().now());
+    log_.debug(fmt::format("{} will not send message {}: {}", craft.state.name, std::to_underlying(message.id),
+                           asked.error().message));
+  }
+  craft.is_asking = false;
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/log.hpp"
+#include "base/scope.hpp"
+#include "fleet/craft.hpp"
+#include "mavlink/connection.hpp"
+#include "vehicle/registry.hpp"
+
+namespace lapwing::fleet {
+
+/// Every vehicle that is heard on a connection, kept up to date in the registry.
+///
+/// A vehicle appears with the first heartbeat of its autopilot and never goes away: silent for longer than its
+/// connection time-out it is lost, with the next heartbeat it is back. Telemetry that does not come by itself is asked
+/// for. Thread-bound.
+class Fleet {
+ public:
+  struct Options {
+    base::Duration connection_timeout = std::chrono::seconds(20);  ///< of a vehicle for which nobody set another one
+    std::map<int, std::vector<std::string>> payload =
+        {};                         ///< system id -> names of its equipment, as scripts ask for them
+    bool asks_for_messages = true;  ///< false: only listen
+  };
+
+  Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log);
+  Fleet(Fleet const&) = delete;
+  Fleet& operator=(Fleet const&) = delete;
+
+  [[nodiscard]] Craft* find(vehicle::VehicleId const& id);
+  [[nodiscard]] Craft const* find(vehicle::VehicleId const& id) const;
+  /// Lost ones included, by system id.
+  [[nodiscard]] std::vector<Craft const*> all() const;
+  void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout);
+
+  [[nodiscard]] vehicle::Registry& registry() const { return registry_; }
+  [[nodiscard]] mavlink::Connection& connection() const { return connection_; }
+  [[nodiscard]] base::Loop& loop() const { return connection_.loop(); }
+
+ private:
+  void take(mavlink::Received const& received);
+  void take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
+  void take_from_autopilot(Craft& craft, mavlink::Received const& received);
+  Craft& discover(mavlink::Received const& received);
+  void note_restart(Craft& craft, base::TimePoint now);
+  void note_camera(std::uint8_t system_id);
+  void check_connection(Craft& craft);
+  base::Task<> watch();
+  base::Task<> ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted);
+
+  mavlink::Connection& connection_;
+  vehicle::Registry& registry_;
+  Options options_;
+  base::Logger log_;
+  std::map<std::uint8_t, std::unique_ptr<Craft>> crafts_;  // pointers: craft addresses must not change
+  std::set<std::uint8_t> cameras_;                         ///< systems that were heard to carry one
+  mavlink::Subscription subscription_;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::fleet
