@@ -1,0 +1,51 @@
+#include "fleet/flight_plan.hpp"
+
+#include <utility>
+
+namespace lapwing::fleet {
+
+using mavlink::MavCmd;
+
+namespace {
+
+constexpr int last_nav_command = 95;  // MAV_CMD_NAV_LAST: higher ones are done on the way
+
+bool is_nav(MavCmd command) {
+  return std::to_underlying(command) <= last_nav_command;
+}
+
+MissionEnding ending_of(MavCmd command) {
+  switch (command) {
+    case MavCmd::nav_land:
+    case MavCmd::nav_vtol_land:
+    case MavCmd::nav_return_to_launch: return MissionEnding::on_ground;
+    case MavCmd::nav_loiter_unlim: return MissionEnding::never;
+    default: return MissionEnding::at_place;
+  }
+}
+
+MissionShape shape_of(std::vector<mavlink::MissionItem> const& items) {
+  MissionShape shape{.last_nav_seq = static_cast<int>(items.size()) - 1, .ending = MissionEnding::never};
+  for (auto item = items.rbegin(); item != items.rend(); ++item) {
+    if (item->command == MavCmd::do_jump) return shape;  // the last place is reached more than once
+    if (!is_nav(item->command)) continue;
+    shape.last_nav_seq = item->seq;
+    shape.ending = ending_of(item->command);
+    return shape;
+  }
+  return shape;
+}
+
+}  // namespace
+
+FlightPlan flight_plan(plan::Mission const& mission, vehicle::VehicleState const& vehicle) {
+  FlightPlan flight;
+  flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.home.value);
+  flight.first_seq = static_cast<std::uint16_t>(flight.items.size() - mission.items.size());
+  flight.shape = shape_of(flight.items);
+  for (auto const& item : mission.items)
+    if (plan::has_position(item) && is_nav(item.command)) flight.path.push_back(plan::position_of(item));
+  return flight;
+}
+
+}  // namespace lapwing::fleet

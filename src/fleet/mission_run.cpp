@@ -1,0 +1,197 @@
+#include "fleet/mission_run.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "fleet/flight_plan.hpp"
+#include "mavlink/command.hpp"
+#include "mavlink/mission_transfer.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using base::ErrorKind;
+using base::fail;
+using base::Result;
+using base::Task;
+using base::TimePoint;
+
+namespace {
+
+// A heartbeat that was overtaken by the one that showed the mission mode still names the mode before.
+constexpr base::Duration mode_settles = 2s;
+// On a link that loses a third of its packets a transfer now and then exceeds the vehicle's patience: begin it anew.
+mavlink::TransferOptions const transfer{.tries = 8, .restarts = 2};
+
+base::Error named(std::string_view what, base::Error error) {
+  error.message = fmt::format("{}: {}", what, error.message);
+  return error;
+}
+
+/// Phase 1: nothing is sent to a vehicle that cannot be told apart from another one, or that is not there.
+Result<> claim(RunContext const& context) {
+  auto const& craft = context.craft;
+  if (auto const conflict = context.connection.conflict(craft.address.system))
+    return fail(ErrorKind::refused, fmt::format("two vehicles use system id {}: {} and {}", craft.address.system,
+                                                conflict->first, conflict->second));
+  if (!craft.is_connected()) return fail(ErrorKind::lost, fmt::format("{} is not connected", craft.state.name));
+  return {};
+}
+
+Task<Result<>> upload(RunContext context, FlightPlan const& plan, RunRecord& record) {
+  auto const begun = context.connection.loop().now();
+  mavlink::TransferProgress progress = [&record](std::size_t done, std::size_t total) {
+    record.progress = fmt::format("uploading {}/{}", done, total);
+  };
+  auto items = plan.items;
+  auto uploaded = co_await mavlink::upload_mission(context.connection, context.craft.address, std::move(items),
+                                                   mavlink::MissionType::mission, transfer, std::move(progress));
+  record.upload_time = context.connection.loop().now() - begun;
+  if (!uploaded) co_return std::unexpected(named("upload", std::move(uploaded.error())));
+  co_return Result<>{};
+}
+
+/// What the vehicle holds instead of the plan; empty when it holds the plan.
+Task<Result<std::vector<mavlink::Difference>>> read_back(RunContext context, FlightPlan const& plan,
+                                                         RunRecord& record) {
+  mavlink::TransferProgress progress = [&record](std::size_t done, std::size_t total) {
+    record.progress = fmt::format("reading back {}/{}", done, total);
+  };
+  auto held = co_await mavlink::download_mission(context.connection, context.craft.address,
+                                                 mavlink::MissionType::mission, transfer, std::move(progress));
+  if (!held) co_return std::unexpected(named("read-back", std::move(held.error())));
+  co_return mavlink::compare_readback(plan.items, *held, context.craft.mav_autopilot);
+}
+
+/// Phases 3 and 4. A copy that came out different is sent once more before that is an error.
+Task<Result<>> transfer_mission(RunContext context, FlightPlan const& plan, RunRecord& record) {
+  std::vector<mavlink::Difference> differences;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (auto uploaded = co_await upload(context, plan, record); !uploaded) co_return uploaded;
+    if (!context.options.verifies) co_return Result<>{};
+    auto compared = co_await read_back(context, plan, record);
+    if (!compared) co_return std::unexpected(std::move(compared.error()));
+    differences = std::move(*compared);
+    if (differences.empty()) co_return Result<>{};
+  }
+  co_return fail(ErrorKind::refused,
+                 fmt::format("the vehicle does not hold the mission that was sent: {}", differences.front()));
+}
+
+/// So that a vehicle that flew a part of another mission begins this one at its begin. Autopilots without the command
+/// know the message.
+Task<Result<>> select_first_item(RunContext context, std::uint16_t seq) {
+  auto& craft = context.craft;
+  auto const command = mavlink::set_current_item(seq);
+  mavlink::CommandOptions const options{};
+  auto const set = co_await mavlink::run_command(context.connection, craft.address, command, options);
+  if (set) co_return Result<>{};
+  if (set.error().kind != ErrorKind::refused) co_return std::unexpected(named("selecting the first item", set.error()));
+  constexpr int tries = 5;
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    auto const asked = context.connection.loop().now();
+    mavlink::MissionSetCurrent const message{.seq = seq};
+    if (auto sent = context.connection.send(craft.address, message); !sent) co_return sent;
+    std::function<bool()> is_current = [&craft, seq, asked] {
+      return craft.state.mission.known() && craft.state.mission.heard > asked &&
+             craft.state.mission.value->current_seq == seq;
+    };
+    if (co_await craft.changed.wait_for(std::move(is_current), 2s)) co_return Result<>{};
+  }
+  co_return fail(ErrorKind::refused,
+                 fmt::format("the vehicle would not begin at item {}: {}", seq, set.error().message));
+}
+
+/// The script's `home` becomes the vehicle's. A vehicle that refuses keeps its own, which is safe.
+Task<> set_home(RunContext context, geo::Wgs84 home) {
+  auto const command = mavlink::set_home(home);
+  mavlink::CommandOptions const options{};
+  auto const set = co_await mavlink::run_command_int(context.connection, context.craft.address, command, options);
+  if (!set) context.log.warn(fmt::format("{} keeps its own home: {}", context.craft.state.name, set.error().message));
+}
+
+/// Phase 5.
+Task<Result<>> start(RunContext context, plan::Mission const& mission, FlightPlan const& plan, RunRecord& record) {
+  record.progress = "starting";
+  if (mission.home) co_await set_home(context, *mission.home);
+  if (auto selected = co_await select_first_item(context, plan.first_seq); !selected) co_return selected;
+  context.craft.trace = {};
+  record.may_have_armed = !context.craft.is_armed;
+  auto started = co_await arm_and_start(context.connection, context.craft);
+  if (!started) co_return started;
+  record.has_begun = true;
+  context.log.info(fmt::format("{} flies '{}'", context.craft.state.name, mission.name));
+  co_return Result<>{};
+}
+
+MissionSight look(Craft const& craft, TimePoint started, TimePoint now) {
+  auto const& trace = craft.trace;
+  auto const return_mode = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::rtl);
+  return {.since_start = now - started,
+          .mode_is_auto = in_mission_mode(craft),
+          .mode_is_return = craft.custom_mode == return_mode,
+          .mode = mode_name(craft, craft.custom_mode),
+          .armed = craft.is_armed,
+          .was_active = trace.was_active,
+          .reports_complete = trace.reports_complete,
+          .current_seq = trace.current_seq,
+          .reached_seq = trace.reached_seq,
+          .on_ground_for = trace.on_ground_for(),
+          .failsafe = recent_failsafe(craft, now)};
+}
+
+/// Phases 6 and 7.
+Task<Result<>> follow(RunContext context, FlightPlan const& plan, RunRecord& record) {
+  auto& craft = context.craft;
+  auto& loop = context.connection.loop();
+  auto const started = loop.now();
+  while (true) {
+    auto const sight = look(craft, started, loop.now());
+    record.progress = fmt::format("item {}/{}", sight.current_seq.value_or(plan.first_seq), plan.last_seq());
+    bool const still_settling = !sight.mode_is_auto && sight.since_start < mode_settles;
+    auto const verdict = still_settling ? MissionVerdict{} : judge(plan.shape, sight);
+    if (verdict.kind == MissionVerdict::Kind::done) co_return Result<>{};
+    if (verdict.kind == MissionVerdict::Kind::failed) co_return fail(ErrorKind::refused, verdict.reason);
+    co_await craft.changed.wait_until(loop.now() + 1s);
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(RunRecord::Outcome outcome) {
+  switch (outcome) {
+    case RunRecord::Outcome::running: return "running";
+    case RunRecord::Outcome::done: return "done";
+    case RunRecord::Outcome::failed: return "failed";
+    case RunRecord::Outcome::stopped: return "stopped";
+  }
+  return "failed";
+}
+
+Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord& record) {
+  auto& craft = context.craft;
+  if (auto claimed = claim(context); !claimed) co_return claimed;
+  if (mission.items.empty()) co_return fail(ErrorKind::invalid_input, "the mission has no items");
+
+  record.progress = "waiting until the vehicle is ready";
+  auto ready = co_await wait_until_ready(craft, context.connection.loop(), context.options.ready_timeout);
+  if (!ready) co_return ready;
+
+  record.progress = "stopping what it does";
+  auto quiet = co_await leave_mission(context.connection, craft, context.options.on_stop);
+  if (!quiet) co_return quiet;
+
+  auto const plan = flight_plan(mission, craft.state);
+  auto transferred = co_await transfer_mission(context, plan, record);
+  if (!transferred) co_return transferred;
+  craft.state.planned_path = plan.path;
+
+  auto started = co_await start(context, mission, plan, record);
+  if (!started) co_return started;
+  co_return co_await follow(context, plan, record);
+}
+
+}  // namespace lapwing::fleet

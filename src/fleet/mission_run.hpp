@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+
+#include "base/log.hpp"
+#include "base/task.hpp"
+#include "fleet/craft.hpp"
+#include "fleet/vehicle_actions.hpp"
+#include "mavlink/connection.hpp"
+#include "plan/mission.hpp"
+
+namespace lapwing::fleet {
+
+/// One mission on its way on one vehicle, for whoever looks at it.
+struct RunRecord {
+  enum class Outcome { running, done, failed, stopped };
+  std::string mission;
+  int items = 0;  ///< without the home item
+  Outcome outcome = Outcome::running;
+  std::string progress;
+  std::string error;             ///< why, when failed or stopped
+  base::Duration upload_time{};  ///< zero until the mission was on the vehicle
+
+  // What a stop has to undo.
+  bool may_have_armed = false;  ///< it was disarmed before
+  bool has_begun = false;       ///< a heartbeat has confirmed the mission mode
+};
+[[nodiscard]] std::string_view to_string(RunRecord::Outcome outcome);
+
+struct RunOptions {
+  OnStop on_stop = OnStop::loiter;
+  base::Duration ready_timeout =
+      std::chrono::seconds(90);  ///< ArduPilot's estimator takes about 45 s after a cold start
+  bool verifies = true;          ///< reads the mission back and compares before the start
+};
+
+/// Where a run happens. References outlive it.
+struct RunContext {
+  mavlink::Connection& connection;
+  Craft& craft;
+  RunOptions const& options;
+  base::Logger const& log;
+};
+
+/// Flies `mission` from claim to completion (language specification 5.4, phases 1 to 7), keeping `record` up to date.
+/// Ends with the reason when it failed. Watches neither for the vehicle's loss nor for a stop: whoever owns the task
+/// destroys it then, and reads in the record what is left to be undone.
+base::Task<base::Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord& record);
+
+}  // namespace lapwing::fleet

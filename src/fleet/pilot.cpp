@@ -1,0 +1,113 @@
+#include "fleet/pilot.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace lapwing::fleet {
+
+using base::Task;
+using vehicle::Connection;
+using Outcome = RunRecord::Outcome;
+
+std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
+  if (is_flying()) {
+    end(Outcome::failed, "another task took the vehicle");
+    flight_ = {};
+  }
+  rest_ = {};
+  if (std::exchange(is_settling_, false)) settled_.notify_all();
+  run_ = std::make_shared<RunRecord>();
+  run_->mission = mission.name;
+  run_->items = static_cast<int>(mission.items.size());
+  runs_.push_back(run_);
+  auto const run = run_;
+  flight_ = fly(std::move(mission));
+  guard_ = guard();
+  flight_.start();
+  guard_.start();
+  return run;
+}
+
+void Pilot::stop(RunRecord const& run, OnStop on_stop) {
+  if (run_.get() == &run) stop(on_stop);
+}
+
+void Pilot::stop(OnStop on_stop) {
+  if (!is_flying()) return;
+  flight_ = {};  // cancels an upload
+  end(Outcome::stopped, "stopped");
+  // Somebody else may have taken the vehicle over since the last look at it: then it is theirs.
+  bool const is_ours = !run_->has_begun || in_mission_mode(context_.craft);
+  if (is_ours) begin_rest(on_stop);
+}
+
+Task<> Pilot::fly(plan::Mission mission) {
+  auto const run = run_;
+  auto flown = co_await fly_mission(context_, std::move(mission), *run);
+  if (flown) {
+    end(Outcome::done, {});
+    co_return;
+  }
+  end(Outcome::failed, flown.error().message);
+  // A run that got as far as the mission mode and failed was taken over or ended by the vehicle: leave it alone then.
+  if (!run->has_begun) begin_rest(context_.options.on_stop);
+}
+
+/// Ends the run when the vehicle can no longer be flown, whatever the flight is waiting for.
+Task<> Pilot::guard() {
+  auto const run = run_;
+  auto const& craft = context_.craft;
+  auto const boots = craft.boots;
+  std::string reason;
+  while (run->outcome == Outcome::running && reason.empty()) {
+    if (craft.boots != boots) {
+      reason = fmt::format("{} restarted", craft.state.name);
+    } else if (craft.state.connection == Connection::lost) {
+      reason =
+          fmt::format("{} lost: silent for {:.0f} s", craft.state.name, base::to_seconds(craft.connection_timeout));
+    } else if (auto const rivals = context_.connection.conflict(craft.address.system)) {
+      reason =
+          fmt::format("two vehicles use system id {}: {} and {}", craft.address.system, rivals->first, rivals->second);
+    } else {
+      co_await context_.craft.changed.wait();
+    }
+  }
+  if (reason.empty() || run->outcome != Outcome::running) co_return;
+  flight_ = {};
+  end(Outcome::failed, std::move(reason));
+}
+
+void Pilot::end(Outcome outcome, std::string error) {
+  run_->outcome = outcome;
+  run_->error = std::move(error);
+  auto const line = fmt::format("{}: '{}' {}", context_.craft.state.name, run_->mission, to_string(outcome));
+  if (outcome == Outcome::failed) return context_.log.error(fmt::format("{}: {}", line, run_->error));
+  context_.log.info(line);
+}
+
+/// What there is to undo, decided before a next run begins anew.
+void Pilot::begin_rest(OnStop on_stop) {
+  bool const flies = context_.craft.mission_mode_pending || run_->has_begun;
+  if (!flies && !run_->may_have_armed) return;
+  is_settling_ = true;
+  rest_ = rest(on_stop, !flies);
+  rest_.start();
+}
+
+Task<> Pilot::rest(OnStop on_stop, bool only_disarm) {
+  co_await context_.connection.loop()
+      .turn();  // the next task on this vehicle may start in this turn and will deal with it
+  auto& craft = context_.craft;
+  auto const done = only_disarm ? co_await disarm(context_.connection, craft)
+                                : co_await bring_to_rest(context_.connection, craft, on_stop);
+  if (done) {
+    context_.log.info(fmt::format("{} stopped: {}", craft.state.name, craft.state.mode.value.value_or("")));
+  } else {
+    context_.log.error(fmt::format("{} could not be stopped: {}", craft.state.name, done.error().message));
+  }
+  is_settling_ = false;
+  settled_.notify_all();
+}
+
+}  // namespace lapwing::fleet

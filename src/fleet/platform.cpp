@@ -1,0 +1,140 @@
+#include "fleet/platform.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tasks/mission_builder.hpp"
+#include "tasks/mission_task.hpp"
+
+namespace lapwing::fleet {
+
+using base::ErrorKind;
+using base::Result;
+using tasks::RunState;
+using tasks::VehicleInfo;
+using vehicle::VehicleId;
+
+namespace {
+
+/// A run that is the pilot's.
+class MissionTaskRun final : public tasks::TaskRun {
+ public:
+  MissionTaskRun(Pilot& pilot, OnStop on_stop, std::shared_ptr<RunRecord const> record)
+      : pilot_(pilot), on_stop_(on_stop), record_(std::move(record)) {}
+
+  [[nodiscard]] RunState state() const override {
+    switch (record_->outcome) {
+      case RunRecord::Outcome::running: return RunState::in_progress;
+      case RunRecord::Outcome::done: return RunState::done;
+      case RunRecord::Outcome::failed:
+      case RunRecord::Outcome::stopped: return RunState::failed;
+    }
+    return RunState::failed;
+  }
+  [[nodiscard]] std::string error() const override { return record_->error; }
+  [[nodiscard]] std::string progress() const override { return record_->progress; }
+  void stop() override { pilot_.stop(*record_, on_stop_); }
+
+ private:
+  Pilot& pilot_;
+  OnStop on_stop_;
+  std::shared_ptr<RunRecord const> record_;
+};
+
+/// A run that never began.
+class FailedRun final : public tasks::TaskRun {
+ public:
+  explicit FailedRun(std::string error) : error_(std::move(error)) {}
+  [[nodiscard]] RunState state() const override { return RunState::failed; }
+  [[nodiscard]] std::string error() const override { return error_; }
+  [[nodiscard]] std::string progress() const override { return {}; }
+  void stop() override {}
+
+ private:
+  std::string error_;
+};
+
+VehicleInfo info_of(Craft const& craft) {
+  auto const& state = craft.state;
+  VehicleInfo info;
+  info.id = state.id;
+  info.type = craft.type;
+  info.payload = state.payload;
+  info.connected = craft.is_connected();
+  info.position = state.position.value;
+  if (state.battery.value) info.battery = state.battery.value->remaining;
+  info.connection_timeout = craft.connection_timeout;
+  return info;
+}
+
+}  // namespace
+
+FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
+    : fleet_(fleet), options_(std::move(options)), log_(std::move(log)), settled_(fleet.loop()) {
+  builders_.push_back(tasks::mission_builder());
+}
+
+Result<std::shared_ptr<tasks::PlatformTask const>> FleetPlatform::named_task(std::string_view name) const {
+  auto const found = options_.plan_library.find(name);
+  if (found == options_.plan_library.end())
+    return base::fail(ErrorKind::not_found, fmt::format("no plan named '{}'", name));
+  return std::make_shared<tasks::MissionTask>(found->second);
+}
+
+std::vector<VehicleInfo> FleetPlatform::vehicles() const {
+  std::vector<VehicleInfo> infos;
+  for (auto const* craft : fleet_.all()) infos.push_back(info_of(*craft));
+  return infos;
+}
+
+std::optional<VehicleInfo> FleetPlatform::find(VehicleId const& id) const {
+  auto const* craft = std::as_const(fleet_).find(id);
+  if (!craft) return std::nullopt;
+  return info_of(*craft);
+}
+
+void FleetPlatform::set_connection_timeout(VehicleId const& id, base::Duration timeout) {
+  fleet_.set_connection_timeout(id, timeout);
+}
+
+std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::PlatformTask const> task,
+                                                     VehicleId const& id) {
+  auto* craft = fleet_.find(id);
+  if (!craft) return std::make_unique<FailedRun>(fmt::format("no vehicle {}", id.text));
+  auto const* mission = dynamic_cast<tasks::MissionTask const*>(task.get());
+  if (!mission)
+    return std::make_unique<FailedRun>(
+        fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));
+  auto& its_pilot = pilot(*craft);
+  return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
+}
+
+base::Task<void> FleetPlatform::settle() {
+  auto const is_settling = [](auto const& entry) { return entry.second->is_settling(); };
+  while (std::ranges::any_of(pilots_, is_settling)) co_await settled_.wait();
+}
+
+base::Task<void> FleetPlatform::make_safe(OnStop on_stop) {
+  for (auto& [id, its_pilot] : pilots_) its_pilot->stop(on_stop);
+  co_await settle();
+}
+
+std::vector<MissionReport> FleetPlatform::missions(VehicleId const& id) const {
+  std::vector<MissionReport> reports;
+  auto const found = pilots_.find(id);
+  if (found == pilots_.end()) return reports;
+  for (auto const& run : found->second->runs())
+    reports.push_back({run->mission, run->items, base::to_seconds(run->upload_time),
+                       std::string(to_string(run->outcome)), run->error});
+  return reports;
+}
+
+Pilot& FleetPlatform::pilot(Craft& craft) {
+  auto& entry = pilots_[craft.id()];
+  if (!entry) entry = std::make_unique<Pilot>(RunContext{fleet_.connection(), craft, options_.run, log_}, settled_);
+  return *entry;
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/log.hpp"
+#include "fleet/fleet.hpp"
+#include "fleet/pilot.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::fleet {
+
+/// One mission that was run, for reports.
+struct MissionReport {
+  std::string name;
+  int items = 0;
+  double upload_s = 0.0;
+  std::string outcome;  ///< "done", "failed", "stopped", "running"
+  std::string error;
+};
+
+/// MAVLink vehicles as a platform of the mission language: `mission { ... }` blocks, flown by the autopilots of a
+/// fleet.
+///
+/// Must outlive the runs that it started. Thread-bound.
+class FleetPlatform final : public tasks::Platform {
+ public:
+  struct Options {
+    RunOptions run = {};
+    std::map<std::string, plan::Mission, std::less<>> plan_library = {};  ///< what `task('survey1')` finds
+  };
+
+  /// `fleet` outlives the platform.
+  FleetPlatform(Fleet& fleet, Options options, base::Logger log);
+
+  [[nodiscard]] std::span<tasks::BuilderSpec const> builders() const override { return builders_; }
+  [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
+      std::string_view name) const override;
+  [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
+  [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
+  [[nodiscard]] base::Notifier& vehicles_changed() override { return fleet_.registry().membership_changed(); }
+  void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
+  [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
+                                                      vehicle::VehicleId const& id) override;
+  [[nodiscard]] base::Task<void> settle() override;
+
+  /// Stops every run of ours and ends when each vehicle has confirmed its stop mode, or has failed to with a logged
+  /// reason. For the end of a program. Vehicles without a run of ours are not touched.
+  [[nodiscard]] base::Task<void> make_safe(OnStop on_stop);
+  /// Every mission that was run on the vehicle, oldest first.
+  [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
+
+ private:
+  Pilot& pilot(Craft& craft);
+
+  Fleet& fleet_;
+  Options options_;
+  base::Logger log_;
+  std::vector<tasks::BuilderSpec> builders_;
+  base::Notifier settled_;
+  std::map<vehicle::VehicleId, std::unique_ptr<Pilot>> pilots_;  // pointers: pilots do not move
+};
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,269 @@
+#include "fleet/vehicle_actions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <ranges>
+
+#include <fmt/format.h>
+
+#include "mavlink/command.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using base::Duration;
+using base::ErrorKind;
+using base::fail;
+using base::Result;
+using base::Task;
+using base::TimePoint;
+using mavlink::ModeRole;
+using vehicle::Family;
+
+namespace {
+
+constexpr int warning = 4;  // severities up to here explain a refusal
+constexpr Duration ack_wait = 1s;
+constexpr Duration heartbeat_wait = 2s;   // two heartbeats, one may get lost
+constexpr Duration armed_wait = 10s;      // language specification 5.4, phase 5
+constexpr Duration reason_wait = 1s;      // the text may come after the acknowledgement
+constexpr Duration prearm_repeats = 35s;  // ArduPilot repeats its objections every 30 s
+constexpr Duration prearm_patience = 10s;
+constexpr Duration failsafe_is_recent = 5s;
+constexpr std::uint32_t copter_stabilize = 0;
+
+std::optional<std::uint32_t> mode_for(Craft const& craft, ModeRole role) {
+  return mavlink::mode_for(craft.state.autopilot, craft.state.family, role);
+}
+
+bool is_ardupilot_copter(Craft const& craft) {
+  return craft.state.autopilot == vehicle::Autopilot::ardupilot && craft.state.family == Family::copter;
+}
+
+bool can_fly(Craft const& craft) {
+  return craft.state.family == Family::copter || craft.state.family == Family::plane ||
+         craft.state.family == Family::vtol;
+}
+
+/// Ends when the condition holds after some message from the vehicle, or its connection changed.
+Task<bool> wait_for(Craft& craft, std::function<bool()> condition, Duration timeout) {
+  return craft.changed.wait_for(std::move(condition), timeout);
+}
+
+Task<> wait_for_reason(Craft& craft, TimePoint since) {
+  std::function<bool()> given = [&craft, since] {
+    auto const& texts = craft.state.recent_texts;
+    return !texts.empty() && texts.back().heard >= since && texts.back().severity <= warning;
+  };
+  (void)co_await wait_for(craft, std::move(given), reason_wait);
+}
+
+std::string with_reason(std::string what, std::string const& reason) {
+  return reason.empty() ? what : fmt::format("{}: {}", what, reason);
+}
+
+/// The mode in which to arm, when the present one does not allow it.
+std::optional<std::uint32_t> mode_to_arm_in(Craft const& craft) {
+  if (!is_ardupilot_copter(craft)) return std::nullopt;
+  auto const guided = mode_for(craft, ModeRole::guided);
+  if (craft.custom_mode == copter_stabilize || craft.custom_mode == guided) return std::nullopt;
+  return guided;
+}
+
+std::optional<std::uint32_t> stop_mode(Craft const& craft, OnStop on_stop) {
+  auto const hold = mode_for(craft, ModeRole::hold);
+  switch (on_stop) {
+    case OnStop::loiter: return hold;
+    case OnStop::rtl: return mode_for(craft, ModeRole::rtl).or_else([&] { return hold; });
+    case OnStop::land: return mode_for(craft, ModeRole::land).or_else([&] { return hold; });
+  }
+  return hold;
+}
+
+Task<Result<>> arm(mavlink::Connection& connection, Craft& craft) {
+  auto const since = connection.loop().now();
+  mavlink::CommandOptions const options{.expiry = 8s};
+  auto const command = mavlink::arm();
+  auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
+  if (!asked && asked.error().kind == ErrorKind::refused) {
+    co_await wait_for_reason(craft, since);
+    auto const reason = given_reason(craft, since);
+    co_return fail(ErrorKind::refused, with_reason("arming refused", reason.empty() ? asked.error().message : reason));
+  }
+  // An acknowledgement may be lost and the vehicle armed all the same.
+  std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
+  auto const patience = asked ? armed_wait : heartbeat_wait;
+  if (co_await wait_for(craft, std::move(is_armed), patience)) co_return Result<>{};
+  if (!asked) co_return fail(asked.error().kind, fmt::format("arming: {}", asked.error().message));
+  co_return fail(ErrorKind::timed_out,
+                 with_reason("accepted arming but did not report armed", given_reason(craft, since)));
+}
+
+/// One try to get the vehicle into its mission mode. MISSION_START makes a copter on the ground take off without a
+/// pilot's throttle; the others start with the mode.
+Task<Result<>> command_mission(mavlink::Connection& connection, Craft& craft, std::uint32_t mission_mode) {
+  mavlink::CommandOptions const options{.tries = 1, .ack_timeout = ack_wait};
+  auto const by_mode = mavlink::set_mode(craft.mav_autopilot, mission_mode);
+  if (!is_ardupilot_copter(craft)) co_return co_await mavlink::run_command(connection, craft.address, by_mode, options);
+  auto const by_start = mavlink::start_mission();
+  auto started = co_await mavlink::run_command(connection, craft.address, by_start, options);
+  if (started || started.error().kind != ErrorKind::refused) co_return started;
+  co_return co_await mavlink::run_command(connection, craft.address, by_mode, options);
+}
+
+Task<Result<>> enter_mission(mavlink::Connection& connection, Craft& craft) {
+  constexpr int tries = 5;
+  auto const mission_mode = mode_for(craft, ModeRole::mission);
+  if (!mission_mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mission mode", craft.state.name));
+  auto const since = connection.loop().now();
+  Result<> commanded;
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    craft.mission_mode_pending = !in_mission_mode(craft);
+    commanded = co_await command_mission(connection, craft, *mission_mode);
+    if (!commanded && commanded.error().kind != ErrorKind::timed_out) break;
+    std::function<bool()> decided = [&craft] { return in_mission_mode(craft) || !craft.is_armed; };
+    (void)co_await wait_for(craft, std::move(decided), heartbeat_wait);
+    if (in_mission_mode(craft) && craft.is_armed) co_return Result<>{};
+    if (!craft.is_armed) co_return fail(ErrorKind::timed_out, "disarmed again before the mission began");
+  }
+  if (!commanded && commanded.error().kind == ErrorKind::refused) co_await wait_for_reason(craft, since);
+  auto const reason = given_reason(craft, since);
+  auto const what = fmt::format("{} not entered", mode_name(craft, *mission_mode));
+  if (!commanded)
+    co_return fail(commanded.error().kind, with_reason(what, reason.empty() ? commanded.error().message : reason));
+  co_return fail(ErrorKind::timed_out, with_reason(what + " although accepted", reason));
+}
+
+}  // namespace
+
+std::optional<OnStop> on_stop_from(std::string_view word) {
+  if (word == "loiter") return OnStop::loiter;
+  if (word == "rtl") return OnStop::rtl;
+  if (word == "land") return OnStop::land;
+  return std::nullopt;
+}
+
+bool in_mission_mode(Craft const& craft) {
+  return craft.custom_mode == mode_for(craft, ModeRole::mission);
+}
+
+std::string mode_name(Craft const& craft, std::uint32_t custom_mode) {
+  return mavlink::mode_name(craft.state.autopilot, craft.state.family, custom_mode);
+}
+
+std::string given_reason(Craft const& craft, TimePoint since) {
+  auto const newest_first = std::views::reverse(craft.state.recent_texts);
+  for (auto const& text : newest_first)
+    if (text.heard >= since && text.severity <= warning) return text.text;
+  for (auto const& text : newest_first)
+    if (text.heard + prearm_repeats >= since && text.text.starts_with("PreArm")) return text.text;
+  return {};
+}
+
+std::string recent_failsafe(Craft const& craft, TimePoint now) {
+  auto const tells = [](std::string const& text) {
+    return text.find("ailsafe") != std::string::npos || text.find("Fence") != std::string::npos;
+  };
+  for (auto const& text : std::views::reverse(craft.state.recent_texts))
+    if (text.heard + failsafe_is_recent >= now && tells(text.text)) return text.text;
+  return {};
+}
+
+Task<Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeChange change) {
+  auto const mode = change.custom_mode;
+  if (craft.custom_mode == mode && !change.even_if_shown) co_return Result<>{};
+  auto const since = connection.loop().now();
+  mavlink::CommandOptions const options{.tries = 1, .ack_timeout = ack_wait};
+  auto const command = mavlink::set_mode(craft.mav_autopilot, mode);
+  Result<> asked;
+  for (int attempt = 0; attempt < change.tries; ++attempt) {
+    asked = co_await mavlink::run_command(connection, craft.address, command, options);
+    if (!asked && asked.error().kind != ErrorKind::timed_out) break;
+    auto const answered = connection.loop().now();
+    std::function<bool()> shown = [&craft, &change, mode, answered] {
+      return craft.custom_mode == mode && (!change.even_if_shown || craft.state.heartbeat_heard >= answered);
+    };
+    if (co_await wait_for(craft, std::move(shown), heartbeat_wait)) {
+      craft.mission_mode_pending = false;
+      co_return Result<>{};
+    }
+  }
+  auto const what = fmt::format("{} not entered", mode_name(craft, mode));
+  if (asked) co_return fail(ErrorKind::timed_out, what + " although accepted");
+  if (asked.error().kind == ErrorKind::refused) co_await wait_for_reason(craft, since);
+  auto const reason = given_reason(craft, since);
+  co_return fail(asked.error().kind, with_reason(what, reason.empty() ? asked.error().message : reason));
+}
+
+Task<Result<>> wait_until_ready(Craft& craft, base::Loop& loop, Duration patience) {
+  auto const since = loop.now();
+  std::function<bool()> knows_its_place = [&craft] {
+    auto const& health = craft.state.health.value;
+    bool const estimated = health && health->position_ok;
+    return craft.state.position.known() && (estimated || craft.state.autopilot == vehicle::Autopilot::other);
+  };
+  if (!co_await wait_for(craft, knows_its_place, patience)) {
+    std::string_view const missing =
+        !craft.fix || *craft.fix < mavlink::GpsFix::fix_3d ? "no GPS fix" : "no position estimate";
+    auto const what = fmt::format("not ready after {:.0f} s, {}", base::to_seconds(patience), missing);
+    co_return fail(ErrorKind::timed_out, with_reason(what, given_reason(craft, since)));
+  }
+  std::function<bool()> no_objection = [&craft] { return craft.is_armed || craft.state.health.value->prearm_ok; };
+  if (craft.state.health.known()) (void)co_await wait_for(craft, std::move(no_objection), prearm_patience);
+  co_return Result<>{};
+}
+
+Task<Result<>> leave_mission(mavlink::Connection& connection, Craft& craft, OnStop on_stop) {
+  if (!in_mission_mode(craft) && !craft.mission_mode_pending) co_return Result<>{};
+  auto const mode = craft.is_armed ? stop_mode(craft, on_stop)
+                                   : mode_to_arm_in(craft).or_else([&] { return stop_mode(craft, on_stop); });
+  if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
+  ModeChange const change{.custom_mode = *mode, .even_if_shown = craft.mission_mode_pending};
+  co_return co_await change_mode(connection, craft, change);
+}
+
+Task<Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft) {
+  constexpr int attempts = 3;  // a lossy link can eat up the seconds between arming and the start
+  Result<> entered;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    if (!craft.is_armed) {
+      if (auto const mode = mode_to_arm_in(craft)) {
+        ModeChange const change{.custom_mode = *mode};
+        if (auto changed = co_await change_mode(connection, craft, change); !changed) co_return changed;
+      }
+      if (auto armed = co_await arm(connection, craft); !armed) co_return armed;
+    }
+    entered = co_await enter_mission(connection, craft);
+    if (entered || craft.is_armed) break;
+  }
+  co_return entered;
+}
+
+Task<Result<>> disarm(mavlink::Connection& connection, Craft& craft) {
+  auto const command = mavlink::disarm();
+  mavlink::CommandOptions const options{};
+  co_return co_await mavlink::run_command(connection, craft.address, command, options);
+}
+
+Task<Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop) {
+  auto const mode = stop_mode(craft, on_stop);
+  if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
+  ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .tries = 10};
+  auto changed = co_await change_mode(connection, craft, change);
+  if (!changed && changed.error().kind == ErrorKind::refused) {
+    // Without a position a copter cannot stay in place, but it can always come down.
+    if (auto const land = mode_for(craft, ModeRole::land); land && land != mode) {
+      ModeChange const down{.custom_mode = *land, .even_if_shown = true, .tries = 10};
+      changed = co_await change_mode(connection, craft, down);
+    }
+  }
+  if (!changed) co_return changed;
+  // Refused when it is in the air after all: then it holds, which is what was asked for.
+  bool const stands = craft.state.landed.value.value_or(false);
+  if (can_fly(craft) && craft.is_armed && stands) (void)co_await disarm(connection, craft);
+  co_return Result<>{};
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/task.hpp"
+#include "fleet/craft.hpp"
+#include "mavlink/connection.hpp"
+
+/// What the ground does to a vehicle outside the mission itself. Each is one coroutine; each is confirmed by the
+/// vehicle's state, not by an acknowledgement alone; each failure gives the vehicle's own reason where it gave one.
+namespace lapwing::fleet {
+
+/// What a vehicle does when a mission is stopped on it.
+enum class OnStop {
+  loiter,  ///< stay in place: copter BRAKE, plane LOITER, rover HOLD
+  rtl,
+  land,
+};
+/// The word on the command line, or nothing.
+[[nodiscard]] std::optional<OnStop> on_stop_from(std::string_view word);
+
+/// Whether the vehicle's last heartbeat showed the mode in which it flies its mission.
+[[nodiscard]] bool in_mission_mode(Craft const& craft);
+/// Name of a mode of this vehicle.
+[[nodiscard]] std::string mode_name(Craft const& craft, std::uint32_t custom_mode);
+/// What the vehicle last gave as a reason, at or after `since`; its standing arming objection ("PreArm: ...")
+/// otherwise; or empty.
+[[nodiscard]] std::string given_reason(Craft const& craft, base::TimePoint since);
+/// A text in which the vehicle announced a failsafe or a fence breach in the last seconds, or empty.
+[[nodiscard]] std::string recent_failsafe(Craft const& craft, base::TimePoint now);
+
+struct ModeChange {
+  std::uint32_t custom_mode = 0;
+  bool even_if_shown =
+      false;  ///< command it although the vehicle seems to be in it: another mode may be on its way there
+  int tries = 5;
+};
+/// Commands the mode until a heartbeat shows it. Errors: refused (at once), timed_out, those of Connection::send.
+base::Task<base::Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeChange change);
+
+/// Waits until the vehicle knows where it is and, for a few seconds more, until it has no objection to arming.
+/// Error: timed_out, with what is missing.
+base::Task<base::Result<>> wait_until_ready(Craft& craft, base::Loop& loop, base::Duration patience);
+
+/// Takes the vehicle out of its mission mode; does nothing if it is not in it and not on the way there.
+base::Task<base::Result<>> leave_mission(mavlink::Connection& connection, Craft& craft, OnStop on_stop);
+
+/// Arms and begins the mission it holds within the time in which an autopilot disarms again by itself.
+base::Task<base::Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft);
+
+/// Takes back an arming. An autopilot in the air refuses it.
+base::Task<base::Result<>> disarm(mavlink::Connection& connection, Craft& craft);
+
+/// Puts the vehicle into its stop mode; a flying machine that stands on the ground is disarmed.
+base::Task<base::Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop);
+
+}  // namespace lapwing::fleet
