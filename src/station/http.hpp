@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// HTTP requests and responses as plain values, so that everything but the socket work can be tested without one.
+namespace lapwing::station {
+
+struct HttpHeader {
+  std::string name;
+  std::string value;
+};
+
+struct HttpRequest {
+  std::string method;  ///< upper case, "GET"
+  std::string path;    ///< percent-decoded, begins with '/'
+  std::string query;   ///< what follows '?', not decoded
+  std::vector<HttpHeader> headers;
+  std::string body;
+
+  /// Value of the first header of that name (in any case); empty when there is none.
+  [[nodiscard]] std::string_view header(std::string_view name) const;
+  /// Decoded value of a query parameter; nothing when it is absent or badly encoded.
+  [[nodiscard]] std::optional<std::string> parameter(std::string_view name) const;
+};
+
+struct HttpResponse {
+  int status = 200;
+  std::string content_type = "application/json";
+  std::string body = {};
+  std::vector<HttpHeader> headers = {};
+};
+
+/// An error for people and programs: `application/problem+json` (RFC 9457) with `title`, `status`, `detail` and `hint`.
+[[nodiscard]] HttpResponse problem(int status, std::string_view detail, std::string_view hint = {});
+/// The standard phrase of a status: 404 is "Not Found".
+[[nodiscard]] std::string_view reason_phrase(int status);
+
+/// `text` with every %XX replaced; nothing when an escape is cut short or is no hexadecimal number.
+[[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text);
+/// Letters of ASCII compare equal in either case, as header names and host names do.
+[[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+}  // namespace lapwing::station

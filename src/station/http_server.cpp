@@ -1,0 +1,373 @@
+#include <utility>  // before Asio: Boost 1.74 uses std::exchange without including it
+
+#include "station/http_server.hpp"
+
+#include <deque>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include "station/access.hpp"
+#include "station/static_files.hpp"
+
+namespace lapwing::station {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::redirect_error;
+using asio::use_awaitable;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+/// What a page from this server may load. Map tiles may come from anywhere the operator names, over TLS or from this
+/// machine; MapLibre runs its worker from a blob.
+constexpr std::string_view content_security_policy =
+    "default-src 'self'; script-src 'self'; style-src 'self'; worker-src 'self' blob:; child-src blob:; "
+    "img-src 'self' data: blob: https: http://127.0.0.1:* http://localhost:*; "
+    "connect-src 'self' https: http://127.0.0.1:* http://localhost:*; "
+    "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// A connection is a WebSocket stream from the start; plain HTTP is spoken on the layer below it until the upgrade.
+struct Connection {
+  explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
+  beast::tcp_stream& transport() { return stream.next_layer(); }
+
+  websocket::stream<beast::tcp_stream> stream;
+  SessionId session{};
+  std::deque<std::shared_ptr<std::string const>> queue;
+  std::size_t queued_bytes = 0;
+};
+
+int status_of(error_code error) {
+  if (error == http::error::header_limit) return 431;
+  if (error == http::error::body_limit) return 413;
+  return 400;
+}
+
+/// The plain request; nothing when its target is badly encoded.
+std::optional<HttpRequest> plain(http::request<http::string_body> request) {
+  std::string const target(request.target());
+  auto const question = target.find('?');
+  auto path = percent_decoded(std::string_view(target).substr(0, question));
+  if (!path || !path->starts_with('/')) return std::nullopt;
+  HttpRequest result;
+  result.method = std::string(request.method_string());
+  result.path = std::move(*path);
+  if (question != std::string::npos) result.query = target.substr(question + 1);
+  for (auto const& field : request) {
+    result.headers.push_back({std::string(field.name_string()), std::string(field.value())});
+  }
+  result.body = std::move(request.body());
+  return result;
+}
+
+http::response<http::string_body> wire(HttpResponse response, bool is_head, bool keep_alive) {
+  http::response<http::string_body> result;
+  result.result(static_cast<unsigned>(response.status));
+  result.set(http::field::server, "lapwing");
+  result.set("Content-Security-Policy",
+             beast::string_view(content_security_policy.data(), content_security_policy.size()));
+  result.set("X-Content-Type-Options", "nosniff");
+  result.set("Referrer-Policy", "no-referrer");
+  result.set("Cross-Origin-Opener-Policy", "same-origin");
+  result.set("Cross-Origin-Resource-Policy", "same-origin");
+  result.set(http::field::cache_control, "no-store");
+  if (!response.content_type.empty()) result.set(http::field::content_type, response.content_type);
+  for (auto const& header : response.headers) result.set(header.name, header.value);
+  result.keep_alive(keep_alive);
+  auto const length = response.body.size();
+  if (!is_head) result.body() = std::move(response.body);
+  if (response.status != 304) result.content_length(length);
+  return result;
+}
+
+}  // namespace
+
+/// Everything that connections share. They may outlive the server by a turn of the loop: `closed` tells them.
+struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
+  Core(base::Loop& loop, Options given, base::Logger logger)
+      : io(loop.io()), options(std::move(given)), log(std::move(logger)), acceptor(io) {}
+
+  asio::io_context& io;
+  Options options;
+  base::Logger log;
+  AccessPolicy policy;
+  Router router;
+  WebSocketEvents events;
+  tcp::acceptor acceptor;
+  std::set<std::shared_ptr<Connection>> connections;
+  std::map<SessionId, std::shared_ptr<Connection>> sessions;
+  std::set<std::shared_ptr<asio::steady_timer>> timers;
+  std::uint64_t last_session = 0;
+  bool closed = false;
+
+  base::Result<> listen();
+  void close();
+  HttpResponse answer(HttpRequest const& request) const;
+  asio::awaitable<void> accept_connections();
+  asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
+  asio::awaitable<bool> serve_request(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
+  asio::awaitable<void> serve_websocket(std::shared_ptr<Connection> connection,
+                                        http::request<http::string_body> request);
+  void write_next(std::shared_ptr<Connection> const& connection);
+  void repeat(std::shared_ptr<asio::steady_timer> const& timer, std::chrono::milliseconds period,
+              std::function<void()> function);
+};
+
+base::Result<> HttpServer::Core::listen() {
+  error_code error;
+  auto const address = asio::ip::make_address(options.address, error);
+  if (error) {
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("{} is no IP address to listen on.", options.address),
+                      "Give one of this machine's addresses, such as 127.0.0.1.");
+  }
+  policy = {address.is_loopback(), options.host_names, options.token};
+  if (!address.is_loopback() && options.token.empty()) {
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("Listening on {} would let the whole network command the vehicles.", options.address),
+                      "Set a token, or listen on 127.0.0.1.");
+  }
+  tcp::endpoint const endpoint(address, static_cast<unsigned short>(options.port));
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error == asio::error::address_in_use) {
+    return base::fail(base::ErrorKind::io,
+                      fmt::format("Port {} on {} is in use by another program.", options.port, options.address),
+                      "Choose another with --port N (0 picks a free one), or end the other program.");
+  }
+  if (error) {
+    return base::fail(base::ErrorKind::io,
+                      fmt::format("Cannot listen on {} port {}: {}.", options.address, options.port, error.message()),
+                      "Choose another with --port N.");
+  }
+  asio::co_spawn(io, accept_connections(), asio::detached);
+  return {};
+}
+
+void HttpServer::Core::close() {
+  closed = true;
+  router = {};
+  events = {};
+  error_code ignored;
+  acceptor.close(ignored);
+  for (auto const& timer : timers) timer->cancel();
+  for (auto const& connection : connections) connection->transport().close();
+}
+
+HttpResponse HttpServer::Core::answer(HttpRequest const& request) const {
+  if (auto refused = refusal(policy, request)) return *std::move(refused);
+  bool const is_api = request.path.starts_with("/api/");
+  if (is_api || router.knows(request.path)) return router.answer(request);
+  if (request.method != "GET" && request.method != "HEAD") {
+    auto response = problem(405, fmt::format("{} does not work on files.", request.method));
+    response.headers.push_back({"Allow", "GET, HEAD"});
+    return response;
+  }
+  return static_file(options.static_root, request);
+}
+
+asio::awaitable<void> HttpServer::Core::accept_connections() {
+  auto const self = shared_from_this();
+  while (!closed) {
+    error_code error;
+    auto socket = co_await acceptor.async_accept(redirect_error(use_awaitable, error));
+    if (closed) co_return;
+    if (error) {
+      // Out of file descriptors, or the peer went away: the former mends itself when connections end.
+      asio::steady_timer pause(io, std::chrono::milliseconds(100));
+      co_await pause.async_wait(redirect_error(use_awaitable, error));
+      continue;
+    }
+    if (connections.size() >= options.max_connections) continue;  // closes the socket
+    socket.set_option(tcp::no_delay(true), error);
+    auto connection = std::make_shared<Connection>(std::move(socket));
+    connections.insert(connection);
+    asio::co_spawn(io, serve(connection), asio::detached);
+  }
+}
+
+asio::awaitable<void> HttpServer::Core::serve(std::shared_ptr<Connection> connection) {
+  auto const self = shared_from_this();
+  beast::flat_buffer buffer;
+  while (!closed && co_await serve_request(connection, buffer)) {
+  }
+  connection->transport().close();
+  connections.erase(connection);
+}
+
+/// One request and its answer; true when another may follow on the same connection.
+asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection> connection,
+                                                      beast::flat_buffer& buffer) {
+  auto& transport = connection->transport();
+  http::request_parser<http::string_body> parser;
+  parser.header_limit(static_cast<std::uint32_t>(options.max_header_bytes));
+  parser.body_limit(options.max_body_bytes);
+  transport.expires_after(options.request_timeout);
+  error_code error;
+  co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
+  bool const is_malformed = error.category() == make_error_code(http::error::bad_method).category() &&
+                            error != http::error::end_of_stream && error != http::error::partial_message;
+  if (closed || (error && !is_malformed)) co_return false;
+
+  HttpResponse response;
+  bool keep_alive = false;
+  bool is_head = false;
+  if (error) {
+    response = problem(status_of(error), error.message());
+  } else {
+    auto request = parser.release();
+    keep_alive = request.keep_alive();
+    is_head = request.method() == http::verb::head;
+    bool const is_upgrade = websocket::is_upgrade(request);
+    auto const original = is_upgrade ? request : http::request<http::string_body>{};
+    auto const asked = plain(std::move(request));
+    if (!asked) {
+      response = problem(400, "The request's target is badly encoded.");
+    } else if (is_upgrade && asked->path == options.websocket_path) {
+      auto refused = refusal(policy, *asked);
+      if (!refused && sessions.size() >= options.max_sessions)
+        refused = problem(503, "Too many viewers are connected.");
+      if (!refused) {
+        co_await serve_websocket(connection, original);
+        co_return false;
+      }
+      response = *std::move(refused);
+    } else {
+      response = answer(*asked);
+    }
+  }
+  auto const message = wire(std::move(response), is_head, keep_alive);
+  transport.expires_after(options.request_timeout);
+  co_await http::async_write(transport, message, redirect_error(use_awaitable, error));
+  co_return !error && keep_alive;
+}
+
+asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connection> connection,
+                                                        http::request<http::string_body> request) {
+  auto& stream = connection->stream;
+  connection->transport().expires_never();  // from here on the WebSocket's own time-outs and pings count
+  auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  timeouts.idle_timeout = std::chrono::seconds(30);
+  timeouts.keep_alive_pings = true;
+  stream.set_option(timeouts);
+  stream.read_message_max(options.max_body_bytes);
+  error_code error;
+  co_await stream.async_accept(request, redirect_error(use_awaitable, error));
+  if (error || closed) co_return;
+  stream.text(true);
+  connection->session = SessionId{++last_session};
+  sessions.emplace(connection->session, connection);
+  if (events.opened) events.opened(connection->session);
+
+  beast::flat_buffer buffer;
+  while (!closed) {
+    co_await stream.async_read(buffer, redirect_error(use_awaitable, error));
+    if (error || closed) break;
+    auto const bytes = buffer.cdata();
+    if (events.received) events.received(connection->session, {static_cast<char const*>(bytes.data()), bytes.size()});
+    buffer.consume(buffer.size());
+  }
+  sessions.erase(connection->session);
+  if (events.closed) events.closed(connection->session);
+}
+
+void HttpServer::Core::write_next(std::shared_ptr<Connection> const& connection) {
+  auto const& text = *connection->queue.front();
+  connection->stream.async_write(asio::buffer(text),
+                                 [self = shared_from_this(), connection](error_code error, std::size_t) {
+                                   if (error || self->closed) return;
+                                   connection->queued_bytes -= connection->queue.front()->size();
+                                   connection->queue.pop_front();
+                                   if (!connection->queue.empty()) self->write_next(connection);
+                                 });
+}
+
+void HttpServer::Core::repeat(std::shared_ptr<asio::steady_timer> const& timer, std::chrono::milliseconds period,
+                              std::function<void()> function) {
+  timer->expires_after(period);
+  timer->async_wait([self = shared_from_this(), timer, period, function = std::move(function)](error_code error) {
+    if (error || self->closed) return;
+    function();
+    self->repeat(timer, period, function);
+  });
+}
+
+HttpServer::HttpServer(std::shared_ptr<Core> core) : core_(std::move(core)) {}
+
+HttpServer::~HttpServer() {
+  core_->close();
+}
+
+base::Result<std::unique_ptr<HttpServer>> HttpServer::open(base::Loop& loop, Options options, base::Logger log) {
+  auto core = std::make_shared<Core>(loop, std::move(options), std::move(log));
+  auto listening = core->listen();
+  if (!listening) return std::unexpected(listening.error());
+  return std::unique_ptr<HttpServer>(new HttpServer(std::move(core)));
+}
+
+int HttpServer::port() const {
+  error_code ignored;
+  return core_->acceptor.local_endpoint(ignored).port();
+}
+
+std::string HttpServer::url() const {
+  auto const& address = core_->options.address;
+  bool const is_v6 = address.find(':') != std::string::npos;
+  return is_v6 ? fmt::format("http://[{}]:{}/", address, port()) : fmt::format("http://{}:{}/", address, port());
+}
+
+void HttpServer::set_router(Router router) {
+  core_->router = std::move(router);
+}
+
+void HttpServer::set_websocket(WebSocketEvents events) {
+  core_->events = std::move(events);
+}
+
+void HttpServer::every(std::chrono::milliseconds period, std::function<void()> function) {
+  auto const timer = std::make_shared<asio::steady_timer>(core_->io);
+  core_->timers.insert(timer);
+  core_->repeat(timer, period, std::move(function));
+}
+
+bool HttpServer::send(SessionId session, std::shared_ptr<std::string const> text) {
+  auto const found = core_->sessions.find(session);
+  if (found == core_->sessions.end()) return false;
+  auto const& connection = found->second;
+  // One message may always wait, however long: else a large fleet's snapshot could never be sent.
+  if (!connection->queue.empty() && connection->queued_bytes + text->size() > core_->options.max_backlog_bytes)
+    return false;
+  connection->queued_bytes += text->size();
+  connection->queue.push_back(std::move(text));
+  if (connection->queue.size() == 1) core_->write_next(connection);
+  return true;
+}
+
+std::size_t HttpServer::backlog_bytes(SessionId session) const {
+  auto const found = core_->sessions.find(session);
+  return found == core_->sessions.end() ? 0 : found->second->queued_bytes;
+}
+
+}  // namespace lapwing::station

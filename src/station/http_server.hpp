@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/loop.hpp"
+#include "station/router.hpp"
+
+namespace lapwing::station {
+
+/// Names one WebSocket connection for as long as the server lives.
+enum class SessionId : std::uint64_t {};
+
+/// What happens on WebSocket connections. Called on the loop; `closed` comes once for every `opened`, except at the
+/// server's end.
+struct WebSocketEvents {
+  std::function<void(SessionId)> opened;
+  std::function<void(SessionId, std::string_view text)> received;
+  std::function<void(SessionId)> closed;
+};
+
+/// An HTTP and WebSocket server on the loop's thread: API routes, files of one folder, one WebSocket endpoint.
+///
+/// All of Boost Asio and Beast is behind this interface. Thread-bound to its loop, which must outlive it.
+class HttpServer {
+ public:
+  struct Options {
+    std::string address = "127.0.0.1";
+    int port = 8080;                    ///< 0 picks a free one
+    std::filesystem::path static_root;  ///< of the web app; empty: no files are served
+    std::string websocket_path = "/api/v1/ws";
+    std::string token;                    ///< API requests must carry it; must be set beyond loopback
+    std::vector<std::string> host_names;  ///< further names of this machine that browsers may use
+    std::size_t max_connections = 256;
+    std::size_t max_sessions = 64;  ///< WebSockets among them
+    std::size_t max_header_bytes = 16 * 1024;
+    std::size_t max_body_bytes = 1024 * 1024;    ///< of a request and of a WebSocket message
+    std::size_t max_backlog_bytes = 512 * 1024;  ///< unsent bytes of one WebSocket above which `send` refuses
+    std::chrono::milliseconds request_timeout{
+        15'000};  ///< for a whole request to arrive, and to keep an idle connection
+  };
+
+  /// Listens at once. Fails with a message for the operator when the port is taken or the address is not this
+  /// machine's.
+  [[nodiscard]] static base::Result<std::unique_ptr<HttpServer>> open(base::Loop& loop, Options options,
+                                                                      base::Logger log);
+  ~HttpServer();
+  HttpServer(HttpServer const&) = delete;
+  HttpServer& operator=(HttpServer const&) = delete;
+
+  [[nodiscard]] int port() const;
+  /// For people and browsers: "http://127.0.0.1:8080/".
+  [[nodiscard]] std::string url() const;
+
+  void set_router(Router router);
+  void set_websocket(WebSocketEvents events);
+  /// Calls `function` again and again in wall time, which browsers live in, however fast the loop's time runs.
+  void every(std::chrono::milliseconds period, std::function<void()> function);
+
+  /// Queues a text message. False, and nothing is queued, when the session is gone or so slow that its backlog is full:
+  /// the caller decides what to leave out, since only it knows which messages newer ones replace.
+  [[nodiscard]] bool send(SessionId session, std::shared_ptr<std::string const> text);
+  /// Bytes queued and not yet given to the network; 0 for a session that is gone.
+  [[nodiscard]] std::size_t backlog_bytes(SessionId session) const;
+
+ private:
+  struct Core;
+  explicit HttpServer(std::shared_ptr<Core> core);
+  std::shared_ptr<Core> core_;  // shared with connections, which end a turn later than the server
+};
+
+}  // namespace lapwing::station

@@ -1,0 +1,205 @@
+#include "station/http_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include "station/testing/http_client.hpp"
+
+namespace lapwing::station {
+namespace {
+
+using testing::Answer;
+using testing::Ask;
+using testing::ask;
+using testing::ask_raw;
+using testing::run_until;
+using testing::WebSocketClient;
+
+std::shared_ptr<std::string const> text(std::string bytes) {
+  return std::make_shared<std::string const>(std::move(bytes));
+}
+
+class HttpServerTest : public ::testing::Test {
+ protected:
+  void serve(HttpServer::Options options) {
+    options.port = 0;
+    auto opened = HttpServer::open(loop, std::move(options), base::Logger());
+    ASSERT_TRUE(opened) << opened.error().message;
+    server = std::move(*opened);
+    Router router;
+    router.add("GET", "/api/v1/hello",
+               [](auto const& request) { return HttpResponse{.body = "hello " + request.query}; });
+    router.add("POST", "/api/v1/echo", [](auto const& request) { return HttpResponse{.body = request.body}; });
+    server->set_router(std::move(router));
+    server->set_websocket({
+        .opened = [this](SessionId session) { sessions.push_back(session); },
+        .received =
+            [this](SessionId session, std::string_view message) {
+              (void)server->send(session, text("echo " + std::string(message)));
+            },
+        .closed = [this](SessionId) { ++closed; },
+    });
+  }
+  Answer get(std::string target) { return ask(loop, server->port(), {.target = std::move(target)}); }
+
+  base::Loop loop;
+  std::vector<SessionId> sessions;
+  int closed = 0;
+  std::unique_ptr<HttpServer> server;
+};
+
+TEST_F(HttpServerTest, AnswersRoutes) {
+  serve({});
+  auto const answer = get("/api/v1/hello?a=b");
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.body, "hello a=b");
+  EXPECT_EQ(answer.header("Content-Type"), "application/json");
+  EXPECT_EQ(get("/api/v1/none").status, 404);
+  EXPECT_EQ(get("/%zz").status, 400);
+}
+
+TEST_F(HttpServerTest, SendsSecurityHeaders) {
+  serve({});
+  auto const answer = get("/");
+  EXPECT_EQ(answer.header("X-Content-Type-Options"), "nosniff");
+  EXPECT_NE(answer.header("Content-Security-Policy").find("script-src 'self';"), std::string::npos);
+  EXPECT_NE(answer.header("Content-Security-Policy").find("frame-ancestors 'none'"), std::string::npos);
+}
+
+TEST_F(HttpServerTest, AnswersHeadWithoutABody) {
+  serve({});
+  auto const answer = ask(loop, server->port(), {.method = "HEAD", .target = "/api/v1/hello"});
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.body, "");
+  EXPECT_EQ(answer.header("Content-Length"), "6");
+}
+
+TEST_F(HttpServerTest, RefusesMethodsOnFiles) {
+  serve({});
+  auto const answer =
+      ask(loop, server->port(),
+          {.method = "POST", .target = "/index.html", .headers = {{"Content-Type", "application/json"}}});
+  EXPECT_EQ(answer.status, 405);
+  EXPECT_EQ(answer.header("Allow"), "GET, HEAD");
+}
+
+TEST_F(HttpServerTest, HoldsItsLimits) {
+  serve({.max_header_bytes = 1024, .max_body_bytes = 100});
+  HttpHeader const json{"Content-Type", "application/json"};
+  EXPECT_EQ(ask(loop, server->port(),
+                {.method = "POST", .target = "/api/v1/echo", .headers = {json}, .body = std::string(100, 'x')})
+                .status,
+            200);
+  EXPECT_EQ(ask(loop, server->port(),
+                {.method = "POST", .target = "/api/v1/echo", .headers = {json}, .body = std::string(101, 'x')})
+                .status,
+            413);
+  EXPECT_EQ(ask(loop, server->port(), {.target = "/api/v1/hello", .headers = {{"X", std::string(2000, 'x')}}}).status,
+            431);
+}
+
+TEST_F(HttpServerTest, AnswersRubbishWithAnError) {
+  serve({});
+  EXPECT_TRUE(ask_raw(loop, server->port(), "rubbish\r\n\r\n").starts_with("HTTP/1.1 400"));
+  EXPECT_EQ(get("/api/v1/hello").status, 200) << "others are still served";
+}
+
+TEST_F(HttpServerTest, EndsConnectionsThatSendNoWholeRequest) {
+  serve({.request_timeout = std::chrono::milliseconds(30)});
+  EXPECT_EQ(ask_raw(loop, server->port(), "GET / HTTP/1.1\r\nHost: local"), "");
+}
+
+TEST_F(HttpServerTest, NamesThePortThatIsInUse) {
+  serve({});
+  HttpServer::Options const options{.port = server->port()};
+  auto const second = HttpServer::open(loop, options, base::Logger());
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().kind, base::ErrorKind::io);
+  EXPECT_NE(second.error().message.find(std::to_string(server->port())), std::string::npos);
+  EXPECT_NE(second.error().hint.find("--port"), std::string::npos);
+}
+
+TEST_F(HttpServerTest, AsksForATokenBeyondLoopback) {
+  auto const open_to_all = HttpServer::open(loop, {.address = "0.0.0.0", .port = 0}, base::Logger());
+  ASSERT_FALSE(open_to_all);
+  EXPECT_NE(open_to_all.error().hint.find("token"), std::string::npos);
+  EXPECT_TRUE(HttpServer::open(loop, {.address = "0.0.0.0", .port = 0, .token = "t"}, base::Logger()));
+  EXPECT_FALSE(HttpServer::open(loop, {.address = "nonsense", .port = 0}, base::Logger()));
+}
+
+TEST_F(HttpServerTest, SaysWhereItIs) {
+  serve({});
+  EXPECT_EQ(server->url(), "http://127.0.0.1:" + std::to_string(server->port()) + "/");
+}
+
+TEST_F(HttpServerTest, TalksOverWebSockets) {
+  serve({});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws"});
+  ASSERT_TRUE(client);
+  client->send("one");
+  EXPECT_EQ(client->receive(), "echo one");
+  ASSERT_EQ(sessions.size(), 1U);
+  EXPECT_TRUE(server->send(sessions[0], text("news")));
+  EXPECT_EQ(client->receive(), "news");
+}
+
+TEST_F(HttpServerTest, RefusesForeignAndSurplusWebSockets) {
+  serve({.max_sessions = 1});
+  int const port = server->port();
+  EXPECT_FALSE(
+      WebSocketClient::open(loop, port, {.target = "/api/v1/ws", .headers = {{"Origin", "http://evil.example"}}}));
+  EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/ws", .host = "evil.example"}));
+  EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/other"}));
+  auto const first = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  EXPECT_TRUE(first);
+  EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/ws"}));
+}
+
+TEST_F(HttpServerTest, EndsWebSocketsThatSendTooMuch) {
+  serve({.max_body_bytes = 100});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws"});
+  ASSERT_TRUE(client);
+  client->send(std::string(101, 'x'));
+  EXPECT_FALSE(client->receive());
+  EXPECT_TRUE(run_until(loop, [&] { return closed == 1; }));
+}
+
+TEST_F(HttpServerTest, ForgetsClientsThatGo) {
+  serve({});
+  auto client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws"});
+  ASSERT_TRUE(client);
+  client.reset();
+  EXPECT_TRUE(run_until(loop, [&] { return closed == 1; }));
+  EXPECT_FALSE(server->send(sessions.at(0), text("nobody")));
+}
+
+TEST_F(HttpServerTest, RefusesToQueueForeverForASlowClient) {
+  serve({.max_backlog_bytes = 1000});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws"});
+  ASSERT_TRUE(client);
+  EXPECT_TRUE(server->send(sessions[0], text(std::string(5000, 'a')))) << "one long message may wait";
+  EXPECT_FALSE(server->send(sessions[0], text("b")));
+  EXPECT_EQ(server->backlog_bytes(sessions[0]), 5000U);
+  EXPECT_EQ(client->receive(), std::string(5000, 'a'));
+  EXPECT_TRUE(run_until(loop, [&] { return server->backlog_bytes(sessions[0]) == 0; }));
+  EXPECT_TRUE(server->send(sessions[0], text("b")));
+}
+
+TEST_F(HttpServerTest, RepeatsInWallTime) {
+  serve({});
+  int calls = 0;
+  server->every(std::chrono::milliseconds(1), [&] { ++calls; });
+  EXPECT_TRUE(run_until(loop, [&] { return calls >= 3; }));
+}
+
+TEST_F(HttpServerTest, EndsWithConnectionsOpen) {
+  serve({});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws"});
+  ASSERT_TRUE(client);
+  (void)server->send(sessions[0], text(std::string(1'000'000, 'x')));
+  server.reset();
+  EXPECT_FALSE(client->receive() && client->receive());
+  EXPECT_EQ(closed, 0) << "no calls into what may be half gone";
+}
+
+}  // namespace
+}  // namespace lapwing::station

@@ -1,0 +1,186 @@
+#include "station/messages.hpp"
+
+#include <chrono>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "station/json.hpp"
+
+namespace lapwing::station {
+namespace {
+
+/// ISO 8601 in UTC with milliseconds.
+std::string to_text(base::UtcTime time) {
+  auto const since_epoch = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
+  auto const seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(static_cast<std::time_t>(seconds.count())),
+                     (since_epoch - seconds).count());
+}
+
+Json to_json(ScriptDiagnostic const& d) {
+  bool const is_error = d.severity == ScriptDiagnostic::Severity::error;
+  Json json{{"severity", is_error ? "error" : "warning"},
+            {"file", d.file},
+            {"line", d.line},
+            {"column", d.column},
+            {"message", d.message}};
+  if (!d.hint.empty()) json["hint"] = d.hint;
+  return json;
+}
+
+Json to_json(std::vector<ScriptDiagnostic> const& diagnostics) {
+  Json list = Json::array();
+  for (auto const& d : diagnostics) list.push_back(to_json(d));
+  return list;
+}
+
+Json to_json(tasks::TaskView const& task) {
+  Json children = Json::array();
+  for (auto const& child : task.children) children.push_back(to_json(child));
+  Json json{{"id", task.id},
+            {"kind", task.kind},
+            {"label", task.label},
+            {"line", task.line},
+            {"state", tasks::to_string(task.state)}};
+  if (task.vehicle) json["vehicle"] = task.vehicle->text;
+  if (!task.detail.empty()) json["detail"] = task.detail;
+  if (!children.empty()) json["children"] = std::move(children);
+  return json;
+}
+
+void add_hello(Json& json, Hello const& hello) {
+  json["protocol"] = protocol_version;
+  json["version"] = hello.program_version;
+  json["server_time"] = to_text(hello.server_time);
+  json["site"] = {{"name", hello.site.name}};
+  if (hello.site.origin) json["site"]["origin"] = position_json(*hello.site.origin);
+}
+
+std::unexpected<base::Error> wrong(std::string message) {
+  return base::fail(base::ErrorKind::invalid_input, std::move(message), "See docs/reference/station-messages.md.");
+}
+
+/// Nesting is bounded by the parser's own stack use only, so refuse what no message of ours needs.
+base::Result<Json> parse_object(std::string_view text) {
+  constexpr int deepest = 8;
+  bool too_deep = false;
+  auto const check_depth = [&](int depth, Json::parse_event_t, Json&) {
+    too_deep = too_deep || depth > deepest;
+    return !too_deep;
+  };
+  auto json = Json::parse(text.begin(), text.end(), check_depth, false);
+  if (too_deep || json.is_discarded() || !json.is_object()) return wrong("This is no JSON object.");
+  return json;
+}
+
+/// A member that is text, or `fallback` when it is absent; an error when it is something else.
+base::Result<std::string> text_member(Json const& object, char const* key, std::string fallback) {
+  auto const found = object.find(key);
+  if (found == object.end()) return fallback;
+  if (!found->is_string()) return wrong(fmt::format("\"{}\" must be text.", key));
+  return found->get<std::string>();
+}
+
+base::Result<StartScript> start_script_from(Json const& object) {
+  if (!object.contains("source")) return wrong("\"source\", the script's text, is missing.");
+  auto source = text_member(object, "source", "");
+  if (!source) return std::unexpected(source.error());
+  auto name = text_member(object, "name", StartScript{}.name);
+  if (!name) return std::unexpected(name.error());
+  return StartScript{std::move(*name), std::move(*source)};
+}
+
+Json reply(std::string_view request_id, bool ok) {
+  return {{"type", "reply"}, {"id", request_id}, {"ok", ok}};
+}
+
+}  // namespace
+
+std::string hello_message(Hello const& hello) {
+  Json json{{"type", "hello"}};
+  add_hello(json, hello);
+  return dump(json);
+}
+
+std::string script_message(ScriptStatus const& status) {
+  return dump({{"type", "script"},
+               {"name", status.name},
+               {"state", to_string(status.state)},
+               {"message", status.message},
+               {"source", status.source},
+               {"diagnostics", to_json(status.diagnostics)}});
+}
+
+std::string tasks_message(std::span<tasks::TaskView const> trees) {
+  Json list = Json::array();
+  for (auto const& tree : trees) list.push_back(to_json(tree));
+  return dump({{"type", "tasks"}, {"trees", std::move(list)}});
+}
+
+std::string log_message(std::span<LogLine const> lines) {
+  Json list = Json::array();
+  for (auto const& line : lines) {
+    list.push_back({{"seq", line.sequence},
+                    {"time", to_text(line.record.utc)},
+                    {"level", base::to_string(line.record.level)},
+                    {"source", line.record.source},
+                    {"text", line.record.text}});
+  }
+  return dump({{"type", "log"}, {"lines", std::move(list)}});
+}
+
+std::string pong_message(std::string_view request_id, base::UtcTime server_time) {
+  return dump({{"type", "pong"}, {"id", request_id}, {"server_time", to_text(server_time)}});
+}
+
+std::string accepted_message(std::string_view request_id) {
+  return dump(reply(request_id, true));
+}
+
+std::string refused_message(std::string_view request_id, StartFailure const& failure) {
+  auto json = reply(request_id, false);
+  json["error"] = {{"message", failure.error.message}, {"hint", failure.error.hint}};
+  json["diagnostics"] = to_json(failure.diagnostics);
+  return dump(json);
+}
+
+std::string status_body(StationStatus const& status) {
+  Json json = Json::object();
+  add_hello(json, status.hello);
+  json["uptime_s"] = rounded(status.uptime_s, 1);
+  json["vehicles"] = status.vehicles;
+  json["viewers"] = status.viewers;
+  json["script"] = {{"name", status.script_name}, {"state", to_string(status.script)}};
+  return dump(json);
+}
+
+std::string start_failure_body(int http_status, std::string_view title, StartFailure const& failure) {
+  Json json{{"title", title}, {"status", http_status}, {"detail", failure.error.message}};
+  if (!failure.error.hint.empty()) json["hint"] = failure.error.hint;
+  json["diagnostics"] = to_json(failure.diagnostics);
+  return dump(json);
+}
+
+base::Result<ClientRequest> parse_client_request(std::string_view text) {
+  auto const object = parse_object(text);
+  if (!object) return std::unexpected(object.error());
+  auto id = text_member(*object, "id", "");
+  if (!id) return std::unexpected(id.error());
+  auto const type = text_member(*object, "type", "");
+  if (!type) return std::unexpected(type.error());
+  if (*type == "ping") return ClientRequest{std::move(*id), Ping{}};
+  if (*type == "stop_script") return ClientRequest{std::move(*id), StopScript{}};
+  if (*type != "start_script") return wrong(fmt::format("There is no request of type \"{}\".", *type));
+  auto start = start_script_from(*object);
+  if (!start) return std::unexpected(start.error());
+  return ClientRequest{std::move(*id), std::move(*start)};
+}
+
+base::Result<StartScript> parse_start_script(std::string_view body) {
+  auto const object = parse_object(body);
+  if (!object) return std::unexpected(object.error());
+  return start_script_from(*object);
+}
+
+}  // namespace lapwing::station

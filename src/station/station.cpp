@@ -1,0 +1,188 @@
+#include "station/station.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "station/openapi.hpp"
+
+namespace lapwing::station {
+namespace {
+
+std::shared_ptr<std::string const> shared(std::string text) {
+  return std::make_shared<std::string const>(std::move(text));
+}
+
+HttpResponse start_failure(StartFailure const& failure) {
+  int const status = failure.error.kind == base::ErrorKind::refused ? 409 : 422;
+  return {status, "application/problem+json", start_failure_body(status, reason_phrase(status), failure), {}};
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Station>> Station::open(base::Loop& loop, vehicle::Registry const& vehicles,
+                                                     ScriptControl& script, base::LogHub& hub, Options options) {
+  auto server = HttpServer::open(loop, options.http, base::Logger(hub, "station"));
+  if (!server) return std::unexpected(server.error());
+  return std::unique_ptr<Station>(new Station(loop, vehicles, script, hub, std::move(options), std::move(*server)));
+}
+
+Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptControl& script, base::LogHub& hub,
+                 Options options, std::unique_ptr<HttpServer> server)
+    : loop_(loop),
+      vehicles_(vehicles),
+      script_(script),
+      options_(std::move(options)),
+      log_(hub, "station"),
+      history_(std::make_shared<LogHistory>()),
+      feed_(vehicles),
+      server_(std::move(server)) {
+  hub.add_sink([weak = std::weak_ptr(history_), limit = options_.log_history](base::LogRecord const& record) {
+    auto const history = weak.lock();
+    if (!history) return;
+    history->lines.push_back({++history->last_sequence, record});
+    if (history->lines.size() > limit) history->lines.pop_front();
+  });
+  server_->set_router(make_router());
+  server_->set_websocket({
+      .opened = [this](SessionId session) { viewers_[session].is_behind = !send_all(session, whole_state()); },
+      .received = [this](SessionId session, std::string_view text) { receive(session, text); },
+      .closed = [this](SessionId session) { viewers_.erase(session); },
+  });
+  server_->every(options_.period, [this] { send_news(); });
+}
+
+// ---- to the viewers
+// ----------------------------------------------------------------------------------------------------
+
+void Station::send_news() {
+  auto const messages = news();
+  for (auto& [session, viewer] : viewers_) {
+    if (viewer.is_behind && server_->backlog_bytes(session) > 0) continue;
+    viewer.is_behind = !send_all(session, viewer.is_behind ? whole_state() : messages);
+  }
+}
+
+std::vector<Station::Message> Station::news() {
+  std::vector<Message> messages;
+  for (auto& text : feed_.news(loop_.now())) messages.push_back(shared(std::move(text)));
+  auto const add_if_changed = [&](std::string& last, std::string text) {
+    if (text == last) return;
+    last = text;
+    messages.push_back(shared(std::move(text)));
+  };
+  add_if_changed(last_script_, script_message(script_.status()));
+  add_if_changed(last_tasks_, tasks_message(script_.task_trees()));
+  auto const lines = log_after(std::exchange(last_log_, history_->last_sequence));
+  if (!lines.empty()) messages.push_back(shared(log_message(lines)));
+  return messages;
+}
+
+std::vector<Station::Message> Station::whole_state() const {
+  std::vector<Message> messages{shared(hello_message(hello()))};
+  for (auto& text : feed_.snapshot(loop_.now())) messages.push_back(shared(std::move(text)));
+  messages.push_back(shared(script_message(script_.status())));
+  messages.push_back(shared(tasks_message(script_.task_trees())));
+  messages.push_back(shared(log_message(log_after(0))));
+  return messages;
+}
+
+std::vector<LogLine> Station::log_after(std::uint64_t sequence) const {
+  auto const& lines = history_->lines;
+  auto const first = std::ranges::upper_bound(lines, sequence, {}, &LogLine::sequence);
+  return {first, lines.end()};
+}
+
+bool Station::send_all(SessionId session, std::vector<Message> const& messages) {
+  return std::ranges::all_of(messages, [&](auto const& message) { return server_->send(session, message); });
+}
+
+// ---- from the viewers
+// --------------------------------------------------------------------------------------------------
+
+void Station::receive(SessionId session, std::string_view text) {
+  auto request = parse_client_request(text);
+  if (!request) return reply(session, refused_message("", {request.error(), {}}));
+  if (std::holds_alternative<Ping>(request->what)) return reply(session, pong_message(request->id, loop_.utc_now()));
+  if (auto* const start = std::get_if<StartScript>(&request->what)) {
+    log_.info(fmt::format("start asked for by a viewer script={}", start->name));
+    auto const started = script_.start(std::move(start->name), std::move(start->source));
+    if (!started) return reply(session, refused_message(request->id, started.error()));
+  } else {
+    log_.warn("stop asked for by a viewer");
+    script_.stop();
+  }
+  reply(session, accepted_message(request->id));
+}
+
+/// A viewer that cannot take the answer sees the outcome in the whole state that it gets next.
+void Station::reply(SessionId session, std::string text) {
+  auto const viewer = viewers_.find(session);
+  if (viewer == viewers_.end()) return;
+  if (!server_->send(session, shared(std::move(text)))) viewer->second.is_behind = true;
+}
+
+// ---- HTTP
+// --------------------------------------------------------------------------------------------------------------
+
+Router Station::make_router() {
+  Router router;
+  router.add("GET", "/api/v1/status", [this](auto const&) { return get_status(); });
+  router.add("GET", "/api/v1/vehicles",
+             [this](auto const&) { return HttpResponse{.body = feed_.vehicles_message(loop_.now())}; });
+  router.add("GET", "/api/v1/script",
+             [this](auto const&) { return HttpResponse{.body = script_message(script_.status())}; });
+  router.add("POST", "/api/v1/script", [this](auto const& request) { return post_script(request); });
+  router.add("GET", "/api/v1/tasks",
+             [this](auto const&) { return HttpResponse{.body = tasks_message(script_.task_trees())}; });
+  router.add("POST", "/api/v1/stop", [this](auto const&) { return post_stop(); });
+  router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
+  router.add("GET", "/api/openapi.yaml", [](auto const&) {
+    return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};
+  });
+  return router;
+}
+
+Hello Station::hello() const {
+  return {options_.program_version, options_.site, loop_.utc_now()};
+}
+
+HttpResponse Station::get_status() const {
+  auto const script = script_.status();
+  return {.body = status_body({.hello = hello(),
+                               .script = script.state,
+                               .script_name = script.name,
+                               .vehicles = static_cast<int>(vehicles_.all().size()),
+                               .viewers = static_cast<int>(viewers_.size()),
+                               .uptime_s = base::to_seconds(loop_.now().time_since_epoch())})};
+}
+
+HttpResponse Station::post_script(HttpRequest const& request) {
+  auto asked = parse_start_script(request.body);
+  if (!asked) return problem(400, asked.error().message, asked.error().hint);
+  log_.info(fmt::format("start asked for over HTTP script={}", asked->name));
+  auto const started = script_.start(std::move(asked->name), std::move(asked->source));
+  if (!started) return start_failure(started.error());
+  return {.status = 202, .body = script_message(script_.status())};
+}
+
+HttpResponse Station::post_stop() {
+  log_.warn("stop asked for over HTTP");
+  script_.stop();
+  return {.status = 202, .body = script_message(script_.status())};
+}
+
+HttpResponse Station::get_log(HttpRequest const& request) const {
+  std::uint64_t after = 0;
+  if (auto const text = request.parameter("after")) {
+    auto const [end, error] = std::from_chars(text->data(), text->data() + text->size(), after);
+    if (error != std::errc{} || end != text->data() + text->size()) {
+      return problem(400, "\"after\" must be the sequence number of a log line.");
+    }
+  }
+  return {.body = log_message(log_after(after))};
+}
+
+}  // namespace lapwing::station

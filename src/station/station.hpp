@@ -1,0 +1,88 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/loop.hpp"
+#include "station/http_server.hpp"
+#include "station/messages.hpp"
+#include "station/script_control.hpp"
+#include "station/vehicle_feed.hpp"
+#include "vehicle/registry.hpp"
+
+namespace lapwing::station {
+
+/// The ground station's face: joins vehicles, script and log to browsers and programs. Owns none of them.
+///
+/// Several times a second it sends every viewer what changed. A viewer too slow to take it misses messages and is sent
+/// the whole state once it has caught up, so that a bad network shows old data for a while but never wrong data.
+class Station {
+ public:
+  struct Options {
+    HttpServer::Options http = {};
+    std::chrono::milliseconds period{200};  ///< between two messages about vehicles: 5 Hz, in wall time
+    std::size_t log_history = 500;          ///< lines kept for viewers that connect later
+    std::string program_version = "0";
+    Site site = {};
+  };
+
+  /// Listens at once. `vehicles`, `script` and `loop` must outlive the station; `hub` may go first or last.
+  [[nodiscard]] static base::Result<std::unique_ptr<Station>> open(base::Loop& loop, vehicle::Registry const& vehicles,
+                                                                   ScriptControl& script, base::LogHub& hub,
+                                                                   Options options);
+
+  [[nodiscard]] std::string url() const { return server_->url(); }
+  [[nodiscard]] int port() const { return server_->port(); }
+  /// Browsers and programs connected by WebSocket.
+  [[nodiscard]] std::size_t viewers() const { return viewers_.size(); }
+
+  /// The HTTP API, for comparison with its description.
+  [[nodiscard]] Router make_router();
+
+ private:
+  struct LogHistory {
+    std::deque<LogLine> lines;
+    std::uint64_t last_sequence = 0;
+  };
+  using Message = std::shared_ptr<std::string const>;
+
+  Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptControl& script, base::LogHub& hub,
+          Options options, std::unique_ptr<HttpServer> server);
+
+  void send_news();
+  [[nodiscard]] std::vector<Message> news();
+  [[nodiscard]] std::vector<Message> whole_state() const;
+  [[nodiscard]] std::vector<LogLine> log_after(std::uint64_t sequence) const;
+  bool send_all(SessionId session, std::vector<Message> const& messages);
+  void receive(SessionId session, std::string_view text);
+  void reply(SessionId session, std::string text);
+
+  [[nodiscard]] Hello hello() const;
+  [[nodiscard]] HttpResponse get_status() const;
+  [[nodiscard]] HttpResponse post_script(HttpRequest const& request);
+  [[nodiscard]] HttpResponse post_stop();
+  [[nodiscard]] HttpResponse get_log(HttpRequest const& request) const;
+
+  base::Loop& loop_;
+  vehicle::Registry const& vehicles_;
+  ScriptControl& script_;
+  Options options_;
+  base::Logger log_;
+  std::shared_ptr<LogHistory> history_;  // shared with the hub's sink, which may outlive the station
+  VehicleFeed feed_;
+  std::string last_script_;
+  std::string last_tasks_;
+  std::uint64_t last_log_ = 0;
+  struct Viewer {
+    bool is_behind = false;  ///< missed something: gets the whole state when its backlog is gone
+  };
+  std::map<SessionId, Viewer> viewers_;
+  std::unique_ptr<HttpServer> server_;  // last: ends first, so that no call-back finds half a station
+};
+
+}  // namespace lapwing::station

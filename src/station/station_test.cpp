@@ -1,0 +1,262 @@
+#include "station/station.hpp"
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "station/openapi.hpp"
+#include "station/testing/http_client.hpp"
+
+namespace lapwing::station {
+namespace {
+
+using nlohmann::json;
+using testing::Answer;
+using testing::ask;
+using testing::run_until;
+using testing::WebSocketClient;
+
+/// Remembers what it was asked; runs nothing.
+class ScriptedControl : public ScriptControl {
+ public:
+  ScriptStatus status() const override { return current; }
+  std::vector<tasks::TaskView> task_trees() const override { return trees; }
+  std::expected<void, StartFailure> start(std::string name, std::string source) override {
+    if (current.state == ScriptState::running) {
+      return std::unexpected(StartFailure{{base::ErrorKind::refused, "A script runs already.", "Stop it first."}, {}});
+    }
+    if (source.empty()) {
+      return std::unexpected(StartFailure{{base::ErrorKind::invalid_input, "The script does not check.", ""},
+                                          {{ScriptDiagnostic::Severity::error, name, 1, 1, "nothing here", ""}}});
+    }
+    current = {std::move(name), std::move(source), ScriptState::running, "", {}};
+    return {};
+  }
+  void stop() override {
+    ++stops;
+    if (current.state == ScriptState::running) current.state = ScriptState::stopping;
+  }
+
+  ScriptStatus current;
+  std::vector<tasks::TaskView> trees;
+  int stops = 0;
+};
+
+class StationTest : public ::testing::Test {
+ protected:
+  void open(Station::Options options = {}) {
+    options.http.port = 0;
+    options.period = std::chrono::milliseconds(5);
+    options.program_version = "1.2.3";
+    auto opened = Station::open(loop, registry, control, hub, std::move(options));
+    ASSERT_TRUE(opened) << opened.error().message;
+    station = std::move(*opened);
+  }
+  Answer get(std::string target) { return ask(loop, station->port(), {.target = std::move(target)}); }
+  Answer post(std::string target, std::string body) {
+    return ask(loop, station->port(),
+               {.method = "POST",
+                .target = std::move(target),
+                .headers = {{"Content-Type", "application/json"}},
+                .body = std::move(body)});
+  }
+  std::unique_ptr<WebSocketClient> watch() {
+    return WebSocketClient::open(loop, station->port(), {.target = "/api/v1/ws"});
+  }
+  /// The next message of that type, skipping others; null when none comes.
+  static json next(WebSocketClient& client, std::string_view type) {
+    while (auto const text = client.receive()) {
+      auto message = json::parse(*text);
+      if (message["type"] == type) return message;
+    }
+    return {};
+  }
+  void move_vehicle(double alt_m) {
+    registry.edit({"1"}).relative_alt_m.set(alt_m, loop.now());
+    registry.touch({"1"});
+  }
+
+  base::Loop loop;
+  vehicle::Registry registry{loop};
+  ScriptedControl control;
+  base::LogHub hub;
+  std::unique_ptr<Station> station;
+};
+
+TEST_F(StationTest, TellsItsStatus) {
+  open();
+  move_vehicle(1);
+  auto const status = json::parse(get("/api/v1/status").body);
+  EXPECT_EQ(status["version"], "1.2.3");
+  EXPECT_EQ(status["protocol"], 1);
+  EXPECT_EQ(status["vehicles"], 1);
+  EXPECT_EQ(status["script"]["state"], "idle");
+}
+
+TEST_F(StationTest, ListsVehicles) {
+  open();
+  move_vehicle(12);
+  EXPECT_EQ(json::parse(get("/api/v1/vehicles").body)["vehicles"][0]["relative_alt_m"], 12.0);
+}
+
+TEST_F(StationTest, StartsAndStopsAScriptOverHttp) {
+  open();
+  auto const started = post("/api/v1/script", R"({"name":"a.dolphin","source":"text"})");
+  EXPECT_EQ(started.status, 202);
+  EXPECT_EQ(json::parse(started.body)["state"], "running");
+  EXPECT_EQ(json::parse(get("/api/v1/script").body)["source"], "text");
+  auto const again = post("/api/v1/script", R"({"source":"text"})");
+  EXPECT_EQ(again.status, 409);
+  EXPECT_EQ(json::parse(again.body)["hint"], "Stop it first.");
+  EXPECT_EQ(post("/api/v1/stop", "{}").status, 202);
+  EXPECT_EQ(control.stops, 1);
+  EXPECT_EQ(control.current.state, ScriptState::stopping);
+}
+
+TEST_F(StationTest, RefusesScriptsThatDoNotCheckWithDiagnostics) {
+  open();
+  auto const answer = post("/api/v1/script", R"({"name":"a","source":""})");
+  EXPECT_EQ(answer.status, 422);
+  EXPECT_EQ(json::parse(answer.body)["diagnostics"][0]["message"], "nothing here");
+  EXPECT_EQ(post("/api/v1/script", "no json").status, 400);
+}
+
+TEST_F(StationTest, TakesNoFormPosts) {
+  open();
+  auto const answer = ask(loop, station->port(), {.method = "POST", .target = "/api/v1/stop", .body = "x=1"});
+  EXPECT_EQ(answer.status, 415);
+  EXPECT_EQ(control.stops, 0);
+}
+
+TEST_F(StationTest, KeepsALimitedLog) {
+  open({.log_history = 2});
+  base::Logger const log(hub, "test");
+  for (auto const* line : {"one", "two", "three"}) log.info(line);
+  auto const lines = json::parse(get("/api/v1/log").body)["lines"];
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0]["text"], "two");
+  EXPECT_EQ(json::parse(get("/api/v1/log?after=2").body)["lines"].size(), 1U);
+  EXPECT_EQ(get("/api/v1/log?after=x").status, 400);
+}
+
+TEST_F(StationTest, GivesAViewerTheWholeState) {
+  open();
+  move_vehicle(5);
+  base::Logger(hub, "test").info("before");
+  control.current.name = "a.dolphin";
+  auto const viewer = watch();
+  ASSERT_TRUE(viewer);
+  std::vector<std::string> types;
+  for (int i = 0; i < 6; ++i) types.push_back(json::parse(*viewer->receive())["type"]);
+  EXPECT_EQ(types, (std::vector<std::string>{"hello", "vehicles", "plan", "script", "tasks", "log"}));
+}
+
+TEST_F(StationTest, SendsViewersTheNews) {
+  open();
+  auto const viewer = watch();
+  ASSERT_TRUE(viewer);
+  EXPECT_EQ(next(*viewer, "vehicles")["full"], true);
+  move_vehicle(7);
+  auto const news = next(*viewer, "vehicles");
+  EXPECT_EQ(news["full"], false);
+  EXPECT_EQ(news["vehicles"][0]["relative_alt_m"], 7.0);
+  control.trees = {{1, "mission", "m", 3, tasks::TaskState::running, {}, "", {}}};
+  while (next(*viewer, "tasks")["trees"].empty()) {
+  }
+  base::Logger(hub, "test").warn("later");
+  EXPECT_EQ(next(*viewer, "log")["lines"].back()["text"], "later");
+}
+
+TEST_F(StationTest, ObeysViewers) {
+  open();
+  auto const viewer = watch();
+  ASSERT_TRUE(viewer);
+  viewer->send(R"({"type":"ping","id":"p"})");
+  EXPECT_EQ(next(*viewer, "pong")["id"], "p");
+  viewer->send(R"({"type":"start_script","id":"s","source":"text"})");
+  EXPECT_EQ(next(*viewer, "reply"), json({{"type", "reply"}, {"id", "s"}, {"ok", true}}));
+  viewer->send(R"({"type":"start_script","id":"t","source":"text"})");
+  EXPECT_EQ(next(*viewer, "reply")["error"]["message"], "A script runs already.");
+  viewer->send(R"({"type":"stop_script","id":"u"})");
+  EXPECT_EQ(next(*viewer, "reply")["ok"], true);
+  EXPECT_EQ(control.stops, 1);
+  viewer->send("rubbish");
+  EXPECT_EQ(next(*viewer, "reply")["ok"], false);
+}
+
+TEST_F(StationTest, BringsASlowViewerUpToDate) {
+  open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
+  auto const viewer = watch();
+  ASSERT_TRUE(viewer);
+  // Wait for one ordinary message, so that reading has begun, then stop reading while far more than the buffers hold is
+  // sent.
+  (void)next(*viewer, "log");
+  viewer->pause();
+  control.current.source = std::string(8'000'000, 'x');
+  for (int i = 0; i < 20; ++i) {
+    move_vehicle(i);
+    control.current.message = fmt::format("{}", i);
+    (void)run_until(loop, [&, turns = 0]() mutable { return ++turns > 10; });
+  }
+  control.current.source = "short";
+  move_vehicle(99);
+  viewer->resume();
+  json vehicles;
+  do {
+    vehicles = next(*viewer, "vehicles");
+    ASSERT_FALSE(vehicles.is_null());
+  } while (!vehicles["full"]);
+  EXPECT_EQ(vehicles["vehicles"][0]["relative_alt_m"], 99.0);
+  EXPECT_EQ(next(*viewer, "script")["source"], "short");
+}
+
+TEST_F(StationTest, NoticesViewersThatGo) {
+  open();
+  auto viewer = watch();
+  ASSERT_TRUE(viewer);
+  EXPECT_EQ(station->viewers(), 1U);
+  viewer.reset();
+  EXPECT_TRUE(run_until(loop, [&] { return station->viewers() == 0; }));
+}
+
+TEST_F(StationTest, MayEndBeforeTheLog) {
+  open();
+  station.reset();
+  base::Logger(hub, "test").info("nobody listens");
+}
+
+TEST_F(StationTest, ServesItsDescription) {
+  open();
+  auto const answer = get("/api/openapi.yaml");
+  EXPECT_EQ(answer.header("Content-Type"), "application/yaml");
+  EXPECT_TRUE(answer.body.starts_with("openapi: 3.1.0"));
+}
+
+TEST_F(StationTest, IsDescribedByTheOpenApiFile) {
+  open();
+  // The file's own shape makes a YAML parser unnecessary: paths are indented by two, methods by four.
+  std::set<std::string> described;
+  std::istringstream lines{std::string(openapi_description())};
+  std::string path;
+  bool in_paths = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(' ')) in_paths = line == "paths:";
+    if (!in_paths) continue;
+    if (line.starts_with("  /")) path = line.substr(2, line.size() - 3);
+    for (std::string_view const method : {"get", "post", "put", "delete", "patch"}) {
+      if (line == fmt::format("    {}:", method)) described.insert(fmt::format("{} {}", method, path));
+    }
+  }
+  std::set<std::string> served;
+  for (auto const& route : station->make_router().routes()) {
+    served.insert(fmt::format("{} {}", route.method == "GET" ? "get" : "post", route.path));
+  }
+  EXPECT_EQ(described, served);
+}
+
+}  // namespace
+}  // namespace lapwing::station

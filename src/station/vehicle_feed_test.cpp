@@ -1,0 +1,120 @@
+#include "station/vehicle_feed.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace lapwing::station {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+class VehicleFeedTest : public ::testing::Test {
+ protected:
+  static base::TimePoint at(base::Duration since_start) { return base::TimePoint(since_start); }
+  vehicle::VehicleState& edit(std::string const& id) {
+    vehicle::VehicleId const name{id};
+    registry.touch(name);
+    return registry.edit(name);
+  }
+  json only_news(base::Duration time) {
+    auto const messages = feed.news(at(time));
+    EXPECT_EQ(messages.size(), 1U);
+    return messages.empty() ? json() : json::parse(messages[0]);
+  }
+
+  base::Loop loop{{.unpaced = true}};
+  vehicle::Registry registry{loop};
+  VehicleFeed feed{registry};
+};
+
+TEST_F(VehicleFeedTest, TellsEverythingKnownWithItsAge) {
+  auto& state = edit("7");
+  state.name = "copter 7";
+  state.family = vehicle::Family::copter;
+  state.heartbeat_heard = at(9500ms);
+  state.mode.set("AUTO", at(9500ms));
+  state.position.set(geo::Wgs84::from_degrees(52.123456789, 13.5, 100.126), at(9900ms));
+  state.heading_rad.set(std::numbers::pi, at(10s));
+  state.battery.set({.remaining = 0.5, .voltage_v = 12.3456, .current_a = {}}, at(8s));
+  auto const message = json::parse(feed.vehicles_message(at(10s)));
+  EXPECT_EQ(message["type"], "vehicles");
+  EXPECT_EQ(message["full"], true);
+  EXPECT_EQ(message["time_s"], 10.0);
+  auto const& vehicle = message["vehicles"].at(0);
+  EXPECT_EQ(vehicle["id"], "7");
+  EXPECT_EQ(vehicle["family"], "copter");
+  EXPECT_EQ(vehicle["mode"], "AUTO");
+  EXPECT_EQ(vehicle["position"], json({{"lat_deg", 52.1234568}, {"lon_deg", 13.5}, {"alt_m", 100.13}}));
+  EXPECT_EQ(vehicle["heading_rad"], 3.142);
+  EXPECT_EQ(vehicle["battery"], json({{"remaining", 0.5}, {"voltage_v", 12.35}}));
+  EXPECT_EQ(vehicle["age_s"],
+            json({{"battery", 2.0}, {"heading_rad", 0.0}, {"heartbeat", 0.5}, {"mode", 0.5}, {"position", 0.1}}));
+}
+
+TEST_F(VehicleFeedTest, LeavesOutWhatWasNeverHeard) {
+  edit("1");
+  auto const vehicle = json::parse(feed.vehicles_message(at(1s)))["vehicles"].at(0);
+  for (auto const* key : {"mode", "armed", "position", "battery", "texts"}) EXPECT_FALSE(vehicle.contains(key)) << key;
+}
+
+TEST_F(VehicleFeedTest, SendsOnlyWhatChanged) {
+  auto& state = edit("1");
+  state.armed.set(true, at(1s));
+  state.relative_alt_m.set(10.0, at(1s));
+  EXPECT_EQ(only_news(1s)["vehicles"].at(0)["armed"], true);
+  EXPECT_TRUE(feed.news(at(2s)).empty());
+
+  edit("1").relative_alt_m.set(11.0, at(2s));
+  EXPECT_EQ(only_news(2500ms)["vehicles"],
+            json::array({{{"id", "1"}, {"relative_alt_m", 11.0}, {"age_s", {{"relative_alt_m", 0.5}}}}}));
+}
+
+TEST_F(VehicleFeedTest, SendsTheAgeAloneOfAValueHeardAgain) {
+  edit("1").armed.set(true, at(1s));
+  (void)feed.news(at(1s));
+  edit("1").armed.set(true, at(3s));
+  EXPECT_EQ(only_news(3s)["vehicles"], json::array({{{"id", "1"}, {"age_s", {{"armed", 0.0}}}}}));
+}
+
+TEST_F(VehicleFeedTest, IsSilentWhenATouchChangedNothing) {
+  edit("1");
+  (void)feed.news(at(1s));
+  edit("1");
+  EXPECT_TRUE(feed.news(at(2s)).empty());
+}
+
+TEST_F(VehicleFeedTest, SendsPlansWhenTheyChange) {
+  edit("1").planned_path = {geo::Wgs84::from_degrees(1, 2, 3)};
+  auto const messages = feed.news(at(1s));
+  ASSERT_EQ(messages.size(), 2U);
+  EXPECT_EQ(
+      json::parse(messages[1]),
+      json({{"type", "plan"}, {"vehicle", "1"}, {"path", {{{"lat_deg", 1.0}, {"lon_deg", 2.0}, {"alt_m", 3.0}}}}}));
+  edit("1").planned_path.clear();
+  EXPECT_EQ(only_news(2s)["path"], json::array());
+}
+
+TEST_F(VehicleFeedTest, GivesNewcomersVehiclesAndPlans) {
+  edit("1");
+  edit("2").planned_path = {geo::Wgs84::from_degrees(1, 2, 3)};
+  (void)feed.news(at(1s));
+  auto const messages = feed.snapshot(at(2s));
+  ASSERT_EQ(messages.size(), 3U);
+  EXPECT_EQ(json::parse(messages[0])["vehicles"].size(), 2U);
+  EXPECT_EQ(json::parse(messages[2])["path"].size(), 1U);
+}
+
+TEST_F(VehicleFeedTest, SurvivesNumbersAndTextsThatAreNone) {
+  auto& state = edit("1");
+  state.relative_alt_m.set(std::numeric_limits<double>::quiet_NaN(), at(1s));
+  state.recent_texts = {{.severity = 3, .text = "bad \xff byte", .heard = at(1s)}};
+  auto const vehicle = json::parse(feed.vehicles_message(at(1s)))["vehicles"].at(0);
+  EXPECT_TRUE(vehicle["relative_alt_m"].is_null());
+  EXPECT_EQ(vehicle["texts"].at(0), json({{"severity", 3}, {"text", "bad \xEF\xBF\xBD byte"}}));
+}
+
+}  // namespace
+}  // namespace lapwing::station
