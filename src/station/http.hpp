@@ -14,11 +14,11 @@ struct HttpHeader {
 };
 
 struct HttpRequest {
-  std::string method;  ///< upper case, "GET"
-  std::string path;    ///< percent-decoded, begins with '/'
-  std::string query;   ///< what follows '?', not decoded
-  std::vector<HttpHeader> headers;
-  std::string body;
+  std::string method = {};  ///< upper case, "GET"
+  std::string path = {};    ///< percent-decoded, begins with '/'
+  std::string query = {};   ///< what follows '?', not decoded
+  std::vector<HttpHeader> headers = {};
+  std::string body = {};
 
   /// Value of the first header of that name (in any case); empty when there is none.
   [[nodiscard]] std::string_view header(std::string_view name) const;

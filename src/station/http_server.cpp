@@ -1,3 +1,8 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// g++ 12 takes the frame allocator of Asio's coroutines, inlined by half, for a mismatch.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+
 #include <utility>  // before Asio: Boost 1.74 uses std::exchange without including it
 
 #include "station/http_server.hpp"

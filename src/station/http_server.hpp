@@ -34,11 +34,11 @@ class HttpServer {
  public:
   struct Options {
     std::string address = "127.0.0.1";
-    int port = 8080;                    ///< 0 picks a free one
-    std::filesystem::path static_root;  ///< of the web app; empty: no files are served
+    int port = 8080;                         ///< 0 picks a free one
+    std::filesystem::path static_root = {};  ///< of the web app; empty: no files are served
     std::string websocket_path = "/api/v1/ws";
-    std::string token;                    ///< API requests must carry it; must be set beyond loopback
-    std::vector<std::string> host_names;  ///< further names of this machine that browsers may use
+    std::string token = {};                    ///< API requests must carry it; must be set beyond loopback
+    std::vector<std::string> host_names = {};  ///< further names of this machine that browsers may use
     std::size_t max_connections = 256;
     std::size_t max_sessions = 64;  ///< WebSockets among them
     std::size_t max_header_bytes = 16 * 1024;

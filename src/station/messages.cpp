@@ -18,20 +18,20 @@ std::string to_text(base::UtcTime time) {
                      (since_epoch - seconds).count());
 }
 
-Json to_json(ScriptDiagnostic const& d) {
-  bool const is_error = d.severity == ScriptDiagnostic::Severity::error;
-  Json json{{"severity", is_error ? "error" : "warning"},
-            {"file", d.file},
-            {"line", d.line},
-            {"column", d.column},
-            {"message", d.message}};
-  if (!d.hint.empty()) json["hint"] = d.hint;
+Json to_json(std::vector<base::DiagnosticRecord> const& records);
+
+Json to_json(base::DiagnosticRecord const& record) {
+  Json json{{"severity", record.severity},   {"file", record.file},         {"line", record.begin.line},
+            {"column", record.begin.column}, {"end_line", record.end.line}, {"end_column", record.end.column},
+            {"message", record.message}};
+  if (!record.hint.empty()) json["hint"] = record.hint;
+  if (!record.notes.empty()) json["notes"] = to_json(record.notes);
   return json;
 }
 
-Json to_json(std::vector<ScriptDiagnostic> const& diagnostics) {
+Json to_json(std::vector<base::DiagnosticRecord> const& records) {
   Json list = Json::array();
-  for (auto const& d : diagnostics) list.push_back(to_json(d));
+  for (auto const& record : records) list.push_back(to_json(record));
   return list;
 }
 

@@ -16,17 +16,11 @@ TEST(Messages, SayHello) {
 }
 
 TEST(Messages, DescribeTheScript) {
-  ScriptStatus const status{
-      "survey.dolphin",
-      "pick { }",
-      ScriptState::failed,
-      "does not check",
-      {{ScriptDiagnostic::Severity::error, "survey.dolphin", 1, 6, "expected a name", "write pick(...)"}}};
-  EXPECT_EQ(json::parse(script_message(status)), json::parse(R"({"type":"script","name":"survey.dolphin","state":"failed",
-    "message":"does not check","source":"pick { }","diagnostics":[{"severity":"error","file":"survey.dolphin","line":1,
-    "column":6,"message":"expected a name","hint":"write pick(...)"
-}]
-})"));
+  base::DiagnosticRecord const record{"a.dolphin", {1, 6}, {1, 7}, "error", "expected a name", "name it", {}};
+  ScriptStatus const status{"a.dolphin", "pick { }", ScriptState::failed, "does not check", {record}};
+  EXPECT_EQ(json::parse(script_message(status)), json::parse(R"({"type":"script","name":"a.dolphin","state":"failed",
+    "message":"does not check","source":"pick { }","diagnostics":[{"severity":"error","file":"a.dolphin","line":1,
+    "column":6,"end_line":1,"end_column":7,"message":"expected a name","hint":"name it"}]})"));
 }
 
 TEST(Messages, DescribeTaskTrees) {
@@ -88,12 +82,14 @@ TEST(Messages, ReadTheBodyThatStartsAScript) {
 }
 
 TEST(Messages, ListDiagnosticsOfAFailedStart) {
-  StartFailure const failure{{base::ErrorKind::invalid_input, "2 mistakes", ""},
-                             {{ScriptDiagnostic::Severity::error, "f", 1, 2, "first", ""},
-                              {ScriptDiagnostic::Severity::warning, "f", 3, 4, "second", ""}}};
+  base::DiagnosticRecord const note{"f", {5, 6}, {5, 7}, "note", "first defined here", "", {}};
+  StartFailure const failure{
+      {base::ErrorKind::invalid_input, "2 mistakes", ""},
+      {{"f", {1, 2}, {1, 3}, "error", "first", "", {note}}, {"f", {3, 4}, {3, 5}, "warning", "second", "", {}}}};
   auto const body = json::parse(start_failure_body(422, "Unprocessable Content", failure));
   EXPECT_EQ(body["status"], 422);
   EXPECT_EQ(body["diagnostics"].size(), 2U);
+  EXPECT_EQ(body["diagnostics"][0]["notes"][0]["line"], 5);
   EXPECT_EQ(body["diagnostics"][1]["severity"], "warning");
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.hpp"
 #include "base/error.hpp"
 #include "tasks/task_view.hpp"
 
@@ -13,30 +14,19 @@ namespace lapwing::station {
 enum class ScriptState { idle, running, stopping, done, failed };
 [[nodiscard]] std::string_view to_string(ScriptState state);
 
-/// One remark of the checker about a script's text.
-struct ScriptDiagnostic {
-  enum class Severity { error, warning };
-  Severity severity = Severity::error;
-  std::string file;
-  int line = 0;    ///< from 1
-  int column = 0;  ///< from 1, in characters
-  std::string message;
-  std::string hint;  ///< what to do about it; may be empty
-};
-
 /// The station's one script as an operator sees it.
 struct ScriptStatus {
   std::string name;  ///< file name, or what the starter called it
   std::string source;
   ScriptState state = ScriptState::idle;
-  std::string message;                        ///< why it failed, or what it waits for; may be empty
-  std::vector<ScriptDiagnostic> diagnostics;  ///< of the last check, warnings included
+  std::string message;                              ///< why it failed, or what it waits for; may be empty
+  std::vector<base::DiagnosticRecord> diagnostics;  ///< of the last check, warnings included
 };
 
 /// Why a script did not start. `refused`: another one runs; `invalid_input`: it does not check, see the diagnostics.
 struct StartFailure {
   base::Error error;
-  std::vector<ScriptDiagnostic> diagnostics;
+  std::vector<base::DiagnosticRecord> diagnostics;
 };
 
 /// What the station needs of a language engine: start, stop, look. `apps` adapts the engine to it.

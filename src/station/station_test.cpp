@@ -31,7 +31,7 @@ class ScriptedControl : public ScriptControl {
     }
     if (source.empty()) {
       return std::unexpected(StartFailure{{base::ErrorKind::invalid_input, "The script does not check.", ""},
-                                          {{ScriptDiagnostic::Severity::error, name, 1, 1, "nothing here", ""}}});
+                                          {{name, {1, 1}, {1, 1}, "error", "nothing here", "", {}}}});
     }
     current = {std::move(name), std::move(source), ScriptState::running, "", {}};
     return {};
@@ -150,9 +150,9 @@ TEST_F(StationTest, GivesAViewerTheWholeState) {
   control.current.name = "a.dolphin";
   auto const viewer = watch();
   ASSERT_TRUE(viewer);
-  std::vector<std::string> types;
-  for (int i = 0; i < 6; ++i) types.push_back(json::parse(*viewer->receive())["type"]);
-  EXPECT_EQ(types, (std::vector<std::string>{"hello", "vehicles", "plan", "script", "tasks", "log"}));
+  std::string types;
+  for (int i = 0; i < 6; ++i) types += json::parse(*viewer->receive())["type"].get<std::string>() + " ";
+  EXPECT_EQ(types, "hello vehicles plan script tasks log ");
 }
 
 TEST_F(StationTest, SendsViewersTheNews) {
@@ -168,7 +168,7 @@ TEST_F(StationTest, SendsViewersTheNews) {
   while (next(*viewer, "tasks")["trees"].empty()) {
   }
   base::Logger(hub, "test").warn("later");
-  EXPECT_EQ(next(*viewer, "log")["lines"].back()["text"], "later");
+  EXPECT_EQ(next(*viewer, "log")["lines"][0]["text"], "later");
 }
 
 TEST_F(StationTest, ObeysViewers) {
@@ -192,12 +192,12 @@ TEST_F(StationTest, BringsASlowViewerUpToDate) {
   open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
   auto const viewer = watch();
   ASSERT_TRUE(viewer);
-  // Wait for one ordinary message, so that reading has begun, then stop reading while far more than the buffers hold is
-  // sent.
   (void)next(*viewer, "log");
+  // Each message is so long that the system's buffers hold only a few of them.
   viewer->pause();
-  control.current.source = std::string(8'000'000, 'x');
-  for (int i = 0; i < 20; ++i) {
+  constexpr int sent = 8;
+  control.current.source = std::string(3'000'000, 'x');
+  for (int i = 0; i < sent; ++i) {
     move_vehicle(i);
     control.current.message = fmt::format("{}", i);
     (void)run_until(loop, [&, turns = 0]() mutable { return ++turns > 10; });
@@ -205,12 +205,16 @@ TEST_F(StationTest, BringsASlowViewerUpToDate) {
   control.current.source = "short";
   move_vehicle(99);
   viewer->resume();
-  json vehicles;
-  do {
-    vehicles = next(*viewer, "vehicles");
-    ASSERT_FALSE(vehicles.is_null());
-  } while (!vehicles["full"]);
-  EXPECT_EQ(vehicles["vehicles"][0]["relative_alt_m"], 99.0);
+  int full = 0;
+  double alt_m = 0;
+  while (alt_m != 99.0) {
+    auto const message = next(*viewer, "vehicles");
+    ASSERT_FALSE(message.is_null());
+    if (message["full"]) ++full;
+    alt_m = message["vehicles"].at(0)["relative_alt_m"];
+  }
+  EXPECT_GE(full, 1) << "what was missed comes as a whole";
+  EXPECT_LT(full, sent);
   EXPECT_EQ(next(*viewer, "script")["source"], "short");
 }
 
@@ -252,7 +256,8 @@ TEST_F(StationTest, IsDescribedByTheOpenApiFile) {
     }
   }
   std::set<std::string> served;
-  for (auto const& route : station->make_router().routes()) {
+  auto const router = station->make_router();
+  for (auto const& route : router.routes()) {
     served.insert(fmt::format("{} {}", route.method == "GET" ? "get" : "post", route.path));
   }
   EXPECT_EQ(described, served);
