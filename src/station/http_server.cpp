@@ -357,16 +357,18 @@ void HttpServer::every(std::chrono::milliseconds period, std::function<void()> f
   core_->repeat(timer, period, std::move(function));
 }
 
-bool HttpServer::send(SessionId session, std::shared_ptr<std::string const> text) {
+bool HttpServer::send(SessionId session, std::span<Message const> messages) {
   auto const found = core_->sessions.find(session);
   if (found == core_->sessions.end()) return false;
   auto const& connection = found->second;
-  // One message may always wait, however long: else a large fleet's snapshot could never be sent.
-  if (!connection->queue.empty() && connection->queued_bytes + text->size() > core_->options.max_backlog_bytes)
-    return false;
-  connection->queued_bytes += text->size();
-  connection->queue.push_back(std::move(text));
-  if (connection->queue.size() == 1) core_->write_next(connection);
+  auto& queue = connection->queue;
+  std::size_t bytes = connection->queued_bytes;
+  for (auto const& message : messages) bytes += message->size();
+  if (!queue.empty() && bytes > core_->options.max_backlog_bytes) return false;
+  bool const is_idle = queue.empty();
+  connection->queued_bytes = bytes;
+  queue.insert(queue.end(), messages.begin(), messages.end());
+  if (is_idle && !queue.empty()) core_->write_next(connection);
   return true;
 }
 

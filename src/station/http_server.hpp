@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,9 +66,11 @@ class HttpServer {
   /// Calls `function` again and again in wall time, which browsers live in, however fast the loop's time runs.
   void every(std::chrono::milliseconds period, std::function<void()> function);
 
-  /// Queues a text message. False, and nothing is queued, when the session is gone or so slow that its backlog is full:
-  /// the caller decides what to leave out, since only it knows which messages newer ones replace.
-  [[nodiscard]] bool send(SessionId session, std::shared_ptr<std::string const> text);
+  using Message = std::shared_ptr<std::string const>;
+  /// Queues text messages, all or none. False when the session is gone or so slow that its backlog would be too long:
+  /// the caller decides what to leave out, since only it knows which messages newer ones replace. An empty backlog
+  /// takes any.
+  [[nodiscard]] bool send(SessionId session, std::span<Message const> messages);
   /// Bytes queued and not yet given to the network; 0 for a session that is gone.
   [[nodiscard]] std::size_t backlog_bytes(SessionId session) const;
 

@@ -1,5 +1,7 @@
 #include "station/http_server.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "station/testing/http_client.hpp"
@@ -14,8 +16,8 @@ using testing::ask_raw;
 using testing::run_until;
 using testing::WebSocketClient;
 
-std::shared_ptr<std::string const> text(std::string bytes) {
-  return std::make_shared<std::string const>(std::move(bytes));
+std::array<HttpServer::Message, 1> text(std::string bytes) {
+  return {std::make_shared<std::string const>(std::move(bytes))};
 }
 
 class HttpServerTest : public ::testing::Test {

@@ -1,6 +1,7 @@
 #include "station/station.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
@@ -11,7 +12,7 @@
 namespace lapwing::station {
 namespace {
 
-std::shared_ptr<std::string const> shared(std::string text) {
+HttpServer::Message shared(std::string text) {
   return std::make_shared<std::string const>(std::move(text));
 }
 
@@ -47,7 +48,7 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
   });
   server_->set_router(make_router());
   server_->set_websocket({
-      .opened = [this](SessionId session) { viewers_[session].is_behind = !send_all(session, whole_state()); },
+      .opened = [this](SessionId session) { viewers_[session].is_behind = !server_->send(session, whole_state()); },
       .received = [this](SessionId session, std::string_view text) { receive(session, text); },
       .closed = [this](SessionId session) { viewers_.erase(session); },
   });
@@ -61,7 +62,7 @@ void Station::send_news() {
   auto const messages = news();
   for (auto& [session, viewer] : viewers_) {
     if (viewer.is_behind && server_->backlog_bytes(session) > 0) continue;
-    viewer.is_behind = !send_all(session, viewer.is_behind ? whole_state() : messages);
+    viewer.is_behind = !server_->send(session, viewer.is_behind ? whole_state() : messages);
   }
 }
 
@@ -95,10 +96,6 @@ std::vector<LogLine> Station::log_after(std::uint64_t sequence) const {
   return {first, lines.end()};
 }
 
-bool Station::send_all(SessionId session, std::vector<Message> const& messages) {
-  return std::ranges::all_of(messages, [&](auto const& message) { return server_->send(session, message); });
-}
-
 // ---- from the viewers
 // --------------------------------------------------------------------------------------------------
 
@@ -121,7 +118,7 @@ void Station::receive(SessionId session, std::string_view text) {
 void Station::reply(SessionId session, std::string text) {
   auto const viewer = viewers_.find(session);
   if (viewer == viewers_.end()) return;
-  if (!server_->send(session, shared(std::move(text)))) viewer->second.is_behind = true;
+  if (!server_->send(session, std::array{shared(std::move(text))})) viewer->second.is_behind = true;
 }
 
 // ---- HTTP

@@ -49,7 +49,7 @@ class Station {
     std::deque<LogLine> lines;
     std::uint64_t last_sequence = 0;
   };
-  using Message = std::shared_ptr<std::string const>;
+  using Message = HttpServer::Message;
 
   Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptControl& script, base::LogHub& hub,
           Options options, std::unique_ptr<HttpServer> server);
@@ -58,7 +58,6 @@ class Station {
   [[nodiscard]] std::vector<Message> news();
   [[nodiscard]] std::vector<Message> whole_state() const;
   [[nodiscard]] std::vector<LogLine> log_after(std::uint64_t sequence) const;
-  bool send_all(SessionId session, std::vector<Message> const& messages);
   void receive(SessionId session, std::string_view text);
   void reply(SessionId session, std::string text);
 
