@@ -7,6 +7,10 @@
 
 namespace lapwing::link {
 
+namespace internal {
+struct PipeBus;
+}
+
 /// Two ends in memory: what one sends, the other receives on a later turn of the loop. Works under an unpaced loop,
 /// without sockets.
 struct Pipe {
@@ -29,8 +33,7 @@ class PipeHub {
   [[nodiscard]] std::unique_ptr<ByteLink> connect();
 
  private:
-  struct Shared;
-  std::shared_ptr<Shared> shared_;  // shared with the ends, any of which may go first
+  std::shared_ptr<internal::PipeBus> bus_;  // shared with the ends, any of which may go first
 };
 
 }  // namespace lapwing::link

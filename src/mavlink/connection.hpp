@@ -16,6 +16,10 @@
 
 namespace lapwing::mavlink {
 
+namespace internal {
+class Routes;
+}
+
 /// One far end as the connection knows it.
 struct PeerRef {
   std::size_t link = 0;  ///< in the order of `add_link`
@@ -110,21 +114,26 @@ class Connection {
   [[nodiscard]] Address self() const { return options_.self; }
 
  private:
-  struct Routes;  // who was heard where: connection_routes.hpp
-  struct Listener;
+  struct Listener {
+    std::optional<std::uint8_t> system_id;
+    std::weak_ptr<Subscription::Handler> handler;
+  };
 
+  Subscription listen(std::optional<std::uint8_t> system_id, Subscription::Handler handler);
   void receive(PeerRef from, link::Bytes bytes);
   void accept(PeerRef from, Frame const& frame);
   void dispatch(Received const& received);
-  bool send_frame(PeerRef to, Frame frame);
+  bool send_frame(PeerRef to, Frame& frame);
   base::Task<void> beat();
+  [[nodiscard]] std::string describe(PeerRef peer) const;
 
   base::Loop& loop_;
   Options options_;
   base::Logger log_;
   std::vector<std::unique_ptr<link::ByteLink>> links_;
-  std::unique_ptr<Routes> routes_;
+  std::unique_ptr<internal::Routes> routes_;
   std::vector<Listener> listeners_;
+  int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
   FrameHook frame_hook_;
   base::Scope scope_;
 };

@@ -78,14 +78,16 @@ class FrameParser {
   [[nodiscard]] ParserCounters const& counters() const { return counters_; }
 
  private:
-  enum class Step { frame, skip, need_more };
+  enum class Step { frame, bad_checksum, skip, need_more };
   void begin(std::span<std::uint8_t const> bytes);
   bool next();
   void keep_rest();
   Step parse_at(std::span<std::uint8_t const> at, std::size_t& used);
+  void take_payload(std::span<std::uint8_t const> payload);
 
   Frame frame_;
   std::span<std::uint8_t const> input_;  ///< what this call still has to look at
+  std::size_t sealed_ = 0;               ///< bytes of `input_` that no frame may reach beyond
   std::vector<std::uint8_t> kept_;  ///< an unfinished frame from earlier calls, and while feeding what was joined to it
   ParserCounters counters_;
 };

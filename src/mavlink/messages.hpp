@@ -66,22 +66,22 @@ struct SysStatus {
   std::uint32_t sensors_enabled = 0;
   std::uint32_t sensors_health = 0;
   double load = 0.0;  ///< 0..1 of the main loop
-  std::optional<double> battery_voltage_v;
-  std::optional<double> battery_current_a;
-  std::optional<double> battery_remaining;  ///< 0..1
-  double drop_rate_comm = 0.0;              ///< 0..1
+  std::optional<double> battery_voltage_v{};
+  std::optional<double> battery_current_a{};
+  std::optional<double> battery_remaining{};  ///< 0..1
+  double drop_rate_comm = 0.0;                ///< 0..1
   std::uint16_t errors_comm = 0;
 };
 
 struct BatteryStatus {
   std::uint8_t id = 0;
-  std::optional<double> voltage_v;  ///< of the whole pack (sum of the cells that are reported)
-  std::optional<double> current_a;
-  std::optional<double> consumed_ah;
-  std::optional<double> energy_consumed_j;
-  std::optional<double> remaining;      ///< 0..1
-  std::optional<double> temperature_c;  ///< degrees Celsius
-  std::optional<std::chrono::seconds> time_remaining;
+  std::optional<double> voltage_v{};  ///< of the whole pack (sum of the cells that are reported)
+  std::optional<double> current_a{};
+  std::optional<double> consumed_ah{};
+  std::optional<double> energy_consumed_j{};
+  std::optional<double> remaining{};      ///< 0..1
+  std::optional<double> temperature_c{};  ///< degrees Celsius
+  std::optional<std::chrono::seconds> time_remaining{};
   std::uint8_t charge_state = 0;
 };
 
@@ -113,7 +113,7 @@ struct ExtendedSysState {
 /// 0; the last piece is the one shorter than 50.
 struct StatusText {
   MavSeverity severity = MavSeverity::info;
-  std::string text;
+  std::string text{};
   std::uint16_t id = 0;
   std::uint8_t chunk_seq = 0;
 };
@@ -126,8 +126,8 @@ struct FenceStatus {
 };
 
 struct RadioStatus {
-  std::optional<std::uint8_t> rssi;
-  std::optional<std::uint8_t> remote_rssi;
+  std::optional<std::uint8_t> rssi{};
+  std::optional<std::uint8_t> remote_rssi{};
   double transmit_buffer_free = 0.0;  ///< 0..1
   std::uint8_t noise = 0;
   std::uint8_t remote_noise = 0;
@@ -141,12 +141,12 @@ struct RadioStatus {
 struct GpsRaw {
   std::chrono::microseconds time{};
   GpsFix fix = GpsFix::no_gps;
-  geo::Wgs84 position;
-  std::optional<double> hdop;
-  std::optional<double> vdop;
-  std::optional<double> ground_speed_m_s;
-  std::optional<double> course_rad;
-  std::optional<int> satellites;
+  geo::Wgs84 position{};
+  std::optional<double> hdop{};
+  std::optional<double> vdop{};
+  std::optional<double> ground_speed_m_s{};
+  std::optional<double> course_rad{};
+  std::optional<int> satellites{};
   double horizontal_accuracy_m = 0.0;  ///< 0 when not reported
   double vertical_accuracy_m = 0.0;    ///< 0 when not reported
 };
@@ -163,17 +163,17 @@ struct Attitude {
 
 struct GlobalPosition {
   Duration since_boot{};
-  geo::Wgs84 position;
+  geo::Wgs84 position{};
   double relative_alt_m = 0.0;  ///< above home
-  geo::Ned velocity_m_s;
-  std::optional<double> heading_rad;
+  geo::Ned velocity_m_s{};
+  std::optional<double> heading_rad{};
 };
 
 /// Relative to the estimator's origin (GpsGlobalOrigin), in metres.
 struct LocalPosition {
   Duration since_boot{};
-  geo::Ned position_m;
-  geo::Ned velocity_m_s;
+  geo::Ned position_m{};
+  geo::Ned velocity_m_s{};
 };
 
 struct VfrHud {
@@ -203,19 +203,19 @@ struct Wind {
 };
 
 struct HomePosition {
-  geo::Wgs84 position;
-  geo::Ned local_m;  ///< relative to the estimator's origin
+  geo::Wgs84 position{};
+  geo::Ned local_m{};  ///< relative to the estimator's origin
 };
 
 struct GpsGlobalOrigin {
-  geo::Wgs84 position;
+  geo::Wgs84 position{};
 };
 
 struct CameraFeedback {
   std::chrono::microseconds time{};
   std::uint8_t camera = 0;
   std::uint16_t image = 0;
-  geo::Wgs84 position;
+  geo::Wgs84 position{};
   double relative_alt_m = 0.0;
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
@@ -231,8 +231,8 @@ struct GlobalSetpoint {
   double lat_rad = 0.0;
   double lon_rad = 0.0;
   double alt_m = 0.0;  ///< in the frame's datum
-  geo::Ned velocity_m_s;
-  geo::Ned acceleration_m_s2;
+  geo::Ned velocity_m_s{};
+  geo::Ned acceleration_m_s2{};
   double yaw_rad = 0.0;
   double yaw_rate_rad_s = 0.0;
 };
@@ -240,12 +240,12 @@ struct GlobalSetpoint {
 struct SetPositionTargetGlobalInt {
   Address target{};
   Duration since_boot{};
-  GlobalSetpoint setpoint;
+  GlobalSetpoint setpoint{};
 };
 
 struct PositionTargetGlobalInt {
   Duration since_boot{};
-  GlobalSetpoint setpoint;
+  GlobalSetpoint setpoint{};
 };
 
 // ---- commands
@@ -275,14 +275,14 @@ struct CommandInt {
   MavFrame frame = MavFrame::global;
   MavCmd command{};
   std::array<float, 4> params{};  ///< 1..4, as in CommandLong
-  ItemPlace place;
+  ItemPlace place{};
 };
 
 struct CommandAck {
   Address target{};
   MavCmd command{};
   MavResult result = MavResult::accepted;
-  std::optional<double> progress;  ///< 0..1, with in_progress
+  std::optional<double> progress{};  ///< 0..1, with in_progress
   std::int32_t result_param2 = 0;
 };
 
@@ -302,7 +302,7 @@ struct RequestDataStream {
 
 struct MessageInterval {
   MessageId message{};
-  std::optional<std::chrono::microseconds> interval;  ///< nullopt: not sent
+  std::optional<std::chrono::microseconds> interval{};  ///< nullopt: not sent
 };
 
 // ---- parameters
@@ -310,7 +310,7 @@ struct MessageInterval {
 
 struct ParamRequestRead {
   Address target{};
-  std::string name;  ///< up to 16 characters; used when `index` is -1
+  std::string name{};  ///< up to 16 characters; used when `index` is -1
   std::int16_t index = -1;
 };
 
@@ -320,13 +320,13 @@ struct ParamRequestList {
 
 struct ParamSet {
   Address target{};
-  std::string name;
+  std::string name{};
   float value = 0.0F;
   MavParamType type = MavParamType::real32;
 };
 
 struct ParamValue {
-  std::string name;
+  std::string name{};
   float value = 0.0F;
   MavParamType type = MavParamType::real32;
   std::uint16_t count = 0;
@@ -346,7 +346,7 @@ struct MissionItem {
   MavFrame frame = MavFrame::global;
   MavCmd command{};
   std::array<float, 4> params{};  ///< 1..4 in the command's own units; NaN means "leave it to the vehicle"
-  ItemPlace place;
+  ItemPlace place{};
   std::uint8_t current = 0;
   bool autocontinue = true;
   MissionType type = MissionType::mission;
@@ -408,7 +408,7 @@ struct MissionSetCurrent {
 
 struct MissionCurrent {
   std::uint16_t seq = 0;
-  std::optional<std::uint16_t> total;  ///< without the home item
+  std::optional<std::uint16_t> total{};  ///< without the home item
   MissionState state = MissionState::unknown;
   std::uint8_t mission_mode = 0;  ///< 1 while the vehicle flies its mission, 2 while it does not, 0 unknown
 };

@@ -1,0 +1,182 @@
+#include "mavlink/connection.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mavlink/internal/routes.hpp"
+
+namespace lapwing::mavlink {
+
+using base::ErrorKind;
+using base::fail;
+
+Heartbeat Connection::ground_station_heartbeat() {
+  return {.type = MavType::gcs, .autopilot = MavAutopilot::invalid, .system_status = MavState::active};
+}
+
+Connection::Connection(base::Loop& loop, Options options, base::Logger log)
+    : loop_(loop),
+      options_(std::move(options)),
+      log_(std::move(log)),
+      routes_(std::make_unique<internal::Routes>()),
+      scope_(loop) {
+  if (options_.heartbeat) scope_.spawn(beat());
+}
+
+Connection::~Connection() = default;
+
+std::size_t Connection::add_link(std::unique_ptr<link::ByteLink> link) {
+  auto const number = links_.size();
+  links_.push_back(std::move(link));
+  links_.back()->start([this, number](link::Peer peer, link::Bytes bytes) { receive({number, peer}, bytes); });
+  return number;
+}
+
+base::Task<void> Connection::beat() {
+  for (;;) {
+    co_await loop_.turn();  // links may still be added in this turn
+    send_to_all(options_.heartbeat());
+    co_await loop_.sleep(options_.heartbeat_period);
+  }
+}
+
+// ---- receiving
+// -----------------------------------------------------------------------------------------------------------
+
+void Connection::receive(PeerRef from, link::Bytes bytes) {
+  auto& peer = routes_->hear(from, loop_.now());
+  peer.parser.feed(bytes, [this, from](Frame const& frame) { accept(from, frame); });
+}
+
+void Connection::accept(PeerRef from, Frame const& frame) {
+  if (frame.source == options_.self) return;  // our own, come back over a broadcast address or another link
+  auto const now = loop_.now();
+  auto& peer = routes_->speak_to(from);
+  if (frame.version == 2) peer.spoke_v2 = true;
+  if (!std::exchange(peer.spoke, true) && options_.heartbeat) {
+    auto greeting = encode(options_.heartbeat(), options_.self, 0);
+    send_frame(from, greeting);
+  }
+  auto const taken = routes_->take(frame.source, from, frame.seq, frame.checksum, now);
+  if (!taken.fresh) return;
+  if (taken.conflict_new) {
+    if (auto const both = conflict(frame.source.system))
+      log_.warn(fmt::format(
+          "two vehicles use system id {}: {} and {}; commands to them are refused until one is switched off",
+          both->system_id, both->first, both->second));
+  }
+  if (frame_hook_) frame_hook_(Direction::received, frame, now);
+  if (listeners_.empty()) return;
+  if (auto const message = decode(frame)) dispatch({*message, frame.source, from, now});
+}
+
+void Connection::dispatch(Received const& received) {
+  ++dispatching_;
+  // By index: a handler may subscribe, which lengthens the list.
+  for (std::size_t i = 0; i < listeners_.size(); ++i) {
+    auto const wanted = listeners_[i].system_id;
+    if (wanted && *wanted != received.source.system) continue;
+    if (auto const handler = listeners_[i].handler.lock()) (*handler)(received);
+  }
+  --dispatching_;
+}
+
+Subscription Connection::subscribe(Subscription::Handler handler) {
+  return listen(std::nullopt, std::move(handler));
+}
+
+Subscription Connection::subscribe(std::uint8_t system_id, Subscription::Handler handler) {
+  return listen(system_id, std::move(handler));
+}
+
+Subscription Connection::listen(std::optional<std::uint8_t> system_id, Subscription::Handler handler) {
+  if (dispatching_ == 0) std::erase_if(listeners_, [](Listener const& l) { return l.handler.expired(); });
+  auto shared = std::make_shared<Subscription::Handler>(std::move(handler));
+  listeners_.push_back({system_id, shared});
+  return Subscription(std::move(shared));
+}
+
+void Connection::set_frame_hook(FrameHook hook) {
+  frame_hook_ = std::move(hook);
+}
+
+// ---- sending
+// -------------------------------------------------------------------------------------------------------------
+
+base::Result<> Connection::send(Address target, Message message) {
+  set_target(message, target);
+  if (target.system == 0) {
+    send_to_all(message);
+    return {};
+  }
+  if (auto const both = conflict(target.system))
+    return fail(ErrorKind::refused,
+                fmt::format("two vehicles use system id {}: {} and {}", both->system_id, both->first, both->second),
+                "give one of them another system id (ArduPilot: SYSID_THISMAV or MAV_SYSID, PX4: MAV_SYS_ID)");
+  auto const route = routes_->route_to(target);
+  if (!route)
+    return fail(ErrorKind::lost, fmt::format("vehicle {} has not been heard on any link", target.system),
+                "check that it is switched on and sends to this station");
+  auto frame = encode(message, options_.self, 0);
+  if (send_frame(*route, frame)) return {};
+  auto const& link = *links_[route->link];
+  return fail(ErrorKind::lost, fmt::format("vehicle {} cannot be reached over {}: {}", target.system, link.name(),
+                                           link.last_error().empty() ? "it is not connected" : link.last_error()));
+}
+
+void Connection::send_to_all(Message const& message) {
+  auto peers = routes_->talkers(loop_.now());
+  for (std::size_t number = 0; number < links_.size(); ++number)
+    for (auto const peer : links_[number]->standing_peers()) peers.push_back({number, peer});
+  std::ranges::sort(peers);
+  auto const repeated = std::ranges::unique(peers);
+  peers.erase(repeated.begin(), repeated.end());
+
+  auto frame = encode(message, options_.self, 0);
+  for (auto const peer : peers) send_frame(peer, frame);
+}
+
+/// Fills in what depends on the far end: sequence and protocol version.
+bool Connection::send_frame(PeerRef to, Frame& frame) {
+  auto& peer = routes_->speak_to(to);
+  frame.version = peer.spoke && !peer.spoke_v2 ? 1 : 2;
+  if (frame.version == 1 && frame.message_id > 255) return false;
+  frame.seq = peer.next_seq;
+  auto const out = serialize(frame);
+  if (!links_[to.link]->send(to.peer, out.bytes())) return false;
+  ++peer.next_seq;
+  if (frame_hook_) frame_hook_(Direction::sent, frame, loop_.now());
+  return true;
+}
+
+// ---- what is known
+// -------------------------------------------------------------------------------------------------------
+
+std::string Connection::describe(PeerRef peer) const {
+  auto const& link = *links_[peer.link];
+  return fmt::format("{} from {}", link.name(), link.peer_name(peer.peer));
+}
+
+std::optional<std::string> Connection::whereabouts(std::uint8_t system_id) const {
+  auto const route = routes_->route_to({system_id, autopilot_component});
+  if (!route) return std::nullopt;
+  return describe(*route);
+}
+
+std::optional<Conflict> Connection::conflict(std::uint8_t system_id) const {
+  auto const both = routes_->conflict(system_id, loop_.now());
+  if (!both) return std::nullopt;
+  return Conflict{system_id, describe(both->first), describe(both->second)};
+}
+
+SourceCounters Connection::counters(Address source) const {
+  return routes_->counters(source);
+}
+
+ParserCounters Connection::parser_counters(std::size_t link) const {
+  return routes_->parser_counters(link);
+}
+
+}  // namespace lapwing::mavlink
