@@ -35,6 +35,10 @@ Result<> check_not_negative(std::string_view what, double value) {
 
 Result<geo::Wgs84> displaced_from(std::optional<geo::Wgs84> base, Offset offset, char const* without_base) {
   if (!base) return fail(ErrorKind::invalid_input, without_base, "give the mission a `home` first");
+  // Exactly the base, not a rounding away from it: returning home lands at home.
+  if (offset.north_m == 0.0 && offset.east_m == 0.0) {
+    return geo::Wgs84{base->lat_rad, base->lon_rad, base->alt_m + offset.up_m};
+  }
   return geo::displaced(*base, {.north = offset.north_m, .east = offset.east_m, .down = -offset.up_m});
 }
 

@@ -4,8 +4,8 @@
 
 namespace lapwing::tasks {
 
-/// The block word `mission { ... }` with all its commands (language spec, 5.5). Builds `MissionTask`s; one without a `name` is
-/// called MissionPlan_N, N counting the missions that this spec has built.
+/// The block word `mission { ... }` with all its commands (language spec, 5.5). Builds `MissionTask`s; one without a
+/// `name` is called MissionPlan_N, N counting the missions that this spec has built.
 [[nodiscard]] BuilderSpec mission_builder();
 
 }  // namespace lapwing::tasks

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "geo/position.hpp"
 #include "vehicle/vehicle_id.hpp"
 
 namespace lapwing::tasks {
