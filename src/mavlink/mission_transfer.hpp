@@ -16,7 +16,7 @@ struct TransferOptions {
   int tries = 5;                                                   ///< of one message
   base::Duration silence_limit =
       std::chrono::seconds(8);  ///< an upload in which nothing comes for this long has failed
-  int restarts = 0;  ///< how often a transfer that timed out begins anew; the vehicle forgets an upload it gave up
+  int restarts = 2;  ///< how often a transfer that timed out begins anew; the vehicle forgets an upload it gave up
 };
 
 /// Called after each step with the number of items that have gone over, and the total.
