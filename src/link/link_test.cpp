@@ -1,0 +1,261 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <deque>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/notifier.hpp"
+#include "link/byte_link.hpp"
+#include "link/impaired_link.hpp"
+#include "link/pipe_link.hpp"
+
+namespace lapwing::link {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::vector<std::uint8_t> bytes(std::string_view text) {
+  return {text.begin(), text.end()};
+}
+
+/// One end with what it has heard.
+class Talker {
+ public:
+  Talker(base::Loop& loop, std::unique_ptr<ByteLink> link) : arrived_(loop), link_(std::move(link)) {
+    link_->start([this](Peer peer, Bytes data) {
+      heard_ += std::string(data.begin(), data.end());
+      ++chunks_;
+      from_ = peer;
+      arrived_.notify_all();
+    });
+  }
+  base::Task<bool> hears(std::string text) {
+    return arrived_.wait_for([this, text] { return heard_.find(text) != std::string::npos; }, 5s);
+  }
+  bool say(std::string_view text, Peer peer) { return link_->send(peer, bytes(text)); }
+  bool say(std::string_view text) {
+    auto const peers = link_->standing_peers();
+    return !peers.empty() && say(text, peers.front());
+  }
+  bool answer(std::string_view text) { return say(text, from_); }
+
+  ByteLink& link() { return *link_; }
+  Peer from() const { return from_; }
+  std::string const& heard() const { return heard_; }
+  int chunks() const { return chunks_; }
+
+ private:
+  base::Notifier arrived_;
+  std::unique_ptr<ByteLink> link_;
+  std::string heard_;
+  Peer from_;
+  int chunks_ = 0;
+};
+
+std::unique_ptr<ByteLink> opened(base::Loop& loop, std::string const& url) {
+  auto link = open(loop, parse_url(url).value());
+  EXPECT_TRUE(link) << link.error().message;
+  return std::move(*link);
+}
+
+std::uint32_t port_of(ByteLink const& link) {
+  return parse_url(link.name()).value().port_or_baud;
+}
+
+base::Task<bool> until_standing(base::Loop& loop, ByteLink& link, bool wanted) {
+  for (int i = 0; i < 500; ++i) {
+    if (link.standing_peers().empty() != wanted) co_return true;
+    co_await loop.sleep(10ms);
+  }
+  co_return false;
+}
+
+TEST(UdpLink, CarriesDatagramsBothWaysFromOneSocket) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "udpin://127.0.0.1:0"));
+  auto const url = "udpout://127.0.0.1:" + std::to_string(port_of(in.link()));
+  Talker first(loop, opened(loop, url));
+  Talker second(loop, opened(loop, url));
+  EXPECT_TRUE(in.link().standing_peers().empty());
+
+  EXPECT_TRUE(first.say("one"));
+  ASSERT_TRUE(loop.run_until_done(in.hears("one")));
+  auto const first_peer = in.from();
+  EXPECT_TRUE(second.say("two"));
+  ASSERT_TRUE(loop.run_until_done(in.hears("two")));
+  EXPECT_NE(in.from(), first_peer);
+  EXPECT_EQ(in.link().peer_name(first_peer).rfind("127.0.0.1:", 0), 0u);
+
+  EXPECT_TRUE(in.say("to the first", first_peer));
+  EXPECT_TRUE(loop.run_until_done(first.hears("to the first"))) << "a connected socket only hears the listening one";
+  EXPECT_EQ(second.heard(), "");
+  EXPECT_EQ(in.link().counters().chunks_received, 2u);
+  EXPECT_EQ(in.link().counters().bytes_received, 6u);
+}
+
+TEST(UdpLink, GoesOnWhenNobodyListensYet) {
+  base::Loop loop;
+  auto placeholder = opened(loop, "udpin://127.0.0.1:0");
+  auto const port = std::to_string(port_of(*placeholder));
+  placeholder.reset();
+  Talker out(loop, opened(loop, "udpout://127.0.0.1:" + port));
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(out.say("into the void"));
+  Talker in(loop, opened(loop, "udpin://127.0.0.1:" + port));
+  EXPECT_TRUE(out.say("hello"));
+  EXPECT_TRUE(loop.run_until_done(in.hears("hello")));
+}
+
+TEST(UdpLink, NamesThePortThatIsTaken) {
+  base::Loop loop;
+  auto const first = opened(loop, "udpin://127.0.0.1:0");
+  auto const taken = open(loop, parse_url(first->name()).value());
+  ASSERT_FALSE(taken);
+  EXPECT_EQ(taken.error().kind, base::ErrorKind::io);
+  EXPECT_NE(taken.error().message.find("port " + std::to_string(port_of(*first)) + " is already in use"),
+            std::string::npos);
+  EXPECT_NE(taken.error().hint.find("another port: udpin://127.0.0.1:"), std::string::npos);
+}
+
+TEST(UdpLink, RefusesAnAddressThatIsNotOurs) {
+  base::Loop loop;
+  auto const link = open(loop, {Transport::udp_in, "192.0.2.1", 14550});
+  ASSERT_FALSE(link);
+  EXPECT_NE(link.error().message.find("not an address of this machine"), std::string::npos);
+}
+
+TEST(TcpLink, CarriesBytesBothWaysAndNamesItsClients) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
+  Talker out(loop, opened(loop, "tcpout://127.0.0.1:" + std::to_string(port_of(in.link()))));
+  EXPECT_FALSE(out.say("too early"));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
+  EXPECT_TRUE(out.say("hello"));
+  ASSERT_TRUE(loop.run_until_done(in.hears("hello")));
+  EXPECT_EQ(in.link().peer_name(in.from()).rfind("127.0.0.1:", 0), 0u);
+  EXPECT_TRUE(in.answer("good day"));
+  EXPECT_TRUE(loop.run_until_done(out.hears("good day")));
+  EXPECT_EQ(in.link().standing_peers().size(), 1u);
+}
+
+TEST(TcpLink, ComesBackAfterTheServerDid) {
+  base::Loop loop(base::Loop::Pace{.speedup = 20.0});
+  auto in = std::make_unique<Talker>(loop, opened(loop, "tcpin://127.0.0.1:0"));
+  auto const url = in->link().name();
+  Talker out(loop, opened(loop, "tcpout" + url.substr(5)));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
+  in.reset();
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), false)));
+  EXPECT_EQ(out.link().state(), LinkState::opening);
+  EXPECT_NE(out.link().last_error(), "");
+  in = std::make_unique<Talker>(loop, opened(loop, url));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
+  EXPECT_TRUE(out.say("back"));
+  EXPECT_TRUE(loop.run_until_done(in->hears("back")));
+}
+
+TEST(TcpLink, ForgetsAClientThatLeft) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
+  auto out = std::make_unique<Talker>(loop, opened(loop, "tcpout" + in.link().name().substr(5)));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, in.link(), true)));
+  auto const peer = in.link().standing_peers().front();
+  out.reset();
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, in.link(), false)));
+  EXPECT_FALSE(in.say("anybody there?", peer));
+}
+
+TEST(TcpLink, NamesThePortThatIsTaken) {
+  base::Loop loop;
+  auto const first = opened(loop, "tcpin://127.0.0.1:0");
+  auto const taken = open(loop, parse_url(first->name()).value());
+  ASSERT_FALSE(taken);
+  EXPECT_NE(taken.error().message.find("is already in use"), std::string::npos);
+}
+
+TEST(SerialLink, TalksToATerminalLineAndWaitsForOneThatIsGone) {
+  base::Loop loop(base::Loop::Pace{.speedup = 20.0});
+  int const master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  ASSERT_GE(master, 0);
+  ASSERT_EQ(grantpt(master), 0);
+  ASSERT_EQ(unlockpt(master), 0);
+  Talker serial(loop, opened(loop, std::string("serial://") + ptsname(master) + ":57600"));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, serial.link(), true)));
+
+  ASSERT_EQ(write(master, "\xFD\n\r*", 4), 4);
+  EXPECT_TRUE(loop.run_until_done(serial.hears("\xFD\n\r*"))) << "nothing is translated";
+  EXPECT_TRUE(serial.say("out"));
+  char buffer[8] = {};
+  EXPECT_EQ(read(master, buffer, sizeof(buffer)), 3);
+
+  close(master);
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, serial.link(), false)));
+  EXPECT_EQ(serial.link().state(), LinkState::opening);
+  EXPECT_FALSE(serial.say("gone"));
+}
+
+TEST(SerialLink, RefusesABaudRateThatNoLineHas) {
+  base::Loop loop;
+  auto const link = open(loop, {Transport::serial, "/dev/ttyUSB0", 12345});
+  ASSERT_FALSE(link);
+  EXPECT_NE(link.error().hint.find("57600"), std::string::npos);
+}
+
+TEST(SerialLink, KeepsTryingADeviceThatIsNotThere) {
+  base::Loop loop(base::Loop::Pace{.unpaced = true});
+  Talker serial(loop, opened(loop, "serial:///dev/no-such-device:57600"));
+  EXPECT_EQ(serial.link().state(), LinkState::opening);
+  EXPECT_NE(serial.link().last_error().find("/dev/no-such-device"), std::string::npos);
+}
+
+TEST(PipeLink, KeepsClientsApartAndForgetsThoseThatLeft) {
+  base::Loop loop(base::Loop::Pace{.unpaced = true});
+  PipeHub hub(loop);
+  Talker server(loop, hub.take_server());
+  auto first = std::make_unique<Talker>(loop, hub.connect());
+  Talker second(loop, hub.connect());
+  EXPECT_TRUE(first->say("one"));
+  ASSERT_TRUE(loop.run_until_done(server.hears("one")));
+  auto const peer = server.from();
+  EXPECT_TRUE(server.answer("hi"));
+  ASSERT_TRUE(loop.run_until_done(first->hears("hi")));
+  EXPECT_EQ(second.heard(), "");
+  first.reset();
+  EXPECT_FALSE(server.say("gone", peer));
+}
+
+base::Task<void> pass(base::Loop& loop, base::Duration time) {
+  co_await loop.sleep(time);
+}
+
+TEST(ImpairedLink, LosesDelaysAndDuplicatesByItsSeed) {
+  std::string heard[2];
+  for (auto& all : heard) {
+    base::Loop loop(base::Loop::Pace{.unpaced = true});
+    auto pipe = make_pipe(loop);
+    Talker b(loop, std::move(pipe.a));
+    Talker a(loop, impair(loop, std::move(pipe.b), {.loss = 0.3, .duplication = 0.1, .delay = 200ms, .seed = 5}));
+    for (int i = 0; i < 1000; ++i) EXPECT_TRUE(a.say(std::to_string(i) + " "));
+    loop.run_until_done(pass(loop, 199ms));
+    EXPECT_EQ(b.chunks(), 0);
+    loop.run_until_done(pass(loop, 10ms));
+    EXPECT_NEAR(b.chunks(), 1000 * 0.7 * 1.1, 60);
+    all = b.heard();
+  }
+  EXPECT_EQ(heard[0], heard[1]);
+}
+
+TEST(ImpairedLink, ImpairsWhatArrivesToo) {
+  base::Loop loop(base::Loop::Pace{.unpaced = true});
+  auto pipe = make_pipe(loop);
+  Talker server(loop, std::move(pipe.a));
+  Talker client(loop, impair(loop, std::move(pipe.b), {.loss = 1.0}));
+  EXPECT_TRUE(client.say("never arrives"));
+  loop.run_until_done(pass(loop, 1s));
+  EXPECT_EQ(server.chunks(), 0);
+}
+
+}  // namespace
+}  // namespace lapwing::link

@@ -1,0 +1,55 @@
+#include "link/url.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lapwing::link {
+namespace {
+
+TEST(Url, ReadsEveryKindAndPrintsItAgain) {
+  for (auto const* text : {"udpin://0.0.0.0:14550", "udpout://127.0.0.1:14550", "tcpout://drone.local:5760",
+                           "tcpin://0.0.0.0:5760", "serial:///dev/ttyUSB0:57600"}) {
+    auto const url = parse_url(text);
+    ASSERT_TRUE(url) << text;
+    EXPECT_EQ(to_string(*url), text);
+  }
+  EXPECT_EQ(*parse_url("serial:///dev/ttyACM0:115200"), (Url{Transport::serial, "/dev/ttyACM0", 115200}));
+}
+
+struct Wrong {
+  char const* text;
+  char const* message;
+  char const* hint;
+};
+
+TEST(Url, SaysWhatIsWrongAndShowsARightOne) {
+  Wrong const cases[] = {
+      {"udpin://0.0.0.0", "the port is missing", "udpin://0.0.0.0:14550"},
+      {"udpin://:14550", "the address is missing", "udpin://0.0.0.0:14550"},
+      {"udpout://1.2.3.4:x", "'x' is no port", "udpout://127.0.0.1:14550"},
+      {"udpout://1.2.3.4:0", "1 to 65535", "udpout://"},
+      {"tcpin://0.0.0.0:70000", "1 to 65535", "tcpin://0.0.0.0:5760"},
+      {"tcpout://host:-1", "'-1' is no port", "tcpout://"},
+      {"serial:///dev/ttyUSB0", "baud rate is missing", "serial:///dev/ttyUSB0:57600"},
+      {"serial://:57600", "device is missing", "serial:///dev/ttyUSB0:57600"},
+      {"serial:///dev/ttyUSB0:fast", "'fast' is no baud rate", "serial:///dev/ttyUSB0:57600"},
+      {"udp://:14540", "'udp' is no kind of link", "udpin://0.0.0.0:14550 to listen"},
+      {"http://x:80", "'http' is no kind of link", "udpin://"},
+      {"14550", "no '://'", "udpin://"},
+      {"", "no '://'", "udpin://"},
+  };
+  for (auto const& wrong : cases) {
+    auto const url = parse_url(wrong.text);
+    ASSERT_FALSE(url) << wrong.text;
+    EXPECT_EQ(url.error().kind, base::ErrorKind::invalid_input);
+    EXPECT_NE(url.error().message.find(wrong.message), std::string::npos) << url.error().message;
+    EXPECT_NE(url.error().hint.find(wrong.hint), std::string::npos) << url.error().hint;
+  }
+}
+
+TEST(Url, TakesPortZeroWhereItListens) {
+  EXPECT_TRUE(parse_url("udpin://127.0.0.1:0"));
+  EXPECT_TRUE(parse_url("tcpin://127.0.0.1:0"));
+}
+
+}  // namespace
+}  // namespace lapwing::link
