@@ -40,8 +40,7 @@ struct Block {
   Span span;  ///< braces included where there are any
 };
 
-// ---- expressions
-// --------------------------------------------------------------------------------------------------------
+// ---- expressions --------------------------------------------------------------------------------
 
 struct NullLiteral {};
 struct BoolLiteral {
@@ -218,8 +217,7 @@ struct Expr {
   std::uint16_t height = 1;  ///< of the tree, statements of closures included
 };
 
-// ---- statements
-// ---------------------------------------------------------------------------------------------------------
+// ---- statements ---------------------------------------------------------------------------------
 
 struct ExprStmt {
   ExprPtr expr;

@@ -129,6 +129,7 @@ class Lexer {
   void skip_line_comment();
   void skip_block_comment();
   void skip_unreadable();
+  void read_typographic_string(Unreadable const& quote);
 
   void read_token();
   void read_word();
@@ -162,8 +163,7 @@ void Lexer::emit(TokenKind kind, std::size_t begin) {
   out_.tokens.push_back(token);
 }
 
-// ---- what is skipped
-// ----------------------------------------------------------------------------------------------------
+// ---- what is skipped ----------------------------------------------------------------------------
 
 void Lexer::skip_first_line() {
   if (looking_at("\xEF\xBB\xBF")) at_ += 3;
@@ -220,18 +220,36 @@ bool Lexer::skip_blanks() {
   return open_.empty();
 }
 
-/// A run of characters that no script has, as one mistake.
+/// A run of characters that no script has, as one mistake. Typographic quotes and dashes still mean what they look
+/// like.
 void Lexer::skip_unreadable() {
   auto const begin = at_;
   auto const first = unreadable_character(text_.substr(at_));
+  if (first.looks_like == Unreadable::Like::quote) return read_typographic_string(first);
+  if (first.looks_like == Unreadable::Like::dash) {
+    at_ += first.size;
+    diagnostics_.error(since(begin), std::string(first.message), std::string(first.hint));
+    return emit(minus, begin);
+  }
   do {
     at_ += unreadable_character(text_.substr(at_)).size;
-  } while (!at_end() && unreadable_character(text_.substr(at_)).message == first.message && first.repeats);
+  } while (!at_end() && unreadable_character(text_.substr(at_)).message == first.message);
   diagnostics_.error(since(begin), std::string(first.message), std::string(first.hint));
 }
 
-// ---- tokens
-// -------------------------------------------------------------------------------------------------------------
+void Lexer::read_typographic_string(Unreadable const& quote) {
+  auto const begin = at_;
+  at_ += quote.size;
+  diagnostics_.error(since(begin), std::string(quote.message), std::string(quote.hint));
+  while (!at_end() && peek() != '\n' && peek() != '\r') {
+    auto const c = unreadable_character(text_.substr(at_));
+    at_ += c.size;
+    if (c.looks_like == Unreadable::Like::quote) break;
+  }
+  emit(string, begin);
+}
+
+// ---- tokens -------------------------------------------------------------------------------------
 
 void Lexer::read_word() {
   auto const begin = at_;
@@ -251,7 +269,7 @@ void Lexer::read_number() {
     auto const digits = text_.substr(begin, number.size - number.junk);
     diagnostics_.error({static_cast<std::uint32_t>(at_ - number.junk), end},
                        fmt::format("'{}' cannot follow a number", tail),
-                       fmt::format("a unit is written with a point: {}.{}", digits, tail));
+                       digits == "0" ? "" : fmt::format("a unit is written with a point: {}.{}", digits, tail));
   }
   emit(number.is_decimal ? decimal : integer, begin);
 }

@@ -47,8 +47,7 @@ Nesting::Nesting(Parser& parser) : parser_(parser) {
                 "name parts of it with variables or functions");
 }
 
-// ---- tokens
-// -------------------------------------------------------------------------------------------------------------
+// ---- tokens -------------------------------------------------------------------------------------
 
 Token const& Parser::token(std::size_t ahead) const {
   return tokens_[std::min(next_ + ahead, tokens_.size() - 1)];
@@ -86,8 +85,7 @@ Span Parser::here() const {
   return {end, end};
 }
 
-// ---- mistakes
-// -----------------------------------------------------------------------------------------------------------
+// ---- mistakes -----------------------------------------------------------------------------------
 
 void Parser::error(Span span, std::string message, std::string hint) {
   if (std::exchange(quiet_, true)) return;
@@ -118,8 +116,7 @@ ast::ExprPtr Parser::broken() {
   return out;
 }
 
-// ---- brackets and lines
-// -------------------------------------------------------------------------------------------------
+// ---- brackets and lines -------------------------------------------------------------------------
 
 bool Parser::at_statement_end() const {
   return at(end_of_file) || at(semicolon) || is_closing(kind()) || (newlines_matter_ && token().newline_before);
@@ -156,8 +153,7 @@ void Parser::skip_statement() {
   unread_.push_back(since(tokens_[first].span.begin));
 }
 
-// ---- nodes
-// --------------------------------------------------------------------------------------------------------------
+// ---- nodes --------------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::make(ast::Expr::Node node, Span span) {
   auto out = std::make_unique<ast::Expr>();

@@ -51,8 +51,7 @@ bool joins_values(TokenKind kind) {
 
 }  // namespace
 
-// ---- command calls
-// ------------------------------------------------------------------------------------------------------
+// ---- command calls ------------------------------------------------------------------------------
 
 /// An expression where a call may go without parentheses: a statement, the right side of = and return, the inside of
 /// parentheses.
@@ -176,15 +175,14 @@ ast::ExprPtr Parser::misplaced_chain_word(ast::ExprPtr left, std::uint32_t begin
   while (at_word("during") && on_same_line() && !quiet_) {
     auto const head = advance().span;
     auto limit = expression();
-    diagnostics_.warning(head, "'during' stands before its task",
+    diagnostics_.warning(head, "'during' belongs in front of its task",
                          fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
     left = make(ast::Chain{ast::ChainKind::during, std::move(limit), std::move(left), head}, since(begin));
   }
   return left;
 }
 
-// ---- postfix
-// ------------------------------------------------------------------------------------------------------------
+// ---- postfix ------------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::postfix() {
   auto const begin = token().span.begin;
@@ -218,7 +216,8 @@ ast::ExprPtr Parser::postfix_of(ast::ExprPtr object, std::uint32_t begin) {
 ast::ExprPtr Parser::member(ast::ExprPtr object, std::uint32_t begin) {
   bool const safe = advance().kind == safe_dot;
   if (!at(identifier) && !is_reserved_word(kind())) {
-    expected("a name after the point");
+    unread_.push_back(object->span);
+    expected("a name after the point", at(integer) ? fmt::format("write 0.{}", text(token())) : "");
     return object;
   }
   auto name = identifier_of(advance());
@@ -246,7 +245,7 @@ ast::ExprPtr Parser::call(ast::ExprPtr callee, std::uint32_t begin) {
   auto arguments = arguments_in_parentheses();
   auto* old = std::get_if<ast::Member>(&callee->node);
   if (old && old->name.text == "during" && arguments.size() == 1) {
-    diagnostics_.warning(old->name.span, "'during' stands before its task",
+    diagnostics_.warning(old->name.span, "'during' belongs in front of its task",
                          fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
     auto const head = old->name.span;
     auto task = std::move(old->object);
@@ -268,16 +267,12 @@ ast::ExprPtr Parser::trailing_closure(ast::ExprPtr callee, std::uint32_t begin) 
   return make(std::move(made), since(begin));
 }
 
-/// `imcPlan['survey1']`, printed so in the report that describes the language, is a call.
+/// `imcPlan['survey1']`, printed so in the report that describes the language, is a call. Several indices are a list.
 ast::ExprPtr Parser::index(ast::ExprPtr object, std::uint32_t begin) {
-  auto const opener = next_;
-  advance();
-  ast::ExprPtr inside;
-  {
-    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
-    inside = expression();
-    if (at(comma)) error(token().span, "an element has one index");
-    close(opener);
+  auto inside = list_or_map();
+  if (auto* list = std::get_if<ast::ListLiteral>(&inside->node)) {
+    if (list->items.empty()) error(inside->span, "an index is missing");
+    if (list->items.size() == 1) inside = ast::ExprPtr(std::move(list->items.front()));
   }
   if (auto const* name = std::get_if<ast::Name>(&object->node); name && name->text == "imcPlan") {
     ast::Call made;
@@ -288,8 +283,7 @@ ast::ExprPtr Parser::index(ast::ExprPtr object, std::uint32_t begin) {
   return make(ast::Index{std::move(object), std::move(inside)}, since(begin));
 }
 
-// ---- chains
-// -------------------------------------------------------------------------------------------------------------
+// ---- chains -------------------------------------------------------------------------------------
 
 /// Whether a chain begins here; the heads are words like others where nothing follows that a chain could begin with.
 std::optional<ast::ChainKind> Parser::chain_head() const {

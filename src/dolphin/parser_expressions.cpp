@@ -67,8 +67,7 @@ std::optional<ast::UnaryOp> unary_operator(TokenKind kind) {
 
 }  // namespace
 
-// ---- operators
-// ----------------------------------------------------------------------------------------------------------
+// ---- operators ----------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::expression() {
   Nesting const nesting(*this);
@@ -158,8 +157,7 @@ ast::ExprPtr Parser::power() {
   return make(ast::Binary{ast::BinaryOp::power, std::move(base), std::move(exponent), op}, since(begin));
 }
 
-// ---- primaries
-// ----------------------------------------------------------------------------------------------------------
+// ---- primaries ----------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::primary() {
   switch (kind()) {
@@ -259,7 +257,10 @@ ast::ExprPtr Parser::in_parentheses() {
   {
     Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
     made = command();
-    if (at(assign)) error(token().span, "an assignment cannot stand inside an expression", "== compares");
+    if (at(assign)) {
+      error(token().span, "an assignment cannot stand inside an expression", "== compares");
+      unread_.push_back(made->span);
+    }
     close(opener);
   }
   made->in_parentheses = true;
@@ -329,8 +330,7 @@ ast::ExprPtr Parser::new_object() {
   return make(std::move(made), since(begin));
 }
 
-// ---- closures
-// -----------------------------------------------------------------------------------------------------------
+// ---- closures -----------------------------------------------------------------------------------
 
 /// Looks ahead for the -> behind parameters, within one line and outside nested brackets.
 bool Parser::has_arrow() const {

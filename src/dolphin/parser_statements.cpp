@@ -87,10 +87,21 @@ void Parser::statement_into(ast::Block& block) {
   }
   if (made) block.statements.push_back(std::move(made));
   if (!at_statement_end() || next_ == first) {
-    expected("the end of the statement");
+    unexpected_in_statement();
     skip_statement();
     if (next_ == first) advance();
   }
+}
+
+/// What stands behind a statement on its line; `1 + task 'a'` is a call that wants parentheses.
+void Parser::unexpected_in_statement() {
+  auto const* const before = next_ > 0 ? &tokens_[next_ - 1] : nullptr;
+  if (before && before->kind == identifier && starts_argument(0)) {
+    if (!quiet_) unread_.push_back(before->span);
+    return expected("the end of the statement",
+                    fmt::format("a call inside an expression needs parentheses: {}(...)", text(*before)));
+  }
+  expected("the end of the statement");
 }
 
 ast::StmtPtr Parser::statement() {
@@ -166,6 +177,7 @@ ast::StmtPtr Parser::assignment(ast::ExprPtr target, std::uint32_t begin) {
   auto value = command();
   if (is_assignment(kind()) && on_same_line()) {
     error(token().span, "one statement assigns once", "write each assignment on its own line");
+    unread_.push_back(value->span);
   }
   return make_statement(ast::Assign{std::move(target), compound(sign.kind), std::move(value)}, begin);
 }
@@ -188,8 +200,7 @@ ast::StmtPtr Parser::labelled() {
   return make_statement(ast::ExprStmt{std::move(expr)}, begin);
 }
 
-// ---- declarations
-// -------------------------------------------------------------------------------------------------------
+// ---- declarations -------------------------------------------------------------------------------
 
 bool Parser::at_typed_declaration() const {
   if (!at(identifier) || kind(1) != identifier || !on_same_line(1) || !is_type_name(text(token()))) return false;
@@ -275,8 +286,7 @@ std::vector<ast::Parameter> Parser::parameters(TokenKind end) {
   return out;
 }
 
-// ---- control flow
-// -------------------------------------------------------------------------------------------------------
+// ---- control flow -------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::condition(std::string_view what) {
   if (!at(left_paren)) {

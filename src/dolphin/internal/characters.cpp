@@ -126,20 +126,20 @@ Unreadable unreadable_character(std::string_view text) {
   auto const c = decode_utf8(text);
   switch (c.value) {
     case U'\u2018':
-    case U'\u2019': return {c.size, "a typographic quote cannot enclose a string", "write '", false};
+    case U'\u2019': return {c.size, "a typographic quote cannot enclose a string", "write '", Unreadable::Like::quote};
     case U'\u201C':
     case U'\u201D':
-    case U'\u201E': return {c.size, "a typographic quote cannot enclose a string", "write \"", false};
+    case U'\u201E': return {c.size, "a typographic quote cannot enclose a string", "write \"", Unreadable::Like::quote};
     case U'\u2010':
     case U'\u2012':
     case U'\u2013':
     case U'\u2014':
-    case U'\u2212': return {c.size, "a typographic dash is not a minus sign", "write -", false};
+    case U'\u2212': return {c.size, "a typographic dash is not a minus sign", "write -", Unreadable::Like::dash};
     default: break;
   }
-  if (c.size == 0) return {1, "these bytes are not UTF-8 text", "save the script as UTF-8", true};
-  if (c.value < 0x20 || c.value == 0x7F) return {c.size, "control characters cannot stand in a script", "", true};
-  return {c.size, "this character cannot stand here", "", true};
+  if (c.size == 0) return {1, "these bytes are not UTF-8 text", "save the script as UTF-8"};
+  if (c.value < 0x20 || c.value == 0x7F) return {c.size, "control characters cannot stand in a script", ""};
+  return {c.size, "this character cannot stand here", ""};
 }
 
 ScannedNumber scan_number(std::string_view text) {

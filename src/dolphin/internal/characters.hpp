@@ -32,7 +32,7 @@ struct Unreadable {
   std::size_t size;
   std::string_view message;
   std::string_view hint;
-  bool repeats;  ///< a run of them is one mistake
+  enum class Like { nothing, quote, dash } looks_like = Like::nothing;
 };
 [[nodiscard]] Unreadable unreadable_character(std::string_view text);
 

@@ -63,6 +63,7 @@ class Parser {
   // ---- statements (parser_statements.cpp)
   ast::Block statements(TokenKind end);
   void statement_into(ast::Block& block);
+  void unexpected_in_statement();
   ast::StmtPtr statement();
   ast::StmtPtr keyword_statement();
   ast::StmtPtr simple_statement();

@@ -1,0 +1,230 @@
+#include "dolphin/checker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "dolphin/ast_walk.hpp"
+#include "dolphin/internal/characters.hpp"
+#include "dolphin/internal/checker.hpp"
+
+namespace lapwing::dolphin {
+
+namespace {
+
+void add_words(std::string_view text, std::unordered_set<std::string>& words) {
+  while (!text.empty()) {
+    std::size_t size = 0;
+    while (auto const more = identifier_character(text.substr(size))) size += more;
+    if (size > 0) words.emplace(text.substr(0, size));
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+}
+
+bool is_true(ast::ExprPtr const& condition) {
+  auto const* literal = std::get_if<ast::BoolLiteral>(&condition->node);
+  return literal && literal->value;
+}
+
+/// A break that ends the loop with this body.
+bool has_break(ast::Block const& body) {
+  return std::ranges::any_of(body.statements, [](ast::StmtPtr const& statement) {
+    if (std::holds_alternative<ast::Break>(statement->node)) return true;
+    bool const is_own =
+        std::holds_alternative<ast::While>(statement->node) || std::holds_alternative<ast::For>(statement->node) ||
+        std::holds_alternative<ast::ForIn>(statement->node) || std::holds_alternative<ast::Switch>(statement->node);
+    if (is_own) return false;
+    if (auto const* branch = std::get_if<ast::If>(&statement->node)) {
+      return has_break(branch->then) || (branch->otherwise && has_break(*branch->otherwise));
+    }
+    auto const* guarded = std::get_if<ast::Try>(&statement->node);
+    return guarded && (has_break(guarded->body) || std::ranges::any_of(guarded->catches, [](ast::Catch const& one) {
+                         return has_break(one.body);
+                       }));
+  });
+}
+
+/// Why nothing comes after this statement: "return", or empty.
+std::string_view ends_with(ast::Stmt const& statement) {
+  if (std::holds_alternative<ast::Return>(statement.node)) return "return";
+  if (std::holds_alternative<ast::Break>(statement.node)) return "break";
+  if (std::holds_alternative<ast::Continue>(statement.node)) return "continue";
+  if (std::holds_alternative<ast::Throw>(statement.node)) return "throw";
+  if (auto const* loop = std::get_if<ast::While>(&statement.node)) {
+    return is_true(loop->condition) && !has_break(loop->body) ? "a loop without a break" : "";
+  }
+  if (auto const* expr = std::get_if<ast::ExprStmt>(&statement.node)) {
+    auto const* call = std::get_if<ast::Call>(&expr->expr->node);
+    auto const* callee = call ? std::get_if<ast::Name>(&call->callee->node) : nullptr;
+    return callee && callee->text == "halt" ? "halt" : "";
+  }
+  return "";
+}
+
+}  // namespace
+
+void check(ast::Program const& program, std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics) {
+  Checker(program, builders, diagnostics).run();
+}
+
+Checker::Checker(ast::Program const& program, std::span<tasks::BuilderSpec const> builders,
+                 base::Diagnostics& diagnostics)
+    : program_(program), diagnostics_(diagnostics), resolution_(resolve(program)), inference_(resolution_, builders) {
+  for (auto const& spec : builders) {
+    Builder made{&spec, {}};
+    for (auto const& command : spec.commands) made.words.push_back(instruction_of(command));
+    builders_.push_back(std::move(made));
+  }
+  for (auto const span : program.unread) add_words(diagnostics.source().text(span), unread_names_);
+}
+
+void Checker::run() {
+  function_overloads();
+  for (auto const* name : resolution_.redeclared) {
+    diagnostics_.error(name->span, fmt::format("{} is already declared here", name->text),
+                       "write it without def to change its value");
+  }
+  block(program_.body, false);
+}
+
+/// Functions of one name differ in the number of their parameters.
+void Checker::function_overloads() {
+  for (auto const& [name, functions] : resolution_.functions) {
+    for (std::size_t i = 1; i < functions.size() && i < 20; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (functions[i]->parameters.size() != functions[j]->parameters.size()) continue;
+        base::Diagnostic diagnostic{base::Severity::error, functions[i]->name.span,
+                                    fmt::format("the function {} is already defined", name)};
+        diagnostic.notes.push_back({functions[j]->name.span, "it is defined here"});
+        diagnostics_.report(std::move(diagnostic));
+        break;
+      }
+    }
+  }
+}
+
+// ---- statements ---------------------------------------------------------------------------------
+
+void Checker::block(ast::Block const& block, bool is_value) {
+  bool const is_script = &block == &program_.body;
+  std::string_view end;
+  for (std::size_t i = 0; i < block.statements.size(); ++i) {
+    auto const& one = *block.statements[i];
+    if (is_script) top_statement_ = i;
+    if (!end.empty() && !std::holds_alternative<ast::FunctionDecl>(one.node)) {
+      diagnostics_.warning(one.span, fmt::format("this is never reached: it stands behind {}", end));
+      end = {};
+    }
+    statement(one, is_value && i + 1 == block.statements.size());
+    if (auto const why = ends_with(one); !why.empty()) end = why;
+  }
+}
+
+void Checker::statement(ast::Stmt const& statement, bool is_value) {
+  std::visit([&](auto const& node) { check(node, statement, is_value); }, statement.node);
+}
+
+void Checker::check(ast::ExprStmt const& n, ast::Stmt const&, bool is_value) {
+  expression(n.expr);
+  if (is_value) return;
+  auto const kinds = inference_.facts(*n.expr).kinds;
+  if (kinds == Kinds(Kind::task)) {
+    diagnostics_.warning(n.expr->span, "this task is never executed", "write execute before it, or give it a name");
+  } else if (std::holds_alternative<ast::Closure>(n.expr->node)) {
+    diagnostics_.warning(n.expr->span, "this closure is never called");
+  }
+}
+
+void Checker::check(ast::Assign const& n, ast::Stmt const&, bool) {
+  expression(n.value);
+  bool const is_name = std::holds_alternative<ast::Name>(n.target->node);
+  if (!is_name || n.op) expression(n.target);
+}
+
+void Checker::check(ast::VarDecl const& n, ast::Stmt const&, bool) {
+  expression(n.value);
+}
+
+void Checker::check(ast::FunctionDecl const& n, ast::Stmt const&, bool) {
+  auto const outer = std::exchange(place_, {.in_closure = true});
+  auto const contexts = std::exchange(contexts_, {});
+  for (auto const& parameter : n.parameters) expression(parameter.fallback);
+  block(n.body, true);
+  contexts_ = contexts;
+  place_ = outer;
+}
+
+void Checker::check(ast::If const& n, ast::Stmt const&, bool is_value) {
+  expression(n.condition);
+  block(n.then, is_value);
+  if (n.otherwise) block(*n.otherwise, is_value);
+}
+
+void Checker::loop_body(ast::Block const& body) {
+  auto const outer = place_;
+  place_.in_loop = true;
+  block(body, false);
+  place_ = outer;
+}
+
+void Checker::check(ast::While const& n, ast::Stmt const&, bool) {
+  expression(n.condition);
+  loop_body(n.body);
+}
+
+void Checker::check(ast::For const& n, ast::Stmt const&, bool) {
+  if (n.init) statement(*n.init, true);
+  expression(n.condition);
+  if (n.update) statement(*n.update, true);
+  loop_body(n.body);
+}
+
+void Checker::check(ast::ForIn const& n, ast::Stmt const&, bool) {
+  expression(n.iterable);
+  loop_body(n.body);
+}
+
+void Checker::check(ast::Switch const& n, ast::Stmt const&, bool) {
+  expression(n.subject);
+  auto const outer = place_;
+  place_.in_switch = true;
+  for (auto const& one : n.cases) {
+    expression(one.value);
+    block(one.body, false);
+  }
+  place_ = outer;
+}
+
+void Checker::check(ast::Try const& n, ast::Stmt const&, bool is_value) {
+  block(n.body, is_value);
+  for (auto const& one : n.catches) {
+    for (auto const& type : one.types) type_name(type);
+    block(one.body, is_value);
+  }
+  if (n.finally) block(*n.finally, false);
+}
+
+void Checker::check(ast::Throw const& n, ast::Stmt const&, bool) {
+  expression(n.value);
+}
+void Checker::check(ast::Return const& n, ast::Stmt const&, bool) {
+  expression(n.value);
+}
+
+void Checker::check(ast::Break const&, ast::Stmt const& statement, bool) {
+  if (!place_.in_loop && !place_.in_switch) diagnostics_.error(statement.span, "break stands outside a loop");
+}
+
+void Checker::check(ast::Continue const&, ast::Stmt const& statement, bool) {
+  if (!place_.in_loop) diagnostics_.error(statement.span, "continue stands outside a loop");
+}
+
+void Checker::check(ast::Assert const& n, ast::Stmt const&, bool) {
+  expression(n.condition);
+  expression(n.message);
+}
+
+void Checker::check(ast::Import const&, ast::Stmt const&, bool) {}
+
+}  // namespace lapwing::dolphin

@@ -1,0 +1,330 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/spelling.hpp"
+#include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/rehearsal.hpp"
+
+namespace lapwing::dolphin {
+
+namespace {
+
+std::string_view noun(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::none: return "a number";
+    case Dimension::length: return "a length";
+    case Dimension::angle: return "an angle";
+    case Dimension::time: return "a time";
+    case Dimension::speed: return "a speed";
+    case Dimension::ratio: return "a ratio";
+  }
+  return "a number";
+}
+
+std::size_t least_arguments(SignatureSpec const& signature) {
+  auto const optional = [](ParameterSpec const& parameter) { return parameter.optional; };
+  return signature.parameters.size() - static_cast<std::size_t>(std::ranges::count_if(signature.parameters, optional));
+}
+
+bool takes_count(SignatureSpec const& signature, std::size_t count) {
+  return count >= least_arguments(signature) && (signature.repeats || count <= signature.parameters.size());
+}
+
+ParameterSpec const& parameter_at(SignatureSpec const& signature, std::size_t position) {
+  return signature.parameters[std::min(position, signature.parameters.size() - 1)];
+}
+
+/// "takeOff position [, pitch]"
+std::string usage(std::string_view name, SignatureSpec const& signature) {
+  std::string out(name);
+  std::string brackets;
+  for (std::size_t i = 0; i < signature.parameters.size(); ++i) {
+    auto const& parameter = signature.parameters[i];
+    out += parameter.optional ? (i == 0 ? " [" : " [, ") : (i == 0 ? " " : ", ");
+    out += parameter.name;
+    if (parameter.optional) brackets += ']';
+  }
+  return out + brackets + (signature.repeats ? ", ..." : "") + (signature.parameters.empty() ? "()" : "");
+}
+
+std::string usages(InstructionSpec const& spec) {
+  std::vector<std::string> all;
+  for (auto const& signature : spec.signatures) all.push_back(usage(spec.name, signature));
+  return fmt::format("write {}", fmt::join(all, " or "));
+}
+
+std::string counted(std::size_t count) {
+  return count == 1 ? "1 argument" : fmt::format("{} arguments", count);
+}
+
+std::size_t positional_count(ast::Call const& call) {
+  auto const positional = [](ast::Argument const& argument) { return !argument.name; };
+  return static_cast<std::size_t>(std::ranges::count_if(call.arguments, positional));
+}
+
+}  // namespace
+
+void Checker::call(ast::Expr const& expr) {
+  auto const& n = std::get<ast::Call>(expr.node);
+  duplicate_keys(n);
+  auto const* callee = std::get_if<ast::Name>(&n.callee->node);
+  if (!callee) {
+    expression(n.callee);
+    return arguments(n, std::nullopt);
+  }
+  auto const& text = callee->text;
+  auto const* word = block_word(text);
+  if (n.style == ast::CallStyle::label) {
+    if (!word) {
+      diagnostics_.error(n.callee->span, fmt::format("a label does nothing: {}:", text),
+                         is_callable(text) ? fmt::format("write {} without the colon", text) : "");
+      return arguments(n, std::nullopt);
+    }
+    diagnostics_.warning(n.callee->span, fmt::format("{} takes no colon", text),
+                         fmt::format("write {} without the colon", text));
+  }
+  if (word) return instruction_call(n, expr.span, *word);
+  if (resolution_.locals.contains(n.callee.get())) return arguments(n, std::nullopt);
+  if (auto const found = resolution_.functions.find(text); found != resolution_.functions.end()) {
+    return function_call(n, expr.span, found->second);
+  }
+  if (auto const* instruction = find_instruction(text)) return instruction_call(n, expr.span, *instruction);
+  if (auto const* builder = find_builder(text)) return builder_call(n, expr.span, *builder);
+  if (resolution_.find(*n.callee)) return arguments(n, std::nullopt);
+  undefined_call(n, n.callee->span);
+}
+
+void Checker::undefined_call(ast::Call const& call, base::Span span) {
+  auto const& text = std::get<ast::Name>(call.callee->node).text;
+  if (!may_be_defined_in_unread(text) && reported_.insert(text).second) {
+    auto hint = suggestion(text);
+    if (hint.empty()) hint = block_of(text);
+    auto const where = contexts_.empty() ? "" : fmt::format(" inside {}", contexts_.back().name);
+    diagnostics_.error(span, fmt::format("there is no instruction {}{}", text, where), std::move(hint));
+  }
+  arguments(call, std::nullopt);
+}
+
+/// Checks the values of all arguments; the closure at the end, if any, in the context of the block that it is.
+void Checker::arguments(ast::Call const& call, std::optional<BlockContext> context) {
+  for (auto const& argument : call.arguments) {
+    auto const* body = std::get_if<ast::Closure>(&argument.value->node);
+    if (context && body) {
+      closure(*body, context);
+    } else {
+      expression(argument.value);
+    }
+  }
+}
+
+void Checker::duplicate_keys(ast::Call const& call) {
+  for (std::size_t i = 1; i < call.arguments.size(); ++i) {
+    auto const& name = call.arguments[i].name;
+    if (!name) continue;
+    auto const same = [&](ast::Argument const& other) { return other.name && other.name->text == name->text; };
+    auto const earlier = std::span(call.arguments).first(std::min<std::size_t>(i, 200));
+    auto const first = std::ranges::find_if(earlier, same);
+    if (first == earlier.end()) continue;
+    base::Diagnostic diagnostic{base::Severity::error, name->span, fmt::format("duplicate key {}", name->text)};
+    diagnostic.notes.push_back({first->name->span, "it stands here already"});
+    diagnostics_.report(std::move(diagnostic));
+  }
+}
+
+// ---- instructions -------------------------------------------------------------------------------
+
+void Checker::instruction_call(ast::Call const& call, base::Span span, InstructionSpec const& spec) {
+  bool const is_imc_block = spec.name == "imcPlan" && call.arguments.size() == 1 &&
+                            std::holds_alternative<ast::Closure>(call.arguments[0].value->node);
+  if (is_imc_block) {
+    diagnostics_.error(call.callee->span, "IMC plans are not supported",
+                       "define a mission { ... }, or write imcPlan('name') for a plan made elsewhere");
+    return;
+  }
+  std::optional<BlockContext> context;
+  if (spec.block != BlockKind::none) context = BlockContext{spec.block, spec.name, block_words(spec.block)};
+  arguments(call, context);
+  auto const positional = positional_count(call);
+  auto const named = call.arguments.size() - positional;
+  if (named > 0 && spec.named == NamedArguments::none) {
+    auto const first =
+        std::ranges::find_if(call.arguments, [](ast::Argument const& argument) { return argument.name.has_value(); });
+    diagnostics_.error(first->name->span, fmt::format("{} has no named arguments", spec.name), usages(spec));
+    return;
+  }
+  if (named > 0 && spec.named == NamedArguments::vehicles) {
+    if (positional > 0)
+      diagnostics_.error(span, fmt::format("{} takes either one value or values with names", spec.name));
+    return vehicle_keys(call, spec);
+  }
+  if (named > 0 && positional == 0) return;  // signals and parameters have any name
+  auto const before = diagnostics_.error_count();
+  signatures(call, span, spec);
+  bool const fits = diagnostics_.error_count() == before;
+  if (fits && spec.name == "setConnectionTimeout" && positional == 1) connection_timeout(*call.arguments[0].value);
+}
+
+/// `execute v1: task`, `setConnectionTimeout v1: 30`: keys are variables that hold vehicles.
+void Checker::vehicle_keys(ast::Call const& call, InstructionSpec const& spec) {
+  bool const runs_tasks = spec.name == "execute";
+  for (auto const& argument : call.arguments) {
+    if (!argument.name) continue;
+    auto const& key = *argument.name;
+    auto const* variable = resolution_.find(key);
+    if (!variable && !(runs_tasks && key.text == "_")) undefined_name(key.text, key.span);
+    auto const kinds = variable ? inference_.facts(*variable).kinds : Kinds::any();
+    if (!kinds.meets(Kind::vehicles)) {
+      diagnostics_.error(key.span, fmt::format("{} is {}, not a set of vehicles", key.text, describe(kinds)),
+                         "vehicles come from pick { ... }");
+    }
+    auto const value = inference_.facts(*argument.value).kinds;
+    if (runs_tasks && !value.meets(Kind::task)) {
+      diagnostics_.error(argument.value->span, fmt::format("execute runs tasks, this is {}", describe(value)),
+                         value == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
+    }
+    if (!runs_tasks) connection_timeout(*argument.value);
+  }
+}
+
+void Checker::connection_timeout(ast::Expr const& value) {
+  auto const facts = inference_.facts(value);
+  if (!facts.kinds.meets(Kinds::number())) {
+    diagnostics_.error(value.span, fmt::format("a connection timeout is a time, this is {}", describe(facts.kinds)));
+  } else if (facts.dimension && *facts.dimension != Dimension::none && *facts.dimension != Dimension::time) {
+    diagnostics_.error(value.span, fmt::format("a connection timeout is a time, this is {}", noun(*facts.dimension)));
+  } else if (auto const constant = inference_.constant(value)) {
+    auto const* whole = std::get_if<std::int64_t>(&*constant);
+    auto const* decimal = std::get_if<double>(&*constant);
+    auto const seconds = whole ? static_cast<double>(*whole) : decimal ? *decimal : 5.0;
+    if (seconds < 5.0 || seconds > 3600.0)
+      diagnostics_.error(value.span, "a connection timeout lies between 5 s and 1 h");
+  }
+}
+
+/// Finds a signature that takes the arguments, or says what is wrong with the one that comes nearest.
+void Checker::signatures(ast::Call const& call, base::Span span, InstructionSpec const& spec) {
+  auto const count = positional_count(call);
+  SignatureSpec const* nearest = nullptr;
+  std::size_t furthest = 0;
+  for (auto const& signature : spec.signatures) {
+    if (!takes_count(signature, count)) continue;
+    auto const wrong = mismatch(call, signature);
+    if (!wrong) return;
+    if (!nearest || *wrong > furthest) {
+      nearest = &signature;
+      furthest = *wrong;
+    }
+  }
+  if (nearest) return report_mismatch(call, spec, *nearest, furthest);
+  diagnostics_.error(span, fmt::format("{} does not take {}", spec.name, counted(count)), usages(spec));
+}
+
+/// The position of the first argument that the signature does not take.
+std::optional<std::size_t> Checker::mismatch(ast::Call const& call, SignatureSpec const& signature) {
+  std::size_t position = 0;
+  for (auto const& argument : call.arguments) {
+    if (argument.name) continue;
+    auto const& parameter = parameter_at(signature, position);
+    auto const facts = inference_.facts(*argument.value);
+    if (!facts.kinds.is_none() && !facts.kinds.meets(parameter.kinds)) return position;
+    bool const wrong_dimension = parameter.dimension != Dimension::none && facts.dimension &&
+                                 *facts.dimension != Dimension::none && *facts.dimension != parameter.dimension;
+    if (wrong_dimension) return position;
+    auto const* text = std::get_if<ast::StringLiteral>(&argument.value->node);
+    bool const wrong_choice = text && !parameter.choices.empty() &&
+                              std::ranges::find(parameter.choices, text->value) == parameter.choices.end();
+    if (wrong_choice) return position;
+    ++position;
+  }
+  return std::nullopt;
+}
+
+void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec, SignatureSpec const& signature,
+                              std::size_t position) {
+  auto const& parameter = parameter_at(signature, position);
+  std::size_t seen = 0;
+  auto const wanted = [&](ast::Argument const& argument) { return !argument.name && seen++ == position; };
+  auto const& value = *std::ranges::find_if(call.arguments, wanted)->value;
+  auto const facts = inference_.facts(value);
+  auto const* text = std::get_if<ast::StringLiteral>(&value.node);
+  if (text && parameter.kinds.meets(Kind::text)) {
+    auto const hint = base::did_you_mean(text->value, parameter.choices);
+    diagnostics_.error(value.span,
+                       fmt::format("{} of {} is one of {}, not {}", parameter.name, spec.name,
+                                   fmt::join(parameter.choices, ", "), text->value),
+                       hint);
+    return;
+  }
+  auto const chosen =
+      std::ranges::find_if(signature.parameters, [](ParameterSpec const& one) { return !one.choices.empty(); });
+  auto hint = usage(spec.name, signature);
+  if (text && chosen != signature.parameters.end()) {
+    hint = fmt::format("{}; {} is one of {}", hint, chosen->name, fmt::join(chosen->choices, ", "));
+  }
+  bool const is_number = parameter.kinds.meets(Kinds::number()) && facts.kinds.meets(Kinds::number());
+  auto const needed =
+      parameter.dimension == Dimension::none ? describe(parameter.kinds) : std::string(noun(parameter.dimension));
+  auto const found = is_number && facts.dimension ? std::string(noun(*facts.dimension)) : describe(facts.kinds);
+  bool const is_closure_for_task = parameter.kinds == Kinds(Kind::task) && facts.kinds == Kinds(Kind::closure);
+  diagnostics_.error(value.span, fmt::format("{} of {} is {}, not {}", parameter.name, spec.name, needed, found),
+                     is_closure_for_task ? "wrap it: action { ... }" : fmt::format("write {}", hint));
+}
+
+// ---- functions and builders ---------------------------------------------------------------------
+
+void Checker::function_call(ast::Call const& call, base::Span span,
+                            std::vector<ast::FunctionDecl const*> const& functions) {
+  arguments(call, std::nullopt);
+  auto const positional = positional_count(call);
+  auto const count = positional + (positional < call.arguments.size() ? 1 : 0);  // all named ones are one map
+  for (auto const* function : functions) {
+    auto const least =
+        std::ranges::count_if(function->parameters, [](ast::Parameter const& one) { return !one.fallback; });
+    // A call without arguments may leave a single parameter null, as in Groovy.
+    bool const leaves_null = count == 0 && function->parameters.size() == 1;
+    if ((count >= static_cast<std::size_t>(least) && count <= function->parameters.size()) || leaves_null) return;
+  }
+  std::vector<std::string_view> parameters;
+  for (auto const& parameter : functions.front()->parameters) parameters.push_back(parameter.name.text);
+  auto const& name = functions.front()->name;
+  base::Diagnostic diagnostic{base::Severity::error, span,
+                              fmt::format("{} does not take {}", name.text, counted(count)),
+                              fmt::format("it takes ({})", fmt::join(parameters, ", "))};
+  diagnostic.notes.push_back({name.span, "it is defined here"});
+  diagnostics_.report(std::move(diagnostic));
+}
+
+void Checker::builder_call(ast::Call const& call, base::Span span, Builder const& builder) {
+  auto const name = builder.spec->name;
+  auto const before = diagnostics_.error_count();
+  arguments(call, BlockContext{BlockKind::platform, name, builder.words});
+  if (call.arguments.size() != 1 || call.arguments[0].name) {
+    diagnostics_.error(span, fmt::format("{} takes a block", name), fmt::format("write {} {{ ... }}", name));
+    return;
+  }
+  auto const& value = *call.arguments[0].value;
+  if (auto const facts = inference_.facts(value); !facts.kinds.meets(Kind::closure)) {
+    diagnostics_.error(value.span, fmt::format("{} takes a block, not {}", name, describe(facts.kinds)),
+                       fmt::format("write {} {{ ... }}", name));
+    return;
+  }
+  auto const* body = std::get_if<ast::Closure>(&value.node);
+  if (body && diagnostics_.error_count() == before) rehearse(*body, builder, call.callee->span);
+}
+
+/// Lets the platform build the block from the arguments that are known, so that it finds now what it would refuse
+/// later.
+void Checker::rehearse(ast::Closure const& body, Builder const& builder, base::Span span) {
+  if (!builder.spec->begin) return;
+  if (auto problem = rehearsal(body, *builder.spec, inference_)) {
+    auto const place = problem->place.size() > 0 ? problem->place : span;
+    diagnostics_.error(place, std::move(problem->error.message), std::move(problem->error.hint));
+  }
+}
+
+}  // namespace lapwing::dolphin

@@ -1,0 +1,340 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "base/spelling.hpp"
+#include "dolphin/ast_walk.hpp"
+#include "dolphin/internal/checker.hpp"
+
+namespace lapwing::dolphin {
+
+namespace {
+
+bool has_name(std::span<NameSpec const> table, std::string_view name) {
+  return std::ranges::find(table, name, &NameSpec::name) != table.end();
+}
+
+std::vector<std::string_view> names_of(auto const& table) {
+  std::vector<std::string_view> out;
+  for (auto const& one : table) out.push_back(one.name);
+  return out;
+}
+
+std::string_view word(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::none: return "a plain number";
+    case Dimension::length: return "a length";
+    case Dimension::angle: return "an angle";
+    case Dimension::time: return "a time";
+    case Dimension::speed: return "a speed";
+    case Dimension::ratio: return "a ratio";
+  }
+  return "a number";
+}
+
+constexpr auto block_kinds = {BlockKind::pick, BlockKind::position, BlockKind::displacement, BlockKind::handler};
+
+}  // namespace
+
+// ---- names --------------------------------------------------------------------------------------
+
+InstructionSpec const* Checker::block_word(std::string_view name) const {
+  for (auto context = contexts_.rbegin(); context != contexts_.rend(); ++context) {
+    auto const found = std::ranges::find(context->words, name, &InstructionSpec::name);
+    if (found != context->words.end()) return &*found;
+  }
+  return nullptr;
+}
+
+Builder const* Checker::find_builder(std::string_view name) const {
+  auto const found =
+      std::ranges::find_if(builders_, [&](Builder const& builder) { return builder.spec->name == name; });
+  return found == builders_.end() ? nullptr : &*found;
+}
+
+bool Checker::is_callable(std::string_view name) const {
+  return block_word(name) || resolution_.functions.contains(name) || find_instruction(name) || find_builder(name);
+}
+
+bool Checker::may_be_defined_in_unread(std::string_view name) const {
+  return unread_names_.contains(std::string(name));
+}
+
+/// Looks for what was meant among variables, functions and instructions alike; the words of the block one is in come
+/// first.
+std::string Checker::suggestion(std::string_view name) const {
+  std::vector<std::string_view> near;
+  for (auto const& context : contexts_) std::ranges::copy(names_of(context.words), std::back_inserter(near));
+  if (auto const found = base::did_you_mean(name, near); !found.empty()) return found;
+  std::vector<std::string_view> all;
+  for (auto const& variable : resolution_.variables) {
+    if (variable.name != "it") all.push_back(variable.name);
+  }
+  for (auto const& [function, declarations] : resolution_.functions) all.push_back(function);
+  for (auto const& builder : builders_) all.push_back(builder.spec->name);
+  std::ranges::copy(names_of(instructions()), std::back_inserter(all));
+  std::ranges::copy(names_of(constants()), std::back_inserter(all));
+  return base::did_you_mean(name, all);
+}
+
+std::string Checker::block_of(std::string_view name) const {
+  for (auto const& builder : builders_) {
+    auto const found = std::ranges::find(builder.words, name, &InstructionSpec::name);
+    if (found != builder.words.end()) return fmt::format("{} stands inside {} {{ ... }}", name, builder.spec->name);
+  }
+  for (auto const kind : block_kinds) {
+    auto const words = block_words(kind);
+    if (std::ranges::find(words, name, &InstructionSpec::name) == words.end()) continue;
+    for (auto const& instruction : instructions()) {
+      if (instruction.block == kind) return fmt::format("{} stands inside {} {{ ... }}", name, instruction.name);
+    }
+    return fmt::format("{} stands inside onError {{ ... }}", name);
+  }
+  return {};
+}
+
+void Checker::undefined_name(std::string const& name, base::Span span) {
+  if (may_be_defined_in_unread(name) || !reported_.insert(name).second) return;
+  if (is_callable(name)) {
+    diagnostics_.error(span, fmt::format("{} is an instruction, not a variable", name),
+                       fmt::format("to use it write {}(...)", name));
+    return;
+  }
+  auto const is_hidden_local = std::ranges::any_of(resolution_.variables, [&](Variable const& variable) {
+    return variable.name == name && variable.kind == VariableKind::local;
+  });
+  if (is_hidden_local) {
+    diagnostics_.error(span, fmt::format("{} is not defined here", name),
+                       "def makes a local; assign without def to see it everywhere");
+    return;
+  }
+  auto hint = suggestion(name);
+  if (hint.empty()) hint = block_of(name);
+  diagnostics_.error(span, fmt::format("{} is not defined", name), std::move(hint));
+}
+
+void Checker::name(ast::Expr const& expr) {
+  auto const& text = std::get<ast::Name>(expr.node).text;
+  if (auto const* variable = resolution_.find(expr)) {
+    used_too_early(expr, *variable);
+    return;
+  }
+  if (has_name(constants(), text) || has_name(types(), text)) return;
+  undefined_name(text, expr.span);
+}
+
+/// A global that gets its first value in a later statement of the script, used where it stands.
+bool Checker::used_too_early(ast::Expr const& expr, Variable const& variable) {
+  bool const early =
+      variable.kind == VariableKind::global && !place_.in_closure && variable.first_statement > top_statement_;
+  if (!early || may_be_defined_in_unread(variable.name) || !reported_.insert(variable.name).second) return false;
+  base::Diagnostic diagnostic{base::Severity::error, expr.span, fmt::format("{} has no value yet", variable.name)};
+  diagnostic.notes.push_back({variable.defined, "it gets its first value here"});
+  diagnostics_.report(std::move(diagnostic));
+  return true;
+}
+
+void Checker::type_name(ast::Identifier const& type) {
+  if (has_name(types(), type.text)) return;
+  diagnostics_.error(type.span, fmt::format("there is no type {}", type.text),
+                     base::did_you_mean(type.text, names_of(types())));
+}
+
+// ---- expressions --------------------------------------------------------------------------------
+
+void Checker::expression(ast::ExprPtr const& expr) {
+  if (expr) expression(*expr);
+}
+
+void Checker::expression(ast::Expr const& expr) {
+  if (std::holds_alternative<ast::Name>(expr.node)) return name(expr);
+  if (std::holds_alternative<ast::Call>(expr.node)) return call(expr);
+  if (std::holds_alternative<ast::Chain>(expr.node)) return chain(expr);
+  if (std::holds_alternative<ast::Member>(expr.node)) return member(expr);
+  if (std::holds_alternative<ast::Index>(expr.node)) return index(expr);
+  if (auto const* literal = std::get_if<ast::Closure>(&expr.node)) return closure(*literal, std::nullopt);
+  if (auto const* cast = std::get_if<ast::Cast>(&expr.node)) type_name(cast->type);
+  if (auto const* test = std::get_if<ast::InstanceOf>(&expr.node)) type_name(test->type);
+  if (auto const* literal = std::get_if<ast::MapLiteral>(&expr.node)) map(*literal);
+  if (auto const* made = std::get_if<ast::New>(&expr.node)) {
+    type_name(made->type);
+    if (made->type.text == "Position") {
+      diagnostics_.warning(made->type.span, "new Position takes radians", "location(lat, lon, height) takes degrees");
+    }
+  }
+  auto const* binary = std::get_if<ast::Binary>(&expr.node);
+  if (binary && missing_parentheses(expr, *binary)) return expression(binary->right);
+  ast::for_each_child(expr.node, [this](auto const& child) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(child)>, ast::Expr>) expression(child);
+  });
+  if (binary) operands(*binary, expr.span);
+}
+
+void Checker::closure(ast::Closure const& closure, std::optional<BlockContext> context) {
+  auto const outer = std::exchange(place_, {.in_closure = true});
+  // The blocks of pick and of a mission are carried out where they stand.
+  bool const runs_now = context && context->kind != BlockKind::handler && context->kind != BlockKind::choice;
+  place_.in_closure = outer.in_closure || !runs_now;
+  if (context) contexts_.push_back(*context);
+  for (auto const& parameter : closure.parameters) expression(parameter.fallback);
+  block(closure.body, !runs_now);
+  if (context) contexts_.pop_back();
+  place_ = outer;
+}
+
+void Checker::map(ast::MapLiteral const& map) {
+  std::unordered_set<std::string_view> keys;
+  for (auto const& entry : map.entries) {
+    auto const* key = entry.key ? std::get_if<ast::StringLiteral>(&entry.key->node) : nullptr;
+    if (key && !keys.insert(key->value).second)
+      diagnostics_.error(entry.key->span, fmt::format("duplicate key {}", key->value));
+  }
+}
+
+/// Members of values whose kind is known for sure.
+void Checker::member(ast::Expr const& expr) {
+  auto const& n = std::get<ast::Member>(expr.node);
+  expression(n.object);
+  auto const facts = inference_.facts(*n.object);
+  if (facts.is_number()) {
+    if (find_unit(n.name.text)) return;
+    bool const is_member = std::ranges::any_of(methods(), [&](MethodSpec const& method) {
+      return method.name == n.name.text && method.receiver.meets(Kinds::number());
+    });
+    if (is_member) return;
+    diagnostics_.error(n.name.span, fmt::format("there is no unit {}", n.name.text),
+                       base::did_you_mean(n.name.text, names_of(units())));
+    return;
+  }
+  constexpr auto closed_kinds = Kinds(Kind::position) | Kind::displacement | Kind::area | Kind::vehicles | Kind::task;
+  if (facts.kinds.is_none() || !facts.kinds.within(closed_kinds)) return;
+  std::vector<std::string_view> known;
+  for (auto const& method : methods()) {
+    if (method.receiver.meets(facts.kinds)) known.push_back(method.name);
+  }
+  if (std::ranges::find(known, n.name.text) != known.end()) return;
+  diagnostics_.error(n.name.span, fmt::format("{} has no member {}", describe(facts.kinds), n.name.text),
+                     base::did_you_mean(n.name.text, known));
+}
+
+/// `message [1, 2]` indexes something called message.
+void Checker::index(ast::Expr const& expr) {
+  auto const& n = std::get<ast::Index>(expr.node);
+  auto const* callee = std::get_if<ast::Name>(&n.object->node);
+  if (callee && !resolution_.find(*n.object) && is_callable(callee->text)) {
+    diagnostics_.error(expr.span, fmt::format("this takes an element of {}, which is an instruction", callee->text),
+                       fmt::format("write {}([...])", callee->text));
+    return expression(n.index);
+  }
+  expression(n.object);
+  expression(n.index);
+  auto const facts = inference_.facts(*n.object);
+  auto const inside = inference_.facts(*n.index);
+  if (facts.kinds == Kinds(Kind::task) && !inside.kinds.meets(Kind::vehicles)) {
+    diagnostics_.error(n.index->span,
+                       fmt::format("a task is limited to a set of vehicles, not to {}", describe(inside.kinds)));
+  }
+}
+
+void Checker::chain(ast::Expr const& expr) {
+  auto const& n = std::get<ast::Chain>(expr.node);
+  bool const in_choice =
+      std::ranges::any_of(contexts_, [](BlockContext const& context) { return context.kind == BlockKind::choice; });
+  if (n.kind == ast::ChainKind::when && !in_choice) {
+    diagnostics_.error(n.head_span, "when stands outside oneOf, choose and allOf",
+                       "outside of them write waitFor { ... } then task");
+  }
+  expression(n.subject);
+  auto const* handler = std::get_if<ast::Closure>(&n.body->node);
+  if (n.kind == ast::ChainKind::watch && handler) {
+    closure(*handler, BlockContext{BlockKind::handler, "onError", block_words(BlockKind::handler)});
+  } else {
+    expression(n.body);
+  }
+  auto const& task = n.kind == ast::ChainKind::watch ? n.subject : n.body;
+  auto const facts = inference_.facts(*task);
+  if (!facts.kinds.meets(Kind::task)) {
+    diagnostics_.error(task->span, fmt::format("a task is needed here, this is {}", describe(facts.kinds)),
+                       facts.kinds == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
+  }
+  auto const limit = inference_.facts(*n.subject);
+  bool const wrong_dimension = n.kind == ast::ChainKind::during && limit.dimension &&
+                               *limit.dimension != Dimension::none && *limit.dimension != Dimension::time;
+  if (wrong_dimension) {
+    diagnostics_.error(n.subject->span, fmt::format("during takes a time, this is {}", word(*limit.dimension)));
+  }
+}
+
+// ---- operators ----------------------------------------------------------------------------------
+
+/// `lon -8.64`: a subtraction from something that is not a variable.
+bool Checker::missing_parentheses(ast::Expr const& expr, ast::Binary const& binary) {
+  if (binary.op != ast::BinaryOp::subtract && binary.op != ast::BinaryOp::add) return false;
+  auto const* callee = std::get_if<ast::Name>(&binary.left->node);
+  if (!callee || resolution_.find(*binary.left) || !is_callable(callee->text)) return false;
+  auto const sign = binary.op == ast::BinaryOp::subtract ? "-" : "+";
+  auto const argument = diagnostics_.source().text({binary.right->span.begin, expr.span.end});
+  diagnostics_.error(expr.span, fmt::format("this calculates with {}, which is an instruction", callee->text),
+                     fmt::format("write {} ({}{})", callee->text, sign, argument));
+  return true;
+}
+
+/// Operators on values whose kinds are known (language specification 2).
+void Checker::operands(ast::Binary const& binary, base::Span) {
+  using enum ast::BinaryOp;
+  dimensions(binary);
+  battery_comparison(binary);
+  auto const left = inference_.facts(*binary.left).kinds;
+  auto const right = inference_.facts(*binary.right).kinds;
+  auto const needs = [&](Kinds wanted, std::string_view what) {
+    if (right.meets(wanted)) return;
+    diagnostics_.error(binary.right->span, fmt::format("{}, not {}", what, describe(right)));
+  };
+  if (left == Kinds(Kind::task)) {
+    if (binary.op == divide) needs(Kind::closure, "a task is ended by a closure: task / { condition }");
+    if (binary.op == shift_right) needs(Kind::task, "a task is followed by a task");
+    if (binary.op == bit_or) needs(Kind::task, "a task runs beside a task");
+  } else if (left == Kinds(Kind::vehicles)) {
+    if (binary.op == bit_or) needs(Kind::closure, "vehicles are filtered by a closure: vehicles | { condition }");
+    if (binary.op == add) needs(Kinds(Kind::vehicles) | Kind::text, "vehicles are joined with vehicles");
+    if (binary.op == subtract || binary.op == bit_and) needs(Kind::vehicles, "vehicles are compared with vehicles");
+  } else if (left == Kinds(Kind::position) && binary.op == bit_xor) {
+    needs(Kinds::number(), "an area is a position ^ a radius in metres");
+  }
+}
+
+void Checker::dimensions(ast::Binary const& binary) {
+  using enum ast::BinaryOp;
+  bool const compares = binary.op >= less && binary.op <= not_equal && binary.op != in;
+  if (binary.op != add && binary.op != subtract && !compares) return;
+  auto const left = inference_.facts(*binary.left).dimension;
+  auto const right = inference_.facts(*binary.right).dimension;
+  if (!left || !right || *left == Dimension::none || *right == Dimension::none || left == right) return;
+  diagnostics_.warning(binary.op_span, fmt::format("{} meets {}", word(*left), word(*right)));
+}
+
+/// A battery's charge runs from 0 to 1: `battery(v) < 30` is always true.
+void Checker::battery_comparison(ast::Binary const& binary) {
+  using enum ast::BinaryOp;
+  if (binary.op < less || binary.op > greater_equal) return;
+  auto const is_battery = [&](ast::Expr const& expr) {
+    auto const* called = std::get_if<ast::Call>(&expr.node);
+    auto const* callee = called ? std::get_if<ast::Name>(&called->callee->node) : nullptr;
+    return callee && callee->text == "battery" && !resolution_.functions.contains(callee->text);
+  };
+  auto const& limit = is_battery(*binary.left) ? binary.right : binary.left;
+  if (!is_battery(*binary.left) && !is_battery(*binary.right)) return;
+  auto const value = inference_.constant(*limit);
+  double number = 0.0;
+  if (value && std::holds_alternative<double>(*value)) number = std::get<double>(*value);
+  if (value && std::holds_alternative<std::int64_t>(*value))
+    number = static_cast<double>(std::get<std::int64_t>(*value));
+  if (number > 1.0) {
+    diagnostics_.warning(limit->span, "battery gives 0 to 1",
+                         fmt::format("write {}.percent", diagnostics_.source().text(limit->span)));
+  }
+}
+
+}  // namespace lapwing::dolphin

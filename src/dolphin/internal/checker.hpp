@@ -1,0 +1,122 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "dolphin/ast.hpp"
+#include "dolphin/inference.hpp"
+#include "dolphin/resolver.hpp"
+#include "dolphin/signatures.hpp"
+
+namespace lapwing::dolphin {
+
+/// The words that a block adds while its closure is checked.
+struct BlockContext {
+  BlockKind kind = BlockKind::none;
+  std::string_view name;
+  std::span<InstructionSpec const> words;
+};
+
+/// A platform's block word with its commands in the language's own form.
+struct Builder {
+  tasks::BuilderSpec const* spec;
+  std::vector<InstructionSpec> words;
+};
+
+/// One pass over a tree.
+class Checker {
+ public:
+  Checker(ast::Program const& program, std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics);
+  void run();
+
+ private:
+  /// What `return`, `break` and the value of the last statement mean where the pass is.
+  struct Place {
+    bool in_closure = false;  ///< code that runs later than where it stands
+    bool in_loop = false;
+    bool in_switch = false;
+  };
+
+  // ---- statements (checker.cpp)
+  void block(ast::Block const& block, bool is_value);
+  void statement(ast::Stmt const& statement, bool is_value);
+  void check(ast::ExprStmt const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Assign const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::VarDecl const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::FunctionDecl const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::If const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::While const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::For const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::ForIn const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Switch const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Try const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Throw const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Return const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Break const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Continue const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Assert const& n, ast::Stmt const& statement, bool is_value);
+  void check(ast::Import const& n, ast::Stmt const& statement, bool is_value);
+  void loop_body(ast::Block const& body);
+  void function_overloads();
+
+  // ---- expressions (checker_expressions.cpp)
+  void expression(ast::ExprPtr const& expr);
+  void expression(ast::Expr const& expr);
+  void name(ast::Expr const& expr);
+  void undefined_name(std::string const& name, base::Span span);
+  bool used_too_early(ast::Expr const& expr, Variable const& variable);
+  void closure(ast::Closure const& closure, std::optional<BlockContext> context);
+  void member(ast::Expr const& expr);
+  void index(ast::Expr const& expr);
+  void map(ast::MapLiteral const& map);
+  void chain(ast::Expr const& expr);
+  void type_name(ast::Identifier const& type);
+  void operands(ast::Binary const& binary, base::Span span);
+  void dimensions(ast::Binary const& binary);
+  bool missing_parentheses(ast::Expr const& expr, ast::Binary const& binary);
+  void battery_comparison(ast::Binary const& binary);
+
+  // ---- calls (checker_calls.cpp)
+  void call(ast::Expr const& expr);
+  void instruction_call(ast::Call const& call, base::Span span, InstructionSpec const& spec);
+  void function_call(ast::Call const& call, base::Span span, std::vector<ast::FunctionDecl const*> const& functions);
+  void builder_call(ast::Call const& call, base::Span span, Builder const& builder);
+  void undefined_call(ast::Call const& call, base::Span span);
+  void method_call(ast::Call const& call);
+  void arguments(ast::Call const& call, std::optional<BlockContext> context);
+  void duplicate_keys(ast::Call const& call);
+  void vehicle_keys(ast::Call const& call, InstructionSpec const& spec);
+  void connection_timeout(ast::Expr const& value);
+  void signatures(ast::Call const& call, base::Span span, InstructionSpec const& spec);
+  [[nodiscard]] std::optional<std::size_t> mismatch(ast::Call const& call, SignatureSpec const& signature);
+  void report_mismatch(ast::Call const& call, InstructionSpec const& spec, SignatureSpec const& signature,
+                       std::size_t position);
+  void rehearse(ast::Closure const& body, Builder const& builder, base::Span span);
+
+  // ---- names (checker_expressions.cpp)
+  [[nodiscard]] InstructionSpec const* block_word(std::string_view name) const;
+  [[nodiscard]] Builder const* find_builder(std::string_view name) const;
+  [[nodiscard]] bool is_callable(std::string_view name) const;
+  [[nodiscard]] bool may_be_defined_in_unread(std::string_view name) const;
+  [[nodiscard]] std::string suggestion(std::string_view name) const;
+  /// "stands inside mission { ... }" for a word that is known only there.
+  [[nodiscard]] std::string block_of(std::string_view name) const;
+
+  ast::Program const& program_;
+  base::Diagnostics& diagnostics_;
+  Resolution resolution_;
+  Inference inference_;
+  std::vector<Builder> builders_;
+  std::vector<BlockContext> contexts_;
+  std::unordered_set<std::string> unread_names_;
+  std::unordered_set<std::string> reported_;  ///< undefined names, each once
+  Place place_;
+  std::size_t top_statement_ = 0;
+};
+
+}  // namespace lapwing::dolphin

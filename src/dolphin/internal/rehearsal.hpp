@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "base/error.hpp"
+#include "dolphin/ast.hpp"
+#include "dolphin/inference.hpp"
+
+namespace lapwing::dolphin {
+
+struct RehearsalProblem {
+  base::Span place;  ///< of the command; empty when it is the block as a whole
+  base::Error error;
+};
+
+/// Builds a block whose statements are all commands of the platform, with those arguments that are the same in every
+/// run and stand-ins for the others, and gives what the platform refuses. Says nothing about commands with stand-ins,
+/// nor about blocks with other code.
+[[nodiscard]] std::optional<RehearsalProblem> rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder,
+                                                        Inference& inference);
+
+}  // namespace lapwing::dolphin
