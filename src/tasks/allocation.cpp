@@ -105,7 +105,8 @@ Result<> Allocator::serve_kind(Performed const& kind, int first, Takers& takers)
   auto best = vehicles_.size();
   double best_distance_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
-    if (rejection(*kind.task, i, takers)) continue;
+    // Taken ones first: looking up who took them is only worth it for the error.
+    if (takers[i] != nobody || rejection(*kind.task, i, takers)) continue;
     auto const& position = vehicles_[i].position;
     bool const measurable = reference && position;
     double const distance_m =

@@ -8,7 +8,7 @@
 /// How a script's closures take part in running tasks. The language implements these; nothing here knows a language.
 namespace lapwing::tasks {
 
-/// Ordered by severity: of failures in one tick the most severe is reported.
+/// An exception or a halt ends the tick where it happens; of several task errors in one tick the leftmost is reported.
 enum class FailureKind {
   task,       ///< a task ended in ERROR: travels up to the nearest watch, cancelling siblings on its way
   exception,  ///< a closure threw: as `task` within a watch; else the whole tree is stopped and the caller gets it

@@ -287,6 +287,28 @@ TEST_F(ExecutionTest, LostVehicleFailsTheTaskThatWouldStart) {
   EXPECT_EQ(execute(sequence(lose, task("A:1"))).failure->message, "vehicle a1 is lost");
 }
 
+TEST_F(ExecutionTest, RunsTreesAsDeepAsAllowed) {
+  auto tree = task("A:0.2");
+  while (tree->depth < max_task_depth) tree = until(tree, never());
+  EXPECT_TRUE(execute(tree).is_done());
+  EXPECT_EQ(trace(), (Trace{"0.0 START A@a1", "0.2 DONE A@a1"}));
+}
+
+TEST_F(ExecutionTest, RunsAThousandTasksAtOnce) {
+  std::vector<std::string> ids;
+  auto vehicle = *stage_.platform.find({"a1"});
+  auto tree = idle(seconds(0));
+  for (int i = 0; i < 1000; ++i) {
+    ids.push_back(fmt::format("v{}", i));
+    vehicle.id = {ids.back()};
+    stage_.platform.set_vehicle(vehicle);
+    tree = concurrent(tree, sequence(task("A:0.1"), task("B:0.1")));
+  }
+  EXPECT_TRUE(stage_.execute(tree, ids).is_done());
+  EXPECT_EQ(trace().size(), 4000u);
+  EXPECT_EQ(trace().back(), "0.2 DONE B@v999");
+}
+
 // ---- from outside
 // --------------------------------------------------------------------------------------------------------
 
