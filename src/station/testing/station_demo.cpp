@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/scope.hpp"
+#include "geo/position.hpp"
+#include "station/station.hpp"
+
+/// Test equipment for the browser app: a real station over made-up vehicles, so that web/e2e can show every state
+/// (moving, lost, conflict, low battery) at will. usage: station_demo PORT WEB_FOLDER
+namespace lapwing::station {
+namespace {
+
+using namespace std::chrono_literals;
+using geo::Ned;
+using geo::Wgs84;
+
+constexpr Wgs84 origin = Wgs84::from_degrees(-35.363262, 149.165237, 584.0);
+
+constexpr std::string_view example = R"(// Two copters survey the car park while the rover patrols its edge.
+north = mission {
+  home
+  takeOff here, 20.m
+  surveyArea (120.m, 80.m), 20.m, 70.percent
+  returnHome
+}
+patrol = mission {
+  move (0.m, 60.m, 0.m)
+  move (90.m, 60.m, 0.m)
+}
+
+eye = pick { type 'UAV' payload 'Camera' }
+cart = pick { type 'UGV' }
+
+execute (north of eye) | (patrol of cart)
+message 'survey done'
+)";
+
+/// One made-up vehicle that follows a closed path at constant speed.
+struct Traveller {
+  std::string id;
+  vehicle::Family family;
+  double speed_m_s;
+  double alt_m;
+  std::vector<Ned> path;
+  double battery = 0.9;
+};
+
+std::vector<Ned> survey_path() {
+  std::vector<Ned> path;
+  for (int row = 0; row < 6; ++row) {
+    double const north = 20.0 + row * 16.0;
+    double const west = -10.0;
+    double const east = 110.0;
+    path.push_back({north, row % 2 ? east : west, 0});
+    path.push_back({north, row % 2 ? west : east, 0});
+  }
+  return path;
+}
+
+std::vector<Ned> circle(Ned center, double radius_m) {
+  std::vector<Ned> path;
+  for (int i = 0; i < 24; ++i) {
+    double const angle = i * std::numbers::pi / 12;
+    path.push_back({center.north + radius_m * std::cos(angle), center.east + radius_m * std::sin(angle), 0});
+  }
+  return path;
+}
+
+std::vector<Traveller> travellers() {
+  return {{"1", vehicle::Family::copter, 8.0, 20.0, survey_path(), 0.82},
+          {"2", vehicle::Family::copter, 6.0, 30.0, circle({-40, 30, 0}, 45), 0.27},
+          {"3", vehicle::Family::plane, 16.0, 80.0, circle({30, 60, 0}, 160), 0.64},
+          {"4", vehicle::Family::rover, 2.0, 0.0, {{-10, -40, 0}, {120, -40, 0}, {120, -60, 0}, {-10, -60, 0}}, 0.55},
+          {"5", vehicle::Family::rover, 0.0, 0.0, {{-30, -70, 0}, {-30, -69, 0}}, 0.97}};
+}
+
+struct Pose {
+  Ned place;
+  double heading_rad;
+  std::size_t leg;
+};
+
+Pose pose_after(Traveller const& traveller, double travelled_m) {
+  auto const& path = traveller.path;
+  for (std::size_t leg = 0;; leg = (leg + 1) % path.size()) {
+    auto const& from = path[leg];
+    auto const& to = path[(leg + 1) % path.size()];
+    double const north = to.north - from.north;
+    double const east = to.east - from.east;
+    double const length = std::hypot(north, east);
+    if (travelled_m <= length) {
+      double const share = travelled_m / length;
+      return {
+          {from.north + share * north, from.east + share * east, 0}, geo::wrap_two_pi(std::atan2(east, north)), leg};
+    }
+    travelled_m -= length;
+  }
+}
+
+class DemoScript : public ScriptControl {
+ public:
+  DemoScript(base::Loop& loop, base::Logger log) : loop_(loop), log_(std::move(log)) {}
+
+  [[nodiscard]] ScriptStatus status() const override { return status_; }
+  [[nodiscard]] std::vector<tasks::TaskView> task_trees() const override {
+    if (status_.state == ScriptState::idle && status_.message.empty()) return {};
+    using enum tasks::TaskState;
+    auto const active = status_.state == ScriptState::running ? running : stopped;
+    int const item = static_cast<int>(base::to_seconds(loop_.now().time_since_epoch())) % 12;
+    tasks::TaskView const north{
+        3, "mission", "north", 2, active, vehicle::VehicleId{"1"}, fmt::format("item {}/12", item), {}};
+    tasks::TaskView const patrol{4, "mission", "patrol", 8, active, vehicle::VehicleId{"4"}, "item 1/2", {}};
+    return {{1,
+             "sequence",
+             "",
+             16,
+             active,
+             {},
+             "",
+             {{2, "concurrent", "(north of eye) | (patrol of cart)", 16, active, {}, "", {north, patrol}},
+              {5, "action", "message 'survey done'", 17, active == stopped ? stopped : waiting, {}, "", {}}}}};
+  }
+  [[nodiscard]] std::expected<void, StartFailure> start(std::string name, std::string source) override {
+    if (status_.state == ScriptState::running || status_.state == ScriptState::stopping) {
+      return std::unexpected(StartFailure{{base::ErrorKind::refused, "A script runs already.", "Stop it first."}, {}});
+    }
+    if (source.find("takeOf ") != std::string::npos) return std::unexpected(misspelt(name, source));
+    status_ = {std::move(name), std::move(source), ScriptState::running, "", {}};
+    log_.info("script started");
+    return {};
+  }
+  void stop() override {
+    if (status_.state != ScriptState::running) return;
+    status_.state = ScriptState::stopping;
+    status_.message = "vehicles go into LOITER";
+    log_.warn("script stops: vehicles go into LOITER");
+    stopping_since_ = loop_.now();
+  }
+  void advance() {
+    if (status_.state != ScriptState::stopping || loop_.now() - stopping_since_ < 1500ms) return;
+    status_.state = ScriptState::idle;
+    status_.message = "stopped by an operator";
+  }
+
+ private:
+  static StartFailure misspelt(std::string const& name, std::string_view source) {
+    auto const place = source.find("takeOf ");
+    auto const line = static_cast<std::uint32_t>(1 + std::ranges::count(source.substr(0, place), '\n'));
+    return {{base::ErrorKind::invalid_input, "The script does not check: 1 error.", "Mend it and start again."},
+            {{name, {line, 3}, {line, 9}, "error", "takeOf is not defined", "did you mean takeOff?", {}}}};
+  }
+
+  base::Loop& loop_;
+  base::Logger log_;
+  ScriptStatus status_{.name = "survey.dolphin",
+                       .source = std::string(example),
+                       .state = ScriptState::running,
+                       .message = {},
+                       .diagnostics = {}};
+  base::TimePoint stopping_since_{};
+};
+
+void update(vehicle::VehicleState& state, Traveller const& traveller, base::TimePoint now, bool holds) {
+  auto const pose =
+      pose_after(traveller, std::fmod(traveller.speed_m_s * base::to_seconds(now.time_since_epoch()), 100'000.0));
+  auto const place = geo::displaced(origin, {pose.place.north, pose.place.east, -traveller.alt_m});
+  bool const moves = traveller.speed_m_s > 0;
+  state.system_id = std::atoi(traveller.id.c_str());
+  state.name = fmt::format("{} {}", vehicle::to_string(traveller.family), traveller.id);
+  state.family = traveller.family;
+  state.autopilot = vehicle::Autopilot::ardupilot;
+  state.link = "udpin://127.0.0.1:14550";
+  state.heartbeat_heard = now;
+  state.mode.set(!moves ? "HOLD" : holds ? "LOITER" : "AUTO", now);
+  state.armed.set(moves, now);
+  state.landed.set(!moves || traveller.alt_m == 0, now);
+  state.position.set(place, now);
+  state.relative_alt_m.set(traveller.alt_m, now);
+  state.heading_rad.set(pose.heading_rad, now);
+  state.velocity_m_s.set(
+      {traveller.speed_m_s * std::cos(pose.heading_rad), traveller.speed_m_s * std::sin(pose.heading_rad), 0}, now);
+  state.battery.set({.remaining = traveller.battery - base::to_seconds(now.time_since_epoch()) / 3600,
+                     .voltage_v = 15.2,
+                     .current_a = 8.0},
+                    now);
+  state.health.set({.position_ok = true, .prearm_ok = true}, now);
+  state.home.set(origin, now);
+  state.mission.set({static_cast<int>(pose.leg) + 1, static_cast<int>(traveller.path.size()), false}, now);
+  state.track_m = traveller.speed_m_s * base::to_seconds(now.time_since_epoch());
+  if (!state.planned_path.empty() || !moves) return;
+  for (auto const& point : traveller.path) {
+    state.planned_path.push_back(geo::displaced(origin, {point.north, point.east, -traveller.alt_m}));
+  }
+}
+
+/// Moves everything ten times a second; vehicle 5 goes silent after 5 s.
+base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScript& script, base::Logger log) {
+  auto const all = travellers();
+  bool told = false;
+  for (;;) {
+    auto const now = loop.now();
+    for (auto const& traveller : all) {
+      vehicle::VehicleId const id{traveller.id};
+      auto& state = registry.edit(id);
+      bool const is_lost = id.text == "5" && now.time_since_epoch() > 5s;
+      if (!is_lost) update(state, traveller, now, script.status().state != ScriptState::running);
+      state.connection = is_lost ? vehicle::Connection::lost : vehicle::Connection::ok;
+      registry.touch(id);
+      if (is_lost && !std::exchange(told, true)) log.error("rover 5 is lost: nothing heard for 5 s");
+    }
+    script.advance();
+    co_await loop.sleep(100ms);
+  }
+}
+
+int run(int port, char const* web_folder) {
+  base::Loop loop;
+  base::LogHub hub;
+  hub.add_sink(base::standard_error_sink(base::LogLevel::info));
+  base::Logger const log(hub, "demo");
+  vehicle::Registry registry(loop);
+  DemoScript script(loop, log.named("script"));
+  Station::Options options;
+  options.http.port = port;
+  options.http.static_root = web_folder;
+  options.program_version = "0.1.0";
+  options.site = {"demo field", origin};
+  auto const station = Station::open(loop, registry, script, hub, options);
+  if (!station) {
+    fmt::print(stderr, "{} {}\n", station.error().message, station.error().hint);
+    return 3;
+  }
+  fmt::print("{}\n", (*station)->url());
+  std::fflush(stdout);
+  log.info("five vehicles found");
+  log.named("vehicle 2").warn("battery at 27 %");
+  base::Scope scope(loop);
+  scope.spawn(animate(loop, registry, script, log));
+  loop.run();
+  return 0;
+}
+
+}  // namespace
+}  // namespace lapwing::station
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    fmt::print(stderr, "usage: station_demo PORT WEB_FOLDER\n");
+    return 2;
+  }
+  return lapwing::station::run(std::atoi(argv[1]), argv[2]);
+}

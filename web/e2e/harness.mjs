@@ -1,0 +1,65 @@
+// Starts a station to test against and a browser to test with.
+import { spawn } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
+const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
+
+/** A station over moving vehicles on a port; 0 picks a free one. */
+export async function startStation(port = 0) {
+  const program = path.join(build, 'src', 'station', 'station_demo');
+  const child = spawn(program, [String(port), path.join(web, 'dist')], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const url = await new Promise((resolve, reject) => {
+    child.stdout.once('data', (data) => resolve(String(data).trim()));
+    child.once('error', () => reject(new Error(`${program} does not start: build the target station_demo first`)));
+    child.once('exit', (code) => reject(new Error(`${program} ended with ${code}`)));
+  });
+  const ended = new Promise((resolve) => child.once('exit', resolve));
+  return {
+    url,
+    port: Number(new URL(url).port),
+    stop: async () => {
+      child.kill('SIGKILL');
+      await ended;
+    },
+  };
+}
+
+export async function startBrowser() {
+  const profile = mkdtempSync(path.join(tmpdir(), 'lapwing-e2e-'));
+  const browser = await chromium.launchPersistentContext(profile, {
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    viewport: { width: 1440, height: 900 },
+    args: [
+      '--no-sandbox',
+      '--disable-gpu',
+      '--enable-unsafe-swiftshader',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+    ],
+  });
+  return {
+    /** A page with a list of what went wrong in it: errors, refused resources, violations of the content policy. */
+    open: async (url, options = {}) => {
+      const page = await browser.newPage();
+      const complaints = [];
+      page.on('pageerror', (error) => complaints.push(String(error)));
+      page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+      if (options.size) await page.setViewportSize(options.size);
+      await page.emulateMedia({ colorScheme: options.scheme ?? 'dark', reducedMotion: options.reducedMotion ?? 'no-preference' });
+      await page.goto(url);
+      return { page, complaints };
+    },
+    stop: async () => {
+      await browser.close();
+      rmSync(profile, { recursive: true, force: true });
+    },
+  };
+}

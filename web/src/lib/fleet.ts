@@ -1,0 +1,55 @@
+import type { Position, VehicleFields, VehicleUpdate } from './protocol';
+
+/** One vehicle as this browser knows it. `heardAt` is in ms of this browser's own clock, so ages need no common one. */
+export interface Vehicle {
+  id: string;
+  fields: VehicleFields;
+  heardAt: Record<string, number>;
+}
+
+export type Fleet = Map<string, Vehicle>;
+
+/** Puts an update into the fleet, replacing the vehicle it changes; a full message also forgets vehicles it does not name. */
+export function mergeUpdates(fleet: Fleet, updates: VehicleUpdate[], full: boolean, now: number): Fleet {
+  const merged: Fleet = full ? new Map() : new Map(fleet);
+  for (const { id, age_s, ...fields } of updates) {
+    const before = full ? undefined : fleet.get(id);
+    const heardAt = { ...before?.heardAt };
+    for (const [key, age] of Object.entries(age_s ?? {})) heardAt[key] = now - age * 1000;
+    merged.set(id, { id, fields: { ...before?.fields, ...fields }, heardAt });
+  }
+  return new Map([...merged].sort(([a], [b]) => compareIds(a, b)));
+}
+
+/** Numbers before and among each other as numbers, then text. */
+export function compareIds(a: string, b: string): number {
+  return a.length - b.length || (a < b ? -1 : a > b ? 1 : 0);
+}
+
+/** Seconds since the key was heard; nothing when it never was. */
+export function ageOf(vehicle: Vehicle, key: string, now: number): number | undefined {
+  const heard = vehicle.heardAt[key];
+  return heard === undefined ? undefined : Math.max(0, (now - heard) / 1000);
+}
+
+export function groundSpeed(vehicle: Vehicle): number | undefined {
+  const velocity = vehicle.fields.velocity_m_s;
+  return velocity && Math.hypot(velocity.north, velocity.east);
+}
+
+export const TRAIL_LIMIT = 1500;
+const TRAIL_STEP_M = 0.7;
+const METRES_PER_DEGREE = 111_320;
+
+/** The trail with `position` at its end when that is a step away from the last point. The oldest points go first. */
+export function extendTrail(trail: Position[], position: Position): Position[] {
+  const last = trail.at(-1);
+  if (last && roughDistance(last, position) < TRAIL_STEP_M) return trail;
+  return [...trail.slice(Math.max(0, trail.length + 1 - TRAIL_LIMIT)), position];
+}
+
+function roughDistance(a: Position, b: Position): number {
+  const north = (b.lat_deg - a.lat_deg) * METRES_PER_DEGREE;
+  const east = (b.lon_deg - a.lon_deg) * METRES_PER_DEGREE * Math.cos((a.lat_deg * Math.PI) / 180);
+  return Math.hypot(north, east);
+}

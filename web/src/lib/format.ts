@@ -1,0 +1,49 @@
+/** Numbers for people. What is not known is an en dash, never 0. */
+const UNKNOWN = '–';
+
+export function metres(value: number | undefined | null): string {
+  if (value === undefined || value === null) return UNKNOWN;
+  return `${clean(value.toFixed(Math.abs(value) < 9.95 ? 1 : 0))} m`;
+}
+
+export function speed(value: number | undefined | null): string {
+  return value === undefined || value === null ? UNKNOWN : `${clean(value.toFixed(1))} m/s`;
+}
+
+export function percent(share: number | undefined | null): string {
+  return share === undefined || share === null ? UNKNOWN : `${Math.round(share * 100)} %`;
+}
+
+/** "0.4 s", "12 s", "3 min", "2 h". */
+export function age(seconds: number | undefined): string {
+  if (seconds === undefined) return UNKNOWN;
+  if (seconds < 9.95) return `${seconds.toFixed(1)} s`;
+  if (seconds < 120) return `${Math.round(seconds)} s`;
+  if (seconds < 7200) return `${Math.floor(seconds / 60)} min`;
+  return `${Math.floor(seconds / 3600)} h`;
+}
+
+export function heading(radians: number | undefined): string {
+  if (radians === undefined) return UNKNOWN;
+  const degrees = ((Math.round((radians * 180) / Math.PI) % 360) + 360) % 360;
+  return `${String(degrees).padStart(3, '0')}°`;
+}
+
+/** "35.36326° S". */
+export function latitude(degrees: number): string {
+  return `${Math.abs(degrees).toFixed(5)}° ${degrees < 0 ? 'S' : 'N'}`;
+}
+
+export function longitude(degrees: number): string {
+  return `${Math.abs(degrees).toFixed(5)}° ${degrees < 0 ? 'W' : 'E'}`;
+}
+
+/** The time of day in the browser's own zone, from ISO 8601. */
+export function clock(iso: string): string {
+  const time = new Date(iso);
+  return Number.isNaN(time.getTime()) ? UNKNOWN : time.toLocaleTimeString('en-GB');
+}
+
+function clean(text: string): string {
+  return text.replace(/^-(0(\.0*)?)$/, '$1').replace('-', '−');
+}

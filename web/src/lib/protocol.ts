@@ -1,0 +1,131 @@
+/** The station's messages, protocol 1: docs/reference/station-messages.md. SI units and radians; lat and lon in degrees. */
+
+export const PROTOCOL = 1;
+
+export interface Position {
+  lat_deg: number;
+  lon_deg: number;
+  alt_m: number;
+}
+
+export type Family = 'copter' | 'plane' | 'vtol' | 'rover' | 'boat' | 'sub' | 'unknown';
+export type Link = 'ok' | 'lost' | 'conflict';
+
+/** What may be known about a vehicle; a key that is missing was never heard. */
+export interface VehicleFields {
+  system_id?: number;
+  name?: string;
+  family?: Family;
+  autopilot?: string;
+  connection?: Link;
+  link?: string;
+  payload?: string[];
+  track_m?: number;
+  heartbeat?: true;
+  mode?: string;
+  armed?: boolean;
+  landed?: boolean;
+  position?: Position;
+  relative_alt_m?: number;
+  velocity_m_s?: { north: number; east: number; down: number };
+  attitude_rad?: { roll: number; pitch: number; yaw: number };
+  heading_rad?: number;
+  battery?: { remaining: number; voltage_v?: number; current_a?: number };
+  health?: { position_ok: boolean; prearm_ok: boolean };
+  home?: Position;
+  mission?: { current: number; total: number; complete: boolean };
+  texts?: { severity: number; text: string }[];
+}
+
+export interface VehicleUpdate extends VehicleFields {
+  id: string;
+  /** Seconds since each key was heard, at the moment the message was made. */
+  age_s?: Record<string, number>;
+}
+
+export type TaskState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
+
+export interface Task {
+  id: number;
+  kind: string;
+  label: string;
+  line: number;
+  state: TaskState;
+  vehicle?: string;
+  detail?: string;
+  children?: Task[];
+}
+
+export type ScriptState = 'idle' | 'running' | 'stopping' | 'done' | 'failed';
+
+export interface Diagnostic {
+  severity: 'error' | 'warning' | 'note';
+  file: string;
+  line: number;
+  column: number;
+  end_line: number;
+  end_column: number;
+  message: string;
+  hint?: string;
+  notes?: Diagnostic[];
+}
+
+export interface Script {
+  name: string;
+  state: ScriptState;
+  message: string;
+  source: string;
+  diagnostics: Diagnostic[];
+}
+
+export type LogLevel = 'debug' | 'info' | 'warn' | 'error';
+
+export interface LogLine {
+  seq: number;
+  time: string;
+  level: LogLevel;
+  source: string;
+  text: string;
+}
+
+export interface Hello {
+  type: 'hello';
+  protocol: number;
+  version: string;
+  server_time: string;
+  site: { name: string; origin?: Position };
+}
+
+export interface Reply {
+  type: 'reply';
+  id: string;
+  ok: boolean;
+  error?: { message: string; hint: string };
+  diagnostics?: Diagnostic[];
+}
+
+export type ServerMessage =
+  | Hello
+  | { type: 'vehicles'; time_s: number; full: boolean; vehicles: VehicleUpdate[] }
+  | { type: 'plan'; vehicle: string; path: Position[] }
+  | { type: 'tasks'; trees: Task[] }
+  | ({ type: 'script' } & Script)
+  | { type: 'log'; lines: LogLine[] }
+  | Reply
+  | { type: 'pong'; id: string; server_time: string };
+
+export type ClientMessage =
+  | { type: 'start_script'; id: string; name: string; source: string }
+  | { type: 'stop_script'; id: string }
+  | { type: 'ping'; id: string };
+
+/** The message in a text frame; nothing for what is none. Types this app does not know come through and match no case. */
+export function parseMessage(text: string): ServerMessage | undefined {
+  try {
+    const value: unknown = JSON.parse(text);
+    const isMessage = typeof value === 'object' && value !== null && 'type' in value && typeof value.type === 'string';
+    return isMessage ? (value as ServerMessage) : undefined;
+  } catch {
+    return undefined;
+  }
+}

@@ -1,0 +1,128 @@
+import { Connection } from './connection';
+import { extendTrail, mergeUpdates, type Fleet } from './fleet';
+import { appendLines } from './log';
+import { PROTOCOL, type Diagnostic, type LogLine, type Position, type Reply, type Script, type ServerMessage, type Task } from './protocol';
+import { socketUrl, takeToken } from './token';
+
+export type Phase = 'connecting' | 'live' | 'lost';
+
+const CLOCK_MS = 500;
+
+/** The station as the app sees it: what its messages have told, and whether they still come. */
+class Station {
+  phase = $state<Phase>('connecting');
+  /** This browser's clock in ms, ticking slowly, for ages on the screen. */
+  now = $state(performance.now());
+  lastHeard = $state(performance.now());
+  fleet = $state.raw<Fleet>(new Map());
+  trails = $state.raw<Map<string, Position[]>>(new Map());
+  plans = $state.raw<Map<string, Position[]>>(new Map());
+  trees = $state.raw<Task[]>([]);
+  script = $state.raw<Script>({ name: '', state: 'idle', message: '', source: '', diagnostics: [] });
+  log = $state.raw<LogLine[]>([]);
+  site = $state.raw<{ name: string; origin?: Position }>({ name: '' });
+  version = $state('');
+  /** The last thing to be told at once, for screen readers. */
+  alert = $state('');
+  /** Why the last request was refused; empty when it was not. */
+  refusal = $state.raw<{ message: string; hint: string; diagnostics: Diagnostic[] } | undefined>(undefined);
+
+  private lastSeq = 0;
+  private connection: Connection;
+
+  constructor() {
+    const token = takeToken(location, sessionStorage, history);
+    this.connection = new Connection(() => new WebSocket(socketUrl(location, token)) as never, {
+      opened: () => {},
+      received: (message) => this.receive(message),
+      lost: () => this.lose(),
+    });
+    setInterval(() => (this.now = performance.now()), CLOCK_MS);
+    this.connection.connect();
+  }
+
+  get isLost(): boolean {
+    return this.phase === 'lost';
+  }
+
+  get origin(): Position | undefined {
+    if (this.site.origin) return this.site.origin;
+    for (const vehicle of this.fleet.values()) if (vehicle.fields.home) return vehicle.fields.home;
+    return undefined;
+  }
+
+  retry(): void {
+    this.connection.connect();
+  }
+
+  async start(name: string, source: string): Promise<boolean> {
+    return this.noteRefusal(await this.connection.request({ type: 'start_script', name, source }));
+  }
+
+  async stop(): Promise<boolean> {
+    return this.noteRefusal(await this.connection.request({ type: 'stop_script' }));
+  }
+
+  private noteRefusal(reply: Reply): boolean {
+    this.refusal = reply.ok
+      ? undefined
+      : { message: reply.error?.message ?? '', hint: reply.error?.hint ?? '', diagnostics: reply.diagnostics ?? [] };
+    if (this.refusal) this.alert = this.refusal.message;
+    return reply.ok;
+  }
+
+  private lose(): void {
+    if (this.phase === 'live') this.alert = 'Station lost. The vehicles carry on; what you see is old.';
+    this.phase = 'lost';
+  }
+
+  private receive(message: ServerMessage): void {
+    const now = performance.now();
+    this.lastHeard = now;
+    switch (message.type) {
+      case 'hello':
+        if (this.phase === 'lost') this.alert = 'The station is back.';
+        if (message.protocol !== PROTOCOL) this.alert = `The station speaks protocol ${message.protocol}: reload this page.`;
+        this.phase = 'live';
+        this.site = message.site;
+        this.version = message.version;
+        break;
+      case 'vehicles':
+        this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, now);
+        this.growTrails();
+        break;
+      case 'plan':
+        this.plans = new Map(this.plans).set(message.vehicle, message.path);
+        break;
+      case 'tasks':
+        this.trees = message.trees;
+        break;
+      case 'script':
+        this.script = message;
+        break;
+      case 'log':
+        this.addLog(message.lines);
+        break;
+    }
+  }
+
+  private growTrails(): void {
+    const trails = new Map<string, Position[]>();
+    for (const { id, fields } of this.fleet.values()) {
+      if (fields.position) trails.set(id, extendTrail(this.trails.get(id) ?? [], fields.position));
+    }
+    this.trails = trails;
+  }
+
+  private addLog(lines: LogLine[]): void {
+    const newest = lines.at(-1)?.seq ?? 0;
+    if (newest < this.lastSeq) this.lastSeq = 0; // the station was started anew
+    const before = this.log.length;
+    this.log = appendLines(this.log, lines, this.lastSeq);
+    const failure = lines.findLast((line) => line.level === 'error' && line.seq > this.lastSeq);
+    if (failure && before > 0) this.alert = `${failure.source}: ${failure.text}`;
+    this.lastSeq = newest;
+  }
+}
+
+export const station = new Station();

@@ -1,0 +1,27 @@
+import type { Feature, FeatureCollection } from 'geojson';
+import { gridLines, type Bounds, type LonLat } from '../lib/geometry';
+import type { Position } from '../lib/protocol';
+
+export function lonLat(position: Position): LonLat {
+  return [position.lon_deg, position.lat_deg];
+}
+
+/** One line a vehicle, coloured as it is. */
+export function pathFeatures(paths: Map<string, Position[]>, colourOf: (id: string) => string): FeatureCollection {
+  const features: Feature[] = [];
+  for (const [id, path] of paths) {
+    if (path.length < 2) continue;
+    const coordinates = path.map(lonLat);
+    features.push({ type: 'Feature', properties: { id, colour: colourOf(id) }, geometry: { type: 'LineString', coordinates } });
+  }
+  return { type: 'FeatureCollection', features };
+}
+
+export function gridFeatures(view: Bounds, origin: Position | undefined): FeatureCollection {
+  const features = gridLines(view, origin, 12).map(({ points, label, major }): Feature => ({
+    type: 'Feature',
+    properties: { label, major },
+    geometry: { type: 'LineString', coordinates: points },
+  }));
+  return { type: 'FeatureCollection', features };
+}

@@ -1,0 +1,108 @@
+import { Marker, type Map as MapLibreMap } from 'maplibre-gl';
+import type { LonLat } from '../lib/geometry';
+import type { Family } from '../lib/protocol';
+import { FAMILY_WORDS, SHAPES } from '../lib/shapes';
+import type { Status } from '../lib/status';
+
+export interface MarkerState {
+  at: LonLat;
+  headingRad: number | undefined;
+  family: Family;
+  name: string;
+  detail: string;
+  status: Status;
+  colour: string;
+  isSelected: boolean;
+}
+
+const SVG = 'http://www.w3.org/2000/svg';
+const GLIDE_MS = 220; // a little longer than the pause between two messages, so that motion does not stutter
+
+/** A vehicle on the map: shape of its family turned to its heading, a badge for its status, a label. A button for the keyboard. */
+export class VehicleMarker {
+  private readonly marker: Marker;
+  private readonly button = document.createElement('button');
+  private readonly shape = document.createElementNS(SVG, 'path');
+  private readonly svg = document.createElementNS(SVG, 'svg');
+  private readonly badge = document.createElement('span');
+  private readonly label = document.createElement('span');
+  private readonly detail = document.createElement('span');
+  private readonly labelName = document.createElement('span');
+  private family: Family | undefined;
+  private from: LonLat | undefined;
+  private to: LonLat | undefined;
+  private glideStart = 0;
+  private frame = 0;
+
+  constructor(
+    private readonly map: MapLibreMap,
+    onSelect: () => void,
+  ) {
+    this.button.type = 'button';
+    this.svg.setAttribute('viewBox', '-2 -2 36 36');
+    this.svg.setAttribute('aria-hidden', 'true');
+    this.svg.append(this.shape);
+    this.badge.className = 'badge';
+    this.label.className = 'label';
+    this.detail.className = 'detail';
+    this.label.append(this.labelName, this.detail);
+    this.button.append(this.svg, this.badge, this.label);
+    this.button.addEventListener('click', (event) => {
+      event.stopPropagation();
+      onSelect();
+    });
+    this.marker = new Marker({ element: this.button });
+  }
+
+  show(state: MarkerState, glides: boolean): void {
+    this.button.className = `vehicle ${state.status.level} ${state.isSelected ? 'selected' : ''} maplibregl-marker`;
+    this.button.setAttribute('aria-label', `${state.name}, ${FAMILY_WORDS[state.family]}, ${state.status.word}`);
+    this.button.setAttribute('aria-pressed', String(state.isSelected));
+    this.button.style.setProperty('--identity', state.colour);
+    if (this.family !== state.family) this.shape.setAttribute('d', SHAPES[(this.family = state.family)]);
+    this.svg.style.transform = `rotate(${state.headingRad ?? 0}rad)`;
+    this.badge.textContent = state.status.level === 'active' || state.status.level === 'ready' ? '' : state.status.symbol;
+    this.labelName.textContent = state.name;
+    this.detail.textContent = state.detail;
+    this.moveTo(state.at, glides);
+  }
+
+  remove(): void {
+    cancelAnimationFrame(this.frame);
+    this.marker.remove();
+  }
+
+  private moveTo(at: LonLat, glides: boolean): void {
+    const isFirst = !this.to;
+    if (!isFirst && this.to![0] === at[0] && this.to![1] === at[1]) return;
+    cancelAnimationFrame(this.frame);
+    this.from = isFirst || !glides ? at : this.shown();
+    this.to = at;
+    this.glideStart = performance.now();
+    this.marker.setLngLat(this.from);
+    if (isFirst) this.marker.addTo(this.map);
+    if (this.from !== at) this.frame = requestAnimationFrame(() => this.glide());
+  }
+
+  private glide(): void {
+    const share = Math.min(1, (performance.now() - this.glideStart) / GLIDE_MS);
+    const [from, to] = [this.from!, this.to!];
+    this.marker.setLngLat([from[0] + (to[0] - from[0]) * share, from[1] + (to[1] - from[1]) * share]);
+    if (share < 1) this.frame = requestAnimationFrame(() => this.glide());
+  }
+
+  private shown(): LonLat {
+    const { lng, lat } = this.marker.getLngLat();
+    return [lng, lat];
+  }
+}
+
+/** The place a vehicle returns to. */
+export function homeMarker(map: MapLibreMap, at: LonLat): Marker {
+  const element = document.createElement('div');
+  element.className = 'home';
+  element.setAttribute('role', 'img');
+  element.setAttribute('aria-label', 'home');
+  element.textContent = 'H';
+  return new Marker({ element }).setLngLat(at).addTo(map);
+}
