@@ -127,8 +127,12 @@ base::Result<> Upload::send_item(std::size_t seq) {
   return party_.send(item);
 }
 
+/// ERROR to a repeated item is what a vehicle says that gave the upload up: that, like a cancellation, is worth another
+/// round.
 base::Error Upload::refusal(MavMissionResult result) const {
-  auto const kind = result == MavMissionResult::operation_cancelled ? ErrorKind::timed_out : ErrorKind::refused;
+  bool const gave_up =
+      result == MavMissionResult::operation_cancelled || (result == MavMissionResult::error && last_repeated_);
+  auto const kind = gave_up ? ErrorKind::timed_out : ErrorKind::refused;
   if (!last_sent_)
     return {kind, fmt::format("vehicle {} refused {} {}: {}", party_.target.system, items_.size(), party_.plural(),
                               to_string(result))};
@@ -215,10 +219,17 @@ base::Task<base::Result<>> Upload::run() {
   }
 }
 
-/// Tries of one message when the whole may begin anew so often.
-int all_tries(TransferOptions const& options) {
-  return options.tries * (1 + options.restarts);
-}
+/// A message that repeats nothing but itself may be repeated for as long as all rounds of an upload may take.
+class Attempts {
+ public:
+  Attempts(TimePoint now, TransferOptions const& options)
+      : left_(options.tries * (1 + options.restarts)), until_(now + options.silence_limit * (1 + options.restarts)) {}
+  [[nodiscard]] bool another(TimePoint now) { return left_-- > 0 || now < until_; }
+
+ private:
+  int left_;
+  TimePoint until_;
+};
 
 /// A refusal that a download or a clear must take seriously; the others can be late answers to an upload before it.
 bool is_final(MavMissionResult result) {
@@ -235,7 +246,8 @@ std::unexpected<base::Error> refused(Party const& party, std::string_view what, 
 base::Task<base::Result<Message>> ask(Party const& party, Inbox& inbox, Message request,
                                       std::function<bool(Message const&)> fits, Patience& patience,
                                       TransferOptions const& options) {
-  for (int attempt = 0; attempt < all_tries(options); ++attempt) {
+  bool first = true;
+  for (Attempts attempts(party.now(), options); attempts.another(party.now()); first = false) {
     if (auto sent = party.send(request); !sent) co_return std::unexpected(sent.error());
     auto const sent_at = party.now();
     auto const deadline = sent_at + patience.value();
@@ -243,7 +255,7 @@ base::Task<base::Result<Message>> ask(Party const& party, Inbox& inbox, Message 
       auto got = co_await inbox.next(deadline);
       if (!got) break;
       if (fits(*got)) {
-        if (attempt == 0) patience.measured(party.now() - sent_at);
+        if (first) patience.measured(party.now() - sent_at);
         co_return std::move(*got);
       }
       auto const* ack = std::get_if<MissionAck>(&*got);
@@ -304,7 +316,7 @@ base::Task<base::Result<>> clear_mission(Connection& connection, Address target,
   Party const party{connection, target, type};
   Inbox acks(connection, target.system, meant_for<MissionAck>(party));
   std::optional<MavMissionResult> answered;
-  for (int attempt = 0; attempt < all_tries(options); ++attempt) {
+  for (Attempts attempts(party.now(), options); attempts.another(party.now());) {
     if (auto sent = party.send(MissionClearAll{.type = type}); !sent) co_return sent;
     auto const got = co_await acks.next(party.now() + options.reply_timeout);
     if (!got) continue;

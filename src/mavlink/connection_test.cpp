@@ -1,0 +1,214 @@
+#include "mavlink/connection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mavlink/fake_vehicle_test.hpp"
+#include "mavlink/inbox.hpp"
+
+namespace lapwing::mavlink {
+namespace {
+
+using namespace testing;
+
+TEST(Connection, GreetsANewPeerAndBeatsOnceASecond) {
+  Bench bench;
+  bench.run_for(10s);
+  auto const beats = bench.vehicle->all<Heartbeat>();
+  EXPECT_GE(beats.size(), 10u);
+  EXPECT_LE(beats.size(), 13u);
+  EXPECT_EQ(beats.front().type, MavType::gcs);
+  EXPECT_EQ(beats.front().autopilot, MavAutopilot::invalid);
+  EXPECT_EQ(bench.ground.counters({1, 1}).lost, 0u);
+}
+
+TEST(Connection, SendsToNobodyThatItNeverHeard) {
+  Bench bench;
+  auto const sent = bench.ground.send({7, 1}, CommandLong{});
+  ASSERT_FALSE(sent);
+  EXPECT_EQ(sent.error().kind, base::ErrorKind::lost);
+  EXPECT_NE(sent.error().message.find("vehicle 7"), std::string::npos);
+}
+
+TEST(Connection, FollowsAVehicleThatRebootedToItsNewAddress) {
+  Bench bench;
+  auto const before = bench.ground.whereabouts(1);
+  bench.vehicle.reset();
+  bench.vehicle = std::make_unique<FakeVehicle>(bench.loop, bench.hub.connect());
+  bench.run_for(2s);
+  EXPECT_NE(bench.ground.whereabouts(1), before);
+  EXPECT_FALSE(bench.ground.conflict(1));
+  ASSERT_TRUE(bench.ground.send({1, 1}, CommandLong{.command = MavCmd::mission_start}));
+  bench.run_for(1s);
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u);
+}
+
+TEST(Connection, NamesBothVehiclesOfOneSystemIdAndRefusesToSend) {
+  Bench bench;
+  auto twin = std::make_unique<FakeVehicle>(bench.loop, bench.hub.connect());
+  bench.run_for(5s);
+  auto const conflict = bench.ground.conflict(1);
+  ASSERT_TRUE(conflict);
+  EXPECT_EQ(conflict->first, "pipe from client 1");
+  EXPECT_EQ(conflict->second, "pipe from client 2");
+  auto const sent = bench.ground.send({1, 1}, CommandLong{});
+  ASSERT_FALSE(sent);
+  EXPECT_EQ(sent.error().kind, base::ErrorKind::refused);
+  EXPECT_NE(sent.error().message.find("client 2"), std::string::npos);
+
+  twin.reset();
+  bench.run_for(7s);
+  EXPECT_FALSE(bench.ground.conflict(1)) << "one of them is gone";
+  EXPECT_TRUE(bench.ground.send({1, 1}, CommandLong{}));
+}
+
+TEST(Connection, SeesNoConflictInASecondComponentOfAVehicle) {
+  Bench bench;
+  FakeVehicle const companion(bench.loop, bench.hub.connect(), {1, 191});
+  bench.run_for(5s);
+  EXPECT_FALSE(bench.ground.conflict(1));
+  ASSERT_TRUE(bench.ground.send({1, 1}, CommandLong{}));
+  bench.run_for(1s);
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u) << "the autopilot's address, not the companion's";
+}
+
+TEST(Connection, KeepsVehiclesOnOneLinkApart) {
+  Bench bench;
+  FakeVehicle const second(bench.loop, bench.hub.connect(), {2, 1});
+  bench.run_for(2s);
+  ASSERT_TRUE(bench.ground.send({2, 1}, CommandLong{}));
+  bench.run_for(1s);
+  EXPECT_EQ(second.all<CommandLong>().size(), 1u);
+  EXPECT_TRUE(bench.vehicle->all<CommandLong>().empty());
+}
+
+TEST(Connection, CountsWhatWasLostAndDropsWhatCameTwice) {
+  Bench bench({.loss = 0.2, .duplication = 0.2, .seed = 3});
+  int heard = 0;
+  auto const subscription = bench.ground.subscribe(
+      1, [&](Received const& received) { heard += std::holds_alternative<Attitude>(received.message); });
+  int constexpr sent = 2000;
+  for (int i = 0; i < sent; ++i) {
+    bench.vehicle->connection.send_to_all(Attitude{.since_boot = std::chrono::milliseconds(i)});
+    bench.run_for(1ms);
+  }
+  bench.run_for(1s);
+  auto const counters = bench.ground.counters({1, 1});
+  EXPECT_NEAR(heard, sent * 0.8, 60);
+  EXPECT_NEAR(static_cast<double>(counters.lost), sent * 0.2, 60);
+  EXPECT_NEAR(static_cast<double>(counters.duplicated), sent * 0.8 * 0.2, 60);
+}
+
+TEST(Connection, FindsLateFramesOutOfOrderNotLost) {
+  Bench bench({.jitter = 20ms, .seed = 3});
+  for (int i = 0; i < 500; ++i) {
+    bench.vehicle->connection.send_to_all(Attitude{.since_boot = std::chrono::milliseconds(i)});
+    bench.run_for(10ms);
+  }
+  bench.run_for(1s);
+  auto const counters = bench.ground.counters({1, 1});
+  EXPECT_GT(counters.out_of_order, 20u);
+  EXPECT_EQ(counters.lost, 0u);
+}
+
+/// A bare client that sends what it is told, byte by byte.
+class Raw {
+ public:
+  explicit Raw(std::unique_ptr<link::ByteLink> link) : link_(std::move(link)) {
+    link_->start([this](link::Peer, link::Bytes data) {
+      parser_.feed(data, [this](Frame const& frame) { heard.push_back(frame); });
+    });
+  }
+  void say(std::string_view text) { say_bytes({text.begin(), text.end()}); }
+  void say(Frame const& frame) {
+    auto const out = serialize(frame);
+    say_bytes({out.bytes().begin(), out.bytes().end()});
+  }
+  std::vector<Frame> heard;
+
+ private:
+  void say_bytes(std::vector<std::uint8_t> const& bytes) { link_->send(link_->standing_peers().front(), bytes); }
+  std::unique_ptr<link::ByteLink> link_;
+  FrameParser parser_;
+};
+
+TEST(Connection, IsNotPutOffByBootTextsOnTheLink) {
+  Bench bench;
+  Raw raw(bench.hub.connect());
+  raw.say("Init Gyro");
+  raw.say("*");
+  raw.say(encode(FakeVehicle::heartbeat(), {5, 1}, 0));
+  bench.run_for(100ms);
+  EXPECT_TRUE(bench.ground.whereabouts(5));
+  EXPECT_GE(bench.ground.parser_counters(0).junk_bytes, 10u);
+  EXPECT_FALSE(raw.heard.empty()) << "greeted, so that its texts come";
+}
+
+TEST(Connection, AnswersInVersion1WhoeverSpeaksOnlyThat) {
+  Bench bench;
+  Raw raw(bench.hub.connect());
+  auto frame = encode(FakeVehicle::heartbeat(), {5, 1}, 0);
+  frame.version = 1;
+  raw.say(frame);
+  bench.run_for(100ms);
+  ASSERT_FALSE(raw.heard.empty());
+  for (auto const& answer : raw.heard) EXPECT_EQ(answer.version, 1);
+  raw.heard.clear();
+  raw.say(encode(FakeVehicle::heartbeat(), {5, 1}, 1));
+  bench.run_for(2s);
+  ASSERT_FALSE(raw.heard.empty());
+  EXPECT_EQ(raw.heard.back().version, 2);
+}
+
+TEST(Connection, OutlastsAFloodOfGarbageFromManyAddresses) {
+  Bench bench;
+  for (int i = 0; i < 3000; ++i) {
+    Raw raw(bench.hub.connect());
+    raw.say("\xFD\xFF junk that begins like a frame and goes nowhere");
+    if (i % 50 == 0) bench.run_for(1ms);
+  }
+  bench.run_for(2s);
+  EXPECT_TRUE(bench.ground.send({1, 1}, CommandLong{}));
+  bench.run_for(1s);
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u);
+}
+
+TEST(Connection, ShowsEveryFrameToTheRecorder) {
+  Bench bench;
+  int received = 0;
+  int sent = 0;
+  bench.ground.set_frame_hook([&](Connection::Direction direction, Frame const&, base::TimePoint) {
+    ++(direction == Connection::Direction::received ? received : sent);
+  });
+  bench.run_for(5s);
+  EXPECT_GE(received, 4);
+  EXPECT_GE(sent, 4);
+}
+
+TEST(Subscription, EndsWhenDestroyedEvenFromWithinItsCall) {
+  Bench bench;
+  int calls = 0;
+  Subscription subscription;
+  subscription = bench.ground.subscribe([&](Received const&) {
+    ++calls;
+    subscription = {};
+  });
+  bench.run_for(5s);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(AwaitMessage, ReturnsTheFirstThatFitsOrTimesOut) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (std::holds_alternative<Heartbeat>(message)) bench.vehicle->answer(MissionCurrent{.seq = 3});
+  };
+  std::function<bool(MissionCurrent const&)> const third = [](MissionCurrent const& m) { return m.seq == 3; };
+  auto const got = bench.loop.run_until_done(await_message<MissionCurrent>(bench.ground, 1, third, 5s));
+  ASSERT_TRUE(got);
+  std::function<bool(MissionCurrent const&)> const fourth = [](MissionCurrent const& m) { return m.seq == 4; };
+  auto const none = bench.loop.run_until_done(await_message<MissionCurrent>(bench.ground, 1, fourth, 5s));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, base::ErrorKind::timed_out);
+}
+
+}  // namespace
+}  // namespace lapwing::mavlink

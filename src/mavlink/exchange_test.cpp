@@ -1,0 +1,218 @@
+#include <gtest/gtest.h>
+
+#include "mavlink/command.hpp"
+#include "mavlink/fake_vehicle_test.hpp"
+#include "mavlink/message_interval.hpp"
+#include "mavlink/modes.hpp"
+#include "mavlink/param.hpp"
+
+namespace lapwing::mavlink {
+namespace {
+
+using namespace testing;
+
+base::Result<> run(Bench& bench, Command command, CommandOptions options = {}) {
+  return bench.loop.run_until_done(run_command(bench.ground, Bench::target, command, options));
+}
+
+TEST(Command, SucceedsWhenAccepted) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (auto const* command = std::get_if<CommandLong>(&message))
+      bench.vehicle->answer(CommandAck{.command = command->command});
+  };
+  EXPECT_TRUE(run(bench, arm()));
+  auto const sent = bench.vehicle->all<CommandLong>();
+  ASSERT_EQ(sent.size(), 1u);
+  EXPECT_EQ(sent[0].command, MavCmd::component_arm_disarm);
+  EXPECT_EQ(sent[0].params[0], 1.0F);
+}
+
+TEST(Command, NamesCommandAndResultWhenRefused) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (std::get_if<CommandLong>(&message))
+      bench.vehicle->answer(CommandAck{.command = MavCmd::component_arm_disarm, .result = MavResult::failed});
+  };
+  auto const result = run(bench, arm());
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, base::ErrorKind::refused);
+  EXPECT_EQ(result.error().message, "vehicle 1 answered COMPONENT_ARM_DISARM: failed");
+}
+
+TEST(Command, RepeatsWithConfirmationCountingUpUntilItGivesUp) {
+  Bench bench;
+  auto const result = run(bench, arm(), {.tries = 4, .ack_timeout = 500ms});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, base::ErrorKind::timed_out);
+  auto const sent = bench.vehicle->all<CommandLong>();
+  ASSERT_EQ(sent.size(), 4u);
+  for (std::size_t i = 0; i < sent.size(); ++i) EXPECT_EQ(sent[i].confirmation, i);
+}
+
+TEST(Command, SendsNothingAfterItsExpiry) {
+  Bench bench;
+  auto const begun = bench.loop.now();
+  EXPECT_FALSE(run(bench, arm(), {.tries = 100, .ack_timeout = 1s, .expiry = 3s}));
+  EXPECT_LE(bench.loop.now() - begun, 4s);
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 3u);
+}
+
+base::Task<void> answer_slowly(FakeVehicle& vehicle, base::Loop& loop) {
+  for (int i = 0; i < 4; ++i) {
+    vehicle.answer(
+        CommandAck{.command = MavCmd::preflight_calibration, .result = MavResult::in_progress, .progress = i / 4.0});
+    co_await loop.sleep(5s);
+  }
+  vehicle.answer(CommandAck{.command = MavCmd::preflight_calibration});
+}
+
+TEST(Command, WaitsLongerWhileItIsInProgress) {
+  Bench bench;
+  base::Scope scope(bench.loop);
+  bench.vehicle->on = [&](Message const& message) {
+    if (std::get_if<CommandLong>(&message)) scope.spawn(answer_slowly(*bench.vehicle, bench.loop));
+  };
+  EXPECT_TRUE(run(bench, {MavCmd::preflight_calibration, {}}));
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u) << "a command that is being done is not repeated";
+}
+
+TEST(Command, SaysWhenProgressEndsInSilence) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (std::get_if<CommandLong>(&message))
+      bench.vehicle->answer(CommandAck{.command = MavCmd::preflight_calibration, .result = MavResult::in_progress});
+  };
+  auto const result = run(bench, {MavCmd::preflight_calibration, {}}, {.progress_timeout = 2s});
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("did not say how it ended"), std::string::npos);
+}
+
+TEST(Command, IgnoresAnswersToOthersAndToOtherCommands) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (!std::get_if<CommandLong>(&message)) return;
+    bench.vehicle->answer(CommandAck{.command = MavCmd::do_set_mode, .result = MavResult::denied});
+    bench.vehicle->connection.send_to_all(
+        CommandAck{.target = {254, 190}, .command = MavCmd::component_arm_disarm, .result = MavResult::denied});
+    bench.vehicle->answer(CommandAck{.command = MavCmd::component_arm_disarm});
+  };
+  EXPECT_TRUE(run(bench, arm()));
+}
+
+TEST(Command, ReportsAVehicleThatWasNeverHeard) {
+  Bench bench;
+  auto const result = bench.loop.run_until_done(run_command(bench.ground, {9, 1}, arm(), {}));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, base::ErrorKind::lost);
+}
+
+TEST(Command, TravelsAsCommandIntWithItsPlace) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (auto const* command = std::get_if<CommandInt>(&message))
+      bench.vehicle->answer(CommandAck{.command = command->command});
+  };
+  auto const place = geo::Wgs84::from_degrees(40.5, -7.25, 800);
+  EXPECT_TRUE(bench.loop.run_until_done(run_command_int(bench.ground, Bench::target, set_home(place), {})));
+  auto const sent = bench.vehicle->all<CommandInt>();
+  ASSERT_EQ(sent.size(), 1u);
+  EXPECT_NEAR(sent[0].place.lat_rad, place.lat_rad, 1e-9);
+  EXPECT_EQ(sent[0].place.z_m, 800);
+}
+
+TEST(Command, UnpacksPx4ModesForItsAutopilot) {
+  auto const ardupilot = set_mode(MavAutopilot::ardupilotmega, 4);
+  EXPECT_EQ(ardupilot.params[1], 4.0F);
+  auto const px4 = set_mode(MavAutopilot::px4, *mode_number(Autopilot::px4, Family::copter, "AUTO.MISSION"));
+  EXPECT_EQ(px4.params[1], 4.0F);
+  EXPECT_EQ(px4.params[2], 4.0F);
+}
+
+TEST(MessageInterval, AsksInMicroseconds) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (auto const* command = std::get_if<CommandLong>(&message))
+      bench.vehicle->answer(CommandAck{.command = command->command});
+  };
+  EXPECT_TRUE(bench.loop.run_until_done(
+      set_message_interval(bench.ground, Bench::target, MessageId::global_position_int, 200ms)));
+  EXPECT_TRUE(bench.loop.run_until_done(reset_message_interval(bench.ground, Bench::target, MessageId::attitude)));
+  auto const sent = bench.vehicle->all<CommandLong>();
+  ASSERT_EQ(sent.size(), 2u);
+  EXPECT_EQ(sent[0].params[0], 33.0F);
+  EXPECT_EQ(sent[0].params[1], 200'000.0F);
+  EXPECT_EQ(sent[1].params[1], 0.0F);
+}
+
+TEST(Param, ReadsByNameAmongUnaskedValues) {
+  Bench bench;
+  bench.vehicle->on = [&](Message const& message) {
+    if (auto const* request = std::get_if<ParamRequestRead>(&message)) {
+      bench.vehicle->answer(ParamValue{.name = "STAT_RUNTIME", .value = 99});
+      bench.vehicle->answer(ParamValue{.name = request->name, .value = 1500});
+    }
+  };
+  auto const value = bench.loop.run_until_done(read_param(bench.ground, Bench::target, "RTL_ALT"));
+  ASSERT_TRUE(value);
+  EXPECT_EQ(value->value, 1500);
+}
+
+TEST(Param, TimesOutOnANameThatTheVehicleDoesNotKnow) {
+  Bench bench;
+  auto const value = bench.loop.run_until_done(read_param(bench.ground, Bench::target, "NO_SUCH"));
+  ASSERT_FALSE(value);
+  EXPECT_NE(value.error().message.find("NO_SUCH"), std::string::npos);
+  EXPECT_EQ(bench.vehicle->all<ParamRequestRead>().size(), 5u);
+}
+
+TEST(Param, VerifiesWhatWasStored) {
+  Bench bench;
+  float stored = 5;
+  float limit = 100;
+  bench.vehicle->on = [&](Message const& message) {
+    if (auto const* set = std::get_if<ParamSet>(&message)) stored = std::min(set->value, limit);
+    if (std::get_if<ParamSet>(&message) || std::get_if<ParamRequestRead>(&message))
+      bench.vehicle->answer(ParamValue{.name = "WPNAV_SPEED", .value = stored});
+  };
+  EXPECT_TRUE(bench.loop.run_until_done(set_param(bench.ground, Bench::target, "WPNAV_SPEED", 50)));
+  EXPECT_EQ(stored, 50);
+  auto const clipped = bench.loop.run_until_done(set_param(bench.ground, Bench::target, "WPNAV_SPEED", 500));
+  ASSERT_FALSE(clipped);
+  EXPECT_EQ(clipped.error().kind, base::ErrorKind::refused);
+  EXPECT_EQ(clipped.error().message, "vehicle 1 stored WPNAV_SPEED = 100, not 500");
+}
+
+TEST(Modes, NameNumbersAndBack) {
+  EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::copter, 3), "AUTO");
+  EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::plane, 10), "AUTO");
+  EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::boat, 4), "HOLD");
+  EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::copter, 8), "mode 8");
+  EXPECT_EQ(mode_name(Autopilot::px4, Family::copter, 4U << 16U | 5U << 24U), "AUTO.RTL");
+  EXPECT_EQ(mode_name(Autopilot::px4, Family::copter, 9U << 16U | 1U << 24U), "mode 9.1");
+  EXPECT_EQ(mode_name(Autopilot::other, Family::copter, 3), "mode 3");
+  EXPECT_EQ(mode_number(Autopilot::ardupilot, Family::rover, "smart_rtl"), 12u);
+  EXPECT_FALSE(mode_number(Autopilot::ardupilot, Family::rover, "LAND"));
+}
+
+TEST(Modes, ServeRoles) {
+  EXPECT_EQ(mode_for(Autopilot::ardupilot, Family::copter, ModeRole::hold), 17u) << "LOITER without RC input sinks";
+  EXPECT_EQ(mode_for(Autopilot::ardupilot, Family::plane, ModeRole::hold), 12u);
+  EXPECT_EQ(mode_for(Autopilot::ardupilot, Family::rover, ModeRole::hold), 4u);
+  EXPECT_EQ(mode_for(Autopilot::ardupilot, Family::rover, ModeRole::mission), 10u);
+  EXPECT_FALSE(mode_for(Autopilot::ardupilot, Family::rover, ModeRole::land));
+  EXPECT_FALSE(mode_for(Autopilot::ardupilot, Family::sub, ModeRole::rtl));
+  EXPECT_EQ(mode_for(Autopilot::px4, Family::copter, ModeRole::mission), 4U << 16U | 4U << 24U);
+  EXPECT_FALSE(mode_for(Autopilot::other, Family::copter, ModeRole::rtl));
+}
+
+TEST(Modes, MakeNoVehicleOfOtherThings) {
+  for (auto const type : {MavType::gcs, MavType::gimbal, MavType::adsb, MavType::antenna_tracker, MavType::camera,
+                          MavType::onboard_controller})
+    EXPECT_EQ(family_of(type), Family::unknown);
+  EXPECT_EQ(family_of(MavType::hexarotor), Family::copter);
+  EXPECT_EQ(family_of(MavType::vtol_tiltrotor), Family::vtol);
+}
+
+}  // namespace
+}  // namespace lapwing::mavlink
