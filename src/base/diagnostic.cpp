@@ -114,9 +114,11 @@ void Diagnostics::warning(Span span, std::string message, std::string hint) {
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {
-  auto out = kept_;
-  std::stable_sort(out.begin(), out.end(),
-                   [](Diagnostic const& a, Diagnostic const& b) { return a.span.begin < b.span.begin; });
+  std::vector<std::size_t> order(kept_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(kept_[i].span.begin, i); });
+  std::vector<Diagnostic> out;
+  for (auto const i : order) out.push_back(kept_[i]);
   return out;
 }
 
