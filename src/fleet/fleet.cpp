@@ -165,8 +165,9 @@ void Fleet::note_restart(Craft& craft, TimePoint now) {
 
 void Fleet::take_from_autopilot(Craft& craft, mavlink::Received const& received) {
   if (auto const clock = boot_time(received.message)) {
-    if (craft.since_boot && *clock + clock_slack < *craft.since_boot && craft.is_connected())
-      note_restart(craft, received.at);
+    // Two vehicles under one id have two clocks.
+    bool const is_one = craft.state.connection != Connection::conflict;
+    if (is_one && craft.since_boot && *clock + clock_slack < *craft.since_boot) note_restart(craft, received.at);
     craft.since_boot = clock;
   }
   if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);

@@ -35,7 +35,7 @@ void MessageRates::look(Watched& watched, base::TimePoint now, base::Duration ti
 void MessageRates::restart(base::TimePoint now) {
   for (auto& watched : watched_) {
     watched.asked = 0;
-    look(watched, now, look_time(watched.wanted.interval));
+    look(watched, now, shortest_look);
   }
 }
 

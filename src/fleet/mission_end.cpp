@@ -18,13 +18,23 @@ bool last_item_was_current(MissionShape const& shape, MissionSight const& sight)
   return sight.current_seq.value_or(-1) >= shape.last_nav_seq || sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
 }
 
+bool last_place_is_reached(MissionShape const& shape, MissionSight const& sight) {
+  return shape.ending == MissionEnding::at_place && sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
+}
+
+/// Some autopilots leave AUTO by themselves at the end (ArduPlane to RTL, PX4 to LOITER), and the news of both may
+/// arrive in either order.
+bool ended_before(MissionShape const& shape, MissionSight const& sight) {
+  if (!last_item_was_current(shape, sight)) return false;
+  if (sight.mode_is_return || sight.reports_complete || last_place_is_reached(shape, sight)) return true;
+  return !sight.armed && shape.ending == MissionEnding::on_ground;
+}
+
 MissionVerdict outside_auto(MissionShape const& shape, MissionSight const& sight) {
-  if (sight.mode_is_return && last_item_was_current(shape, sight)) return {Kind::done};
-  // Disarmed after landing, then put into another mode: the mission had ended before.
-  if (!sight.armed && last_item_was_current(shape, sight) && shape.ending == MissionEnding::on_ground)
-    return {Kind::done};
+  if (ended_before(shape, sight)) return {Kind::done};
   if (!sight.failsafe.empty())
     return {Kind::failed, fmt::format("mode changed to {} by the vehicle: {}", sight.mode, sight.failsafe)};
+  if (!sight.armed) return {Kind::failed, fmt::format("disarmed and mode changed to {}", sight.mode)};
   return {Kind::failed, fmt::format("mode changed to {} by operator", sight.mode)};
 }
 
@@ -33,8 +43,7 @@ MissionVerdict outside_auto(MissionShape const& shape, MissionSight const& sight
 MissionVerdict judge(MissionShape const& shape, MissionSight const& sight) {
   if (!sight.mode_is_auto) return outside_auto(shape, sight);
   if (sight.reports_complete && (sight.was_active || sight.since_start >= begun_for_sure)) return {Kind::done};
-  bool const last_reached = sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
-  if (shape.ending == MissionEnding::at_place && last_reached) return {Kind::done};
+  if (last_place_is_reached(shape, sight)) return {Kind::done};
   if (shape.ending == MissionEnding::on_ground && last_item_was_current(shape, sight)) {
     if (!sight.armed) return {Kind::done};
     if (sight.on_ground_for.value_or(0s) >= landed_for_good) return {Kind::done};

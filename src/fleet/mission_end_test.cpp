@@ -90,6 +90,23 @@ TEST(MissionEnd, IsDoneWhenTheAutopilotReturnsAfterTheLastItem) {
   EXPECT_EQ(judge(survey, sight).kind, Kind::done);
 }
 
+TEST(MissionEnd, IsDoneWhenTheAutopilotHoldsByItselfAfterTheLastPlace) {
+  auto sight = flying(5);
+  sight.mode_is_auto = false;
+  sight.mode = "HOLD";
+  EXPECT_EQ(judge(survey, sight).reason, "mode changed to HOLD by operator");
+  sight.reached_seq = 5;
+  EXPECT_EQ(judge(survey, sight).kind, Kind::done);
+}
+
+TEST(MissionEnd, BlamesNobodyForAModeThatChangedWithTheDisarming) {
+  auto sight = flying(3);
+  sight.mode_is_auto = false;
+  sight.armed = false;
+  sight.mode = "STABILIZE";
+  EXPECT_EQ(judge(survey, sight).reason, "disarmed and mode changed to STABILIZE");
+}
+
 TEST(MissionEnd, FailsWhenSomebodyReturnsItInTheMiddle) {
   auto sight = flying(3);
   sight.mode_is_auto = false;

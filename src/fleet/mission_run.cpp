@@ -23,8 +23,9 @@ namespace {
 
 // A heartbeat that was overtaken by the one that showed the mission mode still names the mode before.
 constexpr base::Duration mode_settles = 2s;
-// On a link that loses a third of its packets a transfer now and then exceeds the vehicle's patience: begin it anew.
-mavlink::TransferOptions const transfer{.tries = 8, .restarts = 2};
+constexpr mavlink::TransferOptions transfer{.tries = 12};
+// For a link that loses a third of its packets: one in a thousand fails.
+constexpr mavlink::CommandOptions patient{.tries = 12, .ack_timeout = 1s, .expiry = 15s};
 
 base::Error named(std::string_view what, base::Error error) {
   error.message = fmt::format("{}: {}", what, error.message);
@@ -54,6 +55,10 @@ Task<Result<>> upload(RunContext context, FlightPlan const& plan, RunRecord& rec
   co_return Result<>{};
 }
 
+std::unexpected<base::Error> different(mavlink::Difference const& difference) {
+  return fail(ErrorKind::refused, fmt::format("the vehicle does not hold the mission that was sent: {}", difference));
+}
+
 /// What the vehicle holds instead of the plan; empty when it holds the plan.
 Task<Result<std::vector<mavlink::Difference>>> read_back(RunContext context, FlightPlan const& plan,
                                                          RunRecord& record) {
@@ -66,19 +71,23 @@ Task<Result<std::vector<mavlink::Difference>>> read_back(RunContext context, Fli
   co_return mavlink::compare_readback(plan.items, *held, context.craft.mav_autopilot);
 }
 
-/// Phases 3 and 4. A copy that came out different is sent once more before that is an error.
+/// Phases 3 and 4. What counts is what the vehicle holds: an upload whose last acknowledgement got lost has succeeded,
+/// and a copy that came out different is sent again.
 Task<Result<>> transfer_mission(RunContext context, FlightPlan const& plan, RunRecord& record) {
-  std::vector<mavlink::Difference> differences;
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    if (auto uploaded = co_await upload(context, plan, record); !uploaded) co_return uploaded;
-    if (!context.options.verifies) co_return Result<>{};
+  constexpr int attempts = 4;
+  Result<> outcome;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    outcome = co_await upload(context, plan, record);
+    bool const may_be_there = outcome || outcome.error().kind == ErrorKind::timed_out;
+    if (!may_be_there || (outcome && !context.options.verifies)) break;
     auto compared = co_await read_back(context, plan, record);
-    if (!compared) co_return std::unexpected(std::move(compared.error()));
-    differences = std::move(*compared);
-    if (differences.empty()) co_return Result<>{};
+    if (compared && compared->empty()) co_return Result<>{};
+    if (compared) outcome = different(compared->front());
+    if (!compared && outcome) outcome = std::unexpected(compared.error());
+    bool const answers = compared || compared.error().kind == ErrorKind::refused;
+    if (!answers) break;
   }
-  co_return fail(ErrorKind::refused,
-                 fmt::format("the vehicle does not hold the mission that was sent: {}", differences.front()));
+  co_return outcome;
 }
 
 /// So that a vehicle that flew a part of another mission begins this one at its begin. Autopilots without the command
@@ -86,8 +95,7 @@ Task<Result<>> transfer_mission(RunContext context, FlightPlan const& plan, RunR
 Task<Result<>> select_first_item(RunContext context, std::uint16_t seq) {
   auto& craft = context.craft;
   auto const command = mavlink::set_current_item(seq);
-  mavlink::CommandOptions const options{};
-  auto const set = co_await mavlink::run_command(context.connection, craft.address, command, options);
+  auto const set = co_await mavlink::run_command(context.connection, craft.address, command, patient);
   if (set) co_return Result<>{};
   if (set.error().kind != ErrorKind::refused) co_return std::unexpected(named("selecting the first item", set.error()));
   constexpr int tries = 5;
@@ -108,8 +116,7 @@ Task<Result<>> select_first_item(RunContext context, std::uint16_t seq) {
 /// The script's `home` becomes the vehicle's. A vehicle that refuses keeps its own, which is safe.
 Task<> set_home(RunContext context, geo::Wgs84 home) {
   auto const command = mavlink::set_home(home);
-  mavlink::CommandOptions const options{};
-  auto const set = co_await mavlink::run_command_int(context.connection, context.craft.address, command, options);
+  auto const set = co_await mavlink::run_command_int(context.connection, context.craft.address, command, patient);
   if (!set) context.log.warn(fmt::format("{} keeps its own home: {}", context.craft.state.name, set.error().message));
 }
 
@@ -152,7 +159,8 @@ Task<Result<>> follow(RunContext context, FlightPlan const& plan, RunRecord& rec
     auto const sight = look(craft, started, loop.now());
     record.progress = fmt::format("item {}/{}", sight.current_seq.value_or(plan.first_seq), plan.last_seq());
     bool const still_settling = !sight.mode_is_auto && sight.since_start < mode_settles;
-    auto const verdict = still_settling ? MissionVerdict{} : judge(plan.shape, sight);
+    MissionVerdict verdict;
+    if (!still_settling) verdict = judge(plan.shape, sight);
     if (verdict.kind == MissionVerdict::Kind::done) co_return Result<>{};
     if (verdict.kind == MissionVerdict::Kind::failed) co_return fail(ErrorKind::refused, verdict.reason);
     co_await craft.changed.wait_until(loop.now() + 1s);

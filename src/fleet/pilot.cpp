@@ -99,8 +99,12 @@ Task<> Pilot::rest(OnStop on_stop, bool only_disarm) {
   co_await context_.connection.loop()
       .turn();  // the next task on this vehicle may start in this turn and will deal with it
   auto& craft = context_.craft;
-  auto const done = only_disarm ? co_await disarm(context_.connection, craft)
-                                : co_await bring_to_rest(context_.connection, craft, on_stop);
+  base::Result<> done;
+  if (only_disarm) {
+    done = co_await disarm(context_.connection, craft);
+  } else {
+    done = co_await bring_to_rest(context_.connection, craft, on_stop);
+  }
   if (done) {
     context_.log.info(fmt::format("{} stopped: {}", craft.state.name, craft.state.mode.value.value_or("")));
   } else {

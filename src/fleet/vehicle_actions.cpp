@@ -64,6 +64,11 @@ std::string with_reason(std::string what, std::string const& reason) {
   return reason.empty() ? what : fmt::format("{}: {}", what, reason);
 }
 
+/// `error` in the vehicle's own words, where it gave any.
+std::unexpected<base::Error> explained(std::string_view what, base::Error const& error, std::string const& reason) {
+  return fail(error.kind, fmt::format("{}: {}", what, reason.empty() ? error.message : reason));
+}
+
 /// The mode in which to arm, when the present one does not allow it.
 std::optional<std::uint32_t> mode_to_arm_in(Craft const& craft) {
   if (!is_ardupilot_copter(craft)) return std::nullopt;
@@ -84,13 +89,13 @@ std::optional<std::uint32_t> stop_mode(Craft const& craft, OnStop on_stop) {
 
 Task<Result<>> arm(mavlink::Connection& connection, Craft& craft) {
   auto const since = connection.loop().now();
-  mavlink::CommandOptions const options{.expiry = 8s};
+  // Short waits and many tries: it must come through within the seconds before it expires.
+  mavlink::CommandOptions const options{.tries = 10, .ack_timeout = 700ms, .expiry = 8s};
   auto const command = mavlink::arm();
   auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
   if (!asked && asked.error().kind == ErrorKind::refused) {
     co_await wait_for_reason(craft, since);
-    auto const reason = given_reason(craft, since);
-    co_return fail(ErrorKind::refused, with_reason("arming refused", reason.empty() ? asked.error().message : reason));
+    co_return explained("arming refused", asked.error(), given_reason(craft, since));
   }
   // An acknowledgement may be lost and the vehicle armed all the same.
   std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
@@ -131,8 +136,7 @@ Task<Result<>> enter_mission(mavlink::Connection& connection, Craft& craft) {
   if (!commanded && commanded.error().kind == ErrorKind::refused) co_await wait_for_reason(craft, since);
   auto const reason = given_reason(craft, since);
   auto const what = fmt::format("{} not entered", mode_name(craft, *mission_mode));
-  if (!commanded)
-    co_return fail(commanded.error().kind, with_reason(what, reason.empty() ? commanded.error().message : reason));
+  if (!commanded) co_return explained(what, commanded.error(), reason);
   co_return fail(ErrorKind::timed_out, with_reason(what + " although accepted", reason));
 }
 
@@ -193,8 +197,7 @@ Task<Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeCh
   auto const what = fmt::format("{} not entered", mode_name(craft, mode));
   if (asked) co_return fail(ErrorKind::timed_out, what + " although accepted");
   if (asked.error().kind == ErrorKind::refused) co_await wait_for_reason(craft, since);
-  auto const reason = given_reason(craft, since);
-  co_return fail(asked.error().kind, with_reason(what, reason.empty() ? asked.error().message : reason));
+  co_return explained(what, asked.error(), given_reason(craft, since));
 }
 
 Task<Result<>> wait_until_ready(Craft& craft, base::Loop& loop, Duration patience) {
@@ -210,15 +213,17 @@ Task<Result<>> wait_until_ready(Craft& craft, base::Loop& loop, Duration patienc
     auto const what = fmt::format("not ready after {:.0f} s, {}", base::to_seconds(patience), missing);
     co_return fail(ErrorKind::timed_out, with_reason(what, given_reason(craft, since)));
   }
-  std::function<bool()> no_objection = [&craft] { return craft.is_armed || craft.state.health.value->prearm_ok; };
+  std::function<bool()> no_objection = [&craft] {
+    return craft.is_armed || craft.state.health.value.value_or(vehicle::Health{}).prearm_ok;
+  };
   if (craft.state.health.known()) (void)co_await wait_for(craft, std::move(no_objection), prearm_patience);
   co_return Result<>{};
 }
 
 Task<Result<>> leave_mission(mavlink::Connection& connection, Craft& craft, OnStop on_stop) {
   if (!in_mission_mode(craft) && !craft.mission_mode_pending) co_return Result<>{};
-  auto const mode = craft.is_armed ? stop_mode(craft, on_stop)
-                                   : mode_to_arm_in(craft).or_else([&] { return stop_mode(craft, on_stop); });
+  auto mode = stop_mode(craft, on_stop);
+  if (!craft.is_armed && mode_to_arm_in(craft)) mode = mode_to_arm_in(craft);
   if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
   ModeChange const change{.custom_mode = *mode, .even_if_shown = craft.mission_mode_pending};
   co_return co_await change_mode(connection, craft, change);
