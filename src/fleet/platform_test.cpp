@@ -1,0 +1,64 @@
+#include "fleet/platform.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fleet/test_world.hpp"
+
+namespace lapwing::fleet {
+namespace {
+
+using namespace std::chrono_literals;
+using vehicle::VehicleId;
+
+TEST(FleetPlatform, BringsTheMissionBlock) {
+  TestWorld world;
+  ASSERT_EQ(world.platform->builders().size(), 1u);
+  EXPECT_EQ(world.platform->builders()[0].name, "mission");
+}
+
+TEST(FleetPlatform, FindsNamedPlansInItsLibrary) {
+  TestWorld world({}, {.run = {}, .plan_library = {{"survey1", mission_ending_with(mavlink::MavCmd::nav_land)}}});
+  auto const found = world.platform->named_task("survey1");
+  ASSERT_TRUE(found);
+  EXPECT_EQ((*found)->name(), "survey");
+  auto const missing = world.platform->named_task("survey2");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().kind, base::ErrorKind::not_found);
+  EXPECT_NE(missing.error().message.find("survey2"), std::string::npos);
+}
+
+TEST(FleetPlatform, ListsVehiclesBySystemIdWithWhatPickNeeds) {
+  TestWorld world({.payload = {{10, {"Sidescan"}}}});
+  world.add({.address = {10, 1}});
+  world.add({.address = {9, 1}, .type = mavlink::MavType::ground_rover});
+  world.run_for(10s);
+  auto const vehicles = world.platform->vehicles();
+  ASSERT_EQ(vehicles.size(), 2u);
+  EXPECT_EQ(vehicles[0].id.text, "9");
+  EXPECT_EQ(vehicles[0].type, "UGV");
+  EXPECT_EQ(vehicles[1].id.text, "10");
+  EXPECT_EQ(vehicles[1].payload, std::vector<std::string>{"Sidescan"});
+  EXPECT_EQ(vehicles[1].connection_timeout, 20s);
+  EXPECT_TRUE(vehicles[1].connected);
+  ASSERT_TRUE(vehicles[1].position);
+  EXPECT_LT(geo::surface_distance_m(*vehicles[1].position, TestAutopilot::home), 1.0);
+  EXPECT_NEAR(vehicles[1].battery.value_or(0.0), 0.8, 0.01);
+}
+
+TEST(FleetPlatform, KnowsNothingOfAVehicleThatWasNeverHeard) {
+  TestWorld world;
+  EXPECT_FALSE(world.platform->find(VehicleId{"1"}));
+  EXPECT_TRUE(world.platform->missions(VehicleId{"1"}).empty());
+  world.platform->set_connection_timeout(VehicleId{"1"}, 5s);
+  EXPECT_TRUE(world.platform->vehicles().empty());
+}
+
+TEST(FleetPlatform, ReadsTheWordsOfTheStopOption) {
+  EXPECT_EQ(on_stop_from("rtl"), OnStop::rtl);
+  EXPECT_EQ(on_stop_from("land"), OnStop::land);
+  EXPECT_EQ(on_stop_from("loiter"), OnStop::loiter);
+  EXPECT_FALSE(on_stop_from("explode"));
+}
+
+}  // namespace
+}  // namespace lapwing::fleet

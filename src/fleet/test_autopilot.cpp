@@ -1,0 +1,353 @@
+#include "fleet/test_autopilot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using mavlink::MavCmd;
+using mavlink::MavResult;
+using mavlink::MessageId;
+using mavlink::MissionState;
+
+namespace {
+
+constexpr base::Duration step = 50ms;
+constexpr base::Duration upload_patience = 8s;  // ArduPilot's
+constexpr base::Duration request_again = 1s;
+constexpr base::Duration disarm_delay = 10s;
+
+}  // namespace
+
+TestAutopilot::TestAutopilot(base::Loop& loop, std::unique_ptr<link::ByteLink> link, Options options)
+    : loop_(loop), options_(options), booted_(loop.now()), next_beat_(loop.now()), scope_(loop) {
+  attach(std::move(link));
+  scope_.spawn(live());
+}
+
+void TestAutopilot::attach(std::unique_ptr<link::ByteLink> link) {
+  link_ = std::move(link);
+  auto const standing = link_->standing_peers();
+  if (!standing.empty()) ground_ = standing.front();
+  link_->start([this](link::Peer peer, link::Bytes bytes) {
+    ground_ = peer;
+    if (is_silent) return;
+    parser_.feed(bytes, [this](mavlink::Frame const& frame) { take(frame); });
+  });
+}
+
+void TestAutopilot::reboot(std::unique_ptr<link::ByteLink> link) {
+  mode = 0;
+  is_armed = is_flying = is_running_mission_ = is_complete_ = false;
+  intervals_.clear();
+  upload_.reset();
+  booted_ = loop_.now();
+  next_beat_ = loop_.now() + 500ms;
+  attach(std::move(link));
+}
+
+void TestAutopilot::send_as(mavlink::Address source, mavlink::Message const& message) {
+  if (is_silent || !ground_) return;
+  auto const bytes = mavlink::serialize(mavlink::encode(message, source, sequence_++));
+  (void)link_->send(*ground_, bytes.bytes());
+}
+
+void TestAutopilot::say(mavlink::MavSeverity severity, std::string text) {
+  send(mavlink::StatusText{.severity = severity, .text = std::move(text)});
+}
+
+bool TestAutopilot::is_automatic() const {
+  return mode == (is_copter() ? copter_mode::automatic : rover_mode::automatic);
+}
+
+bool TestAutopilot::has_position() const {
+  return loop_.now() - booted_ >= options_.position_ok_after;
+}
+
+geo::Wgs84 TestAutopilot::position() const {
+  // Ten metres north for every item, so that it travels.
+  return geo::displaced(home, {.north = 10.0 * current_item, .east = 0.0, .down = is_flying ? -20.0 : 0.0});
+}
+
+void TestAutopilot::change_mode(std::uint32_t wanted) {
+  mode = wanted;
+  if (!is_automatic()) is_running_mission_ = false;
+  if (is_automatic() && is_armed && (is_flying || !is_copter())) {
+    is_running_mission_ = true;
+    is_complete_ = false;
+    item_ends_ = loop_.now() + options_.item_time;
+  }
+  if (is_copter() && mode == copter_mode::land) is_flying = false;
+  beat();
+}
+
+void TestAutopilot::disarm() {
+  is_armed = is_flying = is_running_mission_ = false;
+}
+
+int TestAutopilot::commands_heard(MavCmd command) const {
+  return static_cast<int>(std::ranges::count_if(heard, [command](mavlink::Message const& message) {
+    auto const* sent = std::get_if<mavlink::CommandLong>(&message);
+    return sent && sent->command == command;
+  }));
+}
+
+std::vector<std::uint32_t> TestAutopilot::modes_commanded() const {
+  std::vector<std::uint32_t> modes;
+  for (auto const& message : heard) {
+    auto const* sent = std::get_if<mavlink::CommandLong>(&message);
+    if (!sent || sent->command != MavCmd::do_set_mode || sent->confirmation != 0) continue;
+    modes.push_back(static_cast<std::uint32_t>(sent->params[1]));
+  }
+  return modes;
+}
+
+std::vector<MessageId> TestAutopilot::messages_asked_for() const {
+  std::vector<MessageId> ids;
+  for (auto const& message : heard) {
+    auto const* sent = std::get_if<mavlink::CommandLong>(&message);
+    if (!sent || sent->command != MavCmd::set_message_interval) continue;
+    ids.push_back(static_cast<MessageId>(sent->params[0]));
+  }
+  return ids;
+}
+
+// ---- what it hears
+// ---------------------------------------------------------------------------------------------------------
+
+void TestAutopilot::take(mavlink::Frame const& frame) {
+  auto const message = mavlink::decode(frame);
+  if (!message || std::holds_alternative<mavlink::Heartbeat>(*message)) return;
+  auto const target = mavlink::target_of(*message);
+  if (target && !mavlink::addresses(*target, options_.address)) return;
+  heard.push_back(*message);
+  if (auto const* command = std::get_if<mavlink::CommandLong>(&*message))
+    return obey(command->command, command->params, frame.source);
+  if (auto const* command = std::get_if<mavlink::CommandInt>(&*message))
+    return obey(command->command, {}, frame.source);
+  if (auto const* chosen = std::get_if<mavlink::MissionSetCurrent>(&*message); chosen && takes_set_current_message) {
+    current_item = chosen->seq;
+    send_message(MessageId::mission_current);
+  }
+  serve_upload(*message, frame.source);
+  serve_download(*message, frame.source);
+}
+
+void TestAutopilot::obey(MavCmd command, std::array<float, 7> const& params, mavlink::Address from) {
+  if (ignored_commands.contains(command)) return;
+  auto const result = refused_commands.contains(command) ? MavResult::failed : execute(command, params);
+  send(mavlink::CommandAck{.target = from, .command = command, .result = result, .progress = std::nullopt});
+}
+
+MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& params) {
+  switch (command) {
+    case MavCmd::component_arm_disarm:
+      if (params[0] == 1.0F) return arm();
+      if (is_flying) return MavResult::failed;
+      disarm();
+      return MavResult::accepted;
+    case MavCmd::do_set_mode:
+      if (refused_modes.contains(static_cast<std::uint32_t>(params[1]))) return MavResult::failed;
+      change_mode(static_cast<std::uint32_t>(params[1]));
+      return MavResult::accepted;
+    case MavCmd::mission_start:
+      if (is_armed) is_flying = true;
+      change_mode(is_copter() ? copter_mode::automatic : rover_mode::automatic);
+      return MavResult::accepted;
+    case MavCmd::do_set_mission_current:
+      current_item = static_cast<std::uint16_t>(params[0]);
+      return MavResult::accepted;
+    case MavCmd::set_message_interval: {
+      auto const id = static_cast<MessageId>(params[0]);
+      if (denied_intervals.contains(id)) return MavResult::denied;
+      intervals_[id] = {std::chrono::microseconds(static_cast<long long>(params[1])), loop_.now()};
+      return MavResult::accepted;
+    }
+    case MavCmd::do_set_home: return MavResult::accepted;
+    default: return MavResult::unsupported;
+  }
+}
+
+MavResult TestAutopilot::arm() {
+  std::optional<std::string> refusal = arming_refusal;
+  if (!has_position()) refusal = "Arm: Need Position Estimate";
+  if (is_copter() && is_automatic()) refusal = "Arm: AUTO mode not armable";
+  if (refusal) {
+    say(mavlink::MavSeverity::critical, *refusal);
+    return MavResult::failed;
+  }
+  if (!is_armed) armed_at_ = loop_.now();
+  is_armed = true;
+  return MavResult::accepted;
+}
+
+void TestAutopilot::serve_upload(mavlink::Message const& message, mavlink::Address from) {
+  if (auto const* count = std::get_if<mavlink::MissionCount>(&message)) {
+    upload_ = Upload{
+        .items = {}, .count = count->count, .last_good = loop_.now(), .next_request = loop_.now(), .partner = from};
+  } else if (auto const* item = std::get_if<mavlink::MissionItem>(&message); item && upload_) {
+    take_item(*item);
+  } else if (auto const* ack = std::get_if<mavlink::MissionAck>(&message); ack && upload_) {
+    if (ack->result != mavlink::MavMissionResult::operation_cancelled) return;
+    upload_cancelled_ = true;
+    upload_.reset();
+  }
+}
+
+void TestAutopilot::take_item(mavlink::MissionItem item) {
+  auto const reply = [&](mavlink::MavMissionResult result) {
+    send(mavlink::MissionAck{.target = upload_->partner, .result = result});
+  };
+  if (item.seq != upload_->items.size()) return reply(mavlink::MavMissionResult::invalid_sequence);
+  if (silent_from_item == item.seq) {
+    is_silent = true;
+    return;
+  }
+  if (refused_item == item.seq) {
+    reply(mavlink::MavMissionResult::unsupported);
+    upload_.reset();
+    return;
+  }
+  if (forgets_items) item.place.z_m += 100.0;
+  upload_->items.push_back(item);
+  upload_->last_good = loop_.now();
+  upload_->next_request = loop_.now() + options_.request_spacing;
+  if (upload_->items.size() < upload_->count) return;
+  mission = upload_->items;
+  if (!mission.empty()) mission[0].place = {.lat_rad = home.lat_rad, .lon_rad = home.lon_rad, .z_m = home.alt_m};
+  reply(mavlink::MavMissionResult::accepted);
+  upload_.reset();
+}
+
+void TestAutopilot::request_item() {
+  auto const seq = static_cast<std::uint16_t>(upload_->items.size());
+  if (options_.asks_with_request_int) {
+    send(mavlink::MissionRequestInt{.target = upload_->partner, .seq = seq});
+  } else {
+    send(mavlink::MissionRequest{.target = upload_->partner, .seq = seq});
+  }
+}
+
+void TestAutopilot::serve_download(mavlink::Message const& message, mavlink::Address from) {
+  if (std::holds_alternative<mavlink::MissionRequestList>(message))
+    send(mavlink::MissionCount{.target = from, .count = static_cast<std::uint16_t>(mission.size())});
+  auto const answer = [&](std::uint16_t seq) {
+    if (seq >= mission.size()) return;
+    auto item = mission[seq];
+    item.target = from;
+    send(item);
+  };
+  if (auto const* request = std::get_if<mavlink::MissionRequestInt>(&message)) answer(request->seq);
+  if (auto const* request = std::get_if<mavlink::MissionRequest>(&message)) answer(request->seq);
+}
+
+// ---- what it does by itself
+// ------------------------------------------------------------------------------------------------
+
+base::Task<> TestAutopilot::live() {
+  while (true) {
+    co_await loop_.sleep(step);
+    if (loop_.now() >= next_beat_) beat();
+    send_due_telemetry();
+    if (upload_ && loop_.now() - upload_->last_good >= upload_patience) {
+      send(mavlink::MissionAck{.target = upload_->partner, .result = mavlink::MavMissionResult::operation_cancelled});
+      upload_.reset();
+    }
+    if (upload_ && loop_.now() >= upload_->next_request) {
+      request_item();
+      upload_->next_request = loop_.now() + request_again;
+    }
+    advance_mission();
+    if (is_copter() && is_armed && !is_flying && loop_.now() - armed_at_ >= disarm_delay) disarm();
+  }
+}
+
+void TestAutopilot::beat() {
+  next_beat_ = loop_.now() + 1s;
+  std::uint8_t flags = mavlink::mode_flag::custom_mode_enabled;
+  if (is_armed) flags |= mavlink::mode_flag::safety_armed;
+  auto const status = is_flying ? mavlink::MavState::active : mavlink::MavState::standby;
+  send(mavlink::Heartbeat{.type = options_.type,
+                          .autopilot = options_.autopilot,
+                          .base_mode = flags,
+                          .custom_mode = mode,
+                          .system_status = status});
+}
+
+void TestAutopilot::send_due_telemetry() {
+  for (auto& [id, rate] : intervals_) {
+    if (loop_.now() < rate.next) continue;
+    rate.next = loop_.now() + rate.interval;
+    send_message(id);
+  }
+}
+
+void TestAutopilot::send_message(MessageId id) {
+  auto const since_boot = loop_.now() - booted_;
+  switch (id) {
+    case MessageId::global_position_int: {
+      auto const place = has_position() ? position() : geo::Wgs84{};
+      return send(mavlink::GlobalPosition{
+          .since_boot = since_boot, .position = place, .relative_alt_m = 0.0, .velocity_m_s = {}, .heading_rad = 0.5});
+    }
+    case MessageId::attitude: return send(mavlink::Attitude{.since_boot = since_boot, .yaw_rad = 0.5});
+    case MessageId::sys_status: {
+      mavlink::SysStatus status;
+      status.sensors_health = arming_refusal ? 0 : mavlink::sensor_flag::prearm_check;
+      status.battery_voltage_v = 12.4;
+      status.battery_remaining = battery;
+      return send(status);
+    }
+    case MessageId::gps_raw_int: {
+      mavlink::GpsRaw gps;
+      gps.fix = has_position() ? mavlink::GpsFix::fix_3d : mavlink::GpsFix::no_fix;
+      return send(gps);
+    }
+    case MessageId::ekf_status_report: {
+      mavlink::EkfStatusReport report;
+      report.flags = has_position() ? 0x33F : 0xA7;  // as ArduCopter 4.6 sends them
+      return send(report);
+    }
+    case MessageId::mission_current: {
+      auto state = is_running_mission_ ? MissionState::active : MissionState::not_started;
+      if (is_complete_ && reports_complete) state = MissionState::complete;
+      auto const total = static_cast<std::uint16_t>(mission.empty() ? 0 : mission.size() - 1);
+      return send(mavlink::MissionCurrent{.seq = current_item, .total = total, .state = state});
+    }
+    case MessageId::extended_sys_state: {
+      mavlink::ExtendedSysState state;
+      state.landed_state = is_flying ? mavlink::MavLandedState::in_air : mavlink::MavLandedState::on_ground;
+      return send(state);
+    }
+    case MessageId::home_position: return send(mavlink::HomePosition{.position = home, .local_m = {}});
+    default: return;
+  }
+}
+
+void TestAutopilot::advance_mission() {
+  if (!is_running_mission_ || loop_.now() < item_ends_) return;
+  if (current_item < mission.size() && mission[current_item].command == MavCmd::nav_loiter_unlim) return;
+  finish_item();
+}
+
+void TestAutopilot::finish_item() {
+  auto const done = current_item;
+  send(mavlink::MissionItemReached{.seq = done});
+  bool const lands = done < mission.size() && mission[done].command == MavCmd::nav_land;
+  item_ends_ = loop_.now() + options_.item_time;
+  if (done + 1 < static_cast<int>(mission.size())) {
+    ++current_item;
+    return;
+  }
+  is_running_mission_ = false;
+  is_complete_ = true;
+  if (lands) {
+    is_flying = false;
+    disarm();
+  }
+  if (ends_in_rtl) change_mode(copter_mode::rtl);
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/scope.hpp"
+#include "link/byte_link.hpp"
+#include "mavlink/codec.hpp"
+#include "mavlink/frame.hpp"
+
+namespace lapwing::fleet {
+
+/// Mode numbers of ArduPilot's vehicles that the tests speak of.
+namespace copter_mode {
+inline constexpr std::uint32_t stabilize = 0;
+inline constexpr std::uint32_t automatic = 3;
+inline constexpr std::uint32_t guided = 4;
+inline constexpr std::uint32_t rtl = 6;
+inline constexpr std::uint32_t land = 9;
+inline constexpr std::uint32_t brake = 17;
+}  // namespace copter_mode
+namespace rover_mode {
+inline constexpr std::uint32_t manual = 0;
+inline constexpr std::uint32_t hold = 4;
+inline constexpr std::uint32_t automatic = 10;
+}  // namespace rover_mode
+
+namespace plane_mode {
+inline constexpr std::uint32_t automatic = 10;
+inline constexpr std::uint32_t loiter = 12;
+}  // namespace plane_mode
+
+/// A scripted autopilot on the far end of a link, for tests: answers as ArduPilot does, misbehaves when told to. It has
+/// no physics: every mission item takes `item_time`, LAND puts it on the ground and disarms it.
+class TestAutopilot {
+ public:
+  struct Options {
+    mavlink::Address address{1, 1};
+    mavlink::MavType type = mavlink::MavType::quadrotor;
+    mavlink::MavAutopilot autopilot = mavlink::MavAutopilot::ardupilotmega;
+    base::Duration item_time = std::chrono::seconds(3);
+    base::Duration position_ok_after{};  ///< boot to estimator
+    bool asks_with_request_int = false;  ///< ArduPilot asks with MISSION_REQUEST
+    base::Duration request_spacing = std::chrono::milliseconds(5);
+  };
+
+  TestAutopilot(base::Loop& loop, std::unique_ptr<link::ByteLink> link, Options options);
+  TestAutopilot(TestAutopilot const&) = delete;
+  TestAutopilot& operator=(TestAutopilot const&) = delete;
+
+  // ---- how it misbehaves ----
+  bool is_silent = false;                         ///< neither sends nor hears
+  std::optional<std::string> arming_refusal;      ///< refuses with this text
+  std::optional<std::uint16_t> refused_item;      ///< answered with MISSION_ACK "unsupported"
+  std::optional<std::uint16_t> silent_from_item;  ///< goes silent when this item arrives
+  std::set<mavlink::MavCmd> refused_commands;
+  std::set<mavlink::MavCmd> ignored_commands;
+  std::set<mavlink::MessageId> denied_intervals;
+  std::set<std::uint32_t> refused_modes;
+  bool takes_set_current_message = false;  ///< instead of the command
+  bool forgets_items = false;              ///< stores every item a hundred metres too high
+  std::optional<double> battery = 0.8;
+  bool ends_in_rtl = false;  ///< as ArduPlane does after its last item
+  bool reports_complete = true;
+
+  // ---- what tests do to it ----
+  void change_mode(std::uint32_t mode);
+  void disarm();
+  /// Back on another link, disarmed, in its first mode, without its message rates.
+  void reboot(std::unique_ptr<link::ByteLink> link);
+  void say(mavlink::MavSeverity severity, std::string text);
+  void send(mavlink::Message const& message) { send_as(options_.address, message); }
+  void send_as(mavlink::Address source, mavlink::Message const& message);
+  /// Sends `message` every `interval` without having been asked.
+  void stream(mavlink::MessageId message, base::Duration interval) { intervals_[message] = {interval, {}}; }
+
+  // ---- what it knows ----
+  std::uint32_t mode = 0;
+  bool is_armed = false;
+  bool is_flying = false;
+  std::vector<mavlink::MissionItem> mission;
+  std::uint16_t current_item = 0;
+  std::vector<mavlink::Message> heard;  ///< from the ground, heartbeats excepted
+  [[nodiscard]] int commands_heard(mavlink::MavCmd command) const;
+  [[nodiscard]] std::vector<std::uint32_t> modes_commanded() const;
+  [[nodiscard]] std::vector<mavlink::MessageId> messages_asked_for() const;
+  [[nodiscard]] bool was_upload_cancelled() const { return upload_cancelled_; }
+  [[nodiscard]] geo::Wgs84 position() const;
+
+  static constexpr geo::Wgs84 home = geo::Wgs84::from_degrees(40.0, -8.0, 100.0);
+
+ private:
+  struct Rate {
+    base::Duration interval{};
+    base::TimePoint next{};
+  };
+  struct Upload {
+    std::vector<mavlink::MissionItem> items;
+    std::uint16_t count = 0;
+    base::TimePoint last_good{};
+    base::TimePoint next_request{};
+    mavlink::Address partner{};
+  };
+
+  void attach(std::unique_ptr<link::ByteLink> link);
+  void take(mavlink::Frame const& frame);
+  void obey(mavlink::MavCmd command, std::array<float, 7> const& params, mavlink::Address from);
+  mavlink::MavResult execute(mavlink::MavCmd command, std::array<float, 7> const& params);
+  mavlink::MavResult arm();
+  void serve_upload(mavlink::Message const& message, mavlink::Address from);
+  void serve_download(mavlink::Message const& message, mavlink::Address from);
+  void take_item(mavlink::MissionItem item);
+  void request_item();
+  void beat();
+  void send_due_telemetry();
+  void send_message(mavlink::MessageId id);
+  void advance_mission();
+  void finish_item();
+  base::Task<> live();
+  [[nodiscard]] bool is_automatic() const;
+  [[nodiscard]] bool is_copter() const { return options_.type == mavlink::MavType::quadrotor; }
+  [[nodiscard]] bool has_position() const;
+
+  base::Loop& loop_;
+  Options options_;
+  std::unique_ptr<link::ByteLink> link_;
+  std::optional<link::Peer> ground_;
+  mavlink::FrameParser parser_;
+  std::uint8_t sequence_ = 0;
+  base::TimePoint booted_{};
+  base::TimePoint next_beat_{};
+  base::TimePoint armed_at_{};
+  base::TimePoint item_ends_{};
+  bool is_running_mission_ = false;
+  bool is_complete_ = false;
+  bool upload_cancelled_ = false;
+  std::map<mavlink::MessageId, Rate> intervals_;
+  std::optional<Upload> upload_;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::fleet
