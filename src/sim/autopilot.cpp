@@ -1,0 +1,257 @@
+#include "sim/autopilot.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace lapwing::sim {
+
+using mavlink::MavResult;
+using mavlink::MavSeverity;
+using mavlink::MavState;
+using vehicle::Family;
+
+Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, MissionPlan const& plan)
+    : airframe_(airframe_of(setup.family)),
+      site_(site),
+      parameters_(parameters),
+      plan_(plan),
+      mission_(plan),
+      start_up_(setup.boot),
+      battery_(setup.battery),
+      mode_(&initial_mode(setup.family)),
+      home_(setup.start) {
+  body_.position_m = setup.start;
+  body_.attitude.yaw_rad = geo::wrap_pi(setup.heading_rad);
+  read_parameters();
+}
+
+FlightContext Autopilot::context(double utc_day_s) const {
+  return {body_, airframe_, site_, pace_, tuning_, home_, now_, utc_day_s};
+}
+
+void Autopilot::read_parameters() {
+  if (parameters_read_ != parameters_.revision()) {
+    parameters_read_ = parameters_.revision();
+    pace_ = pace_from(airframe_.family, parameters_);
+    tuning_ = tuning_from(airframe_.family, parameters_);
+    if (speed_override_) pace_.speed_m_s = *speed_override_;
+  }
+}
+
+MavResult Autopilot::arm(bool force) {
+  if (armed_) return MavResult::accepted;
+  auto const refusal = arming_refusal({*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, tuning_.arm_in_auto,
+                                       plan_.size() > 1, arming_fault_});
+  if (refusal && !force) {
+    outbox_.say(MavSeverity::critical, "Arm: " + *refusal);
+    return MavResult::failed;
+  }
+  armed_ = true;
+  idle_since_.reset();
+  lift_at_.reset();
+  if (!home_locked_ && navigation_.position_ok) {
+    home_ = body_.position_m;
+  }
+  outbox_.home_changed = true;
+  outbox_.say(MavSeverity::info, "Arming motors");
+  enter(*mode_);
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::disarm(bool force) {
+  if (!armed_) return MavResult::accepted;
+  if (!body_.on_ground && !force) return MavResult::failed;
+  do_disarm();
+  return MavResult::accepted;
+}
+
+void Autopilot::do_disarm() {
+  armed_ = false;
+  take_off_allowed_ = false;
+  lift_at_.reset();
+  idle_since_.reset();
+  goal_ = StandStill{};
+  mission_.disarmed();
+  outbox_.mission_current_changed = true;
+  outbox_.say(MavSeverity::info, "Disarming motors");
+}
+
+bool Autopilot::may_enter(FlightMode const& mode) {
+  // Disarmed, a predicted position is enough: that comes with the origin.
+  bool const position = armed_ ? navigation_.position_ok : now_ >= start_up_.timeline().origin_set;
+  auto const refuse = [&](std::string_view reason) {
+    outbox_.say(MavSeverity::warning, fmt::format("Mode change to {} failed: {}", mode.name, reason));
+    return false;
+  };
+  if (mode.needs_position && !position) return refuse("requires position");
+  if (mode.behaviour != Behaviour::mission || airframe_.family == Family::plane) return true;
+  if (plan_.size() <= 1) {
+    if (airframe_.family == Family::rover) outbox_.say(MavSeverity::notice, "No Mission. Can't set AUTO.");
+    return refuse("init failed");
+  }
+  bool const would_tip_over = airframe_.family == Family::copter && armed_ && body_.on_ground;
+  if (would_tip_over && !mission_.starts_with_take_off()) {
+    outbox_.say(MavSeverity::critical, "Auto: Missing Takeoff Cmd");
+    return refuse("init failed");
+  }
+  return true;
+}
+
+MavResult Autopilot::set_mode(std::uint32_t number) {
+  auto const* mode = find_mode(airframe_.family, number);
+  if (!mode) {
+    outbox_.say(MavSeverity::warning, fmt::format("No such mode {}", number));
+    return MavResult::failed;
+  }
+  if (mode == mode_) return MavResult::accepted;
+  if (!may_enter(*mode)) return MavResult::failed;
+  if (mode_->behaviour == Behaviour::mission) mission_.suspend();
+  if (mode->behaviour == Behaviour::mission && tuning_.restart_mission) mission_.restart();
+  speed_override_.reset();
+  parameters_read_ = 0;
+  read_parameters();
+  enter(*mode);
+  outbox_.mode_changed = true;
+  return MavResult::accepted;
+}
+
+void Autopilot::enter(FlightMode const& mode) {
+  mode_ = &mode;
+  pace_.yaw_rad.reset();
+  logic_ = logic_for(mode);
+  if (mode.behaviour == Behaviour::mission) mission_.resume();
+  outbox_.mission_current_changed = true;
+}
+
+Autopilot::Logic Autopilot::logic_for(FlightMode const& mode) const {
+  auto const& here = body_.position_m;
+  auto const rest = stopping_point(body_, airframe_, pace_);
+  switch (mode.behaviour) {
+    case Behaviour::guided: return Guided(rest);
+    case Behaviour::land: return Landing(rest);
+    case Behaviour::return_home: return ReturnHome();
+    case Behaviour::circle: return Circle{rest, airframe_.family == Family::plane ? pace_.loiter_radius_m : 10.0};
+    case Behaviour::hold: return HoldAt{rest};
+    case Behaviour::take_off: return TakeOff{here, parameters_.value("TKOFF_ALT", 50.0), body_.attitude.yaw_rad};
+    default: return std::monostate{};
+  }
+}
+
+Guided& Autopilot::guided() {
+  if (!std::holds_alternative<Guided>(logic_)) logic_ = Guided(body_.position_m);
+  return std::get<Guided>(logic_);
+}
+
+MavResult Autopilot::take_off(double height_m) {
+  bool const may = airframe_.family == Family::copter && mode_->behaviour == Behaviour::guided && armed_ &&
+                   body_.on_ground && height_m > 0.0;
+  if (!may) return MavResult::failed;
+  guided().take_off(body_.position_m, height_m - home_.down, body_.attitude.yaw_rad);
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::start_mission() {
+  auto const& mission_mode = mode_for(airframe_.family, Behaviour::mission);
+  if (mode_ != &mission_mode) {
+    auto const result = set_mode(mission_mode.number);
+    if (result != MavResult::accepted) return result;
+  } else if (!mission_.running() || mission_.complete()) {
+    mission_.resume();
+  }
+  take_off_allowed_ = armed_;
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::reposition(geo::Ned point, bool change_mode, double radius_m) {
+  if (mode_->behaviour != Behaviour::guided) {
+    if (!change_mode) return MavResult::denied;
+    auto const result = set_mode(mode_for(airframe_.family, Behaviour::guided).number);
+    if (result != MavResult::accepted) return MavResult::denied;
+  }
+  if (radius_m != 0.0 && airframe_.family == Family::plane) {
+    guided().circle(point, radius_m);
+  } else {
+    guided().go_to(body_.position_m, point);
+  }
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::guide_velocity(geo::Ned velocity_m_s) {
+  if (mode_->behaviour != Behaviour::guided) return MavResult::failed;
+  guided().set_velocity(velocity_m_s, now_);
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::change_speed(double speed_m_s) {
+  if (!(speed_m_s > 0.0)) return MavResult::denied;
+  speed_override_ = speed_m_s;
+  pace_.speed_m_s = speed_m_s;
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::turn_to(double yaw_rad) {
+  if (mode_->behaviour != Behaviour::guided && mode_->behaviour != Behaviour::mission) return MavResult::failed;
+  pace_.yaw_rad = geo::wrap_pi(yaw_rad);
+  return MavResult::accepted;
+}
+
+MavResult Autopilot::pause(bool paused) {
+  if (mode_->behaviour != Behaviour::guided) return MavResult::failed;
+  if (paused) {
+    guided().pause(stopping_point(body_, airframe_, pace_));
+  } else {
+    guided().resume();
+  }
+  return MavResult::accepted;
+}
+
+bool Autopilot::set_current_item(int seq) {
+  if (!mission_.set_current(seq)) return false;
+  outbox_.mission_current_changed = true;
+  return true;
+}
+
+void Autopilot::set_home(geo::Ned place) {
+  home_ = place;
+  home_locked_ = true;
+  outbox_.home_changed = true;
+}
+
+std::optional<geo::Ned> Autopilot::home() const {
+  if (now_ < start_up_.timeline().origin_set) return std::nullopt;
+  return home_;
+}
+
+std::uint8_t Autopilot::base_mode() const {
+  return static_cast<std::uint8_t>(mode_->base_mode | (armed_ ? mavlink::mode_flag::safety_armed : 0U));
+}
+
+MavState Autopilot::system_status() const {
+  bool const booting = now_ < start_up_.timeline().standby;
+  if (airframe_.family == Family::rover) {
+    if (booting) return MavState::calibrating;
+    if (ground_station_.active() || battery_watch_.active() || estimate_failed_) return MavState::critical;
+    return mode_->name == "HOLD" ? MavState::standby : MavState::active;
+  }
+  if (booting) return MavState::active;
+  if (ground_station_.active() || battery_watch_.active() || estimate_failed_) return MavState::critical;
+  return body_.on_ground ? MavState::standby : MavState::active;
+}
+
+bool Autopilot::prearm_ok() const {
+  ArmingView const view{*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, arming_fault_};
+  // The periodic check does not ask whether this mode may arm, only whether the vehicle is fit for it. Before the
+  // position is there the bit depends on the mode: healthy in STABILIZE, not in GUIDED.
+  return view.checks_passed && view.fault.empty() && (!mode_->needs_position || navigation_.position_ok);
+}
+
+mavlink::MavLandedState Autopilot::landed_state() const {
+  using enum mavlink::MavLandedState;
+  if (body_.on_ground) return on_ground;
+  if (std::holds_alternative<TakeOff>(goal_)) return takeoff;
+  if (std::holds_alternative<Descend>(goal_)) return landing;
+  return in_air;
+}
+
+}  // namespace lapwing::sim

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "sim/arming.hpp"
+#include "sim/failsafe.hpp"
+#include "sim/flight_context.hpp"
+#include "sim/guided.hpp"
+#include "sim/mission_runner.hpp"
+#include "sim/parameters.hpp"
+#include "sim/return_home.hpp"
+#include "sim/tuning.hpp"
+
+namespace lapwing::sim {
+
+/// The flight logic of one ArduPilot vehicle with its body and battery: modes, arming, missions, failsafes. No protocol
+/// in it.
+///
+/// Time is counted from power-on and only moves with `step`. What happened is left in `outbox()`.
+class Autopilot {
+ public:
+  struct Setup {
+    vehicle::Family family = vehicle::Family::copter;
+    geo::Ned start;  ///< on the ground
+    double heading_rad = 0.0;
+    BootTimeline boot;
+    BatteryPack battery{5000.0};
+  };
+  /// `parameters` and `plan` are the vehicle's and outlive this.
+  Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, MissionPlan const& plan);
+
+  /// One step of `dt_s` ending at `now`.
+  void step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, double dt_s);
+
+  // Commands, answered as ArduPilot answers; reasons go to the outbox as texts.
+  mavlink::MavResult arm(bool force);
+  mavlink::MavResult disarm(bool force);
+  mavlink::MavResult set_mode(std::uint32_t number);
+  mavlink::MavResult take_off(double height_m);
+  mavlink::MavResult start_mission();
+  /// Guided flight to a point; `change_mode` allows leaving another mode for it. A radius makes a plane circle there.
+  mavlink::MavResult reposition(geo::Ned point, bool change_mode, double radius_m = 0.0);
+  mavlink::MavResult guide_velocity(geo::Ned velocity_m_s);
+  mavlink::MavResult change_speed(double speed_m_s);
+  mavlink::MavResult turn_to(double yaw_rad);
+  mavlink::MavResult pause(bool paused);
+  bool set_current_item(int seq);
+  void set_home(geo::Ned place);
+  void plan_changed() { mission_.plan_changed(outbox_); }
+  void plan_cleared() { mission_.plan_cleared(); }
+  void ground_station_heard() { ground_station_.heard(now_); }
+
+  // Faults.
+  /// Refuses arming with this reason; empty: no longer.
+  void set_arming_fault(std::string reason) { arming_fault_ = std::move(reason); }
+  void lose_gps() { start_up_.lose_gps(now_); }
+  void restore_gps() { start_up_.restore_gps(now_); }
+  [[nodiscard]] BatteryPack& battery() { return battery_; }
+
+  [[nodiscard]] Body const& body() const { return body_; }
+  [[nodiscard]] Airframe const& airframe() const { return airframe_; }
+  [[nodiscard]] Navigation const& navigation() const { return navigation_; }
+  [[nodiscard]] BatteryPack const& battery() const { return battery_; }
+  [[nodiscard]] MissionRunner const& mission() const { return mission_; }
+  [[nodiscard]] FlightMode const& mode() const { return *mode_; }
+  [[nodiscard]] Goal const& goal() const { return goal_; }
+  [[nodiscard]] Pace const& pace() const { return pace_; }
+  [[nodiscard]] bool armed() const { return armed_; }
+  /// Home; nothing before the origin is set.
+  [[nodiscard]] std::optional<geo::Ned> home() const;
+  [[nodiscard]] base::Duration now() const { return now_; }
+  [[nodiscard]] std::uint8_t base_mode() const;
+  [[nodiscard]] mavlink::MavState system_status() const;
+  [[nodiscard]] bool prearm_ok() const;
+  [[nodiscard]] mavlink::MavLandedState landed_state() const;
+  [[nodiscard]] Outbox& outbox() { return outbox_; }
+  [[nodiscard]] BootTimeline const& boot() const { return start_up_.timeline(); }
+
+ private:
+  using Logic = std::variant<std::monostate, Guided, Landing, ReturnHome, Circle, HoldAt, TakeOff>;
+
+  [[nodiscard]] FlightContext context(double utc_day_s) const;
+  void read_parameters();
+  bool may_enter(FlightMode const& mode);
+  void enter(FlightMode const& mode);
+  [[nodiscard]] Logic logic_for(FlightMode const& mode) const;
+  Guided& guided();
+  void do_disarm();
+
+  Goal fly(FlightContext const& flight);
+  Goal fly_mission(FlightContext const& flight);
+  void end_mission(FlightContext const& flight);
+  Goal hold_on_the_ground(Goal goal, FlightContext const& flight);
+  void watch_health();
+  void watch_battery();
+  void fail_safe(Behaviour behaviour);
+  void disarm_when_idle();
+  void notice_touch_down();
+  void repeat_prearm_fault();
+
+  Airframe airframe_;
+  Site const& site_;
+  Parameters const& parameters_;
+  MissionPlan const& plan_;
+  MissionRunner mission_;
+  StartUp start_up_;
+  BatteryPack battery_;
+  GroundStationWatch ground_station_;
+  BatteryWatch battery_watch_;
+  Navigation navigation_;
+  Body body_;
+  FlightMode const* mode_;
+  Logic logic_;
+  Goal goal_ = StandStill{};
+  Pace pace_;
+  Tuning tuning_;
+  unsigned parameters_read_ = 0;
+  geo::Ned home_;
+  bool home_locked_ = false;
+  bool armed_ = false;
+  bool take_off_allowed_ = false;  ///< stands for the raised throttle stick in AUTO
+  bool estimate_failed_ = false;
+  std::optional<double> speed_override_;
+  std::optional<base::Duration> lift_at_;
+  std::optional<base::Duration> idle_since_;
+  base::Duration next_prearm_text_{};
+  std::string arming_fault_;
+  base::Duration now_{};
+  Outbox outbox_;
+};
+
+}  // namespace lapwing::sim

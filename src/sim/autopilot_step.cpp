@@ -1,0 +1,191 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "sim/autopilot.hpp"
+#include "sim/guidance.hpp"
+
+namespace lapwing::sim {
+
+using namespace std::chrono_literals;
+using mavlink::MavSeverity;
+using vehicle::Family;
+
+namespace {
+
+constexpr base::Duration spool_up_time = 3s;
+constexpr base::Duration prearm_repeat_time = 30s;
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+}  // namespace
+
+void Autopilot::step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, double dt_s) {
+  bool const had_home = home().has_value();
+  now_ = now;
+  navigation_ = start_up_.at(now_);
+  if (!had_home && home()) outbox_.home_changed = true;
+  read_parameters();
+  watch_health();
+  auto const flight = context(utc_day_s);
+  goal_ = armed_ ? fly(flight) : Goal{StandStill{}};
+  if (battery_.remaining() <= 0.0) goal_ = StandStill{};
+  body_ = sim::step(body_, steer(goal_, body_, airframe_, pace_), airframe_, wind_m_s, dt_s);
+  battery_.drain(current_drawn_a(body_, airframe_, armed_), dt_s);
+  notice_touch_down();
+  disarm_when_idle();
+  repeat_prearm_fault();
+}
+
+Goal Autopilot::fly(FlightContext const& flight) {
+  if (mode_->behaviour == Behaviour::mission) return hold_on_the_ground(fly_mission(flight), flight);
+  if (mode_->behaviour == Behaviour::sink) return body_.on_ground ? Goal{Idle{}} : Goal{Sink{}};
+  if (mode_->behaviour == Behaviour::manual) {
+    // With the throttle stick down a rotorcraft falls; wheels and wings come to rest or glide by themselves.
+    return body_.on_ground || airframe_.family != Family::copter ? Goal{Idle{}} : Goal{StandStill{}};
+  }
+  Goal const goal =
+      std::visit(Overloaded{
+                     [&](Guided& logic) { return logic.update(flight); },
+                     [&](Landing& logic) {
+                       Goal const next = logic.update(flight);
+                       if (logic.finished()) do_disarm();
+                       return next;
+                     },
+                     [&](ReturnHome& logic) {
+                       Goal const next = logic.update(flight);
+                       if (logic.finished() && airframe_.family == Family::copter) do_disarm();
+                       return next;
+                     },
+                     [](Circle const& logic) { return Goal{logic}; },
+                     [](HoldAt const& logic) { return Goal{logic}; },
+                     [&](TakeOff const& logic) {
+                       if (body_.height_m() < logic.height_m) return Goal{logic};
+                       return Goal{HoldAt{{body_.position_m.north, body_.position_m.east, -logic.height_m}}};
+                     },
+                     [](std::monostate) { return Goal{Idle{}}; },
+                 },
+                 logic_);
+  return armed_ ? hold_on_the_ground(goal, flight) : Goal{StandStill{}};
+}
+
+Goal Autopilot::fly_mission(FlightContext const& flight) {
+  if (!body_.on_ground) take_off_allowed_ = true;
+  bool const waits_for_throttle =
+      airframe_.family == Family::copter && !take_off_allowed_ && !tuning_.take_off_without_throttle;
+  if (waits_for_throttle) return Idle{};
+  bool const was_complete = mission_.complete();
+  Goal goal = mission_.update(flight, outbox_);
+  if (auto const speed = mission_.take_speed()) change_speed(*speed);
+  if (auto const home = mission_.take_home()) set_home(*home);
+  if (auto const yaw = mission_.yaw_rad()) pace_.yaw_rad = yaw;
+  if (mission_.complete() && !was_complete) end_mission(flight);
+  return armed_ ? goal : Goal{StandStill{}};
+}
+
+/// What each family does after its last item: a copter holds, or disarms when it stands on the ground; a plane flies
+/// home and circles; a rover stops.
+void Autopilot::end_mission(FlightContext const& flight) {
+  if (flight.family() == Family::copter) {
+    if (body_.on_ground) do_disarm();
+    return;
+  }
+  if (flight.family() == Family::plane) {
+    outbox_.say(MavSeverity::notice, "Mission complete, changing mode to RTL");
+    set_mode(mode_for(Family::plane, Behaviour::return_home).number);
+    return;
+  }
+  outbox_.say(MavSeverity::notice, "Mission Complete");
+  set_mode(mode_for(Family::rover, Behaviour::hold).number);
+}
+
+/// A copter on the ground only leaves it by a take-off, and only when its motors have spooled up.
+Goal Autopilot::hold_on_the_ground(Goal goal, FlightContext const& flight) {
+  if (flight.family() != Family::copter || !body_.on_ground) {
+    lift_at_.reset();
+    return goal;
+  }
+  if (!std::holds_alternative<TakeOff>(goal)) {
+    lift_at_.reset();
+    return Idle{};
+  }
+  if (!lift_at_) lift_at_ = now_ + spool_up_time;
+  return now_ < *lift_at_ ? Goal{Idle{}} : goal;
+}
+
+void Autopilot::fail_safe(Behaviour behaviour) {
+  if (!armed_ || mode_->behaviour == behaviour || mode_->behaviour == Behaviour::land) return;
+  if (airframe_.family == Family::rover) behaviour = Behaviour::hold;
+  if (airframe_.family == Family::plane && behaviour == Behaviour::land) behaviour = Behaviour::return_home;
+  auto const& mode = mode_for(airframe_.family, behaviour);
+  if (mode.needs_position && !navigation_.position_ok) return fail_safe(Behaviour::land);
+  set_mode(mode.number);
+}
+
+void Autopilot::watch_health() {
+  bool const enabled = parameters_.value("FS_GCS_ENABLE", parameters_.value("FS_GCS_ENABL")) != 0.0;
+  auto const patience = base::from_seconds(parameters_.value("FS_GCS_TIMEOUT", 5.0));
+  auto const event = ground_station_.update(now_, enabled, patience);
+  if (event == GroundStationWatch::Event::lost) {
+    outbox_.say(MavSeverity::warning, "GCS Failsafe");
+    fail_safe(Behaviour::return_home);
+  } else if (event == GroundStationWatch::Event::returned) {
+    outbox_.say(MavSeverity::warning, "GCS Failsafe Cleared");
+  }
+  bool const failed = start_up_.estimate_lost(now_);
+  if (failed && !estimate_failed_ && armed_) {
+    outbox_.say(MavSeverity::critical, "EKF variance");
+    outbox_.say(MavSeverity::critical,
+                fmt::format("EKF Failsafe: changed to {} Mode", airframe_.family == Family::rover ? "HOLD" : "LAND"));
+    fail_safe(Behaviour::land);
+  }
+  estimate_failed_ = failed && (estimate_failed_ || armed_);
+  watch_battery();
+}
+
+void Autopilot::watch_battery() {
+  BatteryLimits const limits{.low_v = parameters_.value("BATT_LOW_VOLT"),
+                             .low_mah = parameters_.value("BATT_LOW_MAH"),
+                             .critical_v = parameters_.value("BATT_CRT_VOLT"),
+                             .critical_mah = parameters_.value("BATT_CRT_MAH"),
+                             .patience = base::from_seconds(parameters_.value("BATT_LOW_TIMER"))};
+  auto const reached = battery_watch_.update(now_, battery_, limits);
+  if (!reached) return;
+  bool const critical = *reached == BatteryWatch::Level::critical;
+  outbox_.say(MavSeverity::warning,
+              fmt::format("Battery 1 is {} {:.2f}V used {:.0f} mAh", critical ? "critical" : "low",
+                          battery_.voltage_v(), battery_.used_mah()));
+  int const action = static_cast<int>(parameters_.value(critical ? "BATT_FS_CRT_ACT" : "BATT_FS_LOW_ACT"));
+  if (action == 0) return;
+  outbox_.say(MavSeverity::warning, "Battery Failsafe");
+  fail_safe(action == 1 ? Behaviour::land : Behaviour::return_home);
+}
+
+void Autopilot::notice_touch_down() {
+  if (!body_.touch_down_m_s || airframe_.family == Family::rover) return;
+  outbox_.say(MavSeverity::alert, fmt::format("SIM Hit ground at {:.2f} m/s", *body_.touch_down_m_s));
+}
+
+void Autopilot::disarm_when_idle() {
+  bool const idle = armed_ && body_.on_ground && body_.ground_speed_m_s() < 0.1 && !lift_at_ &&
+                    tuning_.disarm_delay > base::Duration::zero() &&
+                    (airframe_.family == Family::copter || std::holds_alternative<Idle>(goal_));
+  // An aeroplane that has not flown waits for its take-off; only a landed one is disarmed.
+  if (!idle || (airframe_.family == Family::plane && mode_->behaviour != Behaviour::mission)) {
+    idle_since_.reset();
+    return;
+  }
+  if (!idle_since_) idle_since_ = now_;
+  if (now_ - *idle_since_ >= tuning_.disarm_delay) do_disarm();
+}
+
+void Autopilot::repeat_prearm_fault() {
+  if (armed_ || arming_fault_.empty() || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
+  outbox_.say(MavSeverity::critical, "PreArm: " + arming_fault_);
+  next_prearm_text_ = now_ + prearm_repeat_time;
+}
+
+}  // namespace lapwing::sim

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+#include "mavlink/enums.hpp"
+#include "sim/goal.hpp"
+#include "sim/mission_plan.hpp"
+
+namespace lapwing::sim {
+
+/// The distances and times that the vehicle's parameters set, SI.
+struct Tuning {
+  double waypoint_radius_m = 2.0;
+  double rtl_height_m = 15.0;              ///< above home: where a return is flown
+  base::Duration rtl_loiter_time{};        ///< above home, before the descent
+  base::Duration disarm_delay{};           ///< on the ground with nothing to do; zero: never
+  base::Duration guided_timeout{};         ///< a velocity setpoint is good for this long
+  bool arm_in_auto = false;                ///< AUTO_OPTIONS bit 0
+  bool take_off_without_throttle = false;  ///< AUTO_OPTIONS bit 1
+  bool restart_mission = false;            ///< MIS_RESTART
+};
+
+/// What a flight logic sees at one step.
+struct FlightContext {
+  Body const& body;
+  Airframe const& airframe;
+  Site const& site;
+  Pace const& pace;
+  Tuning const& tuning;
+  geo::Ned home;
+  base::Duration now{};    ///< since boot
+  double utc_day_s = 0.0;  ///< seconds since UTC midnight
+
+  [[nodiscard]] vehicle::Family family() const { return airframe.family; }
+};
+
+/// What a step of the autopilot wants told to the ground. Drained by the vehicle after each step.
+struct Outbox {
+  struct Text {
+    mavlink::MavSeverity severity;
+    std::string text;
+  };
+  std::vector<Text> texts;
+  std::optional<int>
+      reached;  ///< MISSION_ITEM_REACHED; a later one in the same step replaces an earlier, as in ArduPilot
+  bool mission_current_changed = false;
+  bool mode_changed = false;
+  bool home_changed = false;
+
+  void say(mavlink::MavSeverity severity, std::string text) { texts.push_back({severity, std::move(text)}); }
+};
+
+}  // namespace lapwing::sim

@@ -1,0 +1,86 @@
+#include "sim/flight_modes.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace lapwing::sim {
+
+namespace {
+
+using enum Behaviour;
+
+// base_mode: custom 0x01, guided 0x08, stabilize 0x10, manual input 0x40. The copter and rover rows were read from
+// HEARTBEATs of ArduCopter and ArduRover 4.6; the plane's follow ArduPlane's GCS_Plane::base_mode.
+constexpr std::array copter_modes{
+    FlightMode{0, "STABILIZE", manual, true, false, 0x51},
+    FlightMode{1, "ACRO", manual, true, false, 0x51},
+    FlightMode{2, "ALT_HOLD", sink, true, false, 0x51},
+    FlightMode{3, "AUTO", mission, false, true, 0x59},
+    FlightMode{4, "GUIDED", guided, true, true, 0x59},
+    FlightMode{5, "LOITER", sink, true, true, 0x59},
+    FlightMode{6, "RTL", return_home, false, true, 0x59},
+    FlightMode{7, "CIRCLE", circle, false, true, 0x59},
+    FlightMode{9, "LAND", land, false, false, 0x51},
+    FlightMode{11, "DRIFT", sink, true, true, 0x51},
+    FlightMode{14, "FLIP", sink, false, false, 0x51},
+    FlightMode{15, "AUTOTUNE", sink, false, false, 0x51},
+    FlightMode{16, "POSHOLD", sink, true, true, 0x59},
+    FlightMode{17, "BRAKE", hold, false, true, 0x59},
+    FlightMode{18, "THROW", manual, true, true, 0x51},
+    FlightMode{19, "AVOID_ADSB", hold, false, true, 0x59},
+    FlightMode{20, "GUIDED_NOGPS", manual, true, false, 0x51},
+    FlightMode{21, "SMART_RTL", return_home, false, true, 0x59},
+    FlightMode{22, "FLOWHOLD", sink, true, false, 0x51},
+    FlightMode{23, "FOLLOW", hold, false, true, 0x59},
+    FlightMode{24, "ZIGZAG", sink, true, true, 0x51},
+    FlightMode{25, "SYSTEMID", manual, false, false, 0x51},
+    FlightMode{27, "AUTO_RTL", return_home, false, true, 0x59},
+    FlightMode{28, "TURTLE", manual, true, false, 0x51},
+};
+
+constexpr std::array rover_modes{
+    FlightMode{0, "MANUAL", manual, true, false, 0x41},   FlightMode{1, "ACRO", manual, true, false, 0x51},
+    FlightMode{3, "STEERING", manual, true, false, 0x51}, FlightMode{4, "HOLD", hold, true, false, 0x01},
+    FlightMode{5, "LOITER", hold, true, true, 0x09},      FlightMode{6, "FOLLOW", hold, true, true, 0x09},
+    FlightMode{7, "SIMPLE", manual, true, false, 0x41},   FlightMode{8, "DOCK", hold, false, true, 0x09},
+    FlightMode{9, "CIRCLE", circle, true, true, 0x09},    FlightMode{10, "AUTO", mission, true, true, 0x09},
+    FlightMode{11, "RTL", return_home, true, true, 0x09}, FlightMode{12, "SMART_RTL", return_home, true, true, 0x09},
+    FlightMode{15, "GUIDED", guided, true, true, 0x09},   FlightMode{16, "INITIALISING", manual, false, false, 0x01},
+};
+
+constexpr std::array plane_modes{
+    FlightMode{0, "MANUAL", manual, true, false, 0x41},    FlightMode{1, "CIRCLE", circle, true, false, 0x59},
+    FlightMode{2, "STABILIZE", manual, true, false, 0x51}, FlightMode{3, "TRAINING", manual, true, false, 0x41},
+    FlightMode{4, "ACRO", manual, true, false, 0x51},      FlightMode{5, "FBWA", manual, true, false, 0x51},
+    FlightMode{6, "FBWB", manual, true, false, 0x51},      FlightMode{7, "CRUISE", manual, true, false, 0x51},
+    FlightMode{8, "AUTOTUNE", manual, true, false, 0x51},  FlightMode{10, "AUTO", mission, true, true, 0x59},
+    FlightMode{11, "RTL", return_home, false, true, 0x59}, FlightMode{12, "LOITER", hold, true, true, 0x59},
+    FlightMode{13, "TAKEOFF", take_off, true, true, 0x59}, FlightMode{14, "AVOID_ADSB", hold, false, true, 0x59},
+    FlightMode{15, "GUIDED", guided, true, true, 0x59},    FlightMode{16, "INITIALISING", manual, false, false, 0x11},
+    FlightMode{24, "THERMAL", hold, true, true, 0x59},
+};
+
+}  // namespace
+
+std::span<FlightMode const> flight_modes(vehicle::Family family) {
+  if (family == vehicle::Family::plane) return plane_modes;
+  if (family == vehicle::Family::rover) return rover_modes;
+  return copter_modes;
+}
+
+FlightMode const* find_mode(vehicle::Family family, std::uint32_t number) {
+  auto const modes = flight_modes(family);
+  auto const found = std::ranges::find(modes, number, &FlightMode::number);
+  return found == modes.end() ? nullptr : &*found;
+}
+
+FlightMode const& mode_for(vehicle::Family family, Behaviour behaviour) {
+  // The rover's HOLD and the plane's LOITER are the first rows that hold; the copter's is BRAKE.
+  return *std::ranges::find(flight_modes(family), behaviour, &FlightMode::behaviour);
+}
+
+FlightMode const& initial_mode(vehicle::Family family) {
+  return flight_modes(family).front();
+}
+
+}  // namespace lapwing::sim

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "vehicle/vehicle_state.hpp"
+
+namespace lapwing::sim {
+
+/// What a mode makes the vehicle do; several modes share one behaviour, since there is no pilot at the sticks.
+enum class Behaviour {
+  manual,  ///< sticks at rest, throttle low: falls, rolls out, stands
+  sink,    ///< a rotorcraft that keeps height by throttle stick sinks with the stick down
+  hold,    ///< stays where it is
+  circle,
+  mission,
+  guided,
+  return_home,
+  land,
+  take_off,  ///< an aeroplane's automatic take-off
+};
+
+/// One row of ArduPilot's mode table.
+struct FlightMode {
+  std::uint32_t number;  ///< HEARTBEAT.custom_mode
+  std::string_view name;
+  Behaviour behaviour;
+  bool armable;
+  bool needs_position;
+  std::uint8_t base_mode;  ///< HEARTBEAT.base_mode while disarmed
+};
+
+/// The modes of a copter, plane or rover that this build of the autopilot knows.
+[[nodiscard]] std::span<FlightMode const> flight_modes(vehicle::Family family);
+/// Null when there is no such mode.
+[[nodiscard]] FlightMode const* find_mode(vehicle::Family family, std::uint32_t number);
+/// The first mode with that behaviour. Precondition: the family has one.
+[[nodiscard]] FlightMode const& mode_for(vehicle::Family family, Behaviour behaviour);
+/// The mode after power-on.
+[[nodiscard]] FlightMode const& initial_mode(vehicle::Family family);
+
+}  // namespace lapwing::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "mavlink/messages.hpp"
+#include "sim/site.hpp"
+#include "vehicle/vehicle_state.hpp"
+
+namespace lapwing::sim {
+
+/// What the vehicle holds to fly, in the form in which ArduPilot stores it (`normalised`). Item 0 is home, the first
+/// real item is 1.
+using MissionPlan = std::vector<mavlink::MissionItem>;
+
+/// Navigation commands follow each other; everything else ("do" commands) runs on the way between two of them.
+[[nodiscard]] bool is_navigation(mavlink::MavCmd command);
+/// Whether ArduPilot stores such an item at all. Unsupported ones are refused on upload.
+[[nodiscard]] bool is_supported(mavlink::MavCmd command);
+/// Whether that family's autopilot can fly the navigation command; what it cannot is stored but skipped.
+[[nodiscard]] bool can_fly(vehicle::Family family, mavlink::MavCmd command);
+/// ArduPilot's short name in status texts: "WP", "Takeoff".
+[[nodiscard]] std::string_view short_name(mavlink::MavCmd command);
+
+/// Where the item is in the site's frame. Latitude and longitude 0 mean "here", as in ArduPilot.
+[[nodiscard]] geo::Ned point_of(mavlink::MissionItem const& item, Site const& site, geo::Ned home, geo::Ned here);
+
+/// The same, in what is stored: used to notice an upload that changes the command being flown.
+[[nodiscard]] bool same_item(mavlink::MissionItem const& a, mavlink::MissionItem const& b);
+
+/// The item as it reads back from ArduPilot: frames folded, altitude cut to centimetres, parameters that it has no room
+/// for dropped.
+[[nodiscard]] mavlink::MissionItem normalised(mavlink::MissionItem item);
+
+/// Why ArduPilot would not store the item; `accepted` when it would.
+[[nodiscard]] mavlink::MavMissionResult refusal(mavlink::MissionItem const& item);
+
+}  // namespace lapwing::sim

@@ -1,0 +1,146 @@
+#include "sim/parameters.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace lapwing::sim {
+
+namespace {
+
+using enum mavlink::MavParamType;
+struct Default {
+  std::string_view name;
+  float value;
+  mavlink::MavParamType type = real32;
+};
+
+constexpr Default common[] = {
+    {"AHRS_EKF_TYPE", 3, int8},
+    {"ARMING_CHECK", 1, int32},
+    {"ARMING_REQUIRE", 1, int8},
+    {"BARO1_GND_PRESS", 100250.0F},
+    {"BATT_ARM_MAH", 0, int32},
+    {"BATT_ARM_VOLT", 0},
+    {"BATT_CAPACITY", 3300, int32},
+    {"BATT_CRT_MAH", 0},
+    {"BATT_CRT_VOLT", 0},
+    {"BATT_FS_CRT_ACT", 0, int8},
+    {"BATT_FS_LOW_ACT", 0, int8},
+    {"BATT_LOW_MAH", 0},
+    {"BATT_LOW_TIMER", 10, int8},
+    {"BATT_LOW_VOLT", 10.5F},
+    {"BATT_MONITOR", 4, int8},
+    {"BRD_SAFETY_DEFLT", 0, int8},
+    {"COMPASS_ENABLE", 1, int8},
+    {"COMPASS_USE", 1, int8},
+    {"EK3_ENABLE", 1, int8},
+    {"FENCE_ACTION", 1, int8},
+    {"FENCE_ALT_MAX", 100},
+    {"FENCE_ENABLE", 0, int8},
+    {"FENCE_MARGIN", 2},
+    {"FENCE_RADIUS", 300},
+    {"FENCE_TOTAL", 0, int8},
+    {"FENCE_TYPE", 7, int8},
+    {"GPS_TYPE", 1, int8},
+    {"LOG_BACKEND_TYPE", 1, int8},
+    {"LOG_BITMASK", 176126, int32},
+    {"LOG_DISARMED", 0, int8},
+    {"MIS_OPTIONS", 0, int16},
+    {"MIS_RESTART", 0, int8},
+    {"MIS_TOTAL", 0, int16},
+    {"RALLY_TOTAL", 0, int8},
+    {"SCHED_LOOP_RATE", 400, int16},
+    {"SERIAL0_PROTOCOL", 2, int8},
+    {"SR0_EXTRA1", 0, int16},
+    {"SR0_EXTRA2", 0, int16},
+    {"SR0_EXTRA3", 0, int16},
+    {"SR0_EXT_STAT", 0, int16},
+    {"SR0_POSITION", 0, int16},
+    {"SR0_RAW_SENS", 0, int16},
+    {"SR0_RC_CHAN", 0, int16},
+    {"STAT_BOOTCNT", 1, int16},
+    {"STAT_FLTTIME", 0, int32},
+    {"STAT_RUNTIME", 0, int32},
+    {"SYSID_ENFORCE", 0, int8},
+    {"SYSID_MYGCS", 255, int16},
+    {"SYSID_THISMAV", 1, int16},
+};
+
+constexpr Default copter[] = {
+    {"AUTO_OPTIONS", 0, int32},     {"DISARM_DELAY", 10, int8},
+    {"FRAME_CLASS", 1, int8},       {"FRAME_TYPE", 0, int8},
+    {"FS_EKF_ACTION", 1, int8},     {"FS_EKF_THRESH", 0.8F},
+    {"FS_GCS_ENABLE", 0, int8},     {"FS_GCS_TIMEOUT", 5},
+    {"FS_THR_ENABLE", 1, int8},     {"GUID_TIMEOUT", 3},
+    {"LAND_ALT_LOW", 1000, int16},  {"LAND_SPEED", 50, int16},
+    {"LAND_SPEED_HIGH", 0, int16},  {"LOIT_SPEED", 1250},
+    {"PILOT_SPEED_DN", 0, int16},   {"PILOT_SPEED_UP", 250, int16},
+    {"PILOT_TKOFF_ALT", 0},         {"RTL_ALT", 1500, int32},
+    {"RTL_ALT_FINAL", 0, int16},    {"RTL_CLIMB_MIN", 0, int16},
+    {"RTL_LOIT_TIME", 5000, int32}, {"RTL_SPEED", 0, int16},
+    {"WPNAV_ACCEL", 250},           {"WPNAV_ACCEL_Z", 100},
+    {"WPNAV_RADIUS", 200},          {"WPNAV_SPEED", 1000},
+    {"WPNAV_SPEED_DN", 150},        {"WPNAV_SPEED_UP", 250},
+    {"CIRCLE_RADIUS", 1000},
+};
+
+constexpr Default plane[] = {
+    {"AIRSPEED_CRUISE", 22},        {"AIRSPEED_MAX", 30, int16}, {"AIRSPEED_MIN", 10, int16},
+    {"FS_GCS_ENABL", 0, int8},      {"FS_LONG_ACTN", 0, int8},   {"FS_LONG_TIMEOUT", 5},
+    {"LAND_DISARMDELAY", 20, int8}, {"RTL_ALTITUDE", 100},       {"RTL_AUTOLAND", 0, int8},
+    {"TECS_CLMB_MAX", 5},           {"TECS_SINK_MAX", 5},        {"TKOFF_ALT", 50},
+    {"WP_LOITER_RAD", 60, int16},   {"WP_RADIUS", 50, int16},    {"RTL_RADIUS", 0, int16},
+};
+
+constexpr Default rover[] = {
+    {"CRUISE_SPEED", 5},
+    {"FS_ACTION", 2, int8},
+    {"FS_GCS_ENABLE", 0, int8},
+    {"FS_GCS_TIMEOUT", 5},
+    {"MIS_DONE_BEHAVE", 0, int8},
+    {"RTL_SPEED", 0},
+    {"TURN_RADIUS", 0.9F},
+    {"WP_ACCEL", 0},
+    {"WP_RADIUS", 2},
+    {"WP_SPEED", 5},
+    {"GUID_TIMEOUT", 3},
+    {"CIRC_RADIUS", 20},
+};
+
+std::span<Default const> own_defaults(vehicle::Family family) {
+  if (family == vehicle::Family::plane) return plane;
+  if (family == vehicle::Family::rover) return rover;
+  return copter;
+}
+
+}  // namespace
+
+Parameters::Parameters(vehicle::Family family, int system_id) {
+  auto const own = own_defaults(family);
+  table_.reserve(std::size(common) + own.size());
+  for (auto const& row : common) table_.push_back({std::string(row.name), row.value, row.type});
+  for (auto const& row : own) table_.push_back({std::string(row.name), row.value, row.type});
+  std::ranges::sort(table_, {}, &Parameter::name);
+  set("SYSID_THISMAV", static_cast<float>(system_id));
+}
+
+std::optional<std::size_t> Parameters::index_of(std::string_view name) const {
+  auto const found = std::ranges::lower_bound(table_, name, {}, &Parameter::name);
+  if (found == table_.end() || found->name != name) return std::nullopt;
+  return static_cast<std::size_t>(found - table_.begin());
+}
+
+double Parameters::value(std::string_view name, double otherwise) const {
+  auto const index = index_of(name);
+  return index ? static_cast<double>(table_[*index].value) : otherwise;
+}
+
+bool Parameters::set(std::string_view name, float value) {
+  auto const index = index_of(name);
+  if (!index) return false;
+  table_[*index].value = value;
+  ++revision_;
+  return true;
+}
+
+}  // namespace lapwing::sim

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mavlink/enums.hpp"
+#include "vehicle/vehicle_state.hpp"
+
+namespace lapwing::sim {
+
+/// One parameter of the autopilot. Names, types and units are ArduPilot's (centimetres where it has centimetres).
+struct Parameter {
+  std::string name;
+  float value = 0.0F;
+  mavlink::MavParamType type = mavlink::MavParamType::real32;
+};
+
+/// The autopilot's parameter table: those of ArduPilot's that matter to a ground station or to this simulation.
+class Parameters {
+ public:
+  Parameters(vehicle::Family family, int system_id);
+
+  [[nodiscard]] std::vector<Parameter> const& all() const { return table_; }
+  [[nodiscard]] std::optional<std::size_t> index_of(std::string_view name) const;
+  /// The value, or `otherwise` when this family has no such parameter.
+  [[nodiscard]] double value(std::string_view name, double otherwise = 0.0) const;
+  /// False when there is no such parameter.
+  bool set(std::string_view name, float value);
+  /// Grows with every change.
+  [[nodiscard]] unsigned revision() const { return revision_; }
+
+ private:
+  std::vector<Parameter> table_;  // in alphabetical order
+  unsigned revision_ = 1;
+};
+
+}  // namespace lapwing::sim

@@ -1,0 +1,73 @@
+#include "sim/return_home.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lapwing::sim {
+
+using namespace std::chrono_literals;
+
+Goal Landing::update(FlightContext const& context) {
+  bool const still = context.body.ground_speed_m_s() < 0.5;
+  if (!context.body.on_ground || !still) {
+    grounded_at_.reset();
+  } else if (!grounded_at_) {
+    grounded_at_ = context.now;
+  }
+  finished_ = grounded_at_ && context.now - *grounded_at_ >= 1s;
+  if (context.body.on_ground && still) return Idle{};
+  return Descend{point_};
+}
+
+Goal ReturnHome::update(FlightContext const& context) {
+  if (phase_ == Phase::start) return begin(context);
+  return fly(context);
+}
+
+Goal ReturnHome::begin(FlightContext const& context) {
+  start_ = context.body.position_m;
+  above_home_ = context.home;
+  using enum vehicle::Family;
+  if (context.family() == rover) {
+    phase_ = Phase::travel;
+  } else if (context.body.on_ground) {
+    phase_ = Phase::land;
+    landing_.emplace(start_);
+  } else {
+    double const height = context.home.down - context.tuning.rtl_height_m;
+    above_home_.down = context.family() == plane ? height : std::min(start_.down, height);
+    phase_ = context.family() == plane ? Phase::travel : Phase::climb;
+  }
+  return fly(context);
+}
+
+Goal ReturnHome::fly(FlightContext const& context) {
+  auto const& body = context.body;
+  if (phase_ == Phase::climb) {
+    if (std::abs(body.position_m.down - above_home_.down) > 0.3) {
+      return HoldAt{{start_.north, start_.east, above_home_.down}};
+    }
+    phase_ = Phase::travel;
+  }
+  if (phase_ == Phase::travel) {
+    if (context.family() == vehicle::Family::plane) return HoldAt{above_home_};
+    bool const arrived = has_reached(body, above_home_, above_home_, context.tuning.waypoint_radius_m);
+    if (!arrived) return FlyTo{above_home_, start_, false};
+    phase_ = context.family() == vehicle::Family::rover ? Phase::done : Phase::wait;
+    waiting_since_ = context.now;
+  }
+  if (phase_ == Phase::wait) {
+    bool const over_home = has_reached(body, above_home_, above_home_, 0.3);
+    if (context.now - waiting_since_ < context.tuning.rtl_loiter_time || !over_home) return HoldAt{above_home_};
+    phase_ = Phase::land;
+    landing_.emplace(context.home);
+  }
+  if (phase_ == Phase::land) {
+    Goal const goal = landing_->update(context);
+    if (landing_->finished()) phase_ = Phase::done;
+    return goal;
+  }
+  return context.family() == vehicle::Family::rover ? Goal{HoldAt{above_home_}} : Goal{Idle{}};
+}
+
+}  // namespace lapwing::sim

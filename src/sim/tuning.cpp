@@ -1,0 +1,59 @@
+#include "sim/tuning.hpp"
+
+#include <algorithm>
+
+namespace lapwing::sim {
+
+namespace {
+constexpr double m_per_cm = 0.01;
+}
+
+Pace pace_from(vehicle::Family family, Parameters const& parameters) {
+  using enum vehicle::Family;
+  auto const cm = [&](std::string_view name) { return parameters.value(name) * m_per_cm; };
+  Pace pace;
+  if (family == plane) {
+    pace.speed_m_s = parameters.value("AIRSPEED_CRUISE");
+    pace.climb_m_s = parameters.value("TECS_CLMB_MAX");
+    pace.sink_m_s = parameters.value("TECS_SINK_MAX");
+    pace.loiter_radius_m = parameters.value("WP_LOITER_RAD");
+  } else if (family == rover) {
+    pace.speed_m_s = parameters.value("WP_SPEED");
+    pace.accel_m_s2 = 2.0;
+  } else {
+    pace.speed_m_s = std::max(0.2, cm("WPNAV_SPEED"));
+    pace.climb_m_s = std::max(0.1, cm("WPNAV_SPEED_UP"));
+    pace.sink_m_s = std::max(0.1, cm("WPNAV_SPEED_DN"));
+    pace.land_m_s = std::max(0.3, cm("LAND_SPEED"));
+    pace.land_slow_below_m = cm("LAND_ALT_LOW");
+    pace.accel_m_s2 = std::max(0.5, cm("WPNAV_ACCEL"));
+    pace.vertical_accel_m_s2 = std::max(0.5, cm("WPNAV_ACCEL_Z"));
+  }
+  return pace;
+}
+
+Tuning tuning_from(vehicle::Family family, Parameters const& parameters) {
+  using enum vehicle::Family;
+  using base::from_seconds;
+  Tuning tuning;
+  tuning.restart_mission = parameters.value("MIS_RESTART") != 0.0;
+  tuning.guided_timeout = from_seconds(parameters.value("GUID_TIMEOUT", 3.0));
+  if (family == plane) {
+    tuning.waypoint_radius_m = std::max(1.0, parameters.value("WP_RADIUS"));
+    tuning.rtl_height_m = parameters.value("RTL_ALTITUDE");
+    tuning.disarm_delay = from_seconds(parameters.value("LAND_DISARMDELAY"));
+  } else if (family == rover) {
+    tuning.waypoint_radius_m = std::max(0.1, parameters.value("WP_RADIUS"));
+  } else {
+    auto const options = static_cast<unsigned>(parameters.value("AUTO_OPTIONS"));
+    tuning.waypoint_radius_m = std::max(0.05, parameters.value("WPNAV_RADIUS") * m_per_cm);
+    tuning.rtl_height_m = parameters.value("RTL_ALT") * m_per_cm;
+    tuning.rtl_loiter_time = from_seconds(parameters.value("RTL_LOIT_TIME") * 1e-3);
+    tuning.disarm_delay = from_seconds(parameters.value("DISARM_DELAY"));
+    tuning.arm_in_auto = (options & 1U) != 0;
+    tuning.take_off_without_throttle = (options & 2U) != 0;
+  }
+  return tuning;
+}
+
+}  // namespace lapwing::sim

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "sim/flight_context.hpp"
+#include "sim/parameters.hpp"
+
+namespace lapwing::sim {
+
+/// The speeds that the parameters ask for, in SI.
+[[nodiscard]] Pace pace_from(vehicle::Family family, Parameters const& parameters);
+/// The distances and times that the parameters ask for, in SI.
+[[nodiscard]] Tuning tuning_from(vehicle::Family family, Parameters const& parameters);
+
+}  // namespace lapwing::sim
