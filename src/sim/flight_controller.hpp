@@ -1,0 +1,116 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/log.hpp"
+#include "mavlink/connection.hpp"
+#include "sim/autopilot.hpp"
+#include "sim/mission_store.hpp"
+#include "sim/parameters.hpp"
+#include "sim/reports.hpp"
+#include "sim/telemetry.hpp"
+
+namespace lapwing::sim {
+
+/// What a flight controller keeps while it is switched off.
+struct Memory {
+  Parameters parameters;
+  MissionStore::Plans plans;
+};
+
+/// One power-on of a vehicle: its autopilot with its MAVLink side on one link. A reboot is the end of this and a new
+/// one.
+///
+/// Passive: the owner calls `step` in time, everything else happens on the arrival of messages. Thread-bound to the
+/// loop.
+class FlightController {
+ public:
+  struct Setup {
+    std::uint8_t system_id = 1;
+    Autopilot::Setup autopilot;
+    base::TimePoint powered_on;
+  };
+  FlightController(base::Loop& loop, Setup const& setup, Site const& site, Memory& memory,
+                   std::unique_ptr<link::ByteLink> link, base::Logger log);
+  FlightController(FlightController const&) = delete;
+  FlightController& operator=(FlightController const&) = delete;
+
+  /// Moves the vehicle on by `dt` and sends what became due.
+  void step(base::Duration dt, geo::Ned wind_m_s);
+  /// Sends the messages that are due now; for those that come more often than steps.
+  void send_due();
+  [[nodiscard]] base::TimePoint next_due_between(base::Duration step) const;
+  [[nodiscard]] base::Duration since_power_on() const { return loop_.now() - powered_on_; }
+
+  /// A ground station asked for a reboot, and the answer has been sent.
+  [[nodiscard]] bool reboot_requested() const { return reboot_requested_; }
+
+  /// Neither hears nor sends until then; flies on.
+  void fall_silent(base::TimePoint until) { silent_until_ = until; }
+  /// A person at the remote control changes the mode. False when the vehicle refuses.
+  bool pilot_sets_mode(std::uint32_t number);
+  [[nodiscard]] Autopilot& autopilot() { return autopilot_; }
+  [[nodiscard]] Autopilot const& autopilot() const { return autopilot_; }
+  [[nodiscard]] MissionStore& missions() { return missions_; }
+
+ private:
+  using Result = mavlink::MavResult;
+
+  void receive(mavlink::Received const& received);
+  void dispatch(mavlink::Message const& message, mavlink::Address from);
+  void on(mavlink::CommandInt const& command, mavlink::Address from);
+  void on(mavlink::SetPositionTargetGlobalInt const& target);
+  void on(mavlink::ParamRequestRead const& request, mavlink::Address from);
+  void on(mavlink::ParamSet const& set);
+
+  // Commands, in commands.cpp.
+  Result perform(mavlink::CommandInt const& command, mavlink::Address from);
+  Result perform_request(mavlink::CommandInt const& command, mavlink::Address from);
+  Result set_mode(mavlink::CommandInt const& command);
+  Result arm_disarm(mavlink::CommandInt const& command);
+  Result reposition(mavlink::CommandInt const& command);
+  Result set_home(mavlink::CommandInt const& command);
+  Result set_interval(mavlink::CommandInt const& command);
+  Result get_interval(mavlink::CommandInt const& command, mavlink::Address from);
+  Result request_message(mavlink::CommandInt const& command, mavlink::Address from);
+  Result reboot(mavlink::CommandInt const& command);
+  mavlink::MavMissionResult go_to_item(mavlink::MissionItem const& item);
+
+  MissionStore::Ports mission_ports();
+  void send(mavlink::Address to, mavlink::Message const& message);
+  void broadcast(mavlink::Message const& message);
+  void broadcast_report(mavlink::MessageId id);
+  void say(mavlink::MavSeverity severity, std::string text);
+  void send_parameter(std::size_t index, bool in_a_list, mavlink::Address const* to);
+  void send_parameter_list();
+  void announce_start();
+  void send_boot_noise();
+  void drain_outbox();
+  void send_regular();
+  [[nodiscard]] bool silent() const { return loop_.now() < silent_until_; }
+  [[nodiscard]] ReportView view() const;
+  [[nodiscard]] double utc_day_s() const;
+
+  base::Loop& loop_;
+  Site const& site_;
+  Memory& memory_;
+  base::TimePoint powered_on_;
+  Autopilot autopilot_;
+  Telemetry telemetry_;
+  MissionStore missions_;
+  mavlink::Connection connection_;
+  mavlink::Subscription subscription_;
+  geo::Ned wind_m_s_;
+  base::Duration announced_ = base::Duration{-1};
+  base::Duration next_timesync_{};
+  base::Duration next_runtime_{};
+  base::TimePoint silent_until_{};
+  std::optional<mavlink::Address> list_reader_;
+  std::size_t list_next_ = 0;
+  bool ground_spoke_ = false;
+  bool reboot_requested_ = false;
+};
+
+}  // namespace lapwing::sim

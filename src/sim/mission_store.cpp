@@ -1,0 +1,238 @@
+#include "sim/mission_store.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "sim/fence_plan.hpp"
+
+namespace lapwing::sim {
+
+using namespace std::chrono_literals;
+using mavlink::Address;
+using mavlink::MavMissionResult;
+using mavlink::MavSeverity;
+using mavlink::Message;
+using mavlink::MissionType;
+
+namespace {
+
+constexpr base::Duration repeat_after = 1s;
+constexpr base::Duration give_up_after = 8s;
+constexpr int most_items = 650;  // of the ArduCopter build that was observed
+
+std::string_view words(MissionType type) {
+  if (type == MissionType::fence) return "Fence";
+  if (type == MissionType::rally) return "Rally";
+  return "Mission";
+}
+
+}  // namespace
+
+bool MissionStore::handle(Message const& message, Address from, base::Duration now) {
+  using namespace mavlink;
+  if (auto const* count = std::get_if<MissionCount>(&message)) {
+    on(*count, from, now);
+  } else if (auto const* partial = std::get_if<MissionWritePartialList>(&message)) {
+    on(*partial, from, now);
+  } else if (auto const* item = std::get_if<MissionItem>(&message)) {
+    on(*item, from, now);
+  } else if (auto const* list = std::get_if<MissionRequestList>(&message)) {
+    on(*list, from);
+  } else if (auto const* wanted = std::get_if<MissionRequestInt>(&message)) {
+    on_request(wanted->seq, wanted->type, from, ItemForm::integer);
+  } else if (auto const* legacy = std::get_if<MissionRequest>(&message)) {
+    on_request(legacy->seq, legacy->type, from, ItemForm::floating);
+  } else if (auto const* clear_all = std::get_if<MissionClearAll>(&message)) {
+    on(*clear_all, from);
+  } else {
+    // The ground station's closing MISSION_ACK is ignored, as are partial downloads.
+    return std::holds_alternative<MissionAck>(message) || std::holds_alternative<MissionRequestPartialList>(message);
+  }
+  return true;
+}
+
+MissionPlan* MissionStore::plan_of(MissionType type) {
+  switch (type) {
+    case MissionType::mission: return &plans_.mission;
+    case MissionType::fence: return &plans_.fence;
+    case MissionType::rally: return &plans_.rally;
+    default: return nullptr;
+  }
+}
+
+void MissionStore::acknowledge(Address to, MavMissionResult result, MissionType type) {
+  ports_.send(to, mavlink::MissionAck{.target = to, .result = result, .type = type});
+}
+
+void MissionStore::on(mavlink::MissionCount const& count, Address from, base::Duration now) {
+  if (transfer_ && transfer_->peer != from) return acknowledge(from, MavMissionResult::denied, count.type);
+  auto* plan = plan_of(count.type);
+  if (!plan) return acknowledge(from, MavMissionResult::unsupported, count.type);
+  if (count.count > most_items) {
+    ports_.say(MavSeverity::warning, fmt::format("Only {} items are supported", most_items));
+    return acknowledge(from, MavMissionResult::no_space, count.type);
+  }
+  transfer_.reset();
+  if (count.count == 0) {
+    clear(count.type);
+    return acknowledge(from, MavMissionResult::accepted, count.type);
+  }
+  // Not atomic: the old mission is cut to the new length at once, then overwritten item by item.
+  if (count.type == MissionType::mission && plan->size() > count.count) {
+    plan->resize(count.count);
+    ports_.mission_changed();
+  }
+  begin({.peer = from, .type = count.type, .next = 0, .end = count.count, .staged = {}}, now);
+}
+
+void MissionStore::on(mavlink::MissionWritePartialList const& partial, Address from, base::Duration now) {
+  if (transfer_ && transfer_->peer != from) return acknowledge(from, MavMissionResult::denied, partial.type);
+  if (partial.type != MissionType::mission) return acknowledge(from, MavMissionResult::unsupported, partial.type);
+  int const size = static_cast<int>(plans_.mission.size());
+  if (partial.start < 0 || partial.start >= size || partial.end >= size || partial.end < partial.start) {
+    ports_.say(MavSeverity::warning, "Flight plan update rejected");
+    return acknowledge(from, MavMissionResult::error, partial.type);
+  }
+  begin({.peer = from, .type = partial.type, .next = partial.start, .end = partial.end + 1, .staged = {}}, now);
+}
+
+void MissionStore::begin(Transfer transfer, base::Duration now) {
+  transfer_ = std::move(transfer);
+  transfer_->progressed = now;
+  request(now);
+}
+
+void MissionStore::request(base::Duration now) {
+  transfer_->requested = now;
+  ports_.send(transfer_->peer, mavlink::MissionRequest{.target = transfer_->peer,
+                                                       .seq = static_cast<std::uint16_t>(transfer_->next),
+                                                       .type = transfer_->type});
+}
+
+void MissionStore::tick(base::Duration now) {
+  if (!transfer_) return;
+  if (now - transfer_->progressed >= give_up_after) {
+    ports_.say(MavSeverity::warning, fmt::format("{} upload timeout", words(transfer_->type)));
+    acknowledge(transfer_->peer, MavMissionResult::operation_cancelled, transfer_->type);
+    transfer_.reset();
+  } else if (now - transfer_->requested >= repeat_after) {
+    request(now);
+  }
+}
+
+void MissionStore::on(mavlink::MissionItem const& item, Address from, base::Duration now) {
+  if (item.type == MissionType::mission && item.current == 2) return acknowledge(from, ports_.go_to(item), item.type);
+  if (!transfer_ || transfer_->type != item.type) return acknowledge(from, MavMissionResult::error, item.type);
+  if (transfer_->peer != from) return acknowledge(from, MavMissionResult::denied, item.type);
+  if (item.form == mavlink::ItemForm::floating && !warned_of_item_) {
+    warned_of_item_ = true;
+    ports_.say(MavSeverity::warning, "got MISSION_ITEM; GCS should send MISSION_ITEM_INT");
+  }
+  // The transfer goes on: the item asked for may still come.
+  if (item.seq != transfer_->next) return acknowledge(from, MavMissionResult::invalid_sequence, item.type);
+  if (auto const result = check(item); result != MavMissionResult::accepted) {
+    transfer_.reset();
+    return acknowledge(from, result, item.type);
+  }
+  store(item);
+  transfer_->progressed = now;
+  ++transfer_->next;
+  if (transfer_->next < transfer_->end) return request(now);
+  complete();
+}
+
+MavMissionResult MissionStore::check(mavlink::MissionItem const& item) const {
+  if (refused_seq_ == item.seq) return refused_with_;
+  if (item.type == MissionType::mission) return refusal(item);
+  return zone_refusal(item);
+}
+
+void MissionStore::store(mavlink::MissionItem const& item) {
+  if (item.type != MissionType::mission) {
+    transfer_->staged.push_back(normalised_zone(item));
+    return;
+  }
+  auto& plan = plans_.mission;
+  auto const seq = static_cast<std::size_t>(item.seq);
+  auto const kept = normalised(item);
+  bool const changed = seq >= plan.size() || (seq > 0 && !same_item(plan[seq], kept));
+  if (seq < plan.size()) {
+    plan[seq] = kept;
+  } else {
+    plan.push_back(kept);
+  }
+  if (changed) ports_.mission_changed();
+}
+
+void MissionStore::complete() {
+  auto const done = std::move(*transfer_);
+  transfer_.reset();
+  if (done.type == MissionType::fence) {
+    if (auto const problem = fence_problem(done.staged)) {
+      ports_.say(MavSeverity::warning, *problem);
+      return acknowledge(done.peer, MavMissionResult::error, done.type);
+    }
+    ports_.say(MavSeverity::info, "Fence Indexed OK");
+  }
+  if (done.type != MissionType::mission) *plan_of(done.type) = done.staged;
+  acknowledge(done.peer, MavMissionResult::accepted, done.type);
+  if (done.type == MissionType::mission) ports_.say(MavSeverity::info, "Flight plan received");
+}
+
+void MissionStore::on(mavlink::MissionRequestList const& request_list, Address from) {
+  if (transfer_) return acknowledge(from, MavMissionResult::denied, request_list.type);
+  auto const* plan = plan_of(request_list.type);
+  if (!plan) return acknowledge(from, MavMissionResult::unsupported, request_list.type);
+  ports_.send(from, mavlink::MissionCount{
+                        .target = from, .count = static_cast<std::uint16_t>(plan->size()), .type = request_list.type});
+}
+
+void MissionStore::on_request(int seq, MissionType type, Address from, mavlink::ItemForm form) {
+  auto const* plan = plan_of(type);
+  if (!plan) return acknowledge(from, MavMissionResult::unsupported, type);
+  if (form == mavlink::ItemForm::floating && !warned_of_request_) {
+    warned_of_request_ = true;
+    ports_.say(MavSeverity::warning, "got MISSION_REQUEST; use MISSION_REQUEST_INT!");
+  }
+  if (seq >= static_cast<int>(plan->size())) {
+    ports_.send(from,
+                mavlink::MissionCount{.target = from, .count = static_cast<std::uint16_t>(plan->size()), .type = type});
+    return acknowledge(from, MavMissionResult::error, type);
+  }
+  auto item = type == MissionType::mission && seq == 0 ? item_zero() : (*plan)[static_cast<std::size_t>(seq)];
+  item.target = from;
+  item.seq = static_cast<std::uint16_t>(seq);
+  item.form = form;
+  ports_.send(from, item);
+}
+
+mavlink::MissionItem MissionStore::item_zero() const {
+  mavlink::MissionItem item;
+  item.command = mavlink::MavCmd::nav_waypoint;
+  if (auto const home = ports_.home()) {
+    item.place.lat_rad = home->lat_rad;
+    item.place.lon_rad = home->lon_rad;
+    item.place.z_m = home->alt_m;
+  }
+  return item;
+}
+
+void MissionStore::on(mavlink::MissionClearAll const& clear_all, Address from) {
+  if (!plan_of(clear_all.type)) return acknowledge(from, MavMissionResult::unsupported, clear_all.type);
+  if (transfer_) return acknowledge(from, MavMissionResult::error, clear_all.type);
+  clear(clear_all.type);
+  acknowledge(from, MavMissionResult::accepted, clear_all.type);
+}
+
+void MissionStore::clear(MissionType type) {
+  plan_of(type)->clear();
+  if (type == MissionType::mission) ports_.mission_cleared();
+}
+
+void MissionStore::refuse_item(std::optional<int> seq, MavMissionResult result) {
+  refused_seq_ = seq;
+  refused_with_ = result;
+}
+
+}  // namespace lapwing::sim

@@ -1,0 +1,224 @@
+#include "sim/reports.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lapwing::sim {
+
+using namespace mavlink;
+using std::numbers::pi;
+
+namespace {
+
+constexpr MessageId position_target{87};
+/// Until the estimator has its yaw, the reported heading is off by about this much.
+constexpr double unsettled_yaw_rad = 106.0 * pi / 180.0;
+
+/// The point that the present goal leads to, if there is one.
+std::optional<geo::Ned> target_of(Goal const& goal) {
+  if (auto const* way = std::get_if<FlyTo>(&goal)) return way->point;
+  if (auto const* hold = std::get_if<HoldAt>(&goal)) return hold->point;
+  if (auto const* circle = std::get_if<sim::Circle>(&goal)) return circle->center;
+  if (auto const* descend = std::get_if<Descend>(&goal)) return descend->point;
+  if (auto const* up = std::get_if<TakeOff>(&goal)) return geo::Ned{up->from.north, up->from.east, -up->height_m};
+  return std::nullopt;
+}
+
+Heartbeat heartbeat(Autopilot const& autopilot) {
+  auto const family = autopilot.airframe().family;
+  bool const initialising = family == vehicle::Family::rover && autopilot.now() < autopilot.boot().standby;
+  return {.type = family == vehicle::Family::rover   ? MavType::ground_rover
+                  : family == vehicle::Family::plane ? MavType::fixed_wing
+                                                     : MavType::quadrotor,
+          .autopilot = MavAutopilot::ardupilotmega,
+          .base_mode = autopilot.base_mode(),
+          .custom_mode = initialising ? 16U : autopilot.mode().number,
+          .system_status = autopilot.system_status()};
+}
+
+double reported_yaw(Autopilot const& autopilot) {
+  double const yaw = autopilot.body().attitude.yaw_rad;
+  return geo::wrap_two_pi(autopilot.navigation().yaw_settled ? yaw : yaw + unsettled_yaw_rad);
+}
+
+SysStatus sys_status(Autopilot const& autopilot) {
+  using namespace sensor_flag;
+  std::uint32_t const present = gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
+  std::uint32_t health = motor_outputs | rc_receiver | battery;
+  if (autopilot.navigation().fix_type >= 3) health |= gps;
+  if (autopilot.now() >= autopilot.boot().ekf_initialised) health |= ahrs;
+  if (autopilot.prearm_ok()) health |= prearm_check;
+  auto const& pack = autopilot.battery();
+  return {.sensors_present = present,
+          .sensors_enabled = present,
+          .sensors_health = health,
+          .load = 0.1,
+          .battery_voltage_v = pack.voltage_v(),
+          .battery_current_a = pack.current_a(),
+          .battery_remaining = pack.remaining()};
+}
+
+BatteryStatus battery_status(Autopilot const& autopilot) {
+  auto const& pack = autopilot.battery();
+  BatteryStatus status;
+  status.voltage_v = pack.voltage_v();
+  status.current_a = pack.current_a();
+  status.consumed_ah = pack.used_mah() * 1e-3;
+  status.remaining = pack.remaining();
+  return status;
+}
+
+geo::Wgs84 reported_place(ReportView const& view) {
+  if (!view.autopilot.navigation().position_known) return {};
+  return view.site.place_at(view.autopilot.body().position_m);
+}
+
+GpsRaw gps_raw(ReportView const& view) {
+  auto const& body = view.autopilot.body();
+  auto const& navigation = view.autopilot.navigation();
+  GpsRaw raw;
+  raw.time = std::chrono::duration_cast<std::chrono::microseconds>(view.autopilot.now());
+  raw.fix = static_cast<GpsFix>(navigation.fix_type);
+  raw.position = reported_place(view);
+  raw.satellites = navigation.satellites;
+  if (navigation.fix_type >= 3) {
+    raw.hdop = 1.21;
+    raw.vdop = 2.0;
+    raw.ground_speed_m_s = body.ground_speed_m_s();
+    raw.course_rad = geo::wrap_two_pi(std::atan2(body.velocity_m_s.east, body.velocity_m_s.north));
+    raw.horizontal_accuracy_m = 0.3;
+    raw.vertical_accuracy_m = 0.3;
+  }
+  return raw;
+}
+
+GlobalPosition global_position(ReportView const& view) {
+  auto const& autopilot = view.autopilot;
+  bool const known = autopilot.navigation().position_known;
+  auto const& body = autopilot.body();
+  double const home_down = autopilot.home().value_or(body.position_m).down;
+  return {.since_boot = autopilot.now(),
+          .position = reported_place(view),
+          .relative_alt_m = known ? home_down - body.position_m.down : 0.0,
+          .velocity_m_s = known ? body.velocity_m_s : geo::Ned{},
+          .heading_rad = reported_yaw(autopilot)};
+}
+
+VfrHud vfr_hud(ReportView const& view) {
+  auto const& autopilot = view.autopilot;
+  auto const& body = autopilot.body();
+  double const throttle = autopilot.armed() ? std::clamp(autopilot.battery().current_a() / 40.0, 0.0, 1.0) : 0.0;
+  return {.airspeed_m_s = body.airspeed_m_s,
+          .ground_speed_m_s = body.ground_speed_m_s(),
+          .heading_rad = reported_yaw(autopilot),
+          .throttle = throttle,
+          .alt_m = reported_place(view).alt_m,
+          .climb_m_s = -body.velocity_m_s.down};
+}
+
+NavControllerOutput nav_output(Autopilot const& autopilot) {
+  auto const& body = autopilot.body();
+  NavControllerOutput output;
+  output.nav_roll_rad = body.attitude.roll_rad;
+  output.nav_pitch_rad = body.attitude.pitch_rad;
+  output.nav_bearing_rad = body.attitude.yaw_rad;
+  output.target_bearing_rad = body.attitude.yaw_rad;
+  if (auto const target = target_of(autopilot.goal())) {
+    double const north = target->north - body.position_m.north;
+    double const east = target->east - body.position_m.east;
+    output.waypoint_distance_m = std::hypot(north, east);
+    output.target_bearing_rad = std::atan2(east, north);
+    output.nav_bearing_rad = output.target_bearing_rad;
+    output.alt_error_m = body.position_m.down - target->down;
+  }
+  return output;
+}
+
+std::optional<Message> position_target_report(ReportView const& view) {
+  auto const behaviour = view.autopilot.mode().behaviour;
+  if (behaviour != Behaviour::guided && behaviour != Behaviour::mission) return std::nullopt;
+  auto const target = target_of(view.autopilot.goal());
+  if (!target) return std::nullopt;
+  auto const place = view.site.place_at(*target);
+  GlobalSetpoint setpoint;
+  setpoint.frame = MavFrame::global;
+  setpoint.ignore = 0b110111111000;  // the position counts, nothing else
+  setpoint.lat_rad = place.lat_rad;
+  setpoint.lon_rad = place.lon_rad;
+  setpoint.alt_m = place.alt_m;
+  return PositionTargetGlobalInt{view.autopilot.now(), setpoint};
+}
+
+MissionCurrent mission_current(ReportView const& view) {
+  auto const& mission = view.autopilot.mission();
+  bool const in_auto = view.autopilot.mode().behaviour == Behaviour::mission;
+  return {.seq = static_cast<std::uint16_t>(mission.current()),
+          .total = static_cast<std::uint16_t>(view.mission_items > 0 ? view.mission_items - 1 : 0),
+          .state = mission.state(),
+          .mission_mode = static_cast<std::uint8_t>(in_auto ? 1 : 2)};
+}
+
+sim::Body const& body_of(ReportView const& view) {
+  return view.autopilot.body();
+}
+
+Attitude attitude(ReportView const& view) {
+  auto const& body = body_of(view);
+  return {.since_boot = view.autopilot.now(),
+          .roll_rad = body.attitude.roll_rad,
+          .pitch_rad = body.attitude.pitch_rad,
+          .yaw_rad = geo::wrap_pi(reported_yaw(view.autopilot)),
+          .yaw_rate_rad_s = body.yaw_rate_rad_s};
+}
+
+EkfStatusReport ekf_status(Autopilot const& autopilot) {
+  float const variance = autopilot.navigation().position_ok ? 0.05F : 1.0F;
+  return {.flags = autopilot.navigation().ekf_flags,
+          .velocity_variance = variance,
+          .position_horizontal_variance = variance,
+          .position_vertical_variance = 0.02F,
+          .compass_variance = 0.01F};
+}
+
+Wind wind(ReportView const& view) {
+  auto const& w = view.wind_m_s;
+  return {.from_rad = geo::wrap_two_pi(std::atan2(w.east, w.north) + pi), .speed_m_s = std::hypot(w.north, w.east)};
+}
+
+}  // namespace
+
+std::optional<Message> report(MessageId id, ReportView const& view) {
+  auto const& autopilot = view.autopilot;
+  if (id == position_target) return position_target_report(view);
+  switch (id) {
+    case MessageId::heartbeat: return heartbeat(autopilot);
+    case MessageId::sys_status: return sys_status(autopilot);
+    case MessageId::battery_status: return battery_status(autopilot);
+    case MessageId::system_time:
+      return SystemTime{std::chrono::duration_cast<std::chrono::microseconds>(view.utc.time_since_epoch()),
+                        autopilot.now()};
+    case MessageId::gps_raw_int: return gps_raw(view);
+    case MessageId::attitude: return attitude(view);
+    case MessageId::global_position_int: return global_position(view);
+    case MessageId::local_position_ned:
+      if (!autopilot.navigation().position_ok) return std::nullopt;
+      return LocalPosition{autopilot.now(), body_of(view).position_m, body_of(view).velocity_m_s};
+    case MessageId::vfr_hud: return vfr_hud(view);
+    case MessageId::nav_controller_output: return nav_output(autopilot);
+    case MessageId::mission_current: return mission_current(view);
+    case MessageId::ekf_status_report: return ekf_status(autopilot);
+    case MessageId::wind: return wind(view);
+    case MessageId::extended_sys_state: return ExtendedSysState{.landed_state = autopilot.landed_state()};
+    case MessageId::home_position:
+      if (!autopilot.home()) return std::nullopt;
+      return HomePosition{view.site.place_at(*autopilot.home()), *autopilot.home()};
+    case MessageId::gps_global_origin:
+      if (!autopilot.home()) return std::nullopt;
+      return GpsGlobalOrigin{view.site.anchor()};
+    case MessageId::autopilot_version: return AutopilotVersion{.capabilities = 0xFBEF, .flight_sw_version = 0x04060000};
+    default: return std::nullopt;
+  }
+}
+
+}  // namespace lapwing::sim

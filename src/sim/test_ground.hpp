@@ -1,0 +1,194 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "link/pipe_link.hpp"
+#include "mavlink/connection.hpp"
+#include "sim/world.hpp"
+
+namespace lapwing::sim {
+
+/// A ground station for tests: a world on an unpaced loop, pipes to its vehicles, and everything they said.
+class TestGround {
+ public:
+  struct Heard {
+    base::TimePoint at;
+    std::uint8_t system;
+    link::Peer peer;
+    mavlink::Message message;
+  };
+
+  explicit TestGround(std::string_view vehicles, WorldOptions options = {}, bool heartbeats = true)
+      : hub_(loop),
+        world(
+            loop, with(std::move(options), vehicles), [this] { return Opened(hub_.connect()); }, base::Logger()),
+        gcs(loop, gcs_options(heartbeats), base::Logger()) {
+    gcs.add_link(hub_.take_server());
+    subscription_ = gcs.subscribe([this](mavlink::Received const& received) {
+      heard.push_back({received.at, received.source.system, received.from.peer, received.message});
+    });
+    auto const started = world.start();
+    EXPECT_TRUE(started.has_value());
+  }
+
+  void run_for(base::Duration duration) { loop.run_until_done(pass(duration)); }
+  /// Lets time pass until `condition` holds; false when `timeout` came first.
+  bool run_until(std::function<bool()> const& condition, base::Duration timeout) {
+    auto const deadline = loop.now() + timeout;
+    while (!condition()) {
+      if (loop.now() >= deadline) return false;
+      run_for(std::chrono::milliseconds(10));
+    }
+    return true;
+  }
+  /// Until the vehicle's estimator has a position.
+  void boot() { run_for(std::chrono::seconds(4)); }
+
+  void send(mavlink::Message const& message, std::uint8_t system = 1) { (void)gcs.send({system, 1}, message); }
+
+  std::optional<mavlink::MavResult> command(mavlink::MavCmd number, std::array<float, 7> params = {},
+                                            std::uint8_t system = 1) {
+    auto const from = heard.size();
+    send(mavlink::CommandLong{.target = {}, .command = number, .params = params}, system);
+    std::optional<mavlink::MavResult> result;
+    run_until(
+        [&] {
+          for (auto i = from; i < heard.size(); ++i) {
+            auto const* ack = std::get_if<mavlink::CommandAck>(&heard[i].message);
+            if (ack && ack->command == number && heard[i].system == system) result = ack->result;
+          }
+          return result.has_value();
+        },
+        std::chrono::seconds(1));
+    return result;
+  }
+  std::optional<mavlink::MavResult> set_mode(int number, std::uint8_t system = 1) {
+    return command(mavlink::MavCmd::do_set_mode, {1.0F, static_cast<float>(number)}, system);
+  }
+  std::optional<mavlink::MavResult> arm(std::uint8_t system = 1) {
+    return command(mavlink::MavCmd::component_arm_disarm, {1.0F}, system);
+  }
+  std::optional<mavlink::MavResult> request(mavlink::MessageId id, double hertz, std::uint8_t system = 1) {
+    return command(mavlink::MavCmd::set_message_interval, {static_cast<float>(id), static_cast<float>(1e6 / hertz)},
+                   system);
+  }
+
+  /// Answers the vehicle's requests until it acknowledges; the acknowledgement, if one came.
+  std::optional<mavlink::MavMissionResult> upload(std::vector<mavlink::MissionItem> items, std::uint8_t system = 1) {
+    auto from = heard.size();
+    send(mavlink::MissionCount{.target = {}, .count = static_cast<std::uint16_t>(items.size())}, system);
+    std::optional<mavlink::MavMissionResult> result;
+    run_until(
+        [&] {
+          for (; from < heard.size() && !result; ++from) {
+            if (heard[from].system != system) continue;
+            if (auto const* ack = std::get_if<mavlink::MissionAck>(&heard[from].message)) result = ack->result;
+            auto const* request = std::get_if<mavlink::MissionRequest>(&heard[from].message);
+            if (!request || request->seq >= items.size()) continue;
+            auto item = items[request->seq];
+            item.seq = request->seq;
+            send(item, system);
+          }
+          return result.has_value();
+        },
+        std::chrono::seconds(20));
+    return result;
+  }
+
+  template <class M>
+  std::vector<M> all(std::uint8_t system = 1, std::size_t from = 0) const {
+    std::vector<M> found;
+    for (auto i = from; i < heard.size(); ++i) {
+      if (auto const* message = std::get_if<M>(&heard[i].message); message && heard[i].system == system)
+        found.push_back(*message);
+    }
+    return found;
+  }
+  template <class M>
+  std::optional<M> last(std::uint8_t system = 1) const {
+    auto const found = all<M>(system);
+    return found.empty() ? std::nullopt : std::optional(found.back());
+  }
+  /// How often a status text with that beginning was heard.
+  int said(std::string_view beginning, std::uint8_t system = 1) const {
+    int count = 0;
+    for (auto const& text : all<mavlink::StatusText>(system)) count += text.text.starts_with(beginning) ? 1 : 0;
+    return count;
+  }
+
+  Vehicle& vehicle(int system = 1) { return *world.find(system); }
+  Autopilot const& pilot(int system = 1) { return vehicle(system).autopilot(); }
+  /// Metres from where the vehicle was parked.
+  double from_start(int system = 1) {
+    auto const& start = vehicle(system).options().start;
+    auto const& here = pilot(system).body().position_m;
+    return std::hypot(here.north - start.north, here.east - start.east);
+  }
+
+  base::Loop loop{base::Loop::Pace{.speedup = 1.0, .unpaced = true}};
+
+ private:
+  using Opened = base::Result<std::unique_ptr<link::ByteLink>>;
+
+  static WorldOptions with(WorldOptions options, std::string_view vehicles) {
+    options.vehicles = parse_vehicles(vehicles).value();
+    return options;
+  }
+  static mavlink::Connection::Options gcs_options(bool heartbeats) {
+    mavlink::Connection::Options options;
+    if (!heartbeats) options.heartbeat = {};
+    return options;
+  }
+  base::Task<void> pass(base::Duration duration) { co_await loop.sleep(duration); }
+
+  link::PipeHub hub_;
+
+ public:
+  World world;
+  mavlink::Connection gcs;
+  std::vector<Heard> heard;
+
+ private:
+  mavlink::Subscription subscription_;
+};
+
+/// Mission items about a world's home, for tests.
+struct ItemMaker {
+  geo::Wgs84 home;
+
+  [[nodiscard]] mavlink::MissionItem at(mavlink::MavCmd command, geo::Ned offset,
+                                        std::array<float, 4> params = {}) const {
+    auto const place = geo::displaced(home, offset);
+    mavlink::MissionItem item;
+    item.frame = mavlink::MavFrame::global_relative_alt_int;
+    item.command = command;
+    item.params = params;
+    item.place.lat_rad = place.lat_rad;
+    item.place.lon_rad = place.lon_rad;
+    item.place.z_m = -offset.down;
+    return item;
+  }
+  [[nodiscard]] mavlink::MissionItem waypoint(double north, double east, double up, float hold_s = 0.0F) const {
+    return at(mavlink::MavCmd::nav_waypoint, {north, east, -up}, {hold_s});
+  }
+  [[nodiscard]] mavlink::MissionItem take_off(double up) const {
+    auto item = at(mavlink::MavCmd::nav_takeoff, {0, 0, -up});
+    item.place.lat_rad = 0.0;
+    item.place.lon_rad = 0.0;
+    return item;
+  }
+  [[nodiscard]] static mavlink::MissionItem plain(mavlink::MavCmd command, std::array<float, 4> params = {}) {
+    mavlink::MissionItem item;
+    item.frame = mavlink::MavFrame::mission;
+    item.command = command;
+    item.params = params;
+    return item;
+  }
+};
+
+}  // namespace lapwing::sim

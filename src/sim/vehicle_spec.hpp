@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "vehicle/vehicle_state.hpp"
+
+namespace lapwing::sim {
+
+/// One kind of vehicle to simulate, and how many of it.
+struct VehicleGroup {
+  vehicle::Family family = vehicle::Family::copter;
+  int count = 1;
+  double battery_remaining = 1.0;  ///< 0..1 at the start
+
+  friend bool operator==(VehicleGroup const&, VehicleGroup const&) = default;
+};
+
+/// Reads "copter:2,rover:1,plane" or "copter:2@80%" (starts with 80 % battery). Errors: invalid_input, naming the part
+/// that is wrong and what is right. At most 250 vehicles: system ids end there.
+[[nodiscard]] base::Result<std::vector<VehicleGroup>> parse_vehicles(std::string_view text);
+
+}  // namespace lapwing::sim

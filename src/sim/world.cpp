@@ -1,0 +1,77 @@
+#include "sim/world.hpp"
+
+#include <fmt/core.h>
+
+namespace lapwing::sim {
+
+namespace {
+
+constexpr int parking_columns = 10;
+constexpr double parking_spacing_m = 4.0;
+
+}  // namespace
+
+World::World(base::Loop& loop, WorldOptions options, base::Logger log)
+    : World(loop, options, [&loop, url = options.out] { return link::open(loop, url); }, std::move(log)) {}
+
+World::World(base::Loop& loop, WorldOptions options, OpenLink open_link, base::Logger log)
+    : loop_(loop),
+      options_(std::move(options)),
+      open_link_(std::move(open_link)),
+      log_(std::move(log)),
+      site_(options_.home) {
+  int system_id = options_.first_system_id;
+  for (auto const& group : options_.vehicles) {
+    for (int i = 0; i < group.count; ++i) park(group, system_id++);
+  }
+}
+
+void World::park(VehicleGroup const& group, int system_id) {
+  auto const place = static_cast<int>(vehicles_.size());
+  auto const seed = options_.seed * 1000003 + static_cast<std::uint64_t>(system_id);
+  Vehicle::Options const options{
+      .family = group.family,
+      .system_id = static_cast<std::uint8_t>(system_id),
+      .start = {parking_spacing_m * (place / parking_columns), parking_spacing_m * (place % parking_columns), 0.0},
+      .heading_rad = options_.heading_rad,
+      .boot = options_.boot == BootStyle::quick ? quick_boot() : realistic_boot(),
+      .battery_capacity_mah = options_.battery_capacity_mah,
+      .battery_remaining = group.battery_remaining,
+      .wind_m_s = options_.wind_m_s,
+      .gust_m_s = options_.gust_m_s,
+      .seed = seed,
+  };
+  auto impairment = options_.impairment;
+  impairment.seed = seed;
+  bool const impaired = impairment.loss > 0.0 || impairment.duplication > 0.0 ||
+                        impairment.delay > base::Duration::zero() || impairment.jitter > base::Duration::zero();
+  auto open = [this, impairment, impaired]() -> base::Result<std::unique_ptr<link::ByteLink>> {
+    auto link = open_link_();
+    if (!link || !impaired) return link;
+    return link::impair(loop_, std::move(*link), impairment);
+  };
+  auto log = log_.named(fmt::format("{} {}", vehicle::to_string(group.family), system_id));
+  vehicles_.push_back(std::make_unique<Vehicle>(loop_, options, site_, std::move(open), std::move(log)));
+}
+
+base::Result<> World::start() {
+  int const last = options_.first_system_id + static_cast<int>(vehicles_.size()) - 1;
+  if (options_.first_system_id < 1 || last > 254) {
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("system ids {} to {} do not exist", options_.first_system_id, last),
+                      "MAVLink counts systems from 1 to 254");
+  }
+  for (auto const& vehicle : vehicles_) {
+    if (auto on = vehicle->power_on(); !on) return on;
+  }
+  return {};
+}
+
+Vehicle* World::find(int system_id) {
+  for (auto const& vehicle : vehicles_) {
+    if (vehicle->options().system_id == system_id) return vehicle.get();
+  }
+  return nullptr;
+}
+
+}  // namespace lapwing::sim
