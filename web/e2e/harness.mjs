@@ -12,7 +12,7 @@ const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
 /** A station over moving vehicles on a port; 0 picks a free one. */
 export async function startStation(port = 0) {
   const program = path.join(build, 'src', 'station', 'station_demo');
-  const child = spawn(program, [String(port), path.join(web, 'dist')], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const child = spawn(program, [String(port), path.join(web, 'dist')], { stdio: ['ignore', 'pipe', 'ignore'] });
   const url = await new Promise((resolve, reject) => {
     child.stdout.once('data', (data) => resolve(String(data).trim()));
     child.once('error', () => reject(new Error(`${program} does not start: build the target station_demo first`)));

@@ -9,7 +9,7 @@ export interface Status {
   symbol: string;
 }
 
-const SYMBOLS: Record<Level, string> = { ready: '✓', active: '▶', warning: '▲', critical: '✖', lost: '◌' };
+const SYMBOLS: Record<Level, string> = { ready: '✓', active: '▶', warning: '▲', critical: '✖', lost: '?' };
 
 export const LOW_BATTERY = 0.3;
 export const EMPTY_BATTERY = 0.15;

@@ -8,7 +8,7 @@ export interface MapColours {
   label: string;
 }
 
-export const DARK: MapColours = { ground: '#0c1318', minor: '#16222a', major: '#22333e', label: '#6f8796' };
+export const DARK: MapColours = { ground: '#0c1318', minor: '#18252e', major: '#273a47', label: '#7f97a6' };
 export const LIGHT: MapColours = { ground: '#eef2f3', minor: '#e0e7ea', major: '#c9d5da', label: '#637987' };
 
 const EMPTY: FeatureCollection = { type: 'FeatureCollection', features: [] };
@@ -48,10 +48,9 @@ function gridLayers(colours: MapColours, onTiles: boolean): LayerSpecification[]
       id: 'grid-labels',
       type: 'symbol',
       source: 'grid',
-      filter: ['get', 'major'],
       layout: {
         'symbol-placement': 'line',
-        'symbol-spacing': 420,
+        'symbol-spacing': 640,
         'text-field': ['get', 'label'],
         'text-font': ['system-ui', 'sans-serif'],
         'text-size': 11,

@@ -1,0 +1,232 @@
+// Drives the app in a real browser against a real station over HTTP and WebSocket. usage: node e2e/run.mjs [WORD]
+// runs the tests whose name holds WORD; needs web/dist (npm run build) and the target station_demo.
+import assert from 'node:assert/strict';
+import { startBrowser, startStation } from './harness.mjs';
+
+const tests = [];
+const test = (name, run, options) => tests.push({ name, run, options });
+
+const row = (page, name) => page.locator('#vehicles tbody tr', { hasText: name });
+const scriptState = (page, state) => page.locator('#script .chip', { hasText: state }).waitFor();
+const live = (page) => page.locator('header .phase', { hasText: 'live' }).waitFor();
+
+test('shows every vehicle, and they move', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 1').waitFor();
+  assert.equal(await page.locator('#vehicles tbody tr').count(), 5);
+  assert.match(await row(page, 'copter 1').innerText(), /AUTO[\s\S]*20 m[\s\S]*8\.0 m\/s[\s\S]*%/);
+  const marker = page.locator('.vehicle[aria-label^="copter 1"]');
+  const before = await marker.boundingBox();
+  await page.waitForFunction(
+    ([x, y]) => {
+      const now = document.querySelector('.vehicle[aria-label^="copter 1"]').getBoundingClientRect();
+      return Math.hypot(now.x - x, now.y - y) > 5;
+    },
+    [before.x, before.y],
+  );
+});
+
+test('tells a lost vehicle by word, sign and age', async ({ open }) => {
+  const page = await open();
+  await row(page, 'link lost').waitFor();
+  assert.match(await row(page, 'rover 5').innerText(), /\? link lost/);
+  await page.waitForFunction(() => parseFloat(document.querySelector('#vehicles tr.lost td.age').textContent) > 2);
+});
+
+test('shows the task tree and the line that runs', async ({ open }) => {
+  const page = await open();
+  await page.locator('#tasks li.running', { hasText: 'north' }).first().waitFor();
+  await page.locator('#script li.current', { hasText: 'north = mission' }).waitFor();
+});
+
+test('stops the script with the button and starts it again', async ({ open }) => {
+  const page = await open();
+  await scriptState(page, 'running');
+  await page.getByRole('button', { name: 'STOP' }).click();
+  await scriptState(page, 'stopping');
+  await scriptState(page, 'idle');
+  await row(page, 'LOITER').first().waitFor();
+  await page.locator('#script').getByRole('button', { name: 'Start' }).click();
+  await scriptState(page, 'running');
+});
+
+test('stops the script with the keyboard alone', async ({ open }) => {
+  const page = await open();
+  await scriptState(page, 'running');
+  await page.keyboard.press('Control+Shift+X');
+  await scriptState(page, 'idle');
+});
+
+test('shows what is wrong with a script and leads there', async ({ open }) => {
+  const page = await open();
+  await scriptState(page, 'running');
+  await page.getByRole('button', { name: 'STOP' }).click();
+  await scriptState(page, 'idle');
+  await page.getByRole('button', { name: 'Edit' }).click();
+  await page.getByLabel('Script text').fill('m = mission {\n  takeOf here\n}\n');
+  await page.locator('#script').getByRole('button', { name: 'Start' }).click();
+  await page.getByText('did you mean takeOff?').click();
+  const selected = await page.evaluate(() => {
+    const editor = document.activeElement;
+    return editor.value.slice(editor.selectionStart, editor.selectionEnd);
+  });
+  assert.equal(selected, 'takeOf');
+  await page.getByRole('button', { name: 'Discard' }).click();
+  await page.locator('#script li', { hasText: 'north = mission' }).waitFor();
+});
+
+test('says that the station is lost, and finds it again', async ({ open, station, restart }) => {
+  const page = await open();
+  await live(page);
+  await station().stop();
+  await page.locator('.banner', { hasText: 'Station lost' }).waitFor();
+  await page.waitForFunction(() => /data [1-9]/.test(document.querySelector('.banner').textContent));
+  await row(page, 'old data').first().waitFor();
+  await restart();
+  await live(page);
+  await row(page, 'in the air').first().waitFor();
+}, { complaintsAllowed: true });
+
+test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 1').waitFor();
+  const names = [];
+  for (let i = 0; i < 7; ++i) {
+    await page.keyboard.press('Tab');
+    names.push(await page.evaluate(() => (document.activeElement.ariaLabel || document.activeElement.textContent).trim().replace(/\s+/g, ' ')));
+    const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+    assert.notEqual(outline, 'none', `focus is not visible on ${names.at(-1)}`);
+  }
+  assert.equal(names[0], 'Skip to the vehicle table');
+  assert.deepEqual(names.slice(2, 5), ['Settings', 'Help and keys', '■ STOP']);
+  await page.keyboard.press('?');
+  await page.getByRole('dialog', { name: 'Help' }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.getByRole('dialog', { name: 'Help' }).waitFor({ state: 'hidden' });
+  await page.keyboard.press('2');
+  await page.locator('#vehicles tr.selected', { hasText: 'copter 2' }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => !document.querySelector('#vehicles tr.selected'));
+});
+
+test('has landmarks, names and one heading of each kind for screen readers', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 1').waitFor();
+  const faults = await page.evaluate(() => {
+    const found = [];
+    for (const landmark of ['header', 'main', 'h1']) {
+      if (document.querySelectorAll(landmark).length !== 1) found.push(`not one ${landmark}`);
+    }
+    if (!document.documentElement.lang) found.push('no language');
+    for (const control of document.querySelectorAll('button, a[href], input, select, textarea')) {
+      const name = control.ariaLabel || control.textContent.trim() || control.labels?.[0]?.textContent.trim();
+      if (!name) found.push(`no name: ${control.outerHTML.slice(0, 100)}`);
+    }
+    for (const cell of document.querySelectorAll('th')) if (!cell.scope) found.push(`th without scope: ${cell.textContent}`);
+    const ids = [...document.querySelectorAll('[id]')].map((element) => element.id);
+    if (new Set(ids).size !== ids.length) found.push('an id twice');
+    if (!document.querySelector('[aria-live=polite]') || !document.querySelector('[aria-live=assertive]')) found.push('no live regions');
+    return found;
+  });
+  assert.deepEqual(faults, []);
+});
+
+for (const scheme of ['dark', 'light']) {
+  test(`has enough contrast in ${scheme} colours`, async ({ open }) => {
+    const page = await open({ scheme });
+    await row(page, 'copter 1').waitFor();
+    const ratios = await page.evaluate(() => {
+      const canvas = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+      const luminance = (colour) => {
+        canvas.fillStyle = colour;
+        canvas.fillRect(0, 0, 1, 1);
+        const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const style = getComputedStyle(document.documentElement);
+      const value = (name) => style.getPropertyValue(name);
+      const panel = luminance(value('--panel'));
+      return ['--text', '--muted', '--ready', '--active', '--warning', '--critical', '--lost'].map((name) => {
+        const ink = luminance(value(name));
+        return [name, (Math.max(ink, panel) + 0.05) / (Math.min(ink, panel) + 0.05)];
+      });
+    });
+    for (const [name, ratio] of ratios) assert.ok(ratio >= 4.5, `${name} has ${ratio.toFixed(2)}`);
+  });
+}
+
+test('works 360 px wide', async ({ open }) => {
+  const page = await open({ size: { width: 360, height: 740 } });
+  await row(page, 'copter 1').waitFor();
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
+  const cut = await page.evaluate(() => {
+    const body = document.querySelector('#vehicles .body');
+    return body.scrollWidth - body.clientWidth;
+  });
+  assert.ok(cut <= 0, `the table is ${cut} px too wide`);
+  const stop = await page.getByRole('button', { name: 'STOP' }).boundingBox();
+  assert.ok(stop.x + stop.width <= 360 && stop.height >= 44, 'STOP is in sight and large enough for a finger');
+  await page.getByRole('button', { name: 'Script' }).click();
+  await page.locator('#script li', { hasText: 'north = mission' }).waitFor();
+  assert.ok(!(await page.locator('#vehicles').isVisible()));
+});
+
+test('keeps the colours that were chosen', async ({ open }) => {
+  const page = await open({ scheme: 'dark' });
+  await page.locator('html[data-theme=dark]').waitFor();
+  await page.getByRole('button', { name: 'Colours' }).click();
+  await page.locator('html[data-theme=light]').waitFor();
+  await page.reload();
+  await page.locator('html[data-theme=light]').waitFor();
+});
+
+test('asks nobody but the station for anything', async ({ open, station }) => {
+  const page = await open();
+  const foreign = [];
+  page.on('request', (request) => request.url().startsWith('http') && !request.url().startsWith(station().url) && foreign.push(request.url()));
+  await page.reload();
+  await row(page, 'copter 1').waitFor();
+  await page.waitForFunction(() => document.querySelectorAll('.vehicle').length === 5);
+  assert.deepEqual(foreign, []);
+});
+
+/** Each test has a station and a page of its own; any error in the page fails it, refused resources too. */
+async function runTest(browser, { run, options }) {
+  let station = await startStation();
+  const opened = [];
+  try {
+    await run({
+      station: () => station,
+      restart: async () => (station = await startStation(station.port)),
+      open: async (pageOptions) => {
+        const it = await browser.open(station.url, pageOptions);
+        it.page.setDefaultTimeout(15_000);
+        opened.push(it);
+        return it.page;
+      },
+    });
+    if (!options?.complaintsAllowed) assert.deepEqual(opened.flatMap((it) => it.complaints), []);
+  } finally {
+    for (const { page } of opened) {
+      await page.evaluate(() => localStorage.clear()).catch(() => {});
+      await page.close();
+    }
+    await station.stop();
+  }
+}
+
+const browser = await startBrowser();
+let failed = 0;
+const chosen = tests.filter(({ name }) => name.includes(process.argv[2] ?? ''));
+for (const one of chosen) {
+  try {
+    await runTest(browser, one);
+    console.log(`ok   ${one.name}`);
+  } catch (error) {
+    failed += 1;
+    console.log(`FAIL ${one.name}\n     ${String(error.stack ?? error).replaceAll('\n', '\n     ')}`);
+  }
+}
+await browser.stop();
+console.log(`${chosen.length - failed} passed, ${failed} failed`);
+process.exit(failed === 0 && chosen.length > 0 ? 0 : 1);

@@ -1,0 +1,30 @@
+import { describe, expect, it } from 'vitest';
+import { age, clock, heading, latitude, longitude, metres, percent, speed } from './format';
+
+describe('format', () => {
+  it('shows what is unknown as a dash, never as 0', () => {
+    for (const show of [metres, speed, percent, age, heading]) expect(show(undefined)).toBe('–');
+    expect(metres(null)).toBe('–');
+  });
+  it('shows metres with one decimal below ten', () => {
+    expect([metres(0.04), metres(-0.04), metres(9.94), metres(9.96), metres(-12.4)]).toEqual(['0.0 m', '0.0 m', '9.9 m', '10 m', '−12 m']);
+  });
+  it('shows speeds and shares', () => {
+    expect(speed(8.04)).toBe('8.0 m/s');
+    expect(percent(0.274)).toBe('27 %');
+  });
+  it('shows ages in the unit that fits', () => {
+    expect([age(0.42), age(12.3), age(119), age(300), age(7300)]).toEqual(['0.4 s', '12 s', '119 s', '5 min', '2 h']);
+  });
+  it('shows headings with three digits', () => {
+    expect([heading(0), heading(Math.PI / 2), heading(-0.1), heading(6.28318)]).toEqual(['000°', '090°', '354°', '000°']);
+  });
+  it('shows places with their hemisphere', () => {
+    expect(latitude(-35.363262)).toBe('35.36326° S');
+    expect(longitude(149.165237)).toBe('149.16524° E');
+  });
+  it('shows a time of day, and a dash for none', () => {
+    expect(clock('2026-01-01T12:34:56.789Z')).toMatch(/^\d\d:34:56$/);
+    expect(clock('rubbish')).toBe('–');
+  });
+});

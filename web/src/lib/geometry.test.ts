@@ -1,0 +1,51 @@
+import { describe, expect, it } from 'vitest';
+import { boundsOf, gridLines, niceStep } from './geometry';
+
+const origin = { lat_deg: -35.363262, lon_deg: 149.165237, alt_m: 584 };
+
+describe('boundsOf', () => {
+  it('is nothing for no place', () => expect(boundsOf([], 100)).toBeUndefined());
+  it('holds all places', () => {
+    const bounds = boundsOf([origin, { lat_deg: -35.3, lon_deg: 149.2, alt_m: 0 }], 10);
+    expect(bounds).toEqual({ south: -35.363262, north: -35.3, west: 149.165237, east: 149.2 });
+  });
+  it('has a least span in metres, both ways', () => {
+    const bounds = boundsOf([origin], 100)!;
+    expect((bounds.north - bounds.south) * 111_319.49).toBeCloseTo(100, 3);
+    expect((bounds.east - bounds.west) * 111_319.49 * Math.cos((35.363262 * Math.PI) / 180)).toBeCloseTo(100, 3);
+  });
+});
+
+describe('niceStep', () => {
+  it.each([[0.9, 1], [1, 1], [1.1, 2], [3, 5], [5.1, 10], [0.03, 0.05], [700, 1000]])('%d -> %d', (value, step) => {
+    expect(niceStep(value)).toBeCloseTo(step, 10);
+  });
+});
+
+describe('gridLines', () => {
+  const near = { south: origin.lat_deg - 0.001, north: origin.lat_deg + 0.001, west: origin.lon_deg - 0.001, east: origin.lon_deg + 0.001 };
+
+  it('counts metres from the origin when it is near', () => {
+    const labels = gridLines(near, origin, 12).map((line) => line.label);
+    expect(labels).toContain('0');
+    expect(labels).toContain('100 m N');
+    expect(labels).toContain('60 m W');
+  });
+  it('runs through the origin', () => {
+    const zero = gridLines(near, origin, 12).find((line) => line.label === '0');
+    expect(zero?.points[0]?.[0]).toBeCloseTo(origin.lon_deg, 9);
+    expect(zero?.major).toBe(true);
+  });
+  it('counts degrees without an origin, or far from it', () => {
+    expect(gridLines(near, undefined, 12).every((line) => line.label.includes('°'))).toBe(true);
+    const world = { south: -85, north: 85, west: -180, east: 180 };
+    const labels = gridLines(world, origin, 12).map((line) => line.label);
+    expect(labels).toContain('60° N');
+    expect(labels).toContain('0°');
+    expect(labels.length).toBeLessThan(60);
+  });
+  it('wraps longitudes beyond the date line', () => {
+    const labels = gridLines({ south: -10, north: 10, west: 175, east: 190 }, undefined, 5).map((line) => line.label);
+    expect(labels).toContain('175° W');
+  });
+});
