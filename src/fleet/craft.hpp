@@ -45,6 +45,7 @@ struct Craft {
 
   std::uint32_t custom_mode = 0;
   bool is_armed = false;
+  base::TimePoint armed_changed{};    ///< when a heartbeat first showed it
   bool mission_mode_pending = false;  ///< we commanded the mission mode, and no heartbeat has shown what came of it
   MissionTrace trace;
 

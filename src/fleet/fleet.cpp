@@ -116,6 +116,7 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
 
   craft.from = received.from;
   craft.custom_mode = heartbeat.custom_mode;
+  if (craft.is_armed != heartbeat.armed()) craft.armed_changed = received.at;
   craft.is_armed = heartbeat.armed();
   if (in_mission_mode(craft)) craft.mission_mode_pending = false;
   auto& state = craft.state;

@@ -14,6 +14,10 @@ constexpr base::Duration begun_for_sure = 3s;
 // Autopilots disarm by themselves after landing; one that is set up not to is done as well.
 constexpr base::Duration landed_for_good = 5s;
 
+// After a landing the disarming may show before the news that the last item had begun, which a bad link may have to
+// repeat.
+constexpr base::Duration news_of_the_end = 5s;
+
 bool last_item_was_current(MissionShape const& shape, MissionSight const& sight) {
   return sight.current_seq.value_or(-1) >= shape.last_nav_seq || sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
 }
@@ -48,7 +52,7 @@ MissionVerdict judge(MissionShape const& shape, MissionSight const& sight) {
     if (!sight.armed) return {Kind::done};
     if (sight.on_ground_for.value_or(0s) >= landed_for_good) return {Kind::done};
   }
-  if (!sight.armed)
+  if (!sight.armed && sight.disarmed_for >= news_of_the_end)
     return {Kind::failed, fmt::format("disarmed at item {} of {}", sight.current_seq.value_or(0), shape.last_nav_seq)};
   return {};
 }

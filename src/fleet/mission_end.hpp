@@ -27,6 +27,7 @@ struct MissionSight {
   bool mode_is_return = false;  ///< RTL or one of its relatives
   std::string mode = {};        ///< name, for people
   bool armed = true;
+  base::Duration disarmed_for{};
   bool was_active = false;  ///< the autopilot called the mission anything but complete since the start
   bool reports_complete = false;
   std::optional<int> current_seq = {};               ///< the highest seen

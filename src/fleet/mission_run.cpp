@@ -142,6 +142,7 @@ MissionSight look(Craft const& craft, TimePoint started, TimePoint now) {
           .mode_is_return = craft.custom_mode == return_mode,
           .mode = mode_name(craft, craft.custom_mode),
           .armed = craft.is_armed,
+          .disarmed_for = craft.is_armed ? base::Duration{} : now - craft.armed_changed,
           .was_active = trace.was_active,
           .reports_complete = trace.reports_complete,
           .current_seq = trace.current_seq,

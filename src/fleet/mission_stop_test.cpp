@@ -258,7 +258,8 @@ TEST_F(MissionStop, MakesEveryVehicleWithARunOfOursSafeAndNoOther) {
 class StopAtAnyTime : public MissionStop, public testing::WithParamInterface<int> {};
 
 TEST_P(StopAtAnyTime, NeverLeavesAStartBehind) {
-  auto& copter = world->add({.request_spacing = 100ms}, {.loss = 0.2, .delay = 150ms, .seed = 3});
+  auto& copter = world->add({.request_spacing = 100ms},
+                            {.loss = 0.2, .delay = 150ms, .seed = static_cast<std::uint64_t>(GetParam())});
   world->run_for(10s);
   auto const run = start();
   world->run_for(GetParam() * 150ms);
@@ -270,7 +271,7 @@ TEST_P(StopAtAnyTime, NeverLeavesAStartBehind) {
   EXPECT_TRUE(copter.is_flying || !copter.is_armed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Times, StopAtAnyTime, testing::Range(0, 120, 3));
+INSTANTIATE_TEST_SUITE_P(Times, StopAtAnyTime, testing::Range(0, 240, 5));
 
 }  // namespace
 }  // namespace lapwing::fleet

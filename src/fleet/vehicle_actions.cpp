@@ -73,7 +73,8 @@ std::unexpected<base::Error> explained(std::string_view what, base::Error const&
 std::optional<std::uint32_t> mode_to_arm_in(Craft const& craft) {
   if (!is_ardupilot_copter(craft)) return std::nullopt;
   auto const guided = mode_for(craft, ModeRole::guided);
-  if (craft.custom_mode == copter_stabilize || craft.custom_mode == guided) return std::nullopt;
+  bool const is_armable = craft.custom_mode == copter_stabilize || craft.custom_mode == guided;
+  if (is_armable && !craft.mission_mode_pending) return std::nullopt;
   return guided;
 }
 
@@ -119,7 +120,7 @@ Task<Result<>> command_mission(mavlink::Connection& connection, Craft& craft, st
 }
 
 Task<Result<>> enter_mission(mavlink::Connection& connection, Craft& craft) {
-  constexpr int tries = 5;
+  constexpr int tries = 10;
   auto const mission_mode = mode_for(craft, ModeRole::mission);
   if (!mission_mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mission mode", craft.state.name));
   auto const since = connection.loop().now();
@@ -235,7 +236,7 @@ Task<Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (!craft.is_armed) {
       if (auto const mode = mode_to_arm_in(craft)) {
-        ModeChange const change{.custom_mode = *mode};
+        ModeChange const change{.custom_mode = *mode, .even_if_shown = craft.mission_mode_pending};
         if (auto changed = co_await change_mode(connection, craft, change); !changed) co_return changed;
       }
       if (auto armed = co_await arm(connection, craft); !armed) co_return armed;
