@@ -1,0 +1,19 @@
+#pragma once
+
+#include <compare>
+
+#include "dolphin/fault.hpp"
+#include "dolphin/value.hpp"
+
+namespace lapwing::dolphin {
+
+/// Truth in conditions and guards: null, false, 0, NaN and empty texts, lists, maps, ranges and vehicle sets are false.
+[[nodiscard]] bool is_true(Value const& value);
+
+/// `a == b`. Numbers by value with a relative tolerance of 1e-12; vehicle sets by members; lists and maps by content.
+[[nodiscard]] bool equal(Value const& a, Value const& b);
+
+/// `a <=> b` for two numbers, texts, booleans or vehicles; other pairs are a fault. NaN is unordered.
+[[nodiscard]] Checked<std::partial_ordering> compare(Value const& a, Value const& b);
+
+}  // namespace lapwing::dolphin

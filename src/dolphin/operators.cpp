@@ -1,0 +1,354 @@
+#include "dolphin/operators.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dolphin/equality.hpp"
+#include "dolphin/objects.hpp"
+#include "dolphin/text.hpp"
+
+namespace lapwing::dolphin {
+namespace {
+
+using ast::BinaryOp;
+
+std::string_view spelling(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::power: return "**";
+    case BinaryOp::multiply: return "*";
+    case BinaryOp::divide: return "/";
+    case BinaryOp::remainder: return "%";
+    case BinaryOp::add: return "+";
+    case BinaryOp::subtract: return "-";
+    case BinaryOp::shift_right: return ">>";
+    case BinaryOp::shift_left: return "<<";
+    case BinaryOp::bit_and: return "&";
+    case BinaryOp::bit_xor: return "^";
+    case BinaryOp::bit_or: return "|";
+    default: return "this operator";
+  }
+}
+
+std::unexpected<Fault> no_such_operation(BinaryOp op, Value const& left, Value const& right) {
+  return fault(fmt::format("{} has no operator {} with {}", kind_name(left), spelling(op), kind_name(right)),
+               "MissingMethodException");
+}
+
+std::unexpected<Fault> overflow(BinaryOp op, std::int64_t a, std::int64_t b) {
+  return fault(fmt::format("{} {} {} does not fit into a 64-bit integer", a, spelling(op), b), "ArithmeticException");
+}
+
+Checked<Value> integer_power(std::int64_t base, std::int64_t exponent) {
+  if (exponent < 0) return Value::real(std::pow(static_cast<double>(base), static_cast<double>(exponent)));
+  std::int64_t result = 1;
+  for (std::int64_t left = exponent, factor = base; left > 0;) {
+    if ((left & 1) && __builtin_mul_overflow(result, factor, &result)) return overflow(BinaryOp::power, base, exponent);
+    left >>= 1;
+    if (left > 0 && __builtin_mul_overflow(factor, factor, &factor)) return overflow(BinaryOp::power, base, exponent);
+  }
+  return Value::integer(result);
+}
+
+Checked<Value> divide(std::int64_t a, std::int64_t b) {
+  if (b == 0) return fault("division by zero", "ArithmeticException");
+  if (b != -1 && a % b == 0) return Value::integer(a / b);
+  if (b == -1) {
+    std::int64_t result = 0;
+    if (__builtin_sub_overflow(std::int64_t{0}, a, &result)) return overflow(BinaryOp::divide, a, b);
+    return Value::integer(result);
+  }
+  return Value::real(static_cast<double>(a) / static_cast<double>(b));
+}
+
+Checked<Value> shift(BinaryOp op, std::int64_t a, std::int64_t b) {
+  if (b < 0 || b > 63) return fault(fmt::format("cannot shift by {} bits", b), "ArithmeticException");
+  if (op == BinaryOp::shift_right) return Value::integer(a >> b);
+  return Value::integer(static_cast<std::int64_t>(static_cast<std::uint64_t>(a) << b));
+}
+
+Checked<Value> integer_operation(BinaryOp op, std::int64_t a, std::int64_t b) {
+  std::int64_t result = 0;
+  switch (op) {
+    case BinaryOp::add:
+      if (__builtin_add_overflow(a, b, &result)) return overflow(op, a, b);
+      return Value::integer(result);
+    case BinaryOp::subtract:
+      if (__builtin_sub_overflow(a, b, &result)) return overflow(op, a, b);
+      return Value::integer(result);
+    case BinaryOp::multiply:
+      if (__builtin_mul_overflow(a, b, &result)) return overflow(op, a, b);
+      return Value::integer(result);
+    case BinaryOp::divide: return divide(a, b);
+    case BinaryOp::remainder:
+      if (b == 0) return fault("division by zero", "ArithmeticException");
+      return Value::integer(b == -1 ? 0 : a % b);
+    case BinaryOp::power: return integer_power(a, b);
+    case BinaryOp::bit_and: return Value::integer(a & b);
+    case BinaryOp::bit_or: return Value::integer(a | b);
+    case BinaryOp::bit_xor: return Value::integer(a ^ b);
+    case BinaryOp::shift_left:
+    case BinaryOp::shift_right: return shift(op, a, b);
+    default: return no_such_operation(op, Value::integer(a), Value::integer(b));
+  }
+}
+
+Checked<Value> real_operation(BinaryOp op, Value const& left, Value const& right) {
+  double const a = left.number();
+  double const b = right.number();
+  switch (op) {
+    case BinaryOp::add: return Value::real(a + b);
+    case BinaryOp::subtract: return Value::real(a - b);
+    case BinaryOp::multiply: return Value::real(a * b);
+    case BinaryOp::divide:
+      if (b == 0.0) return fault("division by zero", "ArithmeticException");
+      return Value::real(a / b);
+    case BinaryOp::remainder:
+      if (b == 0.0) return fault("division by zero", "ArithmeticException");
+      return Value::real(std::fmod(a, b));
+    case BinaryOp::power: return Value::real(std::pow(a, b));
+    default: return no_such_operation(op, left, right);
+  }
+}
+
+Checked<Value> vehicles_operation(Heap& heap, BinaryOp op, Vehicles const& a, Vehicles const& b) {
+  auto const holds = [](Vehicles const& set, auto const& id) {
+    return std::ranges::find(set.ids, id) != set.ids.end();
+  };
+  std::vector<vehicle::VehicleId> ids;
+  switch (op) {
+    case BinaryOp::add:
+      ids = a.ids;
+      std::ranges::copy_if(b.ids, std::back_inserter(ids), [&](auto const& id) { return !holds(a, id); });
+      break;
+    case BinaryOp::subtract:
+      std::ranges::copy_if(a.ids, std::back_inserter(ids), [&](auto const& id) { return !holds(b, id); });
+      break;
+    case BinaryOp::bit_and:
+      std::ranges::copy_if(a.ids, std::back_inserter(ids), [&](auto const& id) { return holds(b, id); });
+      break;
+    default:
+      return fault(fmt::format("two vehicle sets have no operator {}; they have + - &", spelling(op)),
+                   "MissingMethodException");
+  }
+  return Value(heap.make<Vehicles>(std::move(ids)));
+}
+
+/// One vehicle counts as a set of one; nothing when `value` is neither.
+Ref<Vehicles> as_set(Heap& heap, Value const& value) {
+  if (auto* set = value.as<Vehicles>()) return Ref<Vehicles>(set);
+  if (auto* one = value.as<Vehicle>()) return heap.make<Vehicles>(std::vector{one->value});
+  return {};
+}
+
+Checked<Value> list_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
+  auto* list = left.as<List>();
+  auto* other = right.as<List>();
+  if (op == BinaryOp::shift_left) {
+    list->push(right);
+    return left;
+  }
+  auto items = list->items;
+  if (op == BinaryOp::add) {
+    if (other) items.insert(items.end(), other->items.begin(), other->items.end());
+    if (!other) items.push_back(right);
+  } else if (op == BinaryOp::subtract) {
+    std::erase_if(items, [&](Value const& item) {
+      if (!other) return equal(item, right);
+      return std::ranges::any_of(other->items, [&](Value const& taken) { return equal(item, taken); });
+    });
+  } else {
+    return no_such_operation(op, left, right);
+  }
+  return Value(heap.make<List>(std::move(items)));
+}
+
+Checked<Value> map_sum(Heap& heap, Map const& left, Map const& right) {
+  auto sum = heap.make<Map>();
+  for (auto const* map : {&left, &right}) {
+    for (auto const& [key, value] : map->items()) sum->set(key, value);
+  }
+  return Value(sum);
+}
+
+Checked<Value> position_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
+  auto const& place = left.as<Position>()->value;
+  if (op == BinaryOp::bit_xor && right.is_number()) {
+    double const radius = right.number();
+    if (!(radius >= 0.0)) return fault("the radius of an area must not be negative", "IllegalArgumentException");
+    return Value(heap.make<Area>(geo::Disc{place, radius}));
+  }
+  if (op == BinaryOp::add && right.is(ValueKind::displacement)) {
+    return Value(heap.make<Position>(geo::displaced(place, right.as<Displacement>()->value)));
+  }
+  return no_such_operation(op, left, right);
+}
+
+Checked<std::size_t> position_in(std::int64_t index, std::size_t size) {
+  auto const count = static_cast<std::int64_t>(size);
+  auto const position = index < 0 ? index + count : index;
+  if (position < 0 || position >= count) {
+    return fault(fmt::format("index {} is outside 0..<{}", index, count), "IndexOutOfBoundsException");
+  }
+  return static_cast<std::size_t>(position);
+}
+
+Checked<Value> restricted_task(Heap& heap, TaskValue const& task, Value const& index, tasks::Origin const& origin) {
+  auto const set = as_set(heap, index);
+  if (!set) return fault(fmt::format("a task can be restricted to a vehicle set, not to {}", kind_name(index)));
+  return task_value(heap, tasks::restricted(task.value, set->ids, origin));
+}
+
+}  // namespace
+
+Checked<Value> task_value(Heap& heap, tasks::TaskTree tree) {
+  if (tree->depth > tasks::max_task_depth) {
+    return fault(fmt::format("the task is nested more than {} deep", tasks::max_task_depth),
+                 "IllegalArgumentException");
+  }
+  return Value(heap.make<TaskValue>(std::move(tree)));
+}
+
+Checked<Value> make_range(Heap& heap, Value const& first, Value const& last, bool is_inclusive) {
+  if (!first.is(ValueKind::integer) || !last.is(ValueKind::integer)) {
+    return fault("a range goes from one integer to another", "IllegalArgumentException");
+  }
+  std::int64_t const from = first.integer();
+  std::int64_t to = last.integer();
+  if (!is_inclusive && from == to) return Value(heap.make<Range>(from, to, 0));
+  if (!is_inclusive) to += to > from ? -1 : 1;
+  std::int64_t length = 0;
+  bool const is_too_long =
+      to >= from ? __builtin_sub_overflow(to, from, &length) : __builtin_sub_overflow(from, to, &length);
+  if (is_too_long || __builtin_add_overflow(length, std::int64_t{1}, &length)) return fault("the range is too long");
+  return Value(heap.make<Range>(from, to, length));
+}
+
+Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& right, tasks::Origin const& origin) {
+  if (left.is(ValueKind::integer) && right.is(ValueKind::integer))
+    return integer_operation(op, left.integer(), right.integer());
+  if (left.is_number() && right.is_number()) return real_operation(op, left, right);
+  if (op == BinaryOp::add && (left.is(ValueKind::text) || right.is(ValueKind::text))) {
+    return Value(heap.make<Text>(to_text(left) + to_text(right)));
+  }
+  auto const* task = left.as<TaskValue>();
+  if (auto const* other = right.as<TaskValue>(); task && other) {
+    if (op == BinaryOp::shift_right) return task_value(heap, tasks::sequence(task->value, other->value, origin));
+    if (op == BinaryOp::bit_or) return task_value(heap, tasks::concurrent(task->value, other->value, origin));
+  }
+  if (auto const a = as_set(heap, left)) {
+    if (auto const b = as_set(heap, right)) return vehicles_operation(heap, op, *a, *b);
+  }
+  if (left.is(ValueKind::list)) return list_operation(heap, op, left, right);
+  if (left.is(ValueKind::position)) return position_operation(heap, op, left, right);
+  if (left.is(ValueKind::map) && right.is(ValueKind::map) && op == BinaryOp::add) {
+    return map_sum(heap, *left.as<Map>(), *right.as<Map>());
+  }
+  return no_such_operation(op, left, right);
+}
+
+Checked<Value> negate(Value const& operand) {
+  if (operand.is(ValueKind::real)) return Value::real(-operand.real());
+  if (!operand.is(ValueKind::integer)) return fault(fmt::format("{} has no negative", kind_name(operand)));
+  return integer_operation(BinaryOp::subtract, 0, operand.integer());
+}
+
+Checked<bool> contains(Value const& container, Value const& item) {
+  auto const same = [&](Value const& other) { return equal(other, item); };
+  switch (container.kind()) {
+    case ValueKind::null: return false;
+    case ValueKind::list: return std::ranges::any_of(container.as<List>()->items, same);
+    case ValueKind::map: return container.as<Map>()->contains(item);
+    case ValueKind::text: return container.as<Text>()->text.find(to_text(item)) != std::string::npos;
+    case ValueKind::range: {
+      auto const& range = *container.as<Range>();
+      if (!item.is_number() || range.size == 0) return false;
+      double const x = item.number();
+      auto const [low, high] = std::minmax(range.first, range.last);
+      return x >= static_cast<double>(low) && x <= static_cast<double>(high) && x == std::floor(x);
+    }
+    case ValueKind::vehicles: {
+      auto const& ids = container.as<Vehicles>()->ids;
+      auto const holds = [&](auto const& id) { return std::ranges::find(ids, id) != ids.end(); };
+      if (auto const* one = item.as<Vehicle>()) return holds(one->value);
+      if (auto const* set = item.as<Vehicles>()) return std::ranges::all_of(set->ids, holds);
+      return holds(vehicle::VehicleId{to_text(item)});
+    }
+    case ValueKind::area:
+      if (auto const* place = item.as<Position>()) return container.as<Area>()->value.contains(place->value);
+      return fault("an area contains positions only", "IllegalArgumentException");
+    default: return fault(fmt::format("{} has no members", kind_name(container)), "IllegalArgumentException");
+  }
+}
+
+Checked<Value> element(Heap& heap, Value const& object, Value const& index, tasks::Origin const& origin) {
+  if (auto const* map = object.as<Map>()) return map->at(index);
+  if (auto const* task = object.as<TaskValue>()) return restricted_task(heap, *task, index, origin);
+  if (!index.is(ValueKind::integer))
+    return fault(fmt::format("{} is no index of {}", kind_name(index), kind_name(object)));
+  std::int64_t const i = index.integer();
+  if (auto const* list = object.as<List>()) {
+    // As in Groovy: beyond the end there is nothing, before the start is an error.
+    if (i >= static_cast<std::int64_t>(list->items.size())) return Value();
+    auto const at = position_in(i, list->items.size());
+    if (!at) return std::unexpected(at.error());
+    return list->items[*at];
+  }
+  if (auto const* text = object.as<Text>()) {
+    auto const at = position_in(i, text->text.size());
+    if (!at) return std::unexpected(at.error());
+    return Value(heap.make<Text>(text->text.substr(*at, 1)));
+  }
+  if (auto const* range = object.as<Range>()) {
+    auto const at = position_in(i, static_cast<std::size_t>(range->size));
+    if (!at) return std::unexpected(at.error());
+    return Value::integer(range->at(static_cast<std::int64_t>(*at)));
+  }
+  if (auto const* set = object.as<Vehicles>()) {
+    auto const at = position_in(i, set->ids.size());
+    if (!at) return std::unexpected(at.error());
+    return Value(heap.make<Vehicle>(set->ids[*at]));
+  }
+  return fault(fmt::format("{} has no elements", kind_name(object)));
+}
+
+Checked<Value> set_element(Value const& object, Value const& index, Value value) {
+  if (auto* map = object.as<Map>()) {
+    map->set(index, std::move(value));
+    return Value();
+  }
+  auto* list = object.as<List>();
+  if (!list || !index.is(ValueKind::integer))
+    return fault(fmt::format("cannot assign to an element of {}", kind_name(object)));
+  auto const size = static_cast<std::int64_t>(list->items.size());
+  if (index.integer() == size) {
+    list->push(std::move(value));
+    return Value();
+  }
+  auto const at = position_in(index.integer(), list->items.size());
+  if (!at) return std::unexpected(at.error());
+  list->items[*at] = std::move(value);
+  return Value();
+}
+
+std::optional<Checked<Value>> with_unit(Value const& number, std::string_view name) {
+  struct Unit {
+    std::string_view name;
+    std::int64_t factor;
+  };
+  static constexpr Unit whole[] = {{"meters", 1},  {"km", 1000},    {"kilometers", 1000}, {"degrees", 1},
+                                   {"north", 1},   {"south", -1},   {"east", 1},          {"west", -1},
+                                   {"seconds", 1}, {"minutes", 60}, {"hours", 3600},      {"days", 86400}};
+  for (auto const& unit : whole) {
+    if (unit.name != name) continue;
+    if (number.is(ValueKind::integer)) return integer_operation(BinaryOp::multiply, number.integer(), unit.factor);
+    return Value::real(number.real() * static_cast<double>(unit.factor));
+  }
+  if (name == "radians") return Value::real(number.number() * 180.0 / std::numbers::pi);
+  if (name == "percent") return Value::real(number.number() / 100.0);
+  return std::nullopt;
+}
+
+}  // namespace lapwing::dolphin

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dolphin/value.hpp"
+
+namespace lapwing::dolphin {
+
+/// The signals of one program: for each name the set of the values that were posted and not yet consumed.
+class Signals {
+ public:
+  using Wanted = std::vector<std::pair<std::string, Value>>;
+
+  /// Posting a value that is there already changes nothing. Numbers are the same by value (REC-48).
+  void post(std::string const& name, Value const& value);
+  /// Removes all pairs and returns true if every one is there; else changes nothing.
+  bool consume(Wanted const& wanted);
+  [[nodiscard]] bool contains(std::string const& name, Value const& value) const;
+  /// In the order in which they were posted.
+  [[nodiscard]] std::vector<Value> values(std::string const& name) const;
+
+ private:
+  std::map<std::string, std::vector<Value>> posted_;
+};
+
+}  // namespace lapwing::dolphin
