@@ -1,0 +1,343 @@
+#include <variant>
+
+#include "dolphin/internal/compilation.hpp"
+#include "dolphin/objects.hpp"
+
+namespace lapwing::dolphin::internal {
+
+void Compilation::declare_functions(ast::Block const& block) {
+  for (auto const& stmt : block.statements) {
+    auto const* decl = std::get_if<ast::FunctionDecl>(&stmt->node);
+    if (!decl) continue;
+    (*functions_)[decl->name.text] = static_cast<int>(program_.functions.size());
+    program_.functions.emplace_back();
+  }
+}
+
+void Compilation::block(ast::Block const& block) {
+  function_->open_scope();
+  for (auto const& stmt : block.statements) statement(*stmt);
+  function_->close_scope();
+}
+
+void Compilation::body(ast::Block const& block) {
+  function_->open_scope();
+  for (std::size_t i = 0; i + 1 < block.statements.size(); ++i) statement(*block.statements[i]);
+  if (!block.statements.empty()) last_statement(*block.statements.back());
+  if (block.statements.empty()) {
+    function_->emit(Op::null);
+    function_->emit(Op::return_value);
+  }
+  function_->close_scope();
+}
+
+void Compilation::last_statement(ast::Stmt const& stmt) {
+  function_->at_line(diagnostics_.source().place(stmt.span.begin).line);
+  if (auto const* node = std::get_if<ast::ExprStmt>(&stmt.node)) {
+    expression(*node->expr);
+  } else if (auto const* assignment = std::get_if<ast::Assign>(&stmt.node)) {
+    assign(*assignment, true);
+  } else if (auto const* choice = std::get_if<ast::If>(&stmt.node)) {
+    expression(*choice->condition);
+    int const otherwise = function_->emit(Op::jump_if_false);
+    body(choice->then);
+    function_->patch(otherwise);
+    if (choice->otherwise) return body(*choice->otherwise);
+    function_->emit(Op::null);
+  } else {
+    statement(stmt);
+    function_->emit(Op::null);
+  }
+  function_->emit(Op::return_value);
+}
+
+void Compilation::statement(ast::Stmt const& stmt) {
+  function_->at_line(diagnostics_.source().place(stmt.span.begin).line);
+  struct Visitor {
+    Compilation& self;
+    base::Span span;
+    void operator()(ast::ExprStmt const& node) const {
+      self.expression(*node.expr);
+      self.function_->emit(Op::pop);
+    }
+    void operator()(ast::Assign const& node) const { self.assign(node, false); }
+    void operator()(ast::VarDecl const& node) const { self.declare_variables(node); }
+    void operator()(ast::FunctionDecl const& node) const {
+      auto const found = self.functions_->find(node.name.text);
+      if (found == self.functions_->end() || self.function_->enclosing()) {
+        return self.diagnostics_.error(node.name.span, "functions are declared at the top level of a script",
+                                       "use a closure: def " + node.name.text + " = { ... }");
+      }
+      // Functions see global variables only, so there is no enclosing function.
+      self.program_.functions[static_cast<std::size_t>(found->second)] =
+          self.function(node.name.text, node.parameters, false, node.body, nullptr);
+    }
+    void operator()(ast::If const& node) const { self.if_statement(node); }
+    void operator()(ast::While const& node) const { self.while_loop(node); }
+    void operator()(ast::For const& node) const { self.for_loop(node); }
+    void operator()(ast::ForIn const& node) const { self.for_in_loop(node); }
+    void operator()(ast::Switch const& node) const { self.switch_statement(node); }
+    void operator()(ast::Try const& node) const { self.try_statement(node); }
+    void operator()(ast::Throw const& node) const {
+      self.expression(*node.value);
+      self.function_->emit(Op::throw_value);
+    }
+    void operator()(ast::Return const& node) const { self.return_statement(node); }
+    void operator()(ast::Break const&) const { self.leave(true, span); }
+    void operator()(ast::Continue const&) const { self.leave(false, span); }
+    void operator()(ast::Assert const& node) const { self.assert_statement(node); }
+    void operator()(ast::Import const&) const {}
+  };
+  std::visit(Visitor{*this, stmt.span}, stmt.node);
+}
+
+void Compilation::assign(ast::Assign const& assign, bool keeps_value) {
+  auto& f = *function_;
+  auto const value = [&](auto const& load_old) {
+    if (assign.op) load_old();
+    expression(*assign.value);
+    if (assign.op) f.emit(Op::binary, static_cast<int>(*assign.op));
+  };
+  if (auto const* name = std::get_if<ast::Name>(&assign.target->node)) {
+    value([&] { load(name->text); });
+    if (keeps_value) f.emit(Op::duplicate);
+    return store(name->text);
+  }
+  int const object = f.hidden();
+  int const result = f.hidden();
+  if (auto const* member = std::get_if<ast::Member>(&assign.target->node)) {
+    expression(*member->object);
+    f.emit(Op::store_local, object);
+    int const member_name = f.name(member->name.text);
+    value([&] {
+      f.emit(Op::load_local, object);
+      f.emit(Op::get_member, member_name);
+    });
+    f.emit(Op::store_local, result);
+    f.emit(Op::load_local, object);
+    f.emit(Op::load_local, result);
+    f.emit(Op::set_member, member_name);
+  } else if (auto const* index = std::get_if<ast::Index>(&assign.target->node)) {
+    int const at = f.hidden();
+    expression(*index->object);
+    f.emit(Op::store_local, object);
+    expression(*index->index);
+    f.emit(Op::store_local, at);
+    auto const load_place = [&] {
+      f.emit(Op::load_local, object);
+      f.emit(Op::load_local, at);
+    };
+    value([&] {
+      load_place();
+      f.emit(Op::get_index);
+    });
+    f.emit(Op::store_local, result);
+    load_place();
+    f.emit(Op::load_local, result);
+    f.emit(Op::set_index);
+  } else {
+    diagnostics_.error(assign.target->span, "this cannot be assigned to");
+  }
+  if (keeps_value) f.emit(Op::load_local, result);
+}
+
+void Compilation::declare_variables(ast::VarDecl const& decl) {
+  auto& f = *function_;
+  if (decl.value) expression(*decl.value);
+  if (!decl.value) f.emit(Op::null);
+  if (!decl.unpacks) {
+    f.emit(Op::declare_local, f.declare(decl.names.front().text));
+    return;
+  }
+  int const list = f.hidden();
+  f.emit(Op::store_local, list);
+  for (std::size_t i = 0; i < decl.names.size(); ++i) {
+    f.emit(Op::load_local, list);
+    f.emit_constant(Value::integer(static_cast<std::int64_t>(i)));
+    f.emit(Op::get_index);
+    f.emit(Op::declare_local, f.declare(decl.names[i].text));
+  }
+}
+
+void Compilation::if_statement(ast::If const& node) {
+  expression(*node.condition);
+  int const otherwise = function_->emit(Op::jump_if_false);
+  block(node.then);
+  if (!node.otherwise) return function_->patch(otherwise);
+  int const end = function_->emit(Op::jump);
+  function_->patch(otherwise);
+  block(*node.otherwise);
+  function_->patch(end);
+}
+
+void Compilation::close_loop() {
+  for (int const jump : surroundings_.loops.back().breaks) function_->patch(jump);
+  surroundings_.loops.pop_back();
+}
+
+void Compilation::while_loop(ast::While const& node) {
+  int const begin = function_->here();
+  expression(*node.condition);
+  int const end = function_->emit(Op::jump_if_false);
+  surroundings_.loops.push_back({.breaks = {end}, .continues = {}, .finallies = surroundings_.finallies.size()});
+  block(node.body);
+  for (int const jump : surroundings_.loops.back().continues) function_->patch(jump);
+  function_->emit(Op::jump_back, begin);
+  close_loop();
+}
+
+void Compilation::for_loop(ast::For const& node) {
+  function_->open_scope();
+  if (node.init) statement(*node.init);
+  int const begin = function_->here();
+  surroundings_.loops.push_back({.breaks = {}, .continues = {}, .finallies = surroundings_.finallies.size()});
+  if (node.condition) {
+    expression(*node.condition);
+    surroundings_.loops.back().breaks.push_back(function_->emit(Op::jump_if_false));
+  }
+  block(node.body);
+  for (int const jump : surroundings_.loops.back().continues) function_->patch(jump);
+  if (node.update) statement(*node.update);
+  function_->emit(Op::jump_back, begin);
+  close_loop();
+  function_->close_scope();
+}
+
+void Compilation::for_in_loop(ast::ForIn const& node) {
+  auto& f = *function_;
+  expression(*node.iterable);
+  int const items = f.hidden();
+  f.hidden();  // the index, next to it
+  f.emit(Op::start_iteration, items);
+  f.open_scope();
+  int const begin = f.here();
+  int const next = f.emit(Op::next_item, 0, items);
+  surroundings_.loops.push_back({.breaks = {next}, .continues = {}, .finallies = surroundings_.finallies.size()});
+  f.emit(Op::declare_local, f.declare(node.variable.text));
+  block(node.body);
+  for (int const jump : surroundings_.loops.back().continues) f.patch(jump);
+  f.emit(Op::jump_back, begin);
+  close_loop();
+  f.close_scope();
+}
+
+void Compilation::switch_statement(ast::Switch const& node) {
+  auto& f = *function_;
+  int const subject = f.hidden();
+  expression(*node.subject);
+  f.emit(Op::store_local, subject);
+  surroundings_.loops.push_back(
+      {.breaks = {}, .continues = {}, .finallies = surroundings_.finallies.size(), .is_switch = true});
+  std::vector<int> entries(node.cases.size(), -1);
+  for (std::size_t i = 0; i < node.cases.size(); ++i) {
+    if (!node.cases[i].value) continue;
+    f.emit(Op::load_local, subject);
+    expression(*node.cases[i].value);
+    f.emit(Op::compare, matches_case);
+    entries[i] = f.emit(Op::jump_if_true);
+  }
+  int const no_case = f.emit(Op::jump);
+  bool has_default = false;
+  for (std::size_t i = 0; i < node.cases.size(); ++i) {
+    if (entries[i] < 0) has_default = true;
+    f.patch(entries[i] < 0 ? no_case : entries[i]);
+    block(node.cases[i].body);
+  }
+  if (!has_default) f.patch(no_case);
+  close_loop();
+}
+
+void Compilation::try_statement(ast::Try const& node) {
+  auto& f = *function_;
+  if (node.finally) surroundings_.finallies.push_back({.local = f.hidden(), .calls = {}});
+  int const begin = f.here();
+  block(node.body);
+  int const end = f.here();
+  if (!node.catches.empty()) catches(node, begin, end);
+  if (!node.finally) return;
+  int const protected_end = f.here();
+  auto finally = std::move(surroundings_.finallies.back());
+  surroundings_.finallies.pop_back();
+  finally.calls.push_back(f.emit(Op::call_finally, 0, finally.local));
+  int const over = f.emit(Op::jump);
+  int const target = f.here();
+  for (int const call : finally.calls) f.patch(call, target);
+  f.function().handlers.push_back({begin, protected_end, target, finally.local});
+  block(*node.finally);
+  f.emit(Op::end_finally, 0, finally.local);
+  f.patch(over);
+}
+
+void Compilation::catches(ast::Try const& node, int begin, int end) {
+  auto& f = *function_;
+  std::vector<int> ends{f.emit(Op::jump)};
+  f.function().handlers.push_back({begin, end, f.here(), -1});
+  int const caught = f.hidden();
+  f.emit(Op::store_local, caught);
+  for (auto const& clause : node.catches) {
+    std::vector<int> matches;
+    for (auto const& type : clause.types) {
+      f.emit(Op::load_local, caught);
+      f.emit(Op::instance_of, f.name(type.text));
+      matches.push_back(f.emit(Op::jump_if_true));
+    }
+    int const skip = clause.types.empty() ? -1 : f.emit(Op::jump);
+    for (int const jump : matches) f.patch(jump);
+    f.open_scope();
+    f.emit(Op::load_local, caught);
+    f.emit(Op::declare_local, f.declare(clause.name.text));
+    block(clause.body);
+    f.close_scope();
+    ends.push_back(f.emit(Op::jump));
+    if (skip >= 0) f.patch(skip);
+  }
+  f.emit(Op::load_local, caught);
+  f.emit(Op::throw_value);
+  for (int const jump : ends) f.patch(jump);
+}
+
+void Compilation::run_finallies(std::size_t down_to) {
+  auto& finallies = surroundings_.finallies;
+  for (std::size_t i = finallies.size(); i > down_to; --i) {
+    finallies[i - 1].calls.push_back(function_->emit(Op::call_finally, 0, finallies[i - 1].local));
+  }
+}
+
+void Compilation::leave(bool is_break, base::Span span) {
+  auto& loops = surroundings_.loops;
+  for (std::size_t i = loops.size(); i > 0; --i) {
+    auto& loop = loops[i - 1];
+    if (!is_break && loop.is_switch) continue;
+    run_finallies(loop.finallies);
+    int const jump = function_->emit(Op::jump);
+    (is_break ? loop.breaks : loop.continues).push_back(jump);
+    return;
+  }
+  diagnostics_.error(span, is_break ? "break outside a loop or switch" : "continue outside a loop");
+}
+
+void Compilation::return_statement(ast::Return const& node) {
+  auto& f = *function_;
+  if (node.value) expression(*node.value);
+  if (!node.value) f.emit(Op::null);
+  if (!surroundings_.finallies.empty()) {
+    int const result = f.hidden();
+    f.emit(Op::store_local, result);
+    run_finallies(0);
+    f.emit(Op::load_local, result);
+  }
+  f.emit(Op::return_value);
+}
+
+void Compilation::assert_statement(ast::Assert const& node) {
+  auto& f = *function_;
+  expression(*node.condition);
+  int const fine = f.emit(Op::jump_if_true);
+  if (node.message) expression(*node.message);
+  if (!node.message) text(std::string(diagnostics_.source().text(node.condition->span)));
+  f.emit(Op::construct, f.name("AssertionError"), 1);
+  f.emit(Op::throw_value);
+  f.patch(fine);
+}
+
+}  // namespace lapwing::dolphin::internal

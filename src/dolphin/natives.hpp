@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/task.hpp"
+#include "dolphin/fault.hpp"
+#include "dolphin/value.hpp"
+
+namespace lapwing::dolphin {
+
+class Fiber;
+struct Runtime;
+
+/// One instruction of the language that is carried out here. Exactly one of `call` and `start` is set.
+struct Native {
+  using Arguments = std::span<Value const>;
+  std::string_view name;
+  int least = 0;  ///< arguments
+  int most = 0;
+  /// Does it at once.
+  Checked<Value> (*call)(Runtime&, Fiber&, Arguments) = nullptr;
+  /// Suspends the calling fiber until the task has ended.
+  base::Task<Checked<Value>> (*start)(Runtime&, Fiber&, std::vector<Value>) = nullptr;
+  bool is_pure = false;  ///< depends on its arguments alone: allowed in the answer to `ask`
+};
+
+inline constexpr int any_number = 255;
+
+/// All of them; the index is the operand of Op::call_native.
+[[nodiscard]] std::span<Native const> natives();
+[[nodiscard]] std::optional<int> find_native(std::string_view name);
+
+}  // namespace lapwing::dolphin
