@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "dolphin/fiber.hpp"
+#include "dolphin/internal/natives.hpp"
+#include "dolphin/runtime.hpp"
+#include "dolphin/text.hpp"
+
+/// Vehicles and geometry (language spec, 3.1 and 3.2).
+namespace lapwing::dolphin::internal {
+namespace {
+
+using Arguments = Native::Arguments;
+using tasks::VehicleId;
+using tasks::VehicleInfo;
+
+// ---- pick
+// ----------------------------------------------------------------------------------------------------------------
+
+/// What a vehicle must be to be picked.
+struct Filter {
+  std::size_t count = 1;
+  base::Duration timeout{};
+  std::optional<std::string> type;
+  std::optional<std::string> id;
+  std::vector<std::string> payload;
+  std::optional<geo::Disc> region;
+};
+
+Filter as_filter(Map const& fields) {
+  Filter filter;
+  for (auto const& [key, value] : fields.items()) {
+    auto const field = to_text(key);
+    if (field == "count") filter.count = static_cast<std::size_t>(value.integer());
+    if (field == "timeout") filter.timeout = base::from_seconds(value.number());
+    if (field == "type") filter.type = to_text(value);
+    if (field == "id") filter.id = to_text(value);
+    if (field == "region") filter.region = value.as<Area>()->value;
+    if (field != "payload") continue;
+    for (auto const& name : value.as<List>()->items) filter.payload.push_back(to_text(name));
+  }
+  return filter;
+}
+
+bool matches(Filter const& filter, VehicleInfo const& info) {
+  auto const carries = [&](auto const& name) { return std::ranges::find(info.payload, name) != info.payload.end(); };
+  if (filter.type && *filter.type != info.type) return false;
+  if (filter.id && *filter.id != info.id.text) return false;
+  if (filter.region && !(info.position && filter.region->contains(*info.position))) return false;
+  return std::ranges::all_of(filter.payload, carries);
+}
+
+std::string as_log_text(Filter const& filter) {
+  std::string payload;
+  for (auto const& name : filter.payload) payload += (payload.empty() ? "" : "+") + name;
+  return fmt::format("id={},type={},payload={},area={}", filter.id.value_or("<null>"), filter.type.value_or("<null>"),
+                     payload.empty() ? "<null>" : payload, filter.region ? "yes" : "<null>");
+}
+
+/// The first `count` free vehicles that match, in the platform's order; nothing when there are fewer.
+std::optional<std::vector<VehicleId>> chosen(Runtime const& runtime, Filter const& filter) {
+  std::vector<VehicleId> ids;
+  for (auto const& info : runtime.platform.vehicles()) {
+    bool const is_free = std::ranges::find(runtime.picked, info.id) == runtime.picked.end();
+    if (ids.size() < filter.count && is_free && info.connected && matches(filter, info)) ids.push_back(info.id);
+  }
+  if (ids.size() < filter.count) return std::nullopt;
+  return ids;
+}
+
+base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<Value> arguments) {
+  // Arrivals wake us; a vehicle that flies into a region, or learns its position, is seen within this time.
+  constexpr base::Duration look_again = std::chrono::seconds(1);
+  auto const* fields = arguments[0].as<Map>();
+  if (!fields) co_return fault("pick takes a block: pick { type 'UAV' }", "IllegalArgumentException");
+  auto const filter = as_filter(*fields);
+  auto const deadline = runtime.loop.now() + filter.timeout;
+  runtime.log.info(fmt::format("Matching requirement: {} count={}", as_log_text(filter), filter.count));
+  auto ids = chosen(runtime, filter);
+  while (!ids && runtime.loop.now() < deadline) {
+    auto const next = std::min(deadline, runtime.loop.now() + look_again);
+    co_await runtime.platform.vehicles_changed().wait_until(next);
+    ids = chosen(runtime, filter);
+  }
+  if (!ids) co_return halting("Could not find required vehicles!", "VehicleError");
+  for (auto const& id : *ids) {
+    runtime.picked.push_back(id);
+    runtime.platform.set_connection_timeout(id, runtime.connection_timeout);
+  }
+  Value const set(runtime.heap.make<Vehicles>(std::move(*ids)));
+  runtime.log.info("Selected nodes: " + to_text(set));
+  co_return set;
+}
+
+// ---- other instructions for vehicles
+// -------------------------------------------------------------------------------------
+
+std::optional<std::vector<VehicleId>> members(Value const& value) {
+  if (auto const* set = value.as<Vehicles>()) return set->ids;
+  if (auto const* one = value.as<Vehicle>()) return std::vector{one->value};
+  return std::nullopt;
+}
+
+std::unexpected<Fault> no_vehicles(std::string_view what, Value const& given) {
+  return fault(fmt::format("{} takes a vehicle set, not {}", what, kind_name(given)), "IllegalArgumentException");
+}
+
+Checked<Value> release(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const ids = members(arguments[0]);
+  if (!ids) return no_vehicles("release", arguments[0]);
+  for (auto const& id : *ids) {
+    if (runtime.execution) runtime.execution->withdraw(id);
+    if (std::erase(runtime.picked, id) == 0)
+      runtime.log.warn(fmt::format("release: vehicle {} was not picked", id.text));
+  }
+  runtime.platform.vehicles_changed().notify_all();  // another fiber may be waiting to pick these
+  return Value();
+}
+
+Checked<VehicleInfo> single_vehicle(Runtime& runtime, Value const& value, std::string_view what) {
+  auto const ids = members(value);
+  if (!ids) return no_vehicles(what, value);
+  if (ids->size() != 1) return halting("Set must represent a single vehicle!");
+  auto info = runtime.platform.find(ids->front());
+  if (!info) return fault(fmt::format("vehicle {} is not known any more", ids->front().text), "IllegalStateException");
+  return *info;
+}
+
+Checked<Value> position(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "position");
+  if (!info) return std::unexpected(info.error());
+  if (!info->position)
+    return fault(fmt::format("the position of vehicle {} is not known yet", info->id.text), "IllegalStateException");
+  return Value(runtime.heap.make<Position>(*info->position));
+}
+
+/// Not known is NaN, with which every comparison is false (REC-21).
+Checked<Value> battery(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "battery");
+  if (!info) return std::unexpected(info.error());
+  if (info->battery) return Value::real(*info->battery);
+  if (!std::exchange(runtime.warned_of_battery[info->id], true)) {
+    runtime.log.warn(
+        fmt::format("the battery of vehicle {} is not known: comparisons with it are false", info->id.text));
+  }
+  return Value::real(std::numeric_limits<double>::quiet_NaN());
+}
+
+Checked<Value> connected(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "connected");
+  if (!info) return std::unexpected(info.error());
+  return Value::boolean(info->connected);
+}
+
+Checked<base::Duration> valid_timeout(Value const& value) {
+  bool const is_valid = value.is_number() && value.number() >= 5.0 && value.number() <= 3600.0;
+  if (!is_valid)
+    return fault(fmt::format("Invalid timeout value {}: 5 to 3600 seconds", to_text(value)),
+                 "IllegalArgumentException");
+  return base::from_seconds(value.number());
+}
+
+/// For vehicles picked from now on and those picked already (REC-5).
+Checked<Value> set_connection_timeout(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const timeout = valid_timeout(arguments[0]);
+  if (!timeout) return std::unexpected(timeout.error());
+  runtime.connection_timeout = *timeout;
+  for (auto const& id : runtime.picked) runtime.platform.set_connection_timeout(id, *timeout);
+  return Value();
+}
+
+Checked<Value> set_connection_timeouts(Runtime& runtime, Fiber& /*fiber*/, Arguments parts) {
+  for (std::size_t i = 0; i < parts.size(); i += 3) {
+    auto const timeout = valid_timeout(parts[i + 2]);
+    if (!timeout) return std::unexpected(timeout.error());
+    auto const ids = members(parts[i + 1]);
+    if (!ids) return halting(fmt::format("'{}' does not identify a vehicle set", to_text(parts[i])));
+    for (auto const& id : *ids) runtime.platform.set_connection_timeout(id, *timeout);
+  }
+  return Value();
+}
+
+// ---- geometry
+// ------------------------------------------------------------------------------------------------------------
+
+Checked<Value> location(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  if (arguments.size() < 2 || arguments.size() > 3 || !std::ranges::all_of(arguments, &Value::is_number)) {
+    return fault("location takes latitude and longitude in degrees, and a height in metres",
+                 "IllegalArgumentException");
+  }
+  double const lat = arguments[0].number();
+  double const lon = arguments[1].number();
+  if (!(lat >= -90 && lat <= 90 && lon >= -180 && lon <= 360)) {
+    return fault(fmt::format("({}, {}) is no latitude and longitude in degrees", lat, lon), "IllegalArgumentException");
+  }
+  double const height = arguments.size() == 3 ? arguments[2].number() : 0.0;
+  return Value(runtime.heap.make<Position>(geo::Wgs84::from_degrees(lat, lon, height)));
+}
+
+Checked<Value> area(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const* center = arguments[0].as<Position>();
+  if (!center || !arguments[1].is_number() || !(arguments[1].number() >= 0)) {
+    return fault("area takes a position and a radius", "IllegalArgumentException");
+  }
+  return Value(runtime.heap.make<Area>(geo::Disc{center->value, arguments[1].number()}));
+}
+
+Checked<Value> move(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const* from = arguments[0].as<Position>();
+  auto const* by = arguments[1].as<Displacement>();
+  if (!from || !by)
+    return fault("move takes a position and a displacement: move(p, { north 10 })", "IllegalArgumentException");
+  return Value(runtime.heap.make<Position>(geo::displaced(from->value, by->value)));
+}
+
+}  // namespace
+
+std::span<Native const> vehicle_natives() {
+  static std::array const table = {
+      Native{.name = "pick", .least = 1, .most = 1, .start = pick},
+      Native{.name = "release", .least = 1, .most = 1, .call = release},
+      Native{.name = "position", .least = 1, .most = 1, .call = position},
+      Native{.name = "battery", .least = 1, .most = 1, .call = battery},
+      Native{.name = "connected", .least = 1, .most = 1, .call = connected},
+      Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
+      Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},
+      Native{.name = "location", .least = 2, .most = 3, .call = location},
+      Native{.name = "area", .least = 2, .most = 2, .call = area},
+      Native{.name = "move", .least = 2, .most = 2, .call = move},
+  };
+  return table;
+}
+
+}  // namespace lapwing::dolphin::internal

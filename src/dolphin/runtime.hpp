@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/log.hpp"
+#include "base/loop.hpp"
+#include "dolphin/bytecode.hpp"
+#include "dolphin/objects.hpp"
+#include "dolphin/output.hpp"
+#include "dolphin/signals.hpp"
+#include "dolphin/value.hpp"
+#include "tasks/execution.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::dolphin {
+
+class Fiber;
+
+/// What a script may use up. Beyond it there is an exception in the script, never a crash or a hanging program.
+struct Limits {
+  std::size_t heap_bytes = std::size_t{256} << 20U;
+  std::size_t call_depth = 10'000;
+  int slice = 20'000;            ///< instructions between two turns of the loop
+  int guard_budget = 2'000'000;  ///< instructions one test of a guard may take
+};
+
+/// Everything that the fibers of one program run share.
+struct Runtime {
+  base::Loop& loop;
+  tasks::Platform& platform;
+  Output& output;
+  base::Logger log;
+  std::shared_ptr<Program const> program;
+  Limits limits = {};
+  base::Duration tick = tasks::default_tick;
+  tasks::Execution::Observer observer = {};
+
+  Heap heap = {};
+  std::vector<Value> globals = {};
+  std::vector<bool> is_defined = {};  ///< of each global: has it got a value yet
+  Signals signals = {};
+  std::vector<tasks::VehicleId> picked = {};
+  base::Duration connection_timeout = std::chrono::seconds(20);
+  std::map<std::string, std::shared_ptr<tasks::PlatformTask const>> plans = {};  ///< those of the script with a name
+  std::map<tasks::VehicleId, bool> warned_of_battery = {};
+  tasks::Execution* execution = nullptr;  ///< the one that is on its way
+};
+
+/// A closure as a guard or a procedure of tasks. The runtime outlives it.
+[[nodiscard]] std::shared_ptr<tasks::Guard const> make_guard(Runtime& runtime, Ref<Closure> closure);
+[[nodiscard]] std::shared_ptr<tasks::Procedure const> make_action(Runtime& runtime, Ref<Closure> closure);
+[[nodiscard]] std::shared_ptr<tasks::Procedure const> make_handler(Runtime& runtime, Ref<Closure> closure);
+
+/// Runs the fiber to its end, turn by turn.
+[[nodiscard]] base::Task<void> drive(Runtime& runtime, Fiber& fiber);
+
+}  // namespace lapwing::dolphin
