@@ -81,7 +81,8 @@ base::Task<Outcome> Engine::run(std::shared_ptr<Program const> program) {
                              .program = std::move(program),
                              .limits = options_.limits,
                              .tick = options_.tick,
-                             .observer = options_.on_event});
+                             .observer = options_.on_event,
+                             .on_executed = options_.on_executed});
   runtime_->globals.resize(runtime_->program->globals.size());
   runtime_->is_defined.resize(runtime_->program->globals.size());
   auto running = run_script(*runtime_);

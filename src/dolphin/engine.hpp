@@ -47,7 +47,8 @@ struct Outcome {
 struct EngineOptions {
   Limits limits = {};
   base::Duration tick = tasks::default_tick;
-  tasks::Execution::Observer on_event = {};  ///< ALLOC, START, DONE, ERROR and STOP of tasks
+  tasks::Execution::Observer on_event = {};               ///< ALLOC, START, DONE, ERROR and STOP of tasks
+  std::function<void(tasks::TaskView)> on_executed = {};  ///< each `execute`, as it stood at its end
 };
 
 /// Runs scripts on a platform, one after the other.

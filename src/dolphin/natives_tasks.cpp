@@ -152,16 +152,24 @@ Fault as_fault(tasks::Failure const& failure) {
   return {"TaskError", failure.message, ending};
 }
 
-/// Says for the time of an execution that it is the one on its way.
+/// Says for the time of an execution that it is the one on its way, and shows how it stood at its end, however that
+/// came.
 class OnItsWay {
  public:
-  OnItsWay(Runtime& runtime, tasks::Execution& execution) : runtime_(runtime) { runtime_.execution = &execution; }
+  OnItsWay(Runtime& runtime, tasks::Execution& execution) : runtime_(runtime), execution_(execution) {
+    runtime_.execution = &execution;
+  }
   OnItsWay(OnItsWay const&) = delete;
   OnItsWay& operator=(OnItsWay const&) = delete;
-  ~OnItsWay() { runtime_.execution = nullptr; }
+  ~OnItsWay() {
+    execution_.stop(runtime_.loop.now());
+    runtime_.execution = nullptr;
+    if (runtime_.on_executed) runtime_.on_executed(execution_.view());
+  }
 
  private:
   Runtime& runtime_;
+  tasks::Execution& execution_;
 };
 
 base::Task<Checked<Value>> run(Runtime& runtime, Order order) {

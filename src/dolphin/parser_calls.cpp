@@ -69,7 +69,7 @@ std::size_t Parser::command_callee_size() const {
   while (kind(size) == dot && (kind(size + 1) == identifier || is_reserved_word(kind(size + 1))) &&
          on_same_line(size + 1))
     size += 2;
-  if (starts_argument(size)) return size;
+  if (starts_argument(size) || at_bracketed_first_argument(size)) return size;
   bool const takes_names_below = size == 1 && (at_word("execute") || at_word("setConnectionTimeout"));
   return takes_names_below && token(1).newline_before && at_argument_name(1) ? 1 : 0;  // REC-7f
 }
@@ -89,6 +89,15 @@ bool Parser::starts_argument(std::size_t ahead) const {
     case kw_new: return true;
     default: return false;
   }
+}
+
+/// `move (-5), 0, 0`: the comma tells that the parentheses hold only the first of several arguments.
+bool Parser::at_bracketed_first_argument(std::size_t ahead) const {
+  auto const& open = token(ahead);
+  if (open.kind != left_paren || !open.blank_before || !on_same_line(ahead)) return false;
+  if (open.partner == Token::unclosed) return false;
+  auto const& after = tokens_[open.partner + 1];
+  return after.kind == comma && !after.newline_before;
 }
 
 bool Parser::at_argument_name(std::size_t ahead) const {

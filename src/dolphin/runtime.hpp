@@ -39,6 +39,7 @@ struct Runtime {
   Limits limits = {};
   base::Duration tick = tasks::default_tick;
   tasks::Execution::Observer observer = {};
+  std::function<void(tasks::TaskView)> on_executed = {};
 
   Heap heap = {};
   std::vector<Value> globals = {};

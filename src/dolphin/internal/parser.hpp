@@ -117,6 +117,7 @@ class Parser {
   ast::ExprPtr callee_path(std::size_t size);
   [[nodiscard]] std::size_t command_callee_size() const;
   [[nodiscard]] bool starts_argument(std::size_t ahead) const;
+  [[nodiscard]] bool at_bracketed_first_argument(std::size_t ahead) const;
   [[nodiscard]] bool at_argument_name(std::size_t ahead = 0) const;
   [[nodiscard]] bool at_wrapped_argument() const;
   ast::ExprPtr misplaced_chain_word(ast::ExprPtr left, std::uint32_t begin);
