@@ -5,6 +5,8 @@ usage: generate_dialect.py DIALECT OUT_DIR
 Writes OUT_DIR/cpp11 (typed C++ messages, used by the codec) and OUT_DIR/c (the C library, the benchmark's peer).
 """
 
+import contextlib
+import io
 import pathlib
 import shutil
 import sys
@@ -23,8 +25,11 @@ def main() -> int:
         target = out / folder
         shutil.rmtree(target, ignore_errors=True)
         options = mavgen.Opts(str(target), wire_protocol="2.0", language=language, validate=False)
-        if not mavgen.mavgen(options, [str(xml)]):
-            print(f"mavgen failed for {language}", file=sys.stderr)
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            made = mavgen.mavgen(options, [str(xml)])
+        if not made:
+            print(f"mavgen failed for {language}:\n{said.getvalue()}", file=sys.stderr)
             return 1
     return 0
 
