@@ -1,0 +1,75 @@
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/files.hpp"
+#include "apps/verb.hpp"
+#include "base/diagnostic.hpp"
+#include "dolphin/engine.hpp"
+#include "tasks/mission_builder.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+nlohmann::json to_json(base::DiagnosticRecord const& record) {
+  nlohmann::json json{{"file", record.file},         {"line", record.begin.line},       {"column", record.begin.column},
+                      {"end_line", record.end.line}, {"end_column", record.end.column}, {"severity", record.severity},
+                      {"message", record.message}};
+  if (!record.hint.empty()) json["hint"] = record.hint;
+  for (auto const& note : record.notes) json["notes"].push_back(to_json(note));
+  return json;
+}
+
+struct CheckOptions {
+  std::vector<std::string> scripts;
+  bool json = false;
+};
+
+int check(CheckOptions const& options) {
+  std::array const builders{tasks::mission_builder()};
+  auto all = nlohmann::json::array();
+  std::size_t errors = 0;
+  std::size_t warnings = 0;
+  for (auto const& path : options.scripts) {
+    auto const text = read_script(path);
+    if (!text) {
+      fmt::print(stderr, "lapwing: {}\n", text.error().message);
+      ++errors;
+      continue;
+    }
+    auto const source = std::make_shared<base::SourceFile const>(path, *text);
+    base::Diagnostics diagnostics(*source);
+    (void)dolphin::load(source, builders, diagnostics);
+    errors += diagnostics.error_count();
+    warnings += diagnostics.warning_count();
+    if (options.json) {
+      for (auto const& record : base::to_records(diagnostics)) all.push_back(to_json(record));
+    } else {
+      fmt::print("{}", base::render(diagnostics));
+    }
+  }
+  if (options.json) {
+    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else if (errors + warnings == 0) {
+    fmt::print("{}: no mistakes found\n", fmt::join(options.scripts, ", "));
+  } else {
+    fmt::print("{} error{}, {} warning{}\n", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
+  }
+  return errors == 0 ? exit_done : exit_usage;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<CheckOptions>();
+  auto* verb = program.add_subcommand("check", "Show every mistake in scripts, without vehicles");
+  verb->add_option("script", options->scripts, "Dolphin scripts")->required();
+  verb->add_flag("--json", options->json, "Machine-readable list on standard output");
+  verb->callback([options, &exit_code] { exit_code = check(*options); });
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,40 @@
+#include "apps/ground.hpp"
+
+#include <utility>
+
+#include "link/byte_link.hpp"
+#include "link/url.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop) {
+  fleet::FleetPlatform::Options options;
+  options.run.on_stop = on_stop;
+  return options;
+}
+
+}  // namespace
+
+Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log)
+    : loop(on),
+      connection(on, {}, log.named("link")),
+      registry(on),
+      fleet(connection, registry, {}, log.named("fleet")),
+      platform(fleet, platform_options(on_stop), log.named("fleet")) {}
+
+base::Result<> Ground::open(std::vector<std::string> const& urls) {
+  std::vector<std::unique_ptr<link::ByteLink>> links;
+  for (auto const& text : urls) {
+    auto const url = link::parse_url(text);
+    if (!url) return std::unexpected(url.error());
+    auto link = link::open(loop, *url);
+    if (!link) return std::unexpected(link.error());
+    links.push_back(std::move(*link));
+  }
+  for (auto& link : links) connection.add_link(std::move(link));
+  return {};
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/log.hpp"
+#include "base/loop.hpp"
+#include "fleet/fleet.hpp"
+#include "fleet/platform.hpp"
+#include "mavlink/connection.hpp"
+#include "vehicle/registry.hpp"
+
+namespace lapwing::apps {
+
+/// Where vehicles are waited for when the user names no link: loopback only.
+inline constexpr auto default_link = "udpin://127.0.0.1:14550";
+
+/// The ground side of one program: links, the vehicles on them, and the platform that flies missions on those.
+struct Ground {
+  Ground(base::Loop& loop, fleet::OnStop on_stop, base::Logger log);
+
+  /// Opens every link or none. Errors: invalid_input for a wrong URL, io for a port in use.
+  [[nodiscard]] base::Result<> open(std::vector<std::string> const& urls);
+
+  base::Loop& loop;
+  mavlink::Connection connection;
+  vehicle::Registry registry;
+  fleet::Fleet fleet;
+  fleet::FleetPlatform platform;
+};
+
+}  // namespace lapwing::apps

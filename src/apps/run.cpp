@@ -1,0 +1,91 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/files.hpp"
+#include "apps/harness_run.hpp"
+#include "apps/session.hpp"
+#include "apps/simulation.hpp"
+#include "apps/verb.hpp"
+#include "sim/vehicle_spec.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+struct RunOptions {
+  std::string script;
+  std::vector<std::string> links;
+  std::string simulated;
+  std::optional<double> speedup;
+  std::optional<double> timeout_s;
+  std::string report;
+  std::string on_stop = "loiter";
+  std::string platform = "mavlink";
+  std::string events;
+};
+
+/// Simulated vehicles, or the links, or the default link.
+base::Result<> connect(Session& session, RunOptions const& options) {
+  if (options.simulated.empty()) {
+    return session.open_links(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
+  }
+  auto const vehicles = sim::parse_vehicles(options.simulated);
+  if (!vehicles) return std::unexpected(vehicles.error());
+  sim::WorldOptions world;
+  world.vehicles = *vehicles;
+  if (auto opened = session.open_links(options.links); !opened) return opened;
+  return session.simulate(std::move(world));
+}
+
+int refuse(base::Error const& error) {
+  print_error(error);
+  return error.kind == base::ErrorKind::invalid_input || error.kind == base::ErrorKind::not_found ? exit_usage
+                                                                                                  : exit_halted;
+}
+
+int run(RunOptions const& options) {
+  auto const source = read_script(options.script);
+  if (!source) return refuse(source.error());
+  if (options.platform == "test") return run_on_harness(options.script, *source, options.events);
+  auto const on_stop = parse_on_stop(options.on_stop);
+  if (!on_stop) return refuse(on_stop.error());
+
+  Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0), .on_stop = *on_stop});
+  if (auto connected = connect(session, options); !connected) return refuse(connected.error());
+  auto const started = session.host.start(options.script, *source);
+  fmt::print(stderr, "{}", session.host.rendered_diagnostics());
+  if (!started) return exit_usage;
+  session.run_to_end(options.timeout_s ? std::optional(base::from_seconds(*options.timeout_s)) : std::nullopt);
+  auto const outcome = *session.host.outcome();
+  if (!options.report.empty()) {
+    if (auto written = write_file(options.report, to_json(session.report())); !written) return refuse(written.error());
+  }
+  return dolphin::exit_code(outcome);
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  auto* verb = program.add_subcommand("run", "Run a script on vehicles");
+  verb->add_option("script", options->script, "Dolphin script")->required();
+  verb->add_option(
+      "--link", options->links,
+      "Where vehicles are, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link));
+  verb->add_option("--sim", options->simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
+  verb->add_option("--speedup", options->speedup,
+                   "1 real time, 10 ten times faster, 0 as fast as possible (default with --sim)")
+      ->check(CLI::Range(0.0, 1000.0));
+  verb->add_option("--timeout", options->timeout_s, "Halt the script after so many seconds")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--report", options->report, "Write what happened to this file as JSON");
+  verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
+  verb->add_option("--platform", options->platform, "mavlink, or test: the language's own test vehicles, no MAVLink")
+      ->check(CLI::IsMember({"mavlink", "test"}));
+  verb->add_option("--events", options->events,
+                   "With --platform test: write task events to this file as JSON lines (- for standard output)");
+  verb->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/report.hpp"
+#include "base/scope.hpp"
+#include "dolphin/engine.hpp"
+#include "station/script_control.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::apps {
+
+/// The one script of a process: checks it, runs it on the engine, stops it, and keeps what is to be told about it.
+/// `run` waits for its end, the station shows it.
+class ScriptHost final : public station::ScriptControl {
+ public:
+  /// `platform` and `output` outlive the host.
+  ScriptHost(base::Loop& loop, tasks::Platform& platform, dolphin::Output& output, base::Logger log,
+             tasks::Execution::Observer on_event = {});
+
+  [[nodiscard]] station::ScriptStatus status() const override { return status_; }
+  [[nodiscard]] std::vector<tasks::TaskView> task_trees() const override;
+  [[nodiscard]] std::expected<void, station::StartFailure> start(std::string name, std::string source) override;
+  void stop() override;
+
+  /// Like `stop`, for another reason than the operator's wish; the outcome then is halted, with that reason.
+  void halt(std::string reason);
+  /// Ends when no script runs.
+  [[nodiscard]] base::Task<> ended();
+
+  /// Of the script that ran last; nothing before the first has ended.
+  [[nodiscard]] std::optional<dolphin::Outcome> const& outcome() const { return outcome_; }
+  /// What the last start had to say about the script's text, ready to print.
+  [[nodiscard]] std::string const& rendered_diagnostics() const { return rendered_; }
+  [[nodiscard]] base::UtcTime started() const { return started_; }
+  [[nodiscard]] base::UtcTime finished() const { return finished_; }
+
+ private:
+  base::Task<> run(std::shared_ptr<dolphin::Program const> program);
+  void keep(tasks::TaskView tree);
+
+  base::Loop& loop_;
+  tasks::Platform& platform_;
+  base::Logger log_;
+  dolphin::Engine engine_;
+  station::ScriptStatus status_;
+  std::string rendered_;
+  std::vector<tasks::TaskView> finished_trees_;
+  std::optional<std::string> halt_reason_;
+  std::optional<dolphin::Outcome> outcome_;
+  base::UtcTime started_{};
+  base::UtcTime finished_{};
+  base::Notifier ended_;
+  base::Scope scope_;
+};
+
+/// "done", "error", "halted" or "interrupted": the report's word for the outcome.
+[[nodiscard]] std::string outcome_word(dolphin::Outcome const& outcome);
+
+}  // namespace lapwing::apps

@@ -1,0 +1,110 @@
+#include "apps/session.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "apps/console.hpp"
+#include "apps/files.hpp"
+#include "apps/signals.hpp"
+#include "apps/simulation.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+/// A script's own words are on standard output; standard error need not repeat them.
+base::LogHub::Sink terminal_sink(base::LogLevel lowest) {
+  return [sink = base::standard_error_sink(lowest)](base::LogRecord const& record) {
+    if (record.source != script_source) sink(record);
+  };
+}
+
+}  // namespace
+
+void print_error(base::Error const& error) {
+  fmt::print(stderr, "lapwing: {}\n", error.message);
+  if (!error.hint.empty()) fmt::print(stderr, "         {}\n", error.hint);
+}
+
+base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
+  if (text == "loiter") return fleet::OnStop::loiter;
+  if (text == "rtl") return fleet::OnStop::rtl;
+  if (text == "land") return fleet::OnStop::land;
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("--on-stop {} is not known", text),
+                    "use loiter (hold in place, the default), rtl (return to launch) or land");
+}
+
+Session::Session(Options const& options)
+    : loop(pace_for(options.speedup)),
+      log(hub, "lapwing"),
+      ground(loop, options.on_stop, log),
+      console(make_console(loop, log)),
+      host(loop, ground.platform, *console, log,
+           [this](tasks::TaskEvent const& event) {
+             log.named("task").info(fmt::format("{} {}{}{}{}", to_string(event.kind), event.task,
+                                                event.vehicle ? " vehicle=" + event.vehicle->text : "",
+                                                event.detail.empty() ? "" : ": ", event.detail));
+           }),
+      on_stop_(options.on_stop) {
+  hub.add_sink(terminal_sink(options.log_level));
+}
+
+base::Result<> Session::simulate(sim::WorldOptions options) {
+  auto started = start_simulation(ground, std::move(options), log);
+  if (!started) return std::unexpected(started.error());
+  world = std::move(*started);
+  return {};
+}
+
+base::Result<> Session::open_map(int port, std::optional<geo::Wgs84> site) {
+  station::Station::Options options;
+  options.http.port = port;
+  options.http.static_root = home_directory() / "web/dist";
+  options.program_version = LAPWING_VERSION;
+  options.site.origin = site;
+  auto opened = station::Station::open(loop, ground.registry, host, hub, std::move(options));
+  if (!opened) return std::unexpected(opened.error());
+  map = std::move(*opened);
+  return {};
+}
+
+void Session::run_to_end(std::optional<base::Duration> timeout) {
+  StopSignals const signals(loop, [this] { host.stop(); });
+  loop.run_until_done(finish(timeout));
+}
+
+base::Task<> Session::finish(std::optional<base::Duration> timeout) {
+  base::Scope scope(loop);
+  if (timeout) scope.spawn(halt_after(*timeout));
+  co_await host.ended();
+  co_await ground.platform.make_safe(on_stop_);
+}
+
+base::Task<> Session::halt_after(base::Duration timeout) {
+  co_await loop.sleep(timeout);
+  host.halt(fmt::format("time-out: the script still ran after {:g} s", base::to_seconds(timeout)));
+}
+
+RunReport Session::report() const {
+  RunReport report;
+  auto const status = host.status();
+  report.script = status.name;
+  report.outcome = host.outcome() ? outcome_word(*host.outcome()) : "running";
+  report.started = host.started();
+  report.ended = host.finished();
+  for (auto const* vehicle : ground.registry.all()) {
+    report.vehicles.push_back({.id = vehicle->id.text,
+                               .system_id = vehicle->system_id,
+                               .type = std::string(to_string(vehicle->family)),
+                               .track_m = vehicle->track_m,
+                               .missions = ground.platform.missions(vehicle->id)});
+  }
+  report.tasks = host.task_trees();
+  if (auto const& outcome = host.outcome(); outcome && outcome->kind != dolphin::Outcome::Kind::done) {
+    report.errors.push_back({outcome->file, outcome->line, outcome->message});
+  }
+  return report;
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/ground.hpp"
+#include "apps/script_host.hpp"
+#include "base/log.hpp"
+#include "sim/world.hpp"
+#include "station/station.hpp"
+
+namespace lapwing::apps {
+
+/// Everything that `run`, `demo` and `station` share: loop, log, ground side, script host, and the optional simulation
+/// and map. Members end in reverse order: what talks ends before what it talks through.
+class Session {
+ public:
+  struct Options {
+    double speedup = 1.0;  ///< 0: as fast as the machine computes
+    fleet::OnStop on_stop = fleet::OnStop::loiter;
+    base::LogLevel log_level = base::LogLevel::info;
+  };
+  explicit Session(Options const& options);
+
+  [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls) { return ground.open(urls); }
+  [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
+  [[nodiscard]] base::Result<> open_map(int port, std::optional<geo::Wgs84> site);
+
+  /// Runs the script that the host was given to its end; `timeout` (loop time) halts it. Ctrl-C stops it. Then every
+  /// vehicle that still runs a mission of ours is made safe.
+  void run_to_end(std::optional<base::Duration> timeout);
+  [[nodiscard]] RunReport report() const;
+
+  base::LogHub hub;
+  base::Loop loop;
+  base::Logger log;
+  Ground ground;
+  std::unique_ptr<dolphin::Output> console;
+  ScriptHost host;
+  std::unique_ptr<sim::World> world;
+  std::unique_ptr<station::Station> map;
+
+ private:
+  base::Task<> finish(std::optional<base::Duration> timeout);
+  base::Task<> halt_after(base::Duration timeout);
+
+  fleet::OnStop on_stop_;
+};
+
+/// Prints an error the way every verb does: what went wrong, then what to do.
+void print_error(base::Error const& error);
+
+/// Values of --on-stop.
+[[nodiscard]] base::Result<fleet::OnStop> parse_on_stop(std::string const& text);
+
+}  // namespace lapwing::apps

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "base/loop.hpp"
+
+namespace lapwing::apps {
+
+/// Ctrl-C and SIGTERM: the first calls `stop` on the loop, a second ends the process at once with exit code 130.
+class StopSignals {
+ public:
+  StopSignals(base::Loop& loop, std::function<void()> stop);
+  ~StopSignals();
+  StopSignals(StopSignals const&) = delete;
+  StopSignals& operator=(StopSignals const&) = delete;
+
+ private:
+  struct Waiting;
+  std::shared_ptr<Waiting> waiting_;
+};
+
+}  // namespace lapwing::apps

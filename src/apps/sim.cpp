@@ -1,0 +1,98 @@
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "apps/session.hpp"
+#include "apps/signals.hpp"
+#include "apps/simulation.hpp"
+#include "apps/verb.hpp"
+#include "link/url.hpp"
+#include "sim/vehicle_spec.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+struct SimOptions {
+  std::string vehicles = "copter:1";
+  std::string home = "41.1780,-8.5980,90";
+  std::string out = "udpout://127.0.0.1:14550";
+  double speedup = 1.0;
+  double loss = 0.0;
+  double delay_s = 0.0;
+  double duplication = 0.0;
+  std::uint64_t seed = 1;
+  int first_id = 1;
+  bool realistic_boot = false;
+};
+
+base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
+  sim::WorldOptions world;
+  auto const vehicles = sim::parse_vehicles(options.vehicles);
+  if (!vehicles) return std::unexpected(vehicles.error());
+  auto const home = parse_home(options.home);
+  if (!home) return std::unexpected(home.error());
+  auto const out = link::parse_url(options.out);
+  if (!out) return std::unexpected(out.error());
+  world.vehicles = *vehicles;
+  world.home = home->place;
+  world.heading_rad = home->heading_rad;
+  world.out = *out;
+  world.seed = options.seed;
+  world.first_system_id = options.first_id;
+  world.impairment.loss = options.loss;
+  world.impairment.delay = base::from_seconds(options.delay_s);
+  world.impairment.duplication = options.duplication;
+  world.boot = options.realistic_boot ? sim::BootStyle::realistic : sim::BootStyle::quick;
+  return world;
+}
+
+int simulate(SimOptions const& options) {
+  auto world_of = world_options(options);
+  if (!world_of) {
+    print_error(world_of.error());
+    return exit_usage;
+  }
+  base::Loop loop(pace_for(options.speedup));
+  base::LogHub hub;
+  hub.add_sink(base::standard_error_sink(base::LogLevel::info));
+  base::Logger const log(hub, "sim");
+  sim::World world(loop, std::move(*world_of), log);
+  if (auto started = world.start(); !started) {
+    print_error(started.error());
+    return started.error().kind == base::ErrorKind::invalid_input ? exit_usage : exit_halted;
+  }
+  fmt::print(stderr, "{} simulated vehicle{} to {}; Ctrl-C ends\n", world.vehicles().size(),
+             world.vehicles().size() == 1 ? "" : "s", options.out);
+  StopSignals const signals(loop, [&loop] { loop.stop(); });
+  loop.run();
+  return exit_done;
+}
+
+}  // namespace
+
+void add_sim(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<SimOptions>();
+  auto* verb = program.add_subcommand("sim", "Simulated vehicles that speak MAVLink, for any ground station");
+  verb->add_option("--vehicles", options->vehicles, "What and how many: copter:2,rover:1,plane:1")
+      ->capture_default_str();
+  verb->add_option("--home", options->home, "LAT,LON,ALT[,HEADING] in degrees and metres")->capture_default_str();
+  verb->add_option("--out", options->out, "Where the vehicles send")->capture_default_str();
+  verb->add_option("--speedup", options->speedup, "1 real time, 10 ten times faster")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
+  verb->add_option("--loss", options->loss, "Share of packets lost, each way")->check(CLI::Range(0.0, 0.99));
+  verb->add_option("--delay", options->delay_s, "Seconds that each packet is late, each way")
+      ->check(CLI::Range(0.0, 60.0));
+  verb->add_option("--duplicate", options->duplication, "Share of packets that arrive twice")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--seed", options->seed, "The same seed gives the same noise and losses")->capture_default_str();
+  verb->add_option("--first-id", options->first_id, "System id of the first vehicle")
+      ->check(CLI::Range(1, 250))
+      ->capture_default_str();
+  verb->add_flag("--realistic-boot", options->realistic_boot, "Take 41 s to start up, as ArduPilot does, instead of 3");
+  verb->callback([options, &exit_code] { exit_code = simulate(*options); });
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,57 @@
+#include "apps/simulation.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "link/byte_link.hpp"
+
+namespace lapwing::apps {
+
+base::Result<HomePlace> parse_home(std::string const& text) {
+  auto const refuse = [&] {
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is not a place", text),
+                      "write LAT,LON,ALT or LAT,LON,ALT,HEADING in degrees and metres: 41.1780,-8.5980,90");
+  };
+  std::array<double, 4> values{};
+  std::size_t count = 0;
+  for (std::size_t at = 0; at <= text.size();) {
+    auto const comma = std::min(text.find(',', at), text.size());
+    if (count == values.size()) return refuse();
+    char* end = nullptr;
+    auto const part = text.substr(at, comma - at);
+    values[count] = std::strtod(part.c_str(), &end);
+    if (part.empty() || *end != '\0' || !std::isfinite(values[count])) return refuse();
+    ++count;
+    at = comma + 1;
+  }
+  if (count < 3 || std::abs(values[0]) > 90.0 || std::abs(values[1]) > 180.0) return refuse();
+  return HomePlace{geo::Wgs84::from_degrees(values[0], values[1], values[2]), values[3] * std::numbers::pi / 180.0};
+}
+
+base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::WorldOptions options,
+                                                           base::Logger log) {
+  constexpr std::uint32_t first_port = 14550;
+  constexpr std::uint32_t last_port = 14650;
+  for (auto port = first_port;; ++port) {
+    auto link = link::open(ground.loop, {link::Transport::udp_in, "127.0.0.1", port});
+    if (!link && port == last_port) return std::unexpected(link.error());
+    if (!link) continue;
+    ground.connection.add_link(std::move(*link));
+    options.out = {link::Transport::udp_out, "127.0.0.1", port};
+    break;
+  }
+  auto world = std::make_unique<sim::World>(ground.loop, std::move(options), log.named("sim"));
+  if (auto started = world->start(); !started) return std::unexpected(started.error());
+  return world;
+}
+
+base::Loop::Pace pace_for(double speedup) {
+  if (speedup == 0.0) return {.speedup = 1.0, .unpaced = true};
+  return {.speedup = speedup, .unpaced = false};
+}
+
+}  // namespace lapwing::apps
