@@ -1,0 +1,70 @@
+"""What the tests of the whole program share: starting Lapwing, free ports, deadlines. Not a test itself."""
+
+import contextlib
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LAPWING = os.environ.get("LAPWING", str(ROOT / "build/release/bin/lapwing"))
+SKIPPED = 77  # ctest's SKIP_RETURN_CODE
+
+
+def free_udp_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@contextlib.contextmanager
+def lapwing(*arguments: str):
+    """Run the program until the block ends; its standard error is shown when the test fails."""
+    process = subprocess.Popen([LAPWING, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    try:
+        yield process
+    except BaseException:
+        process.send_signal(signal.SIGINT)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            print(process.communicate(timeout=10)[0], file=sys.stderr)
+        raise
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            try:
+                process.wait(timeout=10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                raise AssertionError("lapwing did not end within 10 s of an interrupt") from None
+
+
+def wait_until(condition, seconds: float, what: str):
+    """Poll `condition` (which may itself block a little) until it is true; fail with `what` after `seconds`."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        result = condition()
+        if result:
+            return result
+    raise AssertionError(f"not within {seconds} s: {what}")
+
+
+def finish(*arguments: str, seconds: float = 120, **popen):
+    """Run the program to its end: (exit code, standard output, standard error)."""
+    done = subprocess.run([LAPWING, *arguments], capture_output=True, text=True, timeout=seconds, **popen)
+    return done.returncode, done.stdout, done.stderr
+
+
+def expect_exit(expected: int, *arguments: str, **keywords):
+    """Run to the end, demand the exit code, return (standard output, standard error)."""
+    code, out, err = finish(*arguments, **keywords)
+    assert code == expected, f"lapwing {' '.join(arguments)}: exit {code}, expected {expected}\n{out}\n{err}"
+    return out, err
+
+
+def free_tcp_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]

@@ -1,0 +1,33 @@
+"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP and the report says so."""
+
+import json
+import pathlib
+import tempfile
+
+import harness
+
+with tempfile.TemporaryDirectory() as folder:
+    path = pathlib.Path(folder, "report.json")
+    out, err = harness.expect_exit(0, "demo", "--headless", "--report", str(path), seconds=240)
+    report = json.loads(path.read_text())
+
+assert report["outcome"] == "done", report
+assert report["errors"] == [], report["errors"]
+assert report["script"].endswith("survey.dolphin"), report["script"]
+vehicles = {vehicle["system_id"]: vehicle for vehicle in report["vehicles"]}
+assert sorted(v["type"] for v in vehicles.values()) == ["copter", "copter", "rover"], vehicles
+for vehicle in vehicles.values():
+    assert vehicle["track_m"] > 100, f"vehicle {vehicle['id']} moved {vehicle['track_m']} m"
+    assert vehicle["missions"], f"vehicle {vehicle['id']} flew nothing"
+    for mission in vehicle["missions"]:
+        assert mission["outcome"] == "done", mission
+        assert mission["items"] > 3 and mission["upload_s"] >= 0, mission
+
+
+def leaves(task):
+    return [task] if not task["children"] else [leaf for child in task["children"] for leaf in leaves(child)]
+
+
+states = {leaf["state"] for root in report["tasks"] for leaf in leaves(root)}
+assert states == {"done"}, states
+print(f"{len(vehicles)} vehicles, {sum(v['track_m'] for v in vehicles.values()):.0f} m in all")
