@@ -1,0 +1,252 @@
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [upload] [start] [scale]
+
+Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
+"""
+
+import contextlib
+import json
+import os
+import pathlib
+import platform
+import socket
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BENCH_BIN = ROOT / "build/bench/bin"
+LAPWING = ROOT / "build/release/bin/lapwing"
+PYTHON = sys.executable
+
+
+def free_udp_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@contextlib.contextmanager
+def simulator(*arguments):
+    process = subprocess.Popen([LAPWING, "sim", *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait(timeout=10)
+
+
+def say(text: str):
+    print(text, flush=True)
+
+
+# ---- decode rate -------------------------------------------------------------------------------------------------------------
+
+def decode() -> dict:
+    done = subprocess.run([BENCH_BIN / "bench_decode", "--benchmark_format=json", "--benchmark_repetitions=5",
+                           "--benchmark_report_aggregates_only=true"], capture_output=True, text=True, check=True)
+    rates = {}
+    for row in json.loads(done.stdout)["benchmarks"]:
+        if row["aggregate_name"] == "median":
+            rates[row["run_name"]] = row["items_per_second"]
+    with tempfile.TemporaryDirectory() as folder:
+        capture = pathlib.Path(folder, "capture.bin")
+        subprocess.run([BENCH_BIN / "bench_decode", f"--capture={capture}"], check=True)
+        rates["pymavlink/frames_and_fields"] = pymavlink_rate(capture.read_bytes())
+    for name, rate in rates.items():
+        say(f"decode  {name:32} {rate / 1e6:8.3f} M messages/s")
+    say(f"decode  ours / C library, frames            {rates['ours/frames'] / rates['c_library/frames']:8.2f} x")
+    say(f"decode  ours / C library, frames and fields {rates['ours/frames_and_fields'] / rates['c_library/frames_and_fields']:8.2f} x")
+    return rates
+
+
+def pymavlink_rate(data: bytes) -> float:
+    from pymavlink.dialects.v20 import ardupilotmega
+
+    rates = []
+    for _ in range(3):
+        parser = ardupilotmega.MAVLink(None)
+        started = time.perf_counter()
+        messages = parser.parse_buffer(data)
+        rates.append(len(messages) / (time.perf_counter() - started))
+    return statistics.median(rates)
+
+
+# ---- mission upload ----------------------------------------------------------------------------------------------------------
+
+UPLOADERS = {
+    "lapwing": lambda port, items: [BENCH_BIN / "bench_upload", str(port), str(items)],
+    "pymavlink": lambda port, items: [PYTHON, ROOT / "bench/peer_upload_pymavlink.py", str(port), str(items)],
+    "mavsdk": lambda port, items: [PYTHON, ROOT / "bench/peer_upload_mavsdk.py", str(port), str(items)],
+}
+
+
+def upload(repeats: int = 3) -> list:
+    rows = []
+    for items in (100, 500):
+        for loss in (0.0, 0.1, 0.3):
+            row = {"items": items, "loss": loss}
+            for name, command in UPLOADERS.items():
+                seconds, failures = [], 0
+                for repeat in range(repeats):
+                    port = free_udp_port()
+                    with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{port}", "--loss", str(loss),
+                                   "--seed", str(repeat + 1)):
+                        try:
+                            done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=260)
+                            if done.returncode == 0:
+                                seconds.append(float(done.stdout))
+                            else:
+                                failures += 1
+                        except subprocess.TimeoutExpired:
+                            failures += 1
+                row[name] = {"median_s": statistics.median(seconds) if seconds else None, "failed": failures, "of": repeats}
+            rows.append(row)
+            say(f"upload  {items:4} items {loss:4.0%} loss  " + "  ".join(
+                f"{name} {row[name]['median_s']:8.3f} s" + (f" ({row[name]['failed']}/{repeats} failed)" if row[name]["failed"] else "")
+                if row[name]["median_s"] is not None else f"{name}   failed {row[name]['failed']}/{repeats}" for name in UPLOADERS))
+    return rows
+
+
+# ---- time from `run` to the first vehicle command -----------------------------------------------------------------------------
+
+SHORT = """
+v = pick { type 'UAV'; timeout 60.seconds }
+execute v: mission { home location(41.178, -8.598, 90); takeOff location(41.178, -8.598, 100); returnHomeAndLand() }
+"""
+
+
+def start(repeats: int = 5) -> dict:
+    """A vehicle that is already up and sends to a port; the clock runs from exec to the first MISSION_COUNT or COMMAND_*."""
+    from pymavlink.dialects.v20 import ardupilotmega
+
+    seconds = []
+    with tempfile.TemporaryDirectory() as folder:
+        script = pathlib.Path(folder, "short.dolphin")
+        script.write_text(SHORT)
+        for _ in range(repeats):
+            seconds.append(first_command(script, ardupilotmega.MAVLink(None)))
+    median = statistics.median(seconds)
+    say(f"start   run to first mission or arming message    {median * 1000:8.1f} ms (of {repeats}: "
+        + ", ".join(f"{s * 1000:.0f}" for s in sorted(seconds)) + ")")
+    return {"median_s": median, "all_s": seconds}
+
+
+def first_command(script, parser) -> float:
+    parser.robust_parsing = True
+    run_port = free_udp_port()
+    relay = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    relay.bind(("127.0.0.1", 0))
+    relay.settimeout(0.001)
+    up = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    up.settimeout(0.001)
+    vehicle = None
+    with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{relay.getsockname()[1]}"):
+        # Let the vehicle come up first: the figure is for one that is ready to arm.
+        ready = time.monotonic() + 60
+        run, started = None, 0.0
+        asked, flags = False, 0
+        ground = ardupilot_ground(parser)
+        try:
+            while time.monotonic() < ready:
+                with contextlib.suppress(TimeoutError, ConnectionRefusedError):
+                    data, vehicle = relay.recvfrom(4096)
+                    if run is not None:
+                        up.sendto(data, ("127.0.0.1", run_port))
+                    for message in parser.parse_buffer(data) or []:
+                        if message.get_type() == "EKF_STATUS_REPORT":
+                            flags = message.flags
+                if vehicle and not asked:
+                    for message_id in (193, 33, 1):
+                        relay.sendto(ground(message_id), vehicle)
+                    asked = True
+                if run is None and flags & 0x10 and not flags & 0x80:
+                    started = time.perf_counter()
+                    run = subprocess.Popen([LAPWING, "run", script, "--link", f"udpin://127.0.0.1:{run_port}"],
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                with contextlib.suppress(TimeoutError, ConnectionRefusedError):
+                    data = up.recv(4096)
+                    relay.sendto(data, vehicle)
+                    for message in parser.parse_buffer(data) or []:
+                        mission = message.get_type() in ("MISSION_COUNT", "SET_MODE")
+                        command = message.get_type() in ("COMMAND_LONG", "COMMAND_INT") and message.command in (176, 300, 400)
+                        if mission or command:
+                            return time.perf_counter() - started
+        finally:
+            if run is not None:
+                run.terminate()
+                run.wait(timeout=15)
+            relay.close()
+            up.close()
+    raise SystemExit("start: no command within 60 s")
+
+
+def ardupilot_ground(parser):
+    from pymavlink.dialects.v20 import ardupilotmega
+
+    packer = ardupilotmega.MAVLink(None, srcSystem=255, srcComponent=190)
+    return lambda message_id: packer.command_long_encode(1, 1, 511, 0, message_id, 100_000, 0, 0, 0, 0, 0).pack(packer)
+
+
+# ---- CPU and memory of `run` with a fleet -----------------------------------------------------------------------------------
+
+def scale(seconds: float = 20.0) -> list:
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        script = pathlib.Path(folder, "watch.dolphin")
+        script.write_text("pick { count 1; timeout 60.seconds }\nexecute idle(1000)\n")
+        for vehicles in (2, 20, 100):
+            port = free_udp_port()
+            with simulator("--vehicles", f"copter:{vehicles}", "--out", f"udpout://127.0.0.1:{port}") as sim:
+                run = subprocess.Popen([LAPWING, "run", script, "--link", f"udpin://127.0.0.1:{port}"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                try:
+                    time.sleep(8)  # discovery and the asking for intervals; the figure is the steady state
+                    before, sim_before, wall = cpu_seconds(run.pid), cpu_seconds(sim.pid), time.monotonic()
+                    time.sleep(seconds)
+                    elapsed = time.monotonic() - wall
+                    row = {"vehicles": vehicles, "run_cpu_percent": 100 * (cpu_seconds(run.pid) - before) / elapsed,
+                           "sim_cpu_percent": 100 * (cpu_seconds(sim.pid) - sim_before) / elapsed,
+                           "run_rss_mb": resident_mb(run.pid), "sim_rss_mb": resident_mb(sim.pid)}
+                finally:
+                    run.terminate()
+                    run.wait(timeout=15)
+            rows.append(row)
+            say(f"scale   {vehicles:4} vehicles at 10 Hz: run {row['run_cpu_percent']:5.1f} % of a core, {row['run_rss_mb']:5.1f} MB; "
+                f"sim {row['sim_cpu_percent']:5.1f} %, {row['sim_rss_mb']:5.1f} MB")
+    return rows
+
+
+def cpu_seconds(pid: int) -> float:
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def resident_mb(pid: int) -> float:
+    for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines():
+        if line.startswith("VmRSS:"):
+            return int(line.split()[1]) / 1024
+    return 0.0
+
+
+def machine() -> dict:
+    cpu = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+                if line.startswith("model name")), platform.machine())
+    commit = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    return {"cpu": cpu, "cores": os.cpu_count(), "system": platform.platform(), "commit": commit, "load": os.getloadavg()[0]}
+
+
+def main():
+    wanted = sys.argv[1:] or ["decode", "start", "scale", "upload"]
+    results = {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
+    say(f"machine {results['machine']}")
+    for name in wanted:
+        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale}[name]()
+    path = ROOT / "build/bench-results.json"
+    path.write_text(json.dumps(results, indent=2) + "\n")
+    say(f"written to {path.relative_to(ROOT)}")
+
+
+if __name__ == "__main__":
+    main()
