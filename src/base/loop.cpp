@@ -25,7 +25,9 @@ Loop::Loop(Pace pace)
 
 Loop::~Loop() = default;
 
-asio::io_context& Loop::io() { return io_->context; }
+asio::io_context& Loop::io() {
+  return io_->context;
+}
 
 TimePoint Loop::now() const {
   if (pace_.unpaced) return unpaced_now_;
@@ -37,9 +39,13 @@ UtcTime Loop::utc_now() const {
   return started_utc_ + std::chrono::duration_cast<UtcTime::duration>(now().time_since_epoch());
 }
 
-void Loop::post(std::function<void()> function) { posted_.push_back(std::move(function)); }
+void Loop::post(std::function<void()> function) {
+  posted_.push_back(std::move(function));
+}
 
-void Loop::post_from_other_thread(std::function<void()> function) { asio::post(io_->context, std::move(function)); }
+void Loop::post_from_other_thread(std::function<void()> function) {
+  asio::post(io_->context, std::move(function));
+}
 
 void Loop::run() {
   stopped_ = false;
@@ -49,7 +55,8 @@ void Loop::run() {
   }
 }
 
-/// Runs what was ready when the turn began; what becomes ready meanwhile waits for the next turn, so nothing starves sockets.
+/// Runs what was ready when the turn began; what becomes ready meanwhile waits for the next turn, so nothing starves
+/// sockets.
 bool Loop::run_ready() {
   auto functions = std::exchange(posted_, {});
   auto coroutines = ready_.size();

@@ -16,12 +16,12 @@ namespace lapwing::base {
 
 /// The event loop: one a process, on one thread, owner of all mutable state's turns.
 ///
-/// Resumes ready coroutines, runs posted functions, serves sockets (Boost Asio's `io()`) and keeps the time of everything that
-/// runs on it. Nothing here is thread-safe except `post_from_other_thread`.
+/// Resumes ready coroutines, runs posted functions, serves sockets (Boost Asio's `io()`) and keeps the time of
+/// everything that runs on it. Nothing here is thread-safe except `post_from_other_thread`.
 class Loop {
  public:
-  /// How loop time follows wall time. 1 is real time, 10 ten times faster; `unpaced` jumps to the next timer whenever nothing
-  /// else is ready, so that simulated hours pass as fast as the machine computes them.
+  /// How loop time follows wall time. 1 is real time, 10 ten times faster; `unpaced` jumps to the next timer whenever
+  /// nothing else is ready, so that simulated hours pass as fast as the machine computes them.
   struct Pace {
     double speedup = 1.0;
     bool unpaced = false;
@@ -93,9 +93,15 @@ class [[nodiscard]] Loop::Sleep {
   TimePoint deadline_;
 };
 
-inline Loop::Sleep Loop::sleep_until(TimePoint deadline) { return Sleep(*this, deadline); }
-inline Loop::Sleep Loop::sleep(Duration duration) { return Sleep(*this, now() + duration); }
-inline Loop::Sleep Loop::turn() { return Sleep(*this, now()); }
+inline Loop::Sleep Loop::sleep_until(TimePoint deadline) {
+  return Sleep(*this, deadline);
+}
+inline Loop::Sleep Loop::sleep(Duration duration) {
+  return Sleep(*this, now() + duration);
+}
+inline Loop::Sleep Loop::turn() {
+  return Sleep(*this, now());
+}
 
 template <class T>
 T Loop::run_until_done(Task<T> task) {

@@ -8,7 +8,8 @@
 
 namespace lapwing::base {
 
-/// A condition variable for coroutines: "something about this changed". Carries no value: look at the state after waking.
+/// A condition variable for coroutines: "something about this changed". Carries no value: look at the state after
+/// waking.
 class Notifier {
  public:
   explicit Notifier(Loop& loop) : loop_(loop) {}

@@ -12,8 +12,8 @@ void Scope::spawn(Task<void> task) {
   self->task.start();
 }
 
-// The frame is still on the stack when it reports its end, so it is destroyed on a later turn; by then the scope may be gone,
-// and the child with it.
+// The frame is still on the stack when it reports its end, so it is destroyed on a later turn; by then the scope may be
+// gone, and the child with it.
 void Scope::bury_later(void* child) noexcept {
   auto& ended = *static_cast<Child*>(child);
   ended.loop.post([family = ended.family, self = ended.self] {

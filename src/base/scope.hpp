@@ -11,8 +11,8 @@ namespace lapwing::base {
 
 /// Owns coroutines that run beside their owner; destroying the scope cancels what still runs.
 ///
-/// A component that starts background work holds a `Scope` as its last member. Must not be destroyed or cleared from within one
-/// of its own tasks: post that to the loop.
+/// A component that starts background work holds a `Scope` as its last member. Must not be destroyed or cleared from
+/// within one of its own tasks: post that to the loop.
 class Scope {
  public:
   explicit Scope(Loop& loop) : loop_(loop) {}

@@ -13,7 +13,9 @@ namespace {
 constexpr std::size_t max_candidates = 10'000;
 constexpr std::size_t max_word_size = 100;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 }  // namespace
 

@@ -14,8 +14,9 @@ namespace internal {
 
 /// Resumes whoever awaits the task when it ends; a task that nobody awaits just stays at its end.
 ///
-/// Not by symmetric transfer: g++ 12 turns that into a tail call only when it optimises, so a loop over tasks that end at once
-/// would grow the stack in debug and sanitizer builds. A child that ends within its parent's `await_suspend` is noticed there.
+/// Not by symmetric transfer: g++ 12 turns that into a tail call only when it optimises, so a loop over tasks that end
+/// at once would grow the stack in debug and sanitizer builds. A child that ends within its parent's `await_suspend` is
+/// noticed there.
 struct FinalAwaiter {
   [[nodiscard]] bool await_ready() const noexcept { return false; }
   template <class Promise>
@@ -62,9 +63,9 @@ struct Promise<void> : PromiseBase {
 
 /// A coroutine that the holder owns: lazy (runs when awaited or started), cancelled by destroying it.
 ///
-/// Destroying a suspended task destroys its locals, so also the tasks it awaits and every place it waits in. A task must not
-/// destroy itself while it runs: leave that to a later turn (`Loop::post`). Parameters go by value, long-lived components by
-/// reference. g++ 12 destroys some temporaries in an awaiting expression twice: name them first.
+/// Destroying a suspended task destroys its locals, so also the tasks it awaits and every place it waits in. A task
+/// must not destroy itself while it runs: leave that to a later turn (`Loop::post`). Parameters go by value, long-lived
+/// components by reference. g++ 12 destroys some temporaries in an awaiting expression twice: name them first.
 template <class T = void>
 class [[nodiscard]] Task {
  public:

@@ -21,7 +21,9 @@ using TimePoint = LoopClock::time_point;
 using UtcTime = std::chrono::system_clock::time_point;
 
 /// Seconds as a real number, for arithmetic with physical quantities.
-[[nodiscard]] inline double to_seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
+[[nodiscard]] inline double to_seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
 
 /// The nearest representable duration. Precondition: finite, within +-290 years.
 [[nodiscard]] inline Duration from_seconds(double seconds) {

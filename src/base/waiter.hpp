@@ -18,9 +18,9 @@ using WaiterList = std::list<Waiter*>;
 
 /// One suspended coroutine and the places from which it can be woken.
 ///
-/// Lives in the awaiter, so in the coroutine's frame: destroying the frame takes the waiter out of every queue. That is how
-/// cancelling works here: whoever owns a `Task` destroys it, and nothing can resume it any more.
-/// Thread-bound to its loop.
+/// Lives in the awaiter, so in the coroutine's frame: destroying the frame takes the waiter out of every queue. That is
+/// how cancelling works here: whoever owns a `Task` destroys it, and nothing can resume it any more. Thread-bound to
+/// its loop.
 class Waiter {
  public:
   explicit Waiter(Loop& loop) : loop_(loop) {}

@@ -10,7 +10,9 @@ namespace lapwing::geo {
 
 namespace {
 
-GeographicLib::Geodesic const& geodesic() { return GeographicLib::Geodesic::WGS84(); }
+GeographicLib::Geodesic const& geodesic() {
+  return GeographicLib::Geodesic::WGS84();
+}
 
 GeographicLib::LocalCartesian cartesian_at(Wgs84 anchor) {
   return {anchor.lat_deg(), anchor.lon_deg(), anchor.alt_m, GeographicLib::Geocentric::WGS84()};

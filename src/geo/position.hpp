@@ -6,8 +6,8 @@ namespace lapwing::geo {
 
 /// A place on Earth: WGS 84 geodetic latitude and longitude in radians, altitude in metres above mean sea level.
 ///
-/// Altitude is what autopilots call AMSL. Differences of altitude are treated as ellipsoidal height differences, which is exact
-/// to millimetres over the few kilometres of a mission.
+/// Altitude is what autopilots call AMSL. Differences of altitude are treated as ellipsoidal height differences, which
+/// is exact to millimetres over the few kilometres of a mission.
 struct Wgs84 {
   double lat_rad = 0.0;
   double lon_rad = 0.0;
@@ -22,7 +22,8 @@ struct Wgs84 {
   friend constexpr bool operator==(Wgs84 const&, Wgs84 const&) = default;
 };
 
-/// A vector in the local tangent plane at some anchor: north, east, down, in metres (or metres a second for velocities).
+/// A vector in the local tangent plane at some anchor: north, east, down, in metres (or metres a second for
+/// velocities).
 struct Ned {
   double north = 0.0;
   double east = 0.0;
@@ -40,8 +41,12 @@ struct Enu {
   friend constexpr bool operator==(Enu const&, Enu const&) = default;
 };
 
-[[nodiscard]] constexpr Enu to_enu(Ned v) { return {v.east, v.north, -v.down}; }
-[[nodiscard]] constexpr Ned to_ned(Enu v) { return {v.north, v.east, -v.up}; }
+[[nodiscard]] constexpr Enu to_enu(Ned v) {
+  return {v.east, v.north, -v.down};
+}
+[[nodiscard]] constexpr Ned to_ned(Enu v) {
+  return {v.north, v.east, -v.up};
+}
 
 /// The local tangent plane about an anchor: converts between places on Earth and metres round the anchor.
 /// GeographicLib's LocalCartesian inside; exact to nanometres near the anchor.
@@ -56,8 +61,8 @@ class LocalFrame {
   Wgs84 anchor_;
 };
 
-/// The place `offset` away from `base`, by geodetic north and east at `base`; altitude is exactly base.alt_m - offset.down,
-/// not lifted by the Earth's curvature as a straight line would be (language spec, REC-23).
+/// The place `offset` away from `base`, by geodetic north and east at `base`; altitude is exactly base.alt_m -
+/// offset.down, not lifted by the Earth's curvature as a straight line would be (language spec, REC-23).
 [[nodiscard]] Wgs84 displaced(Wgs84 base, Ned offset);
 
 /// Length of the geodesic on the WGS 84 ellipsoid, in metres; altitude is ignored. (Karney 2013, GeographicLib.)

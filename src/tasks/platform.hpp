@@ -17,16 +17,18 @@
 #include "geo/position.hpp"
 #include "vehicle/vehicle_id.hpp"
 
-/// The seam between the mission language and whatever can carry out tasks. The language knows this header and never a protocol; a
-/// platform (MAVLink fleet, indoor robot, test harness) implements it and never sees the language. `apps` joins the two.
+/// The seam between the mission language and whatever can carry out tasks. The language knows this header and never a
+/// protocol; a platform (MAVLink fleet, indoor robot, test harness) implements it and never sees the language. `apps`
+/// joins the two.
 namespace lapwing::tasks {
 
 using vehicle::VehicleId;
 
-// ---- what a platform adds to the language -------------------------------------------------------------------------------
+// ---- what a platform adds to the language
+// -------------------------------------------------------------------------------
 
-/// A script value as a builder command receives it. Units are already SI (angles that users write in degrees stay degrees only
-/// where the parameter says so); a vehicle set never reaches a builder.
+/// A script value as a builder command receives it. Units are already SI (angles that users write in degrees stay
+/// degrees only where the parameter says so); a vehicle set never reaches a builder.
 using Argument = std::variant<std::monostate, bool, std::int64_t, double, std::string, geo::Wgs84, geo::Ned>;
 
 enum class Type { number, integer, text, boolean, position, displacement };
@@ -72,7 +74,8 @@ struct BuilderSpec {
   std::function<std::unique_ptr<BuilderSession>()> begin;
 };
 
-// ---- tasks that run on one vehicle ---------------------------------------------------------------------------------------
+// ---- tasks that run on one vehicle
+// ---------------------------------------------------------------------------------------
 
 /// A vehicle as the language sees it.
 struct VehicleInfo {
@@ -109,8 +112,8 @@ class TaskRun {
   [[nodiscard]] virtual std::string error() const = 0;
   /// Short text for people: "uploading 4/12", "item 3/12".
   [[nodiscard]] virtual std::string progress() const = 0;
-  /// Ends it early. Returns at once; the platform goes on putting the vehicle into its stop state unless another task starts on
-  /// the same vehicle in the same turn, and `Platform::settle` waits for that.
+  /// Ends it early. Returns at once; the platform goes on putting the vehicle into its stop state unless another task
+  /// starts on the same vehicle in the same turn, and `Platform::settle` waits for that.
   virtual void stop() = 0;
 };
 
@@ -131,7 +134,8 @@ class Platform {
   virtual void set_connection_timeout(VehicleId const& id, base::Duration timeout) = 0;
 
   /// Starts `task` on the vehicle. Never blocks; every failure shows in the run.
-  [[nodiscard]] virtual std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task, VehicleId const& id) = 0;
+  [[nodiscard]] virtual std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task,
+                                                       VehicleId const& id) = 0;
   /// Ends when every stop that was asked for has been confirmed by its vehicle, or has failed with a logged reason.
   [[nodiscard]] virtual base::Task<void> settle() = 0;
 };

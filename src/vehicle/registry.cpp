@@ -26,7 +26,9 @@ std::vector<VehicleState const*> Registry::all() const {
   return states;
 }
 
-void Registry::touch(VehicleId const& id) { ++entries_[id].revision; }
+void Registry::touch(VehicleId const& id) {
+  ++entries_[id].revision;
+}
 
 void Registry::touch_membership(VehicleId const& id) {
   touch(id);

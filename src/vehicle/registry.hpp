@@ -24,7 +24,8 @@ class Registry {
   /// Tells readers that `id` changed: bumps its revision. `membership` when it appeared, was lost or came back.
   void touch(VehicleId const& id);
   void touch_membership(VehicleId const& id);
-  /// Grows with every touch of that vehicle; 0 for a vehicle never touched. A reader that remembers it can send only news.
+  /// Grows with every touch of that vehicle; 0 for a vehicle never touched. A reader that remembers it can send only
+  /// news.
   [[nodiscard]] unsigned long long revision(VehicleId const& id) const;
   /// Notified when vehicles appear, are lost or return (not for every telemetry message).
   [[nodiscard]] base::Notifier& membership_changed() { return changed_; }

@@ -5,7 +5,8 @@
 
 namespace lapwing::vehicle {
 
-/// Names one vehicle of the fleet. For a MAVLink vehicle the decimal system id ("1"); other platforms choose their own ("a1").
+/// Names one vehicle of the fleet. For a MAVLink vehicle the decimal system id ("1"); other platforms choose their own
+/// ("a1").
 struct VehicleId {
   std::string text;
 

@@ -35,7 +35,8 @@ enum class Family { copter, plane, vtol, rover, boat, sub, unknown };
 enum class Autopilot { ardupilot, px4, other };
 [[nodiscard]] std::string_view to_string(Autopilot autopilot);
 
-/// ok: heard within the time-out · lost: silent for longer · conflict: two vehicles use its system id, commands are refused.
+/// ok: heard within the time-out · lost: silent for longer · conflict: two vehicles use its system id, commands are
+/// refused.
 enum class Connection { ok, lost, conflict };
 [[nodiscard]] std::string_view to_string(Connection connection);
 
@@ -93,10 +94,10 @@ struct VehicleState {
   Aged<Health> health;
   Aged<geo::Wgs84> home;
   Aged<MissionProgress> mission;
-  std::vector<std::string> payload;         ///< named equipment, "Camera"
-  std::vector<geo::Wgs84> planned_path;     ///< positions of the mission it holds, in flight order, for the map
-  std::vector<StatusText> recent_texts;     ///< newest last, bounded
-  double track_m = 0.0;                     ///< distance travelled since discovery
+  std::vector<std::string> payload;      ///< named equipment, "Camera"
+  std::vector<geo::Wgs84> planned_path;  ///< positions of the mission it holds, in flight order, for the map
+  std::vector<StatusText> recent_texts;  ///< newest last, bounded
+  double track_m = 0.0;                  ///< distance travelled since discovery
 };
 
 }  // namespace lapwing::vehicle
