@@ -136,8 +136,9 @@ bool Checker::used_too_early(ast::Expr const& expr, Variable const& variable) {
   return true;
 }
 
+/// Any exception of Java may be thrown and caught by its name.
 void Checker::type_name(ast::Identifier const& type) {
-  if (has_name(types(), type.text)) return;
+  if (has_name(types(), type.text) || type.text.ends_with("Exception") || type.text.ends_with("Error")) return;
   diagnostics_.error(type.span, fmt::format("there is no type {}", type.text),
                      base::did_you_mean(type.text, names_of(types())));
 }
