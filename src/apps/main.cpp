@@ -1,10 +1,30 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/verb.hpp"
+#include "base/spelling.hpp"
 
 namespace lapwing::apps {
 namespace {
+
+/// What to say when the first word is no verb; CLI11 would only ask for one.
+std::string unknown_verb(CLI::App const& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::string const word = argv[1];
+  std::vector<std::string> names;
+  for (auto const* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+  if (std::ranges::find(names, word) != names.end()) return {};
+  std::vector<std::string_view> const candidates(names.begin(), names.end());
+  auto const hint = base::did_you_mean(word, candidates);
+  return fmt::format("lapwing: there is no command '{}'\n         {}\n", word,
+                     hint.empty() ? fmt::format("commands: {}", fmt::join(names, ", ")) : hint);
+}
 
 int main_of(int argc, char** argv) {
   CLI::App program("Lapwing: one mission language and one live map, for drones that survey and robots that explore.",
@@ -26,6 +46,10 @@ int main_of(int argc, char** argv) {
   add_station(program, exit_code);
   add_doctor(program, exit_code);
 
+  if (auto const wrong = unknown_verb(program, argc, argv); !wrong.empty()) {
+    std::fputs(wrong.c_str(), stderr);
+    return exit_usage;
+  }
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

@@ -77,7 +77,7 @@ base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<
   auto const* fields = arguments[0].as<Map>();
   if (!fields) co_return fault("pick takes a block: pick { type 'UAV' }", "IllegalArgumentException");
   auto const filter = as_filter(*fields);
-  auto const deadline = runtime.loop.now() + filter.timeout;
+  auto const deadline = std::max(runtime.loop.now() + filter.timeout, runtime.platform.all_heard_by());
   runtime.log.info(fmt::format("Matching requirement: {} count={}", as_log_text(filter), filter.count));
   auto ids = chosen(runtime, filter);
   while (!ids && runtime.loop.now() < deadline) {

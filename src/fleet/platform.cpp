@@ -71,8 +71,15 @@ VehicleInfo info_of(Craft const& craft) {
 
 }  // namespace
 
+/// Heartbeats come once a second and a position a second or two after it was asked for; some are lost.
+constexpr base::Duration listening_time = std::chrono::seconds(5);
+
 FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
-    : fleet_(fleet), options_(std::move(options)), log_(std::move(log)), settled_(fleet.loop()) {
+    : fleet_(fleet),
+      options_(std::move(options)),
+      log_(std::move(log)),
+      all_heard_by_(fleet.loop().now() + listening_time),
+      settled_(fleet.loop()) {
   builders_.push_back(tasks::mission_builder());
 }
 

@@ -41,6 +41,7 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
   [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
   [[nodiscard]] base::Notifier& vehicles_changed() override { return fleet_.registry().membership_changed(); }
+  [[nodiscard]] base::TimePoint all_heard_by() const override { return all_heard_by_; }
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
                                                       vehicle::VehicleId const& id) override;
@@ -58,6 +59,7 @@ class FleetPlatform final : public tasks::Platform {
   Fleet& fleet_;
   Options options_;
   base::Logger log_;
+  base::TimePoint all_heard_by_;
   std::vector<tasks::BuilderSpec> builders_;
   base::Notifier settled_;
   std::map<vehicle::VehicleId, std::unique_ptr<Pilot>> pilots_;  // pointers: pilots do not move
