@@ -23,7 +23,7 @@ with tempfile.TemporaryDirectory() as folder:
     explained(2, "run", str(script), "--link", "udp-in:14550", words=["udp-in:14550", "udpin://"])
     explained(2, "run", str(script), "--sim", "submarine:2", words=["submarine", "copter"])
     explained(2, "run", str(script), "--sim", "copter:1", "--on-stop", "hover", words=["hover", "loiter"])
-    explained(2, "sim", "--vehicles", "copter:0", "--out", "udpout://127.0.0.1:1", words=["copter:0"])
+    explained(2, "sim", "--vehicles", "copter:0", "--out", "udpout://127.0.0.1:1", words=["'0'", "copter:2"])
     explained(2, "sim", "--vehicles", "copter:1", "--home", "41,200,0", words=["41,200,0"])
     explained(2, "check", folder, words=[folder])
 
