@@ -131,7 +131,8 @@ class Platform {
   [[nodiscard]] virtual std::optional<VehicleInfo> find(VehicleId const& id) const = 0;
   /// Notified when a vehicle appears, is lost or returns, so that `pick` need not poll.
   [[nodiscard]] virtual base::Notifier& vehicles_changed() = 0;
-  /// Until then a vehicle that is there may not have been heard yet: `pick` does not give up earlier, whatever its timeout.
+  /// Until then a vehicle that is there may not have been heard yet: `pick` does not give up earlier, whatever its
+  /// timeout.
   [[nodiscard]] virtual base::TimePoint all_heard_by() const { return {}; }
   virtual void set_connection_timeout(VehicleId const& id, base::Duration timeout) = 0;
 

@@ -28,7 +28,7 @@ with tempfile.TemporaryDirectory() as folder:
         run = subprocess.Popen([harness.LAPWING, "run", str(script), "--link", f"udpin://127.0.0.1:{port}", "--speedup",
                                 str(SPEEDUP)], stderr=subprocess.PIPE, text=True)
         harness.wait_until(
-            lambda: run.poll() is None and any("item 2" in line or "AUTO" in line for line in [run.stderr.readline()]), 60,
+            lambda: run.poll() is None and " flies '" in run.stderr.readline(), 60,
             "the mission under way")
         time.sleep(10 / SPEEDUP)
         run.kill()
