@@ -194,6 +194,7 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   if (!quiet) co_return quiet;
 
   auto const plan = flight_plan(mission, craft.state);
+  record.items = static_cast<int>(plan.items.size());
   auto transferred = co_await transfer_mission(context, plan, record);
   if (!transferred) co_return transferred;
   craft.state.planned_path = plan.path;

@@ -15,7 +15,7 @@ namespace lapwing::fleet {
 struct RunRecord {
   enum class Outcome { running, done, failed, stopped };
   std::string mission;
-  int items = 0;  ///< without the home item
+  int items = 0;  ///< as uploaded, the home item included; 0 until it came to that
   Outcome outcome = Outcome::running;
   std::string progress;
   std::string error;             ///< why, when failed or stopped

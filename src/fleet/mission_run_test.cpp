@@ -44,7 +44,7 @@ TEST_F(MissionRun, FliesACopterFromTheGroundToTheGround) {
   auto const reports = world->platform->missions(one);
   ASSERT_EQ(reports.size(), 1u);
   EXPECT_EQ(reports[0].name, "survey");
-  EXPECT_EQ(reports[0].items, 5);
+  EXPECT_EQ(reports[0].items, 6);
   EXPECT_EQ(reports[0].outcome, "done");
   EXPECT_GT(reports[0].upload_s, 0.0);
   EXPECT_EQ(world->state().planned_path.size(), 5u);

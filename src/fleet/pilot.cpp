@@ -19,7 +19,6 @@ std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
   if (std::exchange(is_settling_, false)) settled_.notify_all();
   run_ = std::make_shared<RunRecord>();
   run_->mission = mission.name;
-  run_->items = static_cast<int>(mission.items.size());
   runs_.push_back(run_);
   auto const run = run_;
   flight_ = fly(std::move(mission));

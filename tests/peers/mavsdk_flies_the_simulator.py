@@ -38,6 +38,10 @@ async def fly(port: int):
     drone = System(port=harness.free_tcp_port())
     await drone.connect(system_address=f"udpin://127.0.0.1:{port}")
     await first(drone.core.connection_state(), lambda state: state.is_connected, 30, "a connection")
+    # An ArduPilot sends nothing but heartbeats until it is asked.
+    for set_rate in (drone.telemetry.set_rate_health, drone.telemetry.set_rate_position, drone.telemetry.set_rate_gps_info,
+                     drone.telemetry.set_rate_home):
+        await set_rate(4.0)
     await first(drone.telemetry.health(), lambda health: health.is_global_position_ok and health.is_home_position_ok, 60,
                 "a global position and a home")
 
