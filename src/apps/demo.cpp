@@ -39,8 +39,9 @@ void keep_map(Session& session) {
 }
 
 int demo(DemoOptions const& options) {
-  auto const script = options.script.empty() ? (home_directory() / "examples/survey.dolphin").string() : options.script;
-  auto const source = read_script(script);
+  constexpr auto example = "examples/survey.dolphin";
+  auto const script = options.script.empty() ? std::string(example) : options.script;
+  auto const source = read_script(options.script.empty() ? (home_directory() / example).string() : script);
   if (!source) return refuse(source.error());
   auto const on_stop = parse_on_stop(options.on_stop);
   if (!on_stop) return refuse(on_stop.error());
