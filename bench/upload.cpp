@@ -22,7 +22,8 @@ std::vector<mavlink::MissionItem> zigzag(int count) {
     auto& item = items[static_cast<std::size_t>(i)];
     item.frame = mavlink::MavFrame::global;
     item.command = mavlink::MavCmd::nav_waypoint;
-    item.position = geo::displaced(home, geo::Ned{10.0 * i, i % 2 == 0 ? 0.0 : 50.0, 0.0});
+    auto const place = geo::displaced(home, geo::Ned{10.0 * i, i % 2 == 0 ? 0.0 : 50.0, 0.0});
+    item.place = {.lat_rad = place.lat_rad, .lon_rad = place.lon_rad, .z_m = place.alt_m};
   }
   return items;
 }

@@ -17,6 +17,7 @@ struct RunOptions {
   std::string script;
   std::vector<std::string> links;
   std::string simulated;
+  std::string home;
   std::optional<double> speedup;
   std::optional<double> timeout_s;
   std::string report;
@@ -34,6 +35,12 @@ base::Result<> connect(Session& session, RunOptions const& options) {
   if (!vehicles) return std::unexpected(vehicles.error());
   sim::WorldOptions world;
   world.vehicles = *vehicles;
+  if (!options.home.empty()) {
+    auto const home = parse_home(options.home);
+    if (!home) return std::unexpected(home.error());
+    world.home = home->place;
+    world.heading_rad = home->heading_rad;
+  }
   if (auto opened = session.open_links(options.links); !opened) return opened;
   return session.simulate(std::move(world));
 }
@@ -74,6 +81,8 @@ void add_run(CLI::App& program, int& exit_code) {
       "--link", options->links,
       "Where vehicles are, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link));
   verb->add_option("--sim", options->simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
+  verb->add_option("--home", options->home,
+                   "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres");
   verb->add_option("--speedup", options->speedup,
                    "1 real time, 10 ten times faster, 0 as fast as possible (default with --sim)")
       ->check(CLI::Range(0.0, 1000.0));

@@ -25,6 +25,7 @@ with tempfile.TemporaryDirectory() as folder:
     explained(2, "run", str(script), "--sim", "copter:1", "--on-stop", "hover", words=["hover", "loiter"])
     explained(2, "sim", "--vehicles", "copter:0", "--out", "udpout://127.0.0.1:1", words=["'0'", "copter:2"])
     explained(2, "sim", "--vehicles", "copter:1", "--home", "41,200,0", words=["41,200,0"])
+    explained(2, "run", str(script), "--sim", "copter:1", "--home", "41", words=["41", "LAT,LON,ALT"])
     explained(2, "check", folder, words=[folder])
 
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as busy:
