@@ -189,7 +189,7 @@ def ardupilot_ground(parser):
     return lambda message_id: packer.command_long_encode(1, 1, 511, 0, message_id, 100_000, 0, 0, 0, 0, 0).pack(packer)
 
 
-# ---- CPU and memory of `run` with a fleet -----------------------------------------------------------------------------------
+# ---- CPU and memory of `run` with a fleet, at the message rates that it asks for -----------------------------------------------------------------------------------
 
 def scale(seconds: float = 20.0) -> list:
     rows = []
@@ -213,7 +213,7 @@ def scale(seconds: float = 20.0) -> list:
                     run.terminate()
                     run.wait(timeout=15)
             rows.append(row)
-            say(f"scale   {vehicles:4} vehicles at 10 Hz: run {row['run_cpu_percent']:5.1f} % of a core, {row['run_rss_mb']:5.1f} MB; "
+            say(f"scale   {vehicles:4} vehicles at the rates run asks for: run {row['run_cpu_percent']:5.1f} % of a core, {row['run_rss_mb']:5.1f} MB; "
                 f"sim {row['sim_cpu_percent']:5.1f} %, {row['sim_rss_mb']:5.1f} MB")
     return rows
 

@@ -32,7 +32,8 @@ double BatteryPack::voltage_v() const {
 
 double current_drawn_a(Body const& body, Airframe const& airframe, bool motors_run) {
   if (!motors_run) return avionics_a;
-  double const climb = std::max(0.0, -body.velocity_m_s.down);
+  double const up = -body.velocity_m_s.down;
+  double const climb = std::max(0.0, up);
   using enum vehicle::Family;
   if (airframe.family == rover) return avionics_a + 0.5 + 1.2 * body.ground_speed_m_s();
   if (airframe.family == plane) {
@@ -42,7 +43,10 @@ double current_drawn_a(Body const& body, Airframe const& airframe, bool motors_r
   if (body.on_ground) return avionics_a + 2.0;
   // Hover power falls a little in forward flight before drag takes over (translational lift).
   double const forward = std::min(body.airspeed_m_s, 20.0);
-  return avionics_a + 16.0 - 0.4 * forward + 0.05 * forward * forward + 2.5 * climb;
+  // Thrust times the speed of the air through the rotors: a slow descent saves what a climb costs (momentum theory for
+  // axial flight, Leishman 2006, 2.13; it holds to about half the induced velocity, 2 m/s here).
+  double const axial = std::max(-2.0, up);
+  return avionics_a + 16.0 - 0.4 * forward + 0.05 * forward * forward + 2.5 * axial;
 }
 
 }  // namespace lapwing::sim
