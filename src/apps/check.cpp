@@ -19,6 +19,7 @@ nlohmann::json to_json(base::DiagnosticRecord const& record) {
   nlohmann::json json{{"file", record.file},         {"line", record.begin.line},       {"column", record.begin.column},
                       {"end_line", record.end.line}, {"end_column", record.end.column}, {"severity", record.severity},
                       {"message", record.message}};
+  if (!record.code.empty()) json["code"] = record.code;
   if (!record.hint.empty()) json["hint"] = record.hint;
   for (auto const& note : record.notes) json["notes"].push_back(to_json(note));
   return json;

@@ -105,12 +105,9 @@ void Diagnostics::report(Diagnostic diagnostic) {
   if (++count <= limit_) kept_.push_back(std::move(diagnostic));
 }
 
-void Diagnostics::error(Span span, std::string message, std::string hint) {
-  report({Severity::error, span, std::move(message), std::move(hint)});
-}
-
-void Diagnostics::warning(Span span, std::string message, std::string hint) {
-  report({Severity::warning, span, std::move(message), std::move(hint)});
+void Diagnostics::report(DiagnosticKind const& kind, Span span, std::string message, std::string hint,
+                         std::vector<DiagnosticNote> notes) {
+  report({kind.severity, kind.code, span, std::move(message), std::move(hint), std::move(notes)});
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {
@@ -123,7 +120,8 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
 }
 
 std::string render(Diagnostic const& diagnostic, SourceFile const& source) {
-  auto out = headline(source, diagnostic.span, to_string(diagnostic.severity), diagnostic.message) +
+  auto const code = diagnostic.code.empty() ? "" : fmt::format(" [{}]", diagnostic.code);
+  auto out = headline(source, diagnostic.span, to_string(diagnostic.severity), diagnostic.message + code) +
              underlined(source, diagnostic.span, diagnostic.hint);
   for (auto const& note : diagnostic.notes) {
     out += headline(source, note.span, "note", note.message) + underlined(source, note.span, {});
@@ -145,6 +143,7 @@ std::vector<DiagnosticRecord> to_records(Diagnostics const& diagnostics) {
   for (auto const& diagnostic : diagnostics.sorted()) {
     auto& made = out.emplace_back(record(source, diagnostic.span, diagnostic.severity, diagnostic.message));
     made.hint = diagnostic.hint;
+    made.code = diagnostic.code;
     for (auto const& note : diagnostic.notes) {
       made.notes.push_back(record(source, note.span, Severity::note, note.message));
     }

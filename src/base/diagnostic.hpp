@@ -15,6 +15,13 @@ enum class Severity { note, warning, error };
 
 [[nodiscard]] std::string_view to_string(Severity severity);
 
+/// A kind of mistake: programs tell mistakes apart by the code, people look it up by it. A code keeps its meaning.
+struct DiagnosticKind {
+  std::string_view code;  ///< "unknown-name"
+  Severity severity;
+  std::string_view meaning;  ///< a sentence for the reference
+};
+
 /// A second place that explains the first: "first defined here".
 struct DiagnosticNote {
   Span span;
@@ -23,6 +30,7 @@ struct DiagnosticNote {
 
 struct Diagnostic {
   Severity severity = Severity::error;
+  std::string_view code = {};              ///< of its DiagnosticKind
   Span span;                               ///< what the caret underlines
   std::string message;                     ///< what is wrong, lower case, no full stop
   std::string hint = {};                   ///< what to write instead: "did you mean takeOff?" (may be empty)
@@ -39,6 +47,7 @@ struct DiagnosticRecord {
   std::string message;
   std::string hint;
   std::vector<DiagnosticRecord> notes;
+  std::string code;
 };
 
 /// Collects what is wrong with one source text. Keeps at most `limit` errors and as many warnings and notes, and counts
@@ -50,8 +59,8 @@ class Diagnostics {
   explicit Diagnostics(SourceFile const& source, std::size_t limit = default_limit) : source_(source), limit_(limit) {}
 
   void report(Diagnostic diagnostic);
-  void error(Span span, std::string message, std::string hint = {});
-  void warning(Span span, std::string message, std::string hint = {});
+  void report(DiagnosticKind const& kind, Span span, std::string message, std::string hint = {},
+              std::vector<DiagnosticNote> notes = {});
 
   [[nodiscard]] SourceFile const& source() const { return source_; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }
@@ -73,7 +82,7 @@ class Diagnostics {
 
 /// One diagnostic as people read it:
 ///
-///     survey.dolphin:35:17: error: surveyAreaNorth is not defined
+///     survey.dolphin:35:17: error: surveyAreaNorth is not defined [unknown-name]
 ///       35 |            then ((surveyAreaNorth / {battery(v1) < 0.3})
 ///          |                   ^~~~~~~~~~~~~~~ did you mean surveyNorth?
 ///

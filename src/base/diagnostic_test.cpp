@@ -7,6 +7,9 @@
 namespace lapwing::base {
 namespace {
 
+constexpr DiagnosticKind mistake{"mistake", Severity::error, "Something is wrong."};
+constexpr DiagnosticKind oddity{"oddity", Severity::warning, "Something is odd."};
+
 TEST(SourceFile, FindsLinesWithAnyLineEnd) {
   SourceFile const source("f", "one\ntwo\r\nthree\rfour");
   EXPECT_EQ(source.line_count(), 4U);
@@ -33,16 +36,17 @@ TEST(SourceFile, OfNothingHasOneEmptyLine) {
 
 TEST(Diagnostic, UnderlinesTheWholeSpanWithItsHint) {
   SourceFile const source("s.dolphin", "x = 1\nexecute surveyAreaNorth\n");
-  EXPECT_EQ(render(Diagnostic{Severity::error, {14, 29}, "surveyAreaNorth is not defined", "did you mean surveyNorth?"},
-                   source),
-            "s.dolphin:2:9: error: surveyAreaNorth is not defined\n"
-            "    2 | execute surveyAreaNorth\n"
-            "      |         ^~~~~~~~~~~~~~~ did you mean surveyNorth?\n");
+  EXPECT_EQ(
+      render(Diagnostic{Severity::error, {}, {14, 29}, "surveyAreaNorth is not defined", "did you mean surveyNorth?"},
+             source),
+      "s.dolphin:2:9: error: surveyAreaNorth is not defined\n"
+      "    2 | execute surveyAreaNorth\n"
+      "      |         ^~~~~~~~~~~~~~~ did you mean surveyNorth?\n");
 }
 
 TEST(Diagnostic, WidensTabsAndCountsWideCharactersOnce) {
   SourceFile const source("f", "\tä\tx");
-  EXPECT_EQ(render(Diagnostic{Severity::warning, {4, 5}, "m"}, source),
+  EXPECT_EQ(render(Diagnostic{Severity::warning, {}, {4, 5}, "m"}, source),
             "f:1:4: warning: m\n"
             "    1 |     ä   x\n"
             "      |         ^\n");
@@ -50,33 +54,39 @@ TEST(Diagnostic, WidensTabsAndCountsWideCharactersOnce) {
 
 TEST(Diagnostic, EndsTheUnderlineWithTheFirstLine) {
   SourceFile const source("f", "ab\ncd");
-  EXPECT_EQ(render(Diagnostic{Severity::error, {1, 5}, "m"}, source), "f:1:2: error: m\n    1 | ab\n      |  ^\n");
+  EXPECT_EQ(render(Diagnostic{Severity::error, {}, {1, 5}, "m"}, source), "f:1:2: error: m\n    1 | ab\n      |  ^\n");
 }
 
 TEST(Diagnostic, PointsBehindTheEndOfTheText) {
   SourceFile const source("f", "ab");
-  EXPECT_EQ(render(Diagnostic{Severity::error, {2, 2}, "m"}, source), "f:1:3: error: m\n    1 | ab\n      |   ^\n");
+  EXPECT_EQ(render(Diagnostic{Severity::error, {}, {2, 2}, "m"}, source), "f:1:3: error: m\n    1 | ab\n      |   ^\n");
+}
+
+TEST(Diagnostic, ShowsItsCodeBehindTheMessage) {
+  SourceFile const source("f", "ab");
+  EXPECT_EQ(render(Diagnostic{Severity::error, "mistake", {0, 1}, "m"}, source),
+            "f:1:1: error: m [mistake]\n    1 | ab\n      | ^\n");
 }
 
 TEST(Diagnostic, ShowsThePartOfALongLineRoundTheMistake) {
   SourceFile const source("f", std::string(5000, 'a') + "X" + std::string(5000, 'b'));
-  auto const text = render(Diagnostic{Severity::error, {5000, 5001}, "m"}, source);
+  auto const text = render(Diagnostic{Severity::error, {}, {5000, 5001}, "m"}, source);
   EXPECT_LT(text.size(), 500U);
   EXPECT_NE(text.find("aaaX"), std::string::npos);
 }
 
 TEST(Diagnostic, MakesControlCharactersVisible) {
   SourceFile const source("f", "a\x01z");
-  EXPECT_EQ(render(Diagnostic{Severity::error, {1, 2}, "m"}, source), "f:1:2: error: m\n    1 | a?z\n      |  ^\n");
+  EXPECT_EQ(render(Diagnostic{Severity::error, {}, {1, 2}, "m"}, source), "f:1:2: error: m\n    1 | a?z\n      |  ^\n");
 }
 
 TEST(Diagnostics, KeepTheOrderOfThePlacesAndCountWhatTheyDrop) {
   SourceFile const source("f", "abc");
   Diagnostics diagnostics(source, 2);
-  diagnostics.error({2, 3}, "late");
-  diagnostics.error({0, 1}, "early");
-  diagnostics.error({1, 2}, "dropped");
-  diagnostics.warning({1, 2}, "kept");
+  diagnostics.report(mistake, {2, 3}, "late");
+  diagnostics.report(mistake, {0, 1}, "early");
+  diagnostics.report(mistake, {1, 2}, "dropped");
+  diagnostics.report(oddity, {1, 2}, "kept");
   EXPECT_EQ(diagnostics.error_count(), 3U);
   EXPECT_EQ(diagnostics.warning_count(), 1U);
   EXPECT_EQ(diagnostics.dropped_count(), 1U);
@@ -88,7 +98,7 @@ TEST(Diagnostics, KeepTheOrderOfThePlacesAndCountWhatTheyDrop) {
 TEST(Diagnostics, BecomeRecordsWithPlaces) {
   SourceFile const source("f", "a\nbc");
   Diagnostics diagnostics(source);
-  diagnostics.report({Severity::error, {2, 4}, "m", "h", {{{0, 1}, "n"}}});
+  diagnostics.report(mistake, {2, 4}, "m", "h", {{{0, 1}, "n"}});
   auto const records = to_records(diagnostics);
   ASSERT_EQ(records.size(), 1U);
   EXPECT_EQ(records[0].file, "f");
@@ -96,6 +106,7 @@ TEST(Diagnostics, BecomeRecordsWithPlaces) {
   EXPECT_EQ(records[0].end, (LineColumn{2, 3}));
   EXPECT_EQ(records[0].severity, "error");
   EXPECT_EQ(records[0].hint, "h");
+  EXPECT_EQ(records[0].code, "mistake");
   ASSERT_EQ(records[0].notes.size(), 1U);
   EXPECT_EQ(records[0].notes[0].severity, "note");
 }

@@ -82,8 +82,8 @@ Checker::Checker(ast::Program const& program, std::span<tasks::BuilderSpec const
 void Checker::run() {
   function_overloads();
   for (auto const* name : resolution_.redeclared) {
-    diagnostics_.error(name->span, fmt::format("{} is already declared here", name->text),
-                       "write it without def to change its value");
+    diagnostics_.report(code("redeclared-variable"), name->span, fmt::format("{} is already declared here", name->text),
+                        "write it without def to change its value");
   }
   block(program_.body, false);
 }
@@ -94,10 +94,9 @@ void Checker::function_overloads() {
     for (std::size_t i = 1; i < functions.size() && i < 20; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (functions[i]->parameters.size() != functions[j]->parameters.size()) continue;
-        base::Diagnostic diagnostic{base::Severity::error, functions[i]->name.span,
-                                    fmt::format("the function {} is already defined", name)};
-        diagnostic.notes.push_back({functions[j]->name.span, "it is defined here"});
-        diagnostics_.report(std::move(diagnostic));
+        diagnostics_.report(code("duplicate-function"), functions[i]->name.span,
+                            fmt::format("the function {} is already defined", name), {},
+                            {{functions[j]->name.span, "it is defined here"}});
         break;
       }
     }
@@ -113,7 +112,8 @@ void Checker::block(ast::Block const& block, bool is_value) {
     auto const& one = *block.statements[i];
     if (is_script) top_statement_ = i;
     if (!end.empty() && !std::holds_alternative<ast::FunctionDecl>(one.node)) {
-      diagnostics_.warning(one.span, fmt::format("this is never reached: it stands behind {}", end));
+      diagnostics_.report(code("unreachable-code"), one.span,
+                          fmt::format("this is never reached: it stands behind {}", end));
       end = {};
     }
     statement(one, is_value && i + 1 == block.statements.size());
@@ -130,9 +130,10 @@ void Checker::check(ast::ExprStmt const& n, ast::Stmt const&, bool is_value) {
   if (is_value) return;
   auto const kinds = inference_.facts(*n.expr).kinds;
   if (kinds == Kinds(Kind::task)) {
-    diagnostics_.warning(n.expr->span, "this task is never executed", "write execute before it, or give it a name");
+    diagnostics_.report(code("never-executed"), n.expr->span, "this task is never executed",
+                        "write execute before it, or give it a name");
   } else if (std::holds_alternative<ast::Closure>(n.expr->node)) {
-    diagnostics_.warning(n.expr->span, "this closure is never called");
+    diagnostics_.report(code("never-called"), n.expr->span, "this closure is never called");
   }
 }
 
@@ -213,11 +214,12 @@ void Checker::check(ast::Return const& n, ast::Stmt const&, bool) {
 }
 
 void Checker::check(ast::Break const&, ast::Stmt const& statement, bool) {
-  if (!place_.in_loop && !place_.in_switch) diagnostics_.error(statement.span, "break stands outside a loop");
+  if (!place_.in_loop && !place_.in_switch)
+    diagnostics_.report(code("misplaced-break"), statement.span, "break stands outside a loop");
 }
 
 void Checker::check(ast::Continue const&, ast::Stmt const& statement, bool) {
-  if (!place_.in_loop) diagnostics_.error(statement.span, "continue stands outside a loop");
+  if (!place_.in_loop) diagnostics_.report(code("misplaced-break"), statement.span, "continue stands outside a loop");
 }
 
 void Checker::check(ast::Assert const& n, ast::Stmt const&, bool) {

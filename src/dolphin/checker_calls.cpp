@@ -81,12 +81,12 @@ void Checker::call(ast::Expr const& expr) {
   auto const* word = block_word(text);
   if (n.style == ast::CallStyle::label) {
     if (!word) {
-      diagnostics_.error(n.callee->span, fmt::format("a label does nothing: {}:", text),
-                         is_callable(text) ? fmt::format("write {} without the colon", text) : "");
+      diagnostics_.report(code("label"), n.callee->span, fmt::format("a label does nothing: {}:", text),
+                          is_callable(text) ? fmt::format("write {} without the colon", text) : "");
       return arguments(n, std::nullopt);
     }
-    diagnostics_.warning(n.callee->span, fmt::format("{} takes no colon", text),
-                         fmt::format("write {} without the colon", text));
+    diagnostics_.report(code("legacy-spelling"), n.callee->span, fmt::format("{} takes no colon", text),
+                        fmt::format("write {} without the colon", text));
   }
   if (word) return instruction_call(n, expr.span, *word);
   if (resolution_.locals.contains(n.callee.get())) return arguments(n, std::nullopt);
@@ -105,7 +105,8 @@ void Checker::undefined_call(ast::Call const& call, base::Span span) {
     auto hint = suggestion(text);
     if (hint.empty()) hint = block_of(text);
     auto const where = contexts_.empty() ? "" : fmt::format(" inside {}", contexts_.back().name);
-    diagnostics_.error(span, fmt::format("there is no instruction {}{}", text, where), std::move(hint));
+    diagnostics_.report(code("unknown-instruction"), span, fmt::format("there is no instruction {}{}", text, where),
+                        std::move(hint));
   }
   arguments(call, std::nullopt);
 }
@@ -130,9 +131,8 @@ void Checker::duplicate_keys(ast::Call const& call) {
     auto const earlier = std::span(call.arguments).first(std::min<std::size_t>(i, 200));
     auto const first = std::ranges::find_if(earlier, same);
     if (first == earlier.end()) continue;
-    base::Diagnostic diagnostic{base::Severity::error, name->span, fmt::format("duplicate key {}", name->text)};
-    diagnostic.notes.push_back({first->name->span, "it stands here already"});
-    diagnostics_.report(std::move(diagnostic));
+    diagnostics_.report(code("duplicate-key"), name->span, fmt::format("duplicate key {}", name->text), {},
+                        {{first->name->span, "it stands here already"}});
   }
 }
 
@@ -142,8 +142,8 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
   bool const is_imc_block = spec.name == "imcPlan" && call.arguments.size() == 1 &&
                             std::holds_alternative<ast::Closure>(call.arguments[0].value->node);
   if (is_imc_block) {
-    diagnostics_.error(call.callee->span, "IMC plans are not supported",
-                       "define a mission { ... }, or write imcPlan('name') for a plan made elsewhere");
+    diagnostics_.report(code("imc-plan"), call.callee->span, "IMC plans are not supported",
+                        "define a mission { ... }, or write imcPlan('name') for a plan made elsewhere");
     return;
   }
   std::optional<BlockContext> context;
@@ -154,12 +154,14 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
   if (named > 0 && spec.named == NamedArguments::none) {
     auto const first =
         std::ranges::find_if(call.arguments, [](ast::Argument const& argument) { return argument.name.has_value(); });
-    diagnostics_.error(first->name->span, fmt::format("{} has no named arguments", spec.name), usages(spec));
+    diagnostics_.report(code("named-arguments"), first->name->span, fmt::format("{} has no named arguments", spec.name),
+                        usages(spec));
     return;
   }
   if (named > 0 && spec.named == NamedArguments::vehicles) {
     if (positional > 0)
-      diagnostics_.error(span, fmt::format("{} takes either one value or values with names", spec.name));
+      diagnostics_.report(code("named-arguments"), span,
+                          fmt::format("{} takes either one value or values with names", spec.name));
     return vehicle_keys(call, spec);
   }
   if (named > 0 && positional == 0) return;  // signals and parameters have any name
@@ -179,13 +181,15 @@ void Checker::vehicle_keys(ast::Call const& call, InstructionSpec const& spec) {
     if (!variable && !(runs_tasks && key.text == "_")) undefined_name(key.text, key.span);
     auto const kinds = variable ? inference_.facts(*variable).kinds : Kinds::any();
     if (!kinds.meets(Kind::vehicles)) {
-      diagnostics_.error(key.span, fmt::format("{} is {}, not a set of vehicles", key.text, describe(kinds)),
-                         "vehicles come from pick { ... }");
+      diagnostics_.report(code("not-vehicles"), key.span,
+                          fmt::format("{} is {}, not a set of vehicles", key.text, describe(kinds)),
+                          "vehicles come from pick { ... }");
     }
     auto const value = inference_.facts(*argument.value).kinds;
     if (runs_tasks && !value.meets(Kind::task)) {
-      diagnostics_.error(argument.value->span, fmt::format("execute runs tasks, this is {}", describe(value)),
-                         value == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
+      diagnostics_.report(code("not-a-task"), argument.value->span,
+                          fmt::format("execute runs tasks, this is {}", describe(value)),
+                          value == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
     }
     if (!runs_tasks) connection_timeout(*argument.value);
   }
@@ -194,15 +198,17 @@ void Checker::vehicle_keys(ast::Call const& call, InstructionSpec const& spec) {
 void Checker::connection_timeout(ast::Expr const& value) {
   auto const facts = inference_.facts(value);
   if (!facts.kinds.meets(Kinds::number())) {
-    diagnostics_.error(value.span, fmt::format("a connection timeout is a time, this is {}", describe(facts.kinds)));
+    diagnostics_.report(code("argument-type"), value.span,
+                        fmt::format("a connection timeout is a time, this is {}", describe(facts.kinds)));
   } else if (facts.dimension && *facts.dimension != Dimension::none && *facts.dimension != Dimension::time) {
-    diagnostics_.error(value.span, fmt::format("a connection timeout is a time, this is {}", noun(*facts.dimension)));
+    diagnostics_.report(code("argument-dimension"), value.span,
+                        fmt::format("a connection timeout is a time, this is {}", noun(*facts.dimension)));
   } else if (auto const constant = inference_.constant(value)) {
     auto const* whole = std::get_if<std::int64_t>(&*constant);
     auto const* decimal = std::get_if<double>(&*constant);
     auto const seconds = whole ? static_cast<double>(*whole) : decimal ? *decimal : 5.0;
     if (seconds < 5.0 || seconds > 3600.0)
-      diagnostics_.error(value.span, "a connection timeout lies between 5 s and 1 h");
+      diagnostics_.report(code("argument-value"), value.span, "a connection timeout lies between 5 s and 1 h");
   }
 }
 
@@ -221,7 +227,8 @@ void Checker::signatures(ast::Call const& call, base::Span span, InstructionSpec
     }
   }
   if (nearest) return report_mismatch(call, spec, *nearest, furthest);
-  diagnostics_.error(span, fmt::format("{} does not take {}", spec.name, counted(count)), usages(spec));
+  diagnostics_.report(code("argument-count"), span, fmt::format("{} does not take {}", spec.name, counted(count)),
+                      usages(spec));
 }
 
 /// The position of the first argument that the signature does not take.
@@ -254,10 +261,10 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
   auto const* text = std::get_if<ast::StringLiteral>(&value.node);
   if (text && parameter.kinds.meets(Kind::text)) {
     auto const hint = base::did_you_mean(text->value, parameter.choices);
-    diagnostics_.error(value.span,
-                       fmt::format("{} of {} is one of {}, not {}", parameter.name, spec.name,
-                                   fmt::join(parameter.choices, ", "), text->value),
-                       hint);
+    diagnostics_.report(code("argument-choice"), value.span,
+                        fmt::format("{} of {} is one of {}, not {}", parameter.name, spec.name,
+                                    fmt::join(parameter.choices, ", "), text->value),
+                        hint);
     return;
   }
   auto const chosen =
@@ -271,8 +278,9 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
       parameter.dimension == Dimension::none ? describe(parameter.kinds) : std::string(noun(parameter.dimension));
   auto const found = is_number && facts.dimension ? std::string(noun(*facts.dimension)) : describe(facts.kinds);
   bool const is_closure_for_task = parameter.kinds == Kinds(Kind::task) && facts.kinds == Kinds(Kind::closure);
-  diagnostics_.error(value.span, fmt::format("{} of {} is {}, not {}", parameter.name, spec.name, needed, found),
-                     is_closure_for_task ? "wrap it: action { ... }" : fmt::format("write {}", hint));
+  auto const& kind = is_number ? code("argument-dimension") : code("argument-type");
+  diagnostics_.report(kind, value.span, fmt::format("{} of {} is {}, not {}", parameter.name, spec.name, needed, found),
+                      is_closure_for_task ? "wrap it: action { ... }" : fmt::format("write {}", hint));
 }
 
 // ---- functions and builders ---------------------------------------------------------------------
@@ -292,11 +300,8 @@ void Checker::function_call(ast::Call const& call, base::Span span,
   std::vector<std::string_view> parameters;
   for (auto const& parameter : functions.front()->parameters) parameters.push_back(parameter.name.text);
   auto const& name = functions.front()->name;
-  base::Diagnostic diagnostic{base::Severity::error, span,
-                              fmt::format("{} does not take {}", name.text, counted(count)),
-                              fmt::format("it takes ({})", fmt::join(parameters, ", "))};
-  diagnostic.notes.push_back({name.span, "it is defined here"});
-  diagnostics_.report(std::move(diagnostic));
+  diagnostics_.report(code("argument-count"), span, fmt::format("{} does not take {}", name.text, counted(count)),
+                      fmt::format("it takes ({})", fmt::join(parameters, ", ")), {{name.span, "it is defined here"}});
 }
 
 void Checker::builder_call(ast::Call const& call, base::Span span, Builder const& builder) {
@@ -304,13 +309,15 @@ void Checker::builder_call(ast::Call const& call, base::Span span, Builder const
   auto const before = diagnostics_.error_count();
   arguments(call, BlockContext{BlockKind::platform, name, builder.words});
   if (call.arguments.size() != 1 || call.arguments[0].name) {
-    diagnostics_.error(span, fmt::format("{} takes a block", name), fmt::format("write {} {{ ... }}", name));
+    diagnostics_.report(code("argument-count"), span, fmt::format("{} takes a block", name),
+                        fmt::format("write {} {{ ... }}", name));
     return;
   }
   auto const& value = *call.arguments[0].value;
   if (auto const facts = inference_.facts(value); !facts.kinds.meets(Kind::closure)) {
-    diagnostics_.error(value.span, fmt::format("{} takes a block, not {}", name, describe(facts.kinds)),
-                       fmt::format("write {} {{ ... }}", name));
+    diagnostics_.report(code("argument-type"), value.span,
+                        fmt::format("{} takes a block, not {}", name, describe(facts.kinds)),
+                        fmt::format("write {} {{ ... }}", name));
     return;
   }
   auto const* body = std::get_if<ast::Closure>(&value.node);
@@ -323,7 +330,8 @@ void Checker::rehearse(ast::Closure const& body, Builder const& builder, base::S
   if (!builder.spec->begin) return;
   if (auto problem = rehearsal(body, *builder.spec, inference_)) {
     auto const place = problem->place.size() > 0 ? problem->place : span;
-    diagnostics_.error(place, std::move(problem->error.message), std::move(problem->error.hint));
+    diagnostics_.report(code("invalid-mission"), place, std::move(problem->error.message),
+                        std::move(problem->error.hint));
   }
 }
 

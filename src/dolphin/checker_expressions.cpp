@@ -98,21 +98,21 @@ std::string Checker::block_of(std::string_view name) const {
 void Checker::undefined_name(std::string const& name, base::Span span) {
   if (may_be_defined_in_unread(name) || !reported_.insert(name).second) return;
   if (is_callable(name)) {
-    diagnostics_.error(span, fmt::format("{} is an instruction, not a variable", name),
-                       fmt::format("to use it write {}(...)", name));
+    diagnostics_.report(code("instruction-as-value"), span, fmt::format("{} is an instruction, not a variable", name),
+                        fmt::format("to use it write {}(...)", name));
     return;
   }
   auto const is_hidden_local = std::ranges::any_of(resolution_.variables, [&](Variable const& variable) {
     return variable.name == name && variable.kind == VariableKind::local;
   });
   if (is_hidden_local) {
-    diagnostics_.error(span, fmt::format("{} is not defined here", name),
-                       "def makes a local; assign without def to see it everywhere");
+    diagnostics_.report(code("hidden-variable"), span, fmt::format("{} is not defined here", name),
+                        "def makes a local; assign without def to see it everywhere");
     return;
   }
   auto hint = suggestion(name);
   if (hint.empty()) hint = block_of(name);
-  diagnostics_.error(span, fmt::format("{} is not defined", name), std::move(hint));
+  diagnostics_.report(code("unknown-name"), span, fmt::format("{} is not defined", name), std::move(hint));
 }
 
 void Checker::name(ast::Expr const& expr) {
@@ -130,17 +130,16 @@ bool Checker::used_too_early(ast::Expr const& expr, Variable const& variable) {
   bool const early =
       variable.kind == VariableKind::global && !place_.in_closure && variable.first_statement > top_statement_;
   if (!early || may_be_defined_in_unread(variable.name) || !reported_.insert(variable.name).second) return false;
-  base::Diagnostic diagnostic{base::Severity::error, expr.span, fmt::format("{} has no value yet", variable.name)};
-  diagnostic.notes.push_back({variable.defined, "it gets its first value here"});
-  diagnostics_.report(std::move(diagnostic));
+  diagnostics_.report(code("used-before-value"), expr.span, fmt::format("{} has no value yet", variable.name), {},
+                      {{variable.defined, "it gets its first value here"}});
   return true;
 }
 
 /// Any exception of Java may be thrown and caught by its name.
 void Checker::type_name(ast::Identifier const& type) {
   if (has_name(types(), type.text) || type.text.ends_with("Exception") || type.text.ends_with("Error")) return;
-  diagnostics_.error(type.span, fmt::format("there is no type {}", type.text),
-                     base::did_you_mean(type.text, names_of(types())));
+  diagnostics_.report(code("unknown-type"), type.span, fmt::format("there is no type {}", type.text),
+                      base::did_you_mean(type.text, names_of(types())));
 }
 
 // ---- expressions --------------------------------------------------------------------------------
@@ -162,7 +161,8 @@ void Checker::expression(ast::Expr const& expr) {
   if (auto const* made = std::get_if<ast::New>(&expr.node)) {
     type_name(made->type);
     if (made->type.text == "Position") {
-      diagnostics_.warning(made->type.span, "new Position takes radians", "location(lat, lon, height) takes degrees");
+      diagnostics_.report(code("radians"), made->type.span, "new Position takes radians",
+                          "location(lat, lon, height) takes degrees");
     }
   }
   auto const* binary = std::get_if<ast::Binary>(&expr.node);
@@ -190,7 +190,7 @@ void Checker::map(ast::MapLiteral const& map) {
   for (auto const& entry : map.entries) {
     auto const* key = entry.key ? std::get_if<ast::StringLiteral>(&entry.key->node) : nullptr;
     if (key && !keys.insert(key->value).second)
-      diagnostics_.error(entry.key->span, fmt::format("duplicate key {}", key->value));
+      diagnostics_.report(code("duplicate-key"), entry.key->span, fmt::format("duplicate key {}", key->value));
   }
 }
 
@@ -205,8 +205,8 @@ void Checker::member(ast::Expr const& expr) {
       return method.name == n.name.text && method.receiver.meets(Kinds::number());
     });
     if (is_member) return;
-    diagnostics_.error(n.name.span, fmt::format("there is no unit {}", n.name.text),
-                       base::did_you_mean(n.name.text, names_of(units())));
+    diagnostics_.report(code("unknown-unit"), n.name.span, fmt::format("there is no unit {}", n.name.text),
+                        base::did_you_mean(n.name.text, names_of(units())));
     return;
   }
   constexpr auto closed_kinds = Kinds(Kind::position) | Kind::displacement | Kind::area | Kind::vehicles | Kind::task;
@@ -216,8 +216,9 @@ void Checker::member(ast::Expr const& expr) {
     if (method.receiver.meets(facts.kinds)) known.push_back(method.name);
   }
   if (std::ranges::find(known, n.name.text) != known.end()) return;
-  diagnostics_.error(n.name.span, fmt::format("{} has no member {}", describe(facts.kinds), n.name.text),
-                     base::did_you_mean(n.name.text, known));
+  diagnostics_.report(code("unknown-member"), n.name.span,
+                      fmt::format("{} has no member {}", describe(facts.kinds), n.name.text),
+                      base::did_you_mean(n.name.text, known));
 }
 
 /// `message [1, 2]` indexes something called message.
@@ -225,8 +226,9 @@ void Checker::index(ast::Expr const& expr) {
   auto const& n = std::get<ast::Index>(expr.node);
   auto const* callee = std::get_if<ast::Name>(&n.object->node);
   if (callee && !resolution_.find(*n.object) && is_callable(callee->text)) {
-    diagnostics_.error(expr.span, fmt::format("this takes an element of {}, which is an instruction", callee->text),
-                       fmt::format("write {}([...])", callee->text));
+    diagnostics_.report(code("instruction-as-value"), expr.span,
+                        fmt::format("this takes an element of {}, which is an instruction", callee->text),
+                        fmt::format("write {}([...])", callee->text));
     return expression(n.index);
   }
   expression(n.object);
@@ -234,8 +236,8 @@ void Checker::index(ast::Expr const& expr) {
   auto const facts = inference_.facts(*n.object);
   auto const inside = inference_.facts(*n.index);
   if (facts.kinds == Kinds(Kind::task) && !inside.kinds.meets(Kind::vehicles)) {
-    diagnostics_.error(n.index->span,
-                       fmt::format("a task is limited to a set of vehicles, not to {}", describe(inside.kinds)));
+    diagnostics_.report(code("not-vehicles"), n.index->span,
+                        fmt::format("a task is limited to a set of vehicles, not to {}", describe(inside.kinds)));
   }
 }
 
@@ -244,8 +246,8 @@ void Checker::chain(ast::Expr const& expr) {
   bool const in_choice =
       std::ranges::any_of(contexts_, [](BlockContext const& context) { return context.kind == BlockKind::choice; });
   if (n.kind == ast::ChainKind::when && !in_choice) {
-    diagnostics_.error(n.head_span, "when stands outside oneOf, choose and allOf",
-                       "outside of them write waitFor { ... } then task");
+    diagnostics_.report(code("misplaced-when"), n.head_span, "when stands outside oneOf, choose and allOf",
+                        "outside of them write waitFor { ... } then task");
   }
   expression(n.subject);
   auto const* handler = std::get_if<ast::Closure>(&n.body->node);
@@ -257,14 +259,16 @@ void Checker::chain(ast::Expr const& expr) {
   auto const& task = n.kind == ast::ChainKind::watch ? n.subject : n.body;
   auto const facts = inference_.facts(*task);
   if (!facts.kinds.meets(Kind::task)) {
-    diagnostics_.error(task->span, fmt::format("a task is needed here, this is {}", describe(facts.kinds)),
-                       facts.kinds == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
+    diagnostics_.report(code("not-a-task"), task->span,
+                        fmt::format("a task is needed here, this is {}", describe(facts.kinds)),
+                        facts.kinds == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
   }
   auto const limit = inference_.facts(*n.subject);
   bool const wrong_dimension = n.kind == ast::ChainKind::during && limit.dimension &&
                                *limit.dimension != Dimension::none && *limit.dimension != Dimension::time;
   if (wrong_dimension) {
-    diagnostics_.error(n.subject->span, fmt::format("during takes a time, this is {}", word(*limit.dimension)));
+    diagnostics_.report(code("argument-dimension"), n.subject->span,
+                        fmt::format("during takes a time, this is {}", word(*limit.dimension)));
   }
 }
 
@@ -277,8 +281,9 @@ bool Checker::missing_parentheses(ast::Expr const& expr, ast::Binary const& bina
   if (!callee || resolution_.find(*binary.left) || !is_callable(callee->text)) return false;
   auto const sign = binary.op == ast::BinaryOp::subtract ? "-" : "+";
   auto const argument = diagnostics_.source().text({binary.right->span.begin, expr.span.end});
-  diagnostics_.error(expr.span, fmt::format("this calculates with {}, which is an instruction", callee->text),
-                     fmt::format("write {} ({}{})", callee->text, sign, argument));
+  diagnostics_.report(code("missing-parentheses"), expr.span,
+                      fmt::format("this calculates with {}, which is an instruction", callee->text),
+                      fmt::format("write {} ({}{})", callee->text, sign, argument));
   return true;
 }
 
@@ -291,7 +296,7 @@ void Checker::operands(ast::Binary const& binary, base::Span) {
   auto const right = inference_.facts(*binary.right).kinds;
   auto const needs = [&](Kinds wanted, std::string_view what) {
     if (right.meets(wanted)) return;
-    diagnostics_.error(binary.right->span, fmt::format("{}, not {}", what, describe(right)));
+    diagnostics_.report(code("operand-type"), binary.right->span, fmt::format("{}, not {}", what, describe(right)));
   };
   if (left == Kinds(Kind::task)) {
     if (binary.op == divide) needs(Kind::closure, "a task is ended by a closure: task / { condition }");
@@ -313,7 +318,14 @@ void Checker::dimensions(ast::Binary const& binary) {
   auto const left = inference_.facts(*binary.left).dimension;
   auto const right = inference_.facts(*binary.right).dimension;
   if (!left || !right || *left == Dimension::none || *right == Dimension::none || left == right) return;
-  diagnostics_.warning(binary.op_span, fmt::format("{} meets {}", word(*left), word(*right)));
+  if (compares) {
+    diagnostics_.report(code("compared-dimensions"), binary.op_span,
+                        fmt::format("this compares {} with {}", word(*left), word(*right)));
+  } else {
+    diagnostics_.report(
+        code("mixed-dimensions"), binary.op_span,
+        fmt::format("{} and {} have no {}", word(*left), word(*right), binary.op == add ? "sum" : "difference"));
+  }
 }
 
 /// A battery's charge runs from 0 to 1: `battery(v) < 30` is always true.
@@ -333,8 +345,8 @@ void Checker::battery_comparison(ast::Binary const& binary) {
   if (value && std::holds_alternative<std::int64_t>(*value))
     number = static_cast<double>(std::get<std::int64_t>(*value));
   if (number > 1.0) {
-    diagnostics_.warning(limit->span, "battery gives 0 to 1",
-                         fmt::format("write {}.percent", diagnostics_.source().text(limit->span)));
+    diagnostics_.report(code("battery-ratio"), limit->span, "battery gives 0 to 1",
+                        fmt::format("write {}.percent", diagnostics_.source().text(limit->span)));
   }
 }
 

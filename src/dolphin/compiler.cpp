@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "dolphin/codes.hpp"
 #include "dolphin/internal/compilation.hpp"
 #include "dolphin/natives.hpp"
 #include "dolphin/parser.hpp"
@@ -103,7 +104,7 @@ std::shared_ptr<Program const> compile(ast::Program const& tree, std::shared_ptr
   internal::Compilation library(*program, builders, prelude_diagnostics);
   (void)library.script(prelude_tree, true);
   if (prelude_diagnostics.has_errors()) {
-    diagnostics.error({}, "the prelude does not compile:\n" + base::render(prelude_diagnostics));
+    diagnostics.report(code("internal"), {}, "the prelude does not compile:\n" + base::render(prelude_diagnostics));
     return nullptr;
   }
   program->main = internal::Compilation(*program, builders, diagnostics).script(tree, false);

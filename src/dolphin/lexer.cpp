@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "dolphin/codes.hpp"
 #include "dolphin/internal/brackets.hpp"
 #include "dolphin/internal/characters.hpp"
 
@@ -189,7 +190,8 @@ void Lexer::skip_block_comment() {
   at_ = end == std::string_view::npos ? text_.size() : end + 2;
   auto const comment = since(begin);
   if (end == std::string_view::npos) {
-    diagnostics_.error({comment.begin, comment.begin + 2}, "this comment is never closed", "close it with */");
+    diagnostics_.report(code("unclosed-comment"), {comment.begin, comment.begin + 2}, "this comment is never closed",
+                        "close it with */");
   }
   if (text_.substr(comment.begin, comment.size()).find_first_of("\r\n") != std::string_view::npos)
     newline_before_ = true;
@@ -228,19 +230,19 @@ void Lexer::skip_unreadable() {
   if (first.looks_like == Unreadable::Like::quote) return read_typographic_string(first);
   if (first.looks_like == Unreadable::Like::dash) {
     at_ += first.size;
-    diagnostics_.error(since(begin), std::string(first.message), std::string(first.hint));
+    diagnostics_.report(code("invalid-character"), since(begin), std::string(first.message), std::string(first.hint));
     return emit(minus, begin);
   }
   do {
     at_ += unreadable_character(text_.substr(at_)).size;
   } while (!at_end() && unreadable_character(text_.substr(at_)).message == first.message);
-  diagnostics_.error(since(begin), std::string(first.message), std::string(first.hint));
+  diagnostics_.report(code("invalid-character"), since(begin), std::string(first.message), std::string(first.hint));
 }
 
 void Lexer::read_typographic_string(Unreadable const& quote) {
   auto const begin = at_;
   at_ += quote.size;
-  diagnostics_.error(since(begin), std::string(quote.message), std::string(quote.hint));
+  diagnostics_.report(code("invalid-character"), since(begin), std::string(quote.message), std::string(quote.hint));
   while (!at_end() && peek() != '\n' && peek() != '\r') {
     auto const c = unreadable_character(text_.substr(at_));
     at_ += c.size;
@@ -267,9 +269,9 @@ void Lexer::read_number() {
     auto const end = static_cast<std::uint32_t>(at_);
     auto const tail = text_.substr(at_ - number.junk, number.junk);
     auto const digits = text_.substr(begin, number.size - number.junk);
-    diagnostics_.error({static_cast<std::uint32_t>(at_ - number.junk), end},
-                       fmt::format("'{}' cannot follow a number", tail),
-                       digits == "0" ? "" : fmt::format("a unit is written with a point: {}.{}", digits, tail));
+    diagnostics_.report(code("invalid-number"), {static_cast<std::uint32_t>(at_ - number.junk), end},
+                        fmt::format("'{}' cannot follow a number", tail),
+                        digits == "0" ? "" : fmt::format("a unit is written with a point: {}.{}", digits, tail));
   }
   emit(number.is_decimal ? decimal : integer, begin);
 }
@@ -314,7 +316,8 @@ void Lexer::read_plain_string(std::size_t quote_size) {
   if (at_quotes(quote, quote_size)) {
     at_ += quote_size;
   } else {
-    diagnostics_.error(
+    diagnostics_.report(
+        code("unclosed-string"),
         quote_size == 1 ? since(begin) : Span{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin + 3)},
         "this string is never closed", fmt::format("close it with {}", std::string(quote_size, quote)));
   }
@@ -367,8 +370,8 @@ void Lexer::read_string_text() {
   if (at_quotes('"', quotes.quote_size)) {
     at_ += quotes.quote_size;
   } else {
-    diagnostics_.error(quotes.quotes, "this string is never closed",
-                       fmt::format("close it with {}", std::string(quotes.quote_size, '"')));
+    diagnostics_.report(code("unclosed-string"), quotes.quotes, "this string is never closed",
+                        fmt::format("close it with {}", std::string(quotes.quote_size, '"')));
   }
   emit(string_close, begin);
 }
@@ -384,7 +387,8 @@ void Lexer::close_interpolation(std::size_t begin) {
 void Lexer::abandon_open_strings() {
   while (!open_.empty()) {
     if (!at_end() && open_.back().quote_size == 3) return;
-    diagnostics_.error(open_.back().interpolation, "this interpolation is never closed", "close it with }");
+    diagnostics_.report(code("unclosed-interpolation"), open_.back().interpolation,
+                        "this interpolation is never closed", "close it with }");
     open_.pop_back();
     emit(interpolation_close, at_);
     emit(string_close, at_);
@@ -402,8 +406,9 @@ void Lexer::read_token() {
 
 TokenStream Lexer::run() {
   if (text_.size() > max_source_size) {
-    diagnostics_.error(
-        {0, 0}, fmt::format("the script is too long: {} bytes, at most {} are read", text_.size(), max_source_size));
+    diagnostics_.report(
+        code("script-too-long"), {0, 0},
+        fmt::format("the script is too long: {} bytes, at most {} are read", text_.size(), max_source_size));
     text_ = {};
   }
   out_.tokens.reserve(text_.size() / 4);
@@ -415,7 +420,8 @@ TokenStream Lexer::run() {
     }
     if (at_end()) break;
     if (out_.tokens.size() >= max_token_count) {
-      diagnostics_.error(since(at_), fmt::format("the script is too long: more than {} words", max_token_count));
+      diagnostics_.report(code("script-too-long"), since(at_),
+                          fmt::format("the script is too long: more than {} words", max_token_count));
       at_ = text_.size();
       abandon_open_strings();
       break;

@@ -42,7 +42,7 @@ Nesting::Nesting(Parser& parser) : parser_(parser) {
   if (*this || parser_.depth_reported_) return;
   parser_.depth_reported_ = true;
   parser_.quiet_ = false;
-  parser_.error(parser_.token().span,
+  parser_.error(code("nested-too-deeply"), parser_.token().span,
                 fmt::format("this is nested too deeply: at most {} levels are read", ast::max_tree_height),
                 "name parts of it with variables or functions");
 }
@@ -87,9 +87,9 @@ Span Parser::here() const {
 
 // ---- mistakes -----------------------------------------------------------------------------------
 
-void Parser::error(Span span, std::string message, std::string hint) {
+void Parser::error(base::DiagnosticKind const& kind, Span span, std::string message, std::string hint) {
   if (std::exchange(quiet_, true)) return;
-  diagnostics_.error(span, std::move(message), std::move(hint));
+  diagnostics_.report(kind, span, std::move(message), std::move(hint));
 }
 
 std::string Parser::describe(Token const& token) const {
@@ -101,7 +101,7 @@ std::string Parser::describe(Token const& token) const {
 }
 
 void Parser::expected(std::string_view what, std::string hint) {
-  error(here(), fmt::format("expected {}, found {}", what, describe(token())), std::move(hint));
+  error(code("syntax"), here(), fmt::format("expected {}, found {}", what, describe(token())), std::move(hint));
 }
 
 bool Parser::expect(TokenKind wanted, std::string_view what) {
@@ -160,7 +160,7 @@ ast::ExprPtr Parser::make(ast::Expr::Node node, Span span) {
   auto const height = height_of(node);
   out->span = span;
   if (height > ast::max_tree_height) {
-    error(span,
+    error(code("nested-too-deeply"), span,
           fmt::format("this expression is too long: at most {} operators follow each other", ast::max_tree_height),
           "name parts of it with variables");
     return out;
@@ -173,7 +173,8 @@ ast::ExprPtr Parser::make(ast::Expr::Node node, Span span) {
 ast::StmtPtr Parser::make_statement(ast::Stmt::Node node, std::uint32_t begin) {
   auto const height = height_of(node);
   if (height > ast::max_tree_height) {
-    error(since(begin), fmt::format("this is nested too deeply: at most {} levels are read", ast::max_tree_height));
+    error(code("nested-too-deeply"), since(begin),
+          fmt::format("this is nested too deeply: at most {} levels are read", ast::max_tree_height));
     return nullptr;
   }
   auto out = std::make_unique<ast::Stmt>();

@@ -174,8 +174,8 @@ ast::ExprPtr Parser::wrapped_argument() {
   auto const name = text(tokens_[next_ - 1]);
   made.arguments = arguments_until_line_end();
   auto const argument = made.arguments.front().value->span;
-  diagnostics_.warning(argument, fmt::format("all of this is taken as the argument of {}", name),
-                       fmt::format("write {}(...) round it", name));
+  diagnostics_.report(code("whole-argument"), argument, fmt::format("all of this is taken as the argument of {}", name),
+                      fmt::format("write {}(...) round it", name));
   return make(std::move(made), since(begin));
 }
 
@@ -184,8 +184,8 @@ ast::ExprPtr Parser::misplaced_chain_word(ast::ExprPtr left, std::uint32_t begin
   while (at_word("during") && on_same_line() && !quiet_) {
     auto const head = advance().span;
     auto limit = expression();
-    diagnostics_.warning(head, "'during' belongs in front of its task",
-                         fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
+    diagnostics_.report(code("legacy-spelling"), head, "'during' belongs in front of its task",
+                        fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
     left = make(ast::Chain{ast::ChainKind::during, std::move(limit), std::move(left), head}, since(begin));
   }
   return left;
@@ -254,8 +254,8 @@ ast::ExprPtr Parser::call(ast::ExprPtr callee, std::uint32_t begin) {
   auto arguments = arguments_in_parentheses();
   auto* old = std::get_if<ast::Member>(&callee->node);
   if (old && old->name.text == "during" && arguments.size() == 1) {
-    diagnostics_.warning(old->name.span, "'during' belongs in front of its task",
-                         fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
+    diagnostics_.report(code("legacy-spelling"), old->name.span, "'during' belongs in front of its task",
+                        fmt::format("write {}", words_of(ast::ChainKind::during).pattern));
     auto const head = old->name.span;
     auto task = std::move(old->object);
     return make(ast::Chain{ast::ChainKind::during, std::move(arguments[0].value), std::move(task), head}, since(begin));
@@ -280,7 +280,7 @@ ast::ExprPtr Parser::trailing_closure(ast::ExprPtr callee, std::uint32_t begin) 
 ast::ExprPtr Parser::index(ast::ExprPtr object, std::uint32_t begin) {
   auto inside = list_or_map();
   if (auto* list = std::get_if<ast::ListLiteral>(&inside->node)) {
-    if (list->items.empty()) error(inside->span, "an index is missing");
+    if (list->items.empty()) error(code("syntax"), inside->span, "an index is missing");
     if (list->items.size() == 1) inside = ast::ExprPtr(std::move(list->items.front()));
   }
   if (auto const* name = std::get_if<ast::Name>(&object->node); name && name->text == "imcPlan") {
@@ -313,7 +313,8 @@ ast::ExprPtr Parser::chain(ast::ChainKind kind) {
   auto subject = as_method ? primary() : chain_subject(kind);
   if (as_method) advance();
   if (!chain_word(kind)) {
-    error(head, fmt::format("{} needs {}", words.head, words.word), fmt::format("write {}", words.pattern));
+    error(code("incomplete-chain"), head, fmt::format("{} needs {}", words.head, words.word),
+          fmt::format("write {}", words.pattern));
     return broken();
   }
   ast::ExprPtr body;
@@ -330,7 +331,8 @@ ast::ExprPtr Parser::chain_subject(ast::ChainKind kind) {
   if (at(left_brace)) return closure();
   if (at(left_paren)) return in_parentheses();
   auto const& words = words_of(kind);
-  error(token().span, fmt::format("{} needs a closure", words.head), fmt::format("write {}", words.pattern));
+  error(code("incomplete-chain"), token().span, fmt::format("{} needs a closure", words.head),
+        fmt::format("write {}", words.pattern));
   return expression();
 }
 
@@ -345,9 +347,11 @@ bool Parser::chain_word(ast::ChainKind kind) {
   if (!is_other) return false;
   auto const& found = advance();
   if (kind == ast::ChainKind::wait_for && text(found) == "run") {
-    diagnostics_.warning(found.span, "waitFor takes 'then'", fmt::format("write {}", words.pattern));
+    diagnostics_.report(code("legacy-spelling"), found.span, "waitFor takes 'then'",
+                        fmt::format("write {}", words.pattern));
   } else {
-    error(found.span, fmt::format("{} takes '{}', not '{}'", words.head, words.word, text(found)),
+    error(code("incomplete-chain"), found.span,
+          fmt::format("{} takes '{}', not '{}'", words.head, words.word, text(found)),
           fmt::format("write {}", words.pattern));
   }
   return true;
@@ -357,7 +361,7 @@ ast::ExprPtr Parser::chain_body(ast::ChainKind kind) {
   if (kind != ast::ChainKind::watch) return expression();
   if (at(left_brace)) return closure();
   if (at(left_paren)) return in_parentheses();
-  error(here(), "onError needs a closure", fmt::format("write {}", words_of(kind).pattern));
+  error(code("incomplete-chain"), here(), "onError needs a closure", fmt::format("write {}", words_of(kind).pattern));
   return broken();
 }
 

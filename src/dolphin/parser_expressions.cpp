@@ -241,7 +241,7 @@ ast::ExprPtr Parser::interpolated_expression() {
   auto const open = advance().span;
   Lines const lines(newlines_matter_, false);
   if (at(interpolation_close)) {
-    error(cover(open, token().span), "this interpolation is empty", "write \\$ for a dollar sign");
+    error(code("syntax"), cover(open, token().span), "this interpolation is empty", "write \\$ for a dollar sign");
     advance();
     return broken();
   }
@@ -258,7 +258,7 @@ ast::ExprPtr Parser::in_parentheses() {
     Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
     made = command();
     if (at(assign)) {
-      error(token().span, "an assignment cannot stand inside an expression", "== compares");
+      error(code("syntax"), token().span, "an assignment cannot stand inside an expression", "== compares");
       unread_.push_back(made->span);
     }
     close(opener);

@@ -80,7 +80,7 @@ void Parser::statement_into(ast::Block& block) {
       auto const span = expr->expr->span;
       auto const argument = diagnostics_.source().text(span).substr(name->text.size());
       auto const begin = argument.find_first_not_of(" \t");
-      error(span, fmt::format("this subtracts from '{}'", name->text),
+      error(code("missing-parentheses"), span, fmt::format("this subtracts from '{}'", name->text),
             fmt::format("write {} ({}), ...", name->text, argument.substr(begin)));
       made = nullptr;
     }
@@ -142,15 +142,16 @@ ast::StmtPtr Parser::keyword_statement() {
 ast::StmtPtr Parser::unsupported_statement() {
   auto const& word = advance();
   if (word.kind == kw_else) {
-    error(word.span, "this else belongs to no if");
+    error(code("syntax"), word.span, "this else belongs to no if");
   } else if (word.kind == kw_catch || word.kind == kw_finally) {
-    error(word.span, fmt::format("this {} belongs to no try", text(word)));
+    error(code("syntax"), word.span, fmt::format("this {} belongs to no try", text(word)));
   } else if (word.kind == kw_case || word.kind == kw_default) {
-    error(word.span, fmt::format("this {} belongs to no switch", text(word)));
+    error(code("syntax"), word.span, fmt::format("this {} belongs to no switch", text(word)));
   } else if (word.kind == kw_do) {
-    error(word.span, "do is not part of the language", "write while (true) { ... if (done) break }");
+    error(code("unsupported-statement"), word.span, "do is not part of the language",
+          "write while (true) { ... if (done) break }");
   } else {
-    error(word.span, fmt::format("{} cannot begin a statement", text(word)));
+    error(code("unsupported-statement"), word.span, fmt::format("{} cannot begin a statement", text(word)));
   }
   // The body of a class is no code of ours: its braces are passed over unread.
   bool const is_foreign = word.kind == kw_class || word.kind == kw_interface || word.kind == kw_enum;
@@ -172,11 +173,12 @@ ast::StmtPtr Parser::assignment(ast::ExprPtr target, std::uint32_t begin) {
       std::holds_alternative<ast::Name>(target->node) || std::holds_alternative<ast::Member>(target->node) ||
       std::holds_alternative<ast::Index>(target->node) || std::holds_alternative<ast::ErrorExpr>(target->node);
   if (!assignable) {
-    error(target->span, "nothing can be assigned to this", "assign to a variable, a member or an element");
+    error(code("not-assignable"), target->span, "nothing can be assigned to this",
+          "assign to a variable, a member or an element");
   }
   auto value = command();
   if (is_assignment(kind()) && on_same_line()) {
-    error(token().span, "one statement assigns once", "write each assignment on its own line");
+    error(code("syntax"), token().span, "one statement assigns once", "write each assignment on its own line");
     unread_.push_back(value->span);
   }
   return make_statement(ast::Assign{std::move(target), compound(sign.kind), std::move(value)}, begin);
@@ -188,7 +190,7 @@ ast::StmtPtr Parser::labelled() {
   auto const& word = advance();
   advance();
   if (is_reserved_word(kind()) && !starts_argument(0)) {
-    error(word.span, "labels are not part of the language");
+    error(code("label"), word.span, "labels are not part of the language");
     quiet_ = false;
     return statement();
   }
@@ -230,7 +232,8 @@ ast::StmtPtr Parser::declaration() {
     made.names.push_back(identifier_of(advance()));
   }
   if (made.names.size() == 1 && accept(assign)) made.value = command();
-  if (at(comma)) error(token().span, "one declaration gives one variable a value", "write each on its own line");
+  if (at(comma))
+    error(code("syntax"), token().span, "one declaration gives one variable a value", "write each on its own line");
   return make_statement(std::move(made), begin);
 }
 
@@ -407,7 +410,7 @@ ast::StmtPtr Parser::try_statement() {
   while (at(kw_catch)) made.catches.push_back(catch_clause());
   if (accept(kw_finally)) made.finally = braces("'{'");
   if (made.catches.empty() && !made.finally) {
-    error({begin, begin + 3}, "try needs catch or finally", "add catch (e) { ... }");
+    error(code("syntax"), {begin, begin + 3}, "try needs catch or finally", "add catch (e) { ... }");
   }
   return make_statement(std::move(made), begin);
 }
@@ -461,7 +464,7 @@ ast::StmtPtr Parser::import_statement() {
   while (!at_statement_end()) advance();
   auto text = std::string(diagnostics_.source().text(since(path)));
   auto made = make_statement(ast::Import{std::move(text)}, begin);
-  diagnostics_.report({base::Severity::note, since(begin), "imports are not needed and do nothing"});
+  diagnostics_.report(code("needless-import"), since(begin), "imports are not needed and do nothing");
   return made;
 }
 

@@ -24,6 +24,7 @@ Json to_json(base::DiagnosticRecord const& record) {
   Json json{{"severity", record.severity},   {"file", record.file},         {"line", record.begin.line},
             {"column", record.begin.column}, {"end_line", record.end.line}, {"end_column", record.end.column},
             {"message", record.message}};
+  if (!record.code.empty()) json["code"] = record.code;
   if (!record.hint.empty()) json["hint"] = record.hint;
   if (!record.notes.empty()) json["notes"] = to_json(record.notes);
   return json;

@@ -16,11 +16,11 @@ TEST(Messages, SayHello) {
 }
 
 TEST(Messages, DescribeTheScript) {
-  base::DiagnosticRecord const record{"a.dolphin", {1, 6}, {1, 7}, "error", "expected a name", "name it", {}};
+  base::DiagnosticRecord const record{"a.dolphin", {1, 6}, {1, 7}, "error", "expected a name", "name it", {}, "syntax"};
   ScriptStatus const status{"a.dolphin", "pick { }", ScriptState::failed, "does not check", {record}};
   EXPECT_EQ(json::parse(script_message(status)), json::parse(R"({"type":"script","name":"a.dolphin","state":"failed",
     "message":"does not check","source":"pick { }","diagnostics":[{"severity":"error","file":"a.dolphin","line":1,
-    "column":6,"end_line":1,"end_column":7,"message":"expected a name","hint":"name it"}]})"));
+    "column":6,"end_line":1,"end_column":7,"code":"syntax","message":"expected a name","hint":"name it"}]})"));
 }
 
 TEST(Messages, DescribeTaskTrees) {
@@ -82,10 +82,10 @@ TEST(Messages, ReadTheBodyThatStartsAScript) {
 }
 
 TEST(Messages, ListDiagnosticsOfAFailedStart) {
-  base::DiagnosticRecord const note{"f", {5, 6}, {5, 7}, "note", "first defined here", "", {}};
+  base::DiagnosticRecord const note{"f", {5, 6}, {5, 7}, "note", "first defined here", "", {}, ""};
   StartFailure const failure{
       {base::ErrorKind::invalid_input, "2 mistakes", ""},
-      {{"f", {1, 2}, {1, 3}, "error", "first", "", {note}}, {"f", {3, 4}, {3, 5}, "warning", "second", "", {}}}};
+      {{"f", {1, 2}, {1, 3}, "error", "first", "", {note}, ""}, {"f", {3, 4}, {3, 5}, "warning", "second", "", {}, ""}}};
   auto const body = json::parse(start_failure_body(422, "Unprocessable Content", failure));
   EXPECT_EQ(body["status"], 422);
   EXPECT_EQ(body["diagnostics"].size(), 2U);

@@ -31,7 +31,7 @@ class ScriptedControl : public ScriptControl {
     }
     if (source.empty()) {
       return std::unexpected(StartFailure{{base::ErrorKind::invalid_input, "The script does not check.", ""},
-                                          {{name, {1, 1}, {1, 1}, "error", "nothing here", "", {}}}});
+                                          {{name, {1, 1}, {1, 1}, "error", "nothing here", "", {}, ""}}});
     }
     current = {std::move(name), std::move(source), ScriptState::running, "", {}};
     return {};

@@ -1,4 +1,5 @@
 #include "dolphin/internal/brackets.hpp"
+#include "dolphin/codes.hpp"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,8 @@ class Matcher {
   /// Whether a closing bracket has something to close; what was opened since then and not closed is reported.
   bool closes(Bracket bracket, Token const& closer) {
     if (open_count(bracket) == 0) {
-      diagnostics_.error(closer.span, fmt::format("this {} closes nothing", diagnostics_.source().text(closer.span)));
+      diagnostics_.report(code("unmatched-bracket"), closer.span,
+                          fmt::format("this {} closes nothing", diagnostics_.source().text(closer.span)));
       return false;
     }
     while (side(tokens_[open_.back()].kind)->bracket != bracket) {
@@ -96,10 +98,10 @@ class Matcher {
 
   void never_closed(std::uint32_t opener, std::optional<base::Span> before) {
     auto const span = tokens_[opener].span;
-    base::Diagnostic diagnostic{base::Severity::error, span,
-                                fmt::format("this {} is never closed", diagnostics_.source().text(span))};
-    if (before) diagnostic.notes.push_back({*before, "it would have to be closed before this"});
-    diagnostics_.report(std::move(diagnostic));
+    std::vector<base::DiagnosticNote> notes;
+    if (before) notes.push_back({*before, "it would have to be closed before this"});
+    diagnostics_.report(code("unclosed-bracket"), span,
+                        fmt::format("this {} is never closed", diagnostics_.source().text(span)), {}, std::move(notes));
   }
 
   std::vector<Token>& tokens_;

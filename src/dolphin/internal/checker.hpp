@@ -9,6 +9,7 @@
 
 #include "base/diagnostic.hpp"
 #include "dolphin/ast.hpp"
+#include "dolphin/codes.hpp"
 #include "dolphin/inference.hpp"
 #include "dolphin/resolver.hpp"
 #include "dolphin/signatures.hpp"

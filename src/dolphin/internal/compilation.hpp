@@ -8,6 +8,7 @@
 #include "base/diagnostic.hpp"
 #include "dolphin/ast.hpp"
 #include "dolphin/bytecode.hpp"
+#include "dolphin/codes.hpp"
 #include "dolphin/internal/function_builder.hpp"
 #include "tasks/platform.hpp"
 

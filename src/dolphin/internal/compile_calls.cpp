@@ -67,8 +67,8 @@ void Compilation::named_call(std::string const& name, ast::Call const& node, bas
   if (block_call(name, node)) return;
   if (has_names(node) && (name == "execute" || name == "setConnectionTimeout")) return keyed_call(name, node);
   if (name == "imcPlan" && only_closure(node)) {
-    return diagnostics_.error(span, "IMC plans are not supported",
-                              "define a mission { ... } or load a plan by its name");
+    return diagnostics_.report(code("imc-plan"), span, "IMC plans are not supported",
+                               "define a mission { ... } or load a plan by its name");
   }
   if (name == "poll") {
     int const count = arguments(node.arguments);
@@ -152,7 +152,8 @@ int Compilation::arguments(std::vector<ast::Argument> const& arguments) {
     expression(*argument.value);
     ++count;
   }
-  if (count > 255) diagnostics_.error(arguments.front().value->span, "more than 255 arguments");
+  if (count > 255)
+    diagnostics_.report(code("argument-count"), arguments.front().value->span, "more than 255 arguments");
   return count;
 }
 
@@ -172,7 +173,8 @@ void Compilation::keyed_call(std::string const& native, ast::Call const& node) {
   int count = 0;
   for (auto const& argument : node.arguments) {
     if (!argument.name) {
-      diagnostics_.error(argument.value->span, "every part needs a vehicle set before it: name: value");
+      diagnostics_.report(code("named-arguments"), argument.value->span,
+                          "every part needs a vehicle set before it: name: value");
       continue;
     }
     text(argument.name->text);
@@ -181,7 +183,7 @@ void Compilation::keyed_call(std::string const& native, ast::Call const& node) {
     expression(*argument.value);
     count += 3;
   }
-  if (count > 255) diagnostics_.error(node.callee->span, "more than 85 parts");
+  if (count > 255) diagnostics_.report(code("argument-count"), node.callee->span, "more than 85 parts");
   function_->emit(Op::call_native, find_native(native + " keyed").value(), count);
 }
 
@@ -191,7 +193,8 @@ void Compilation::native_call(std::string_view name, int count, base::Span span)
   if (count < native.least || (native.most != any_number && count > native.most)) {
     auto const expected = native.least == native.most ? fmt::format("{}", native.least)
                                                       : fmt::format("{} to {}", native.least, native.most);
-    diagnostics_.error(span, fmt::format("{} takes {} arguments, not {}", name, expected, count));
+    diagnostics_.report(code("argument-count"), span,
+                        fmt::format("{} takes {} arguments, not {}", name, expected, count));
   }
   function_->emit(Op::call_native, index, count);
 }
@@ -206,8 +209,8 @@ void Compilation::chain(ast::Chain const& node, base::Span span) {
     case ast::ChainKind::during: function_->emit(Op::call_function, program_.method_index.at("during"), 2); return;
     case ast::ChainKind::when: {
       if (!std::ranges::any_of(blocks_, is_choice)) {
-        diagnostics_.error(node.head_span, "when stands only inside oneOf, choose or allOf",
-                           "write waitFor { ... } then ...");
+        diagnostics_.report(code("misplaced-when"), node.head_span, "when stands only inside oneOf, choose or allOf",
+                            "write waitFor { ... } then ...");
       }
       auto& commands = function_->function().commands;
       commands.push_back({"choice", "when"});

@@ -254,7 +254,7 @@ void Compilation::step(ast::Step const& node) {
     add();
     f.emit(Op::set_index);
   } else {
-    diagnostics_.error(node.target->span, "this cannot be assigned to");
+    diagnostics_.report(code("not-assignable"), node.target->span, "this cannot be assigned to");
   }
   f.emit(Op::load_local, node.prefix ? fresh : old);
 }

@@ -65,8 +65,9 @@ void Compilation::statement(ast::Stmt const& stmt) {
     void operator()(ast::FunctionDecl const& node) const {
       auto const found = self.functions_->find(node.name.text);
       if (found == self.functions_->end() || self.function_->enclosing()) {
-        return self.diagnostics_.error(node.name.span, "functions are declared at the top level of a script",
-                                       "use a closure: def " + node.name.text + " = { ... }");
+        return self.diagnostics_.report(code("nested-function"), node.name.span,
+                                        "functions are declared at the top level of a script",
+                                        "use a closure: def " + node.name.text + " = { ... }");
       }
       // Functions see global variables only, so there is no enclosing function.
       self.program_.functions[static_cast<std::size_t>(found->second)] =
@@ -136,7 +137,7 @@ void Compilation::assign(ast::Assign const& assign, bool keeps_value) {
     f.emit(Op::load_local, result);
     f.emit(Op::set_index);
   } else {
-    diagnostics_.error(assign.target->span, "this cannot be assigned to");
+    diagnostics_.report(code("not-assignable"), assign.target->span, "this cannot be assigned to");
   }
   if (keeps_value) f.emit(Op::load_local, result);
 }
@@ -313,7 +314,8 @@ void Compilation::leave(bool is_break, base::Span span) {
     (is_break ? loop.breaks : loop.continues).push_back(jump);
     return;
   }
-  diagnostics_.error(span, is_break ? "break outside a loop or switch" : "continue outside a loop");
+  diagnostics_.report(code("misplaced-break"), span,
+                      is_break ? "break outside a loop or switch" : "continue outside a loop");
 }
 
 void Compilation::return_statement(ast::Return const& node) {

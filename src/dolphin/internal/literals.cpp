@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "dolphin/codes.hpp"
 #include "dolphin/internal/characters.hpp"
 
 namespace lapwing::dolphin {
@@ -94,8 +95,9 @@ class StringDecoder {
   }
 
   void error(std::size_t begin, std::string message, std::string hint) {
-    diagnostics_.error({static_cast<std::uint32_t>(begin_ + begin), static_cast<std::uint32_t>(begin_ + at_)},
-                       std::move(message), std::move(hint));
+    diagnostics_.report(code("invalid-escape"),
+                        {static_cast<std::uint32_t>(begin_ + begin), static_cast<std::uint32_t>(begin_ + at_)},
+                        std::move(message), std::move(hint));
   }
 
   std::uint32_t begin_;
@@ -126,7 +128,7 @@ ast::Expr::Node decode_number(base::Span span, bool is_decimal, base::Diagnostic
     double value = 0.0;
     if (std::from_chars(digits.data(), end, value).ec == std::errc::result_out_of_range) {
       value = std::strtod(digits.c_str(), nullptr);  // tells too small (0) from too large (infinity)
-      if (std::isinf(value)) diagnostics.error(span, "this number is too large");
+      if (std::isinf(value)) diagnostics.report(code("number-too-large"), span, "this number is too large");
     }
     return ast::DecimalLiteral{value};
   }
@@ -135,7 +137,8 @@ ast::Expr::Node decode_number(base::Span span, bool is_decimal, base::Diagnostic
   std::int64_t value = 0;
   auto const failure = std::from_chars(digits.data() + (base == 10 ? 0 : 2), end, value, base).ec;
   if (failure == std::errc::result_out_of_range) {
-    diagnostics.error(span, "this number does not fit into 64 bits", "write it with a decimal point");
+    diagnostics.report(code("number-too-large"), span, "this number does not fit into 64 bits",
+                       "write it with a decimal point");
   }
   return ast::IntegerLiteral{value};
 }

@@ -7,6 +7,7 @@
 
 #include "base/diagnostic.hpp"
 #include "dolphin/ast.hpp"
+#include "dolphin/codes.hpp"
 #include "dolphin/token.hpp"
 
 namespace lapwing::dolphin {
@@ -42,7 +43,7 @@ class Parser {
   [[nodiscard]] base::Span here() const;
 
   // ---- mistakes (parser.cpp)
-  void error(base::Span span, std::string message, std::string hint = {});
+  void error(base::DiagnosticKind const& kind, base::Span span, std::string message, std::string hint = {});
   /// "expected X, found Y" at the next token.
   void expected(std::string_view what, std::string hint = {});
   bool expect(TokenKind wanted, std::string_view what);

@@ -65,6 +65,7 @@ export interface Diagnostic {
   column: number;
   end_line: number;
   end_column: number;
+  code?: string;
   message: string;
   hint?: string;
   notes?: Diagnostic[];
