@@ -9,7 +9,7 @@ namespace lapwing::apps {
 /// Exit codes of every verb (docs/reference/command-line.md).
 enum ExitCode : int {
   exit_done = 0,
-  exit_failed = 1,        ///< script error at run time; doctor found something wrong
+  exit_failed = 1,        ///< script error at run time; doctor found something wrong; fmt --check did
   exit_usage = 2,         ///< does not check, bad usage
   exit_halted = 3,        ///< halt, no vehicle found, link or vehicle failure
   exit_interrupted = 130  ///< interrupted, vehicles made safe
@@ -19,6 +19,7 @@ enum ExitCode : int {
 void add_run(CLI::App& program, int& exit_code);
 void add_demo(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
+void add_fmt(CLI::App& program, int& exit_code);
 void add_sim(CLI::App& program, int& exit_code);
 void add_station(CLI::App& program, int& exit_code);
 void add_doctor(CLI::App& program, int& exit_code);
