@@ -24,4 +24,11 @@ struct Estimate {
 [[nodiscard]] Estimate estimate(Mission const& mission, std::optional<geo::Wgs84> start = std::nullopt,
                                 Speeds speeds = {});
 
+/// What became of an estimate.
+struct Flown {
+  Estimate estimate;
+  double path_m = 0.0;
+  base::Duration duration{};
+};
+
 }  // namespace lapwing::plan
