@@ -17,11 +17,11 @@ fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop) {
 
 }  // namespace
 
-Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log)
+Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options)
     : loop(on),
       connection(on, {}, log.named("link")),
       registry(on),
-      fleet(connection, registry, {}, log.named("fleet")),
+      fleet(connection, registry, std::move(fleet_options), log.named("fleet")),
       platform(fleet, platform_options(on_stop), log.named("fleet")) {}
 
 base::Result<> Ground::open(std::vector<std::string> const& urls) {

@@ -41,6 +41,7 @@ int main_of(int argc, char** argv) {
   int exit_code = exit_done;
   add_run(program, exit_code);
   add_demo(program, exit_code);
+  add_plan(program, exit_code);
   add_check(program, exit_code);
   add_fmt(program, exit_code);
   add_sim(program, exit_code);

@@ -18,6 +18,7 @@ enum ExitCode : int {
 // Each adds its subcommand to `program`; the chosen one writes `exit_code`.
 void add_run(CLI::App& program, int& exit_code);
 void add_demo(CLI::App& program, int& exit_code);
+void add_plan(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_fmt(CLI::App& program, int& exit_code);
 void add_sim(CLI::App& program, int& exit_code);

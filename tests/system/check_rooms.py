@@ -7,7 +7,7 @@ import sys
 # A room may include itself and every room on a line below its own. Rooms of one line do not know each other.
 HOUSE = [
     {"apps"},
-    {"station", "onboard", "sim"},
+    {"station", "onboard", "sim", "dryrun"},
     {"dolphin", "fleet", "robot", "imm", "autonomy"},
     {"tasks"},
     {"plan"},
