@@ -6,6 +6,7 @@
 #include "dolphin/blocks.hpp"
 #include "dolphin/equality.hpp"
 #include "dolphin/fiber.hpp"
+#include "dolphin/internal/code_points.hpp"
 #include "dolphin/members.hpp"
 #include "dolphin/operators.hpp"
 #include "dolphin/runtime.hpp"
@@ -123,7 +124,7 @@ Checked<Value> Fiber::iterable(Value const& value) {
     }
     case ValueKind::text: {
       auto letters = heap.make<List>();
-      for (char const c : value.as<Text>()->text) letters->push(heap.make<Text>(std::string(1, c)));
+      for (auto const letter : code_points(value.as<Text>()->text)) letters->push(heap.make<Text>(std::string(letter)));
       return Value(letters);
     }
     default: return fault(fmt::format("{} cannot be walked through", kind_name(value)), "IllegalArgumentException");

@@ -105,6 +105,28 @@ TEST(Functions, TakeDefaultsAndReturnTheirLastValue) {
   EXPECT_EQ(printed("def f(a, b = { -> a }) { b() }\nprint f(7)"), "7");
 }
 
+TEST(Functions, OfOneNameDifferInTheNumberOfParameters) {
+  EXPECT_EQ(printed("def f(a) { 'one' }\ndef f(a, b) { 'two' }\nprint f(1) + f(1, 2)"), "onetwo");
+  EXPECT_EQ(printed("def f(a, b = 1) { 'one' }\ndef f(a, b, c) { 'three' }\nprint f(1) + f(1, 2, 3)"), "onethree");
+}
+
+TEST(Functions, HaveTheValueOfTheirLastTryOrSwitch) {
+  EXPECT_EQ(printed("def f(x) { try { 10 / x } catch (e) { 'c' } finally { print 'f' } }\nprint f(0)\nprint f(5)"),
+            "fcf2");
+  EXPECT_EQ(
+      printed("def f(x) { switch (x) { case 1: 'one'; break; case 2: if (x) { 'two' }; break; default: 'many' } }\n"
+              "print f(1) + f(2) + f(3)"),
+      "onetwomany");
+  EXPECT_EQ(printed("def f() { while (false) { 1 } }\nprint f()"), "null");
+}
+
+TEST(Declarations, ConvertToTheirType) {
+  EXPECT_EQ(printed("int n = 2.9\ndouble d = 2\nString s = 5\nString t = null\nprint \"$n $d ${s.size()} $t\""),
+            "2 2.0 1 null");
+  EXPECT_NE(printed("int n = 'x'").find("NumberFormatException: 'x' is no number"), std::string::npos);
+  EXPECT_EQ(printed("def a, b\nprint a\nb = 2\nprint b"), "null2");
+}
+
 TEST(Control, LoopsBreakAndContinue) {
   EXPECT_EQ(printed("for (i = 0; i < 10; i++) { if (i == 2) continue\n if (i == 5) break\n print i }"), "0134");
   EXPECT_EQ(printed("n = 3\nwhile (n) { print n--\n }"), "321");
@@ -122,6 +144,22 @@ TEST(Exceptions, AreCaughtByType) {
                     "{ print e.message }"),
             "oops");
   EXPECT_EQ(printed("try { [1, 2].foo() } catch (e) { print e.message }"), "a list has no method foo");
+}
+
+TEST(Exceptions, HaveJavasFamilies) {
+  std::string const caught =
+      "try { throw new %s('x') } catch (RuntimeException e) { print 'runtime' } "
+      "catch (Exception e) { print 'other' }";
+  auto const by = [&](std::string const& type) {
+    auto script = caught;
+    return printed(script.replace(script.find("%s"), 2, type));
+  };
+  EXPECT_EQ(by("Exception"), "other");
+  EXPECT_EQ(by("IOException"), "other");
+  EXPECT_EQ(by("TaskError"), "other");
+  EXPECT_EQ(by("NumberFormatException"), "runtime");
+  EXPECT_EQ(by("MyOwnException"), "runtime");
+  EXPECT_EQ(printed("try { 'a'.toInteger() } catch (IllegalArgumentException e) { print 'family' }"), "family");
 }
 
 TEST(Exceptions, FinallyRunsOnEveryWayOut) {

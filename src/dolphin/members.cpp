@@ -7,8 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "dolphin/equality.hpp"
 #include "dolphin/fiber.hpp"
+#include "dolphin/internal/methods.hpp"
 #include "dolphin/operators.hpp"
 #include "dolphin/runtime.hpp"
 #include "dolphin/text.hpp"
@@ -131,6 +134,36 @@ std::string_view type_name(Value const& value) {
   }
 }
 
+/// The next more general class of a Java exception; RuntimeException for what has no entry.
+std::string_view parent_of(std::string_view type) {
+  static constexpr std::pair<std::string_view, std::string_view> parents[] = {
+      {"NumberFormatException", "IllegalArgumentException"},
+      {"ArrayIndexOutOfBoundsException", "IndexOutOfBoundsException"},
+      {"StringIndexOutOfBoundsException", "IndexOutOfBoundsException"},
+      {"FileNotFoundException", "IOException"},
+      {"IOException", "Exception"},
+      {"TimeoutException", "Exception"},
+      {"InterruptedException", "Exception"},
+      {"RuntimeException", "Exception"},
+      {"StackOverflowError", "Error"},
+      {"OutOfMemoryError", "Error"},
+      {"AssertionError", "Error"},
+      {"Error", "Exception"},  // `catch (Exception e)` is how scripts say "whatever it is"
+      {"Exception", "Throwable"},
+      {"Throwable", "Object"},
+      {"Object", ""}};
+  auto const found = std::ranges::find(parents, type, &std::pair<std::string_view, std::string_view>::first);
+  if (found != std::end(parents)) return found->second;
+  return type.ends_with("Error") ? "Exception" : "RuntimeException";
+}
+
+bool is_kind_of_error(std::string_view type, std::string_view general) {
+  for (; !type.empty(); type = parent_of(type)) {
+    if (type == general) return true;
+  }
+  return false;
+}
+
 bool is_error_type(std::string_view type) {
   auto const ends = [&](std::string_view end) { return type.ends_with(end); };
   return ends("Exception") || ends("Error") || type == "Throwable";
@@ -196,6 +229,14 @@ Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name
   if (type == "Position" && method == "fromDegrees") {
     return natives()[static_cast<std::size_t>(find_native("location").value())].call(runtime, fiber, arguments);
   }
+  if (type == "System" && method == "nanoTime" && arguments.empty()) {
+    return Value::integer(std::chrono::nanoseconds(runtime.loop.now().time_since_epoch()).count());
+  }
+  if (type == "String" && method == "format" && !arguments.empty()) {
+    auto text = internal::formatted(to_text(arguments.front()), arguments.subspan(1));
+    if (!text) return std::unexpected(text.error());
+    return Value(runtime.heap.make<Text>(std::move(*text)));
+  }
   if (type == "Math") {
     auto const index = find_native(method);
     if (index && natives()[static_cast<std::size_t>(*index)].is_pure) {
@@ -236,10 +277,18 @@ Checked<Value> construct(Runtime& runtime, std::string_view type, Native::Argume
 
 Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type) {
   auto& heap = runtime.heap;
-  bool const to_integer = type == "int" || type == "long" || type == "Integer" || type == "Long";
+  bool const to_integer =
+      type == "int" || type == "long" || type == "Integer" || type == "Long" || type == "short" || type == "byte";
   bool const to_real =
       type == "double" || type == "float" || type == "Double" || type == "Float" || type == "BigDecimal";
+  if (value.is_null()) return value;
   if (type == "String") return Value(heap.make<Text>(to_text(value)));
+  if (type == "boolean" || type == "Boolean") return Value::boolean(is_true(value));
+  if (type == "List" || type == "Set") {
+    if (value.is(ValueKind::list)) return value;
+    auto const items = call_method(runtime, value, "toList", {});
+    if (items) return *items;
+  }
   if (to_integer || to_real) {
     Value number = value;
     if (auto const* text = value.as<Text>()) {
@@ -263,9 +312,7 @@ Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type)
 bool is_instance(Value const& value, std::string_view type) {
   if (value.is_null()) return false;
   if (auto const* error = value.as<Error>()) {
-    if (type == "Throwable" || type == "Exception" || type == "Object") return true;
-    bool const is_runtime = error->value.type.ends_with("Exception");
-    return error->value.type == type || (type == "RuntimeException" && is_runtime);
+    return is_kind_of_error(error->value.type, type);
   }
   auto const own = type_name(value);
   if (type == own || type == "Object" || type == "def") return true;

@@ -143,9 +143,22 @@ Ref<Vehicles> as_set(Heap& heap, Value const& value) {
   return {};
 }
 
+Checked<Value> repeated_list(Heap& heap, List const& list, std::int64_t times) {
+  constexpr std::int64_t most = 10'000'000;
+  auto const size = static_cast<std::int64_t>(list.items.size());
+  if (times < 0) return fault(fmt::format("a list cannot be repeated {} times", times), "IllegalArgumentException");
+  if (size > 0 && times > most / size) return fault("the list is too long", "OutOfMemoryError");
+  std::vector<Value> items;
+  for (std::int64_t i = 0; i < times && size > 0; ++i) {
+    items.insert(items.end(), list.items.begin(), list.items.end());
+  }
+  return Value(heap.make<List>(std::move(items)));
+}
+
 Checked<Value> list_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
   auto* list = left.as<List>();
   auto* other = right.as<List>();
+  if (op == BinaryOp::multiply && right.is(ValueKind::integer)) return repeated_list(heap, *list, right.integer());
   if (op == BinaryOp::shift_left) {
     list->push(right);
     return left;
@@ -163,6 +176,36 @@ Checked<Value> list_operation(Heap& heap, BinaryOp op, Value const& left, Value 
     return no_such_operation(op, left, right);
   }
   return Value(heap.make<List>(std::move(items)));
+}
+
+/// 'ab' * 2, 'abc' - 'c'.
+Checked<Value> text_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
+  constexpr std::size_t longest = std::size_t{16} << 20U;
+  auto const& text = left.as<Text>()->text;
+  if (op == BinaryOp::subtract) {
+    auto const part = to_text(right);
+    auto const at = text.find(part);
+    if (at == std::string::npos) return left;
+    return Value(heap.make<Text>(text.substr(0, at) + text.substr(at + part.size())));
+  }
+  if (op != BinaryOp::multiply || !right.is(ValueKind::integer)) return no_such_operation(op, left, right);
+  auto const times = right.integer();
+  if (times < 0) return fault(fmt::format("a text cannot be repeated {} times", times), "IllegalArgumentException");
+  if (!text.empty() && static_cast<std::size_t>(times) > longest / text.size()) {
+    return fault("the text is too long", "OutOfMemoryError");
+  }
+  std::string repeated;
+  for (std::int64_t i = 0; i < times && !text.empty(); ++i) repeated += text;
+  return Value(heap.make<Text>(std::move(repeated)));
+}
+
+/// A range as the list of its numbers, for operators; null when it is too long.
+Ref<List> as_list(Heap& heap, Range const& range) {
+  constexpr std::int64_t longest = 10'000'000;
+  if (range.size > longest) return {};
+  std::vector<Value> items;
+  for (std::int64_t i = 0; i < range.size; ++i) items.push_back(Value::integer(range.at(i)));
+  return heap.make<List>(std::move(items));
 }
 
 Checked<Value> map_sum(Heap& heap, Map const& left, Map const& right) {
@@ -186,21 +229,6 @@ Checked<Value> position_operation(Heap& heap, BinaryOp op, Value const& left, Va
   return no_such_operation(op, left, right);
 }
 
-Checked<std::size_t> position_in(std::int64_t index, std::size_t size) {
-  auto const count = static_cast<std::int64_t>(size);
-  auto const position = index < 0 ? index + count : index;
-  if (position < 0 || position >= count) {
-    return fault(fmt::format("index {} is outside 0..<{}", index, count), "IndexOutOfBoundsException");
-  }
-  return static_cast<std::size_t>(position);
-}
-
-Checked<Value> restricted_task(Heap& heap, TaskValue const& task, Value const& index, tasks::Origin const& origin) {
-  auto const set = as_set(heap, index);
-  if (!set) return fault(fmt::format("a task can be restricted to a vehicle set, not to {}", kind_name(index)));
-  return task_value(heap, tasks::restricted(task.value, set->ids, origin));
-}
-
 }  // namespace
 
 Checked<Value> task_value(Heap& heap, tasks::TaskTree tree) {
@@ -209,21 +237,6 @@ Checked<Value> task_value(Heap& heap, tasks::TaskTree tree) {
                  "IllegalArgumentException");
   }
   return Value(heap.make<TaskValue>(std::move(tree)));
-}
-
-Checked<Value> make_range(Heap& heap, Value const& first, Value const& last, bool is_inclusive) {
-  if (!first.is(ValueKind::integer) || !last.is(ValueKind::integer)) {
-    return fault("a range goes from one integer to another", "IllegalArgumentException");
-  }
-  std::int64_t const from = first.integer();
-  std::int64_t to = last.integer();
-  if (!is_inclusive && from == to) return Value(heap.make<Range>(from, to, 0));
-  if (!is_inclusive) to += to > from ? -1 : 1;
-  std::int64_t length = 0;
-  bool const is_too_long =
-      to >= from ? __builtin_sub_overflow(to, from, &length) : __builtin_sub_overflow(from, to, &length);
-  if (is_too_long || __builtin_add_overflow(length, std::int64_t{1}, &length)) return fault("the range is too long");
-  return Value(heap.make<Range>(from, to, length));
 }
 
 Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& right, tasks::Origin const& origin) {
@@ -241,6 +254,17 @@ Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& ri
   if (auto const a = as_set(heap, left)) {
     if (auto const b = as_set(heap, right)) return vehicles_operation(heap, op, *a, *b);
   }
+  if (left.is(ValueKind::text)) return text_operation(heap, op, left, right);
+  auto const* left_range = left.as<Range>();
+  auto const* right_range = left.is(ValueKind::list) || left_range ? right.as<Range>() : nullptr;
+  if (right_range && op != BinaryOp::shift_left) {
+    auto const list = as_list(heap, *right_range);
+    return list ? apply(heap, op, left, Value(list), origin) : no_such_operation(op, left, right);
+  }
+  if (left_range && (op == BinaryOp::add || op == BinaryOp::subtract)) {
+    auto const list = as_list(heap, *left_range);
+    return list ? apply(heap, op, Value(list), right, origin) : no_such_operation(op, left, right);
+  }
   if (left.is(ValueKind::list)) return list_operation(heap, op, left, right);
   if (left.is(ValueKind::position)) return position_operation(heap, op, left, right);
   if (left.is(ValueKind::map) && right.is(ValueKind::map) && op == BinaryOp::add) {
@@ -253,84 +277,6 @@ Checked<Value> negate(Value const& operand) {
   if (operand.is(ValueKind::real)) return Value::real(-operand.real());
   if (!operand.is(ValueKind::integer)) return fault(fmt::format("{} has no negative", kind_name(operand)));
   return integer_operation(BinaryOp::subtract, 0, operand.integer());
-}
-
-Checked<bool> contains(Value const& container, Value const& item) {
-  auto const same = [&](Value const& other) { return equal(other, item); };
-  switch (container.kind()) {
-    case ValueKind::null: return false;
-    case ValueKind::list: return std::ranges::any_of(container.as<List>()->items, same);
-    case ValueKind::map: return container.as<Map>()->contains(item);
-    case ValueKind::text: return container.as<Text>()->text.find(to_text(item)) != std::string::npos;
-    case ValueKind::range: {
-      auto const& range = *container.as<Range>();
-      if (!item.is_number() || range.size == 0) return false;
-      double const x = item.number();
-      auto const [low, high] = std::minmax(range.first, range.last);
-      return x >= static_cast<double>(low) && x <= static_cast<double>(high) && x == std::floor(x);
-    }
-    case ValueKind::vehicles: {
-      auto const& ids = container.as<Vehicles>()->ids;
-      auto const holds = [&](auto const& id) { return std::ranges::find(ids, id) != ids.end(); };
-      if (auto const* one = item.as<Vehicle>()) return holds(one->value);
-      if (auto const* set = item.as<Vehicles>()) return std::ranges::all_of(set->ids, holds);
-      return holds(vehicle::VehicleId{to_text(item)});
-    }
-    case ValueKind::area:
-      if (auto const* place = item.as<Position>()) return container.as<Area>()->value.contains(place->value);
-      return fault("an area contains positions only", "IllegalArgumentException");
-    default: return fault(fmt::format("{} has no members", kind_name(container)), "IllegalArgumentException");
-  }
-}
-
-Checked<Value> element(Heap& heap, Value const& object, Value const& index, tasks::Origin const& origin) {
-  if (auto const* map = object.as<Map>()) return map->at(index);
-  if (auto const* task = object.as<TaskValue>()) return restricted_task(heap, *task, index, origin);
-  if (!index.is(ValueKind::integer))
-    return fault(fmt::format("{} is no index of {}", kind_name(index), kind_name(object)));
-  std::int64_t const i = index.integer();
-  if (auto const* list = object.as<List>()) {
-    // As in Groovy: beyond the end there is nothing, before the start is an error.
-    if (i >= static_cast<std::int64_t>(list->items.size())) return Value();
-    auto const at = position_in(i, list->items.size());
-    if (!at) return std::unexpected(at.error());
-    return list->items[*at];
-  }
-  if (auto const* text = object.as<Text>()) {
-    auto const at = position_in(i, text->text.size());
-    if (!at) return std::unexpected(at.error());
-    return Value(heap.make<Text>(text->text.substr(*at, 1)));
-  }
-  if (auto const* range = object.as<Range>()) {
-    auto const at = position_in(i, static_cast<std::size_t>(range->size));
-    if (!at) return std::unexpected(at.error());
-    return Value::integer(range->at(static_cast<std::int64_t>(*at)));
-  }
-  if (auto const* set = object.as<Vehicles>()) {
-    auto const at = position_in(i, set->ids.size());
-    if (!at) return std::unexpected(at.error());
-    return Value(heap.make<Vehicle>(set->ids[*at]));
-  }
-  return fault(fmt::format("{} has no elements", kind_name(object)));
-}
-
-Checked<Value> set_element(Value const& object, Value const& index, Value value) {
-  if (auto* map = object.as<Map>()) {
-    map->set(index, std::move(value));
-    return Value();
-  }
-  auto* list = object.as<List>();
-  if (!list || !index.is(ValueKind::integer))
-    return fault(fmt::format("cannot assign to an element of {}", kind_name(object)));
-  auto const size = static_cast<std::int64_t>(list->items.size());
-  if (index.integer() == size) {
-    list->push(std::move(value));
-    return Value();
-  }
-  auto const at = position_in(index.integer(), list->items.size());
-  if (!at) return std::unexpected(at.error());
-  list->items[*at] = std::move(value);
-  return Value();
 }
 
 std::optional<Checked<Value>> with_unit(Value const& number, std::string_view name) {

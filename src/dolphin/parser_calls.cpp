@@ -45,6 +45,10 @@ bool is_void_instruction(std::string_view word) {
   return std::ranges::find(void_instructions, word) != void_instructions.end();
 }
 
+bool is_closing_bracket(TokenKind kind) {
+  return kind == right_paren || kind == right_bracket || kind == right_brace || kind == interpolation_close;
+}
+
 bool joins_values(TokenKind kind) {
   return (kind >= plus && kind <= power) || (kind >= shift_left && kind <= bit_xor && kind != logical_not);
 }
@@ -78,7 +82,7 @@ bool Parser::starts_argument(std::size_t ahead) const {
   if (!on_same_line(ahead)) return false;
   if (at_argument_name(ahead)) return true;
   switch (kind(ahead)) {
-    case identifier: return !is_chain_word(text(token(ahead)));
+    case identifier: return !is_chain_word(text(token(ahead))) || at_during_chain(ahead);
     case integer:
     case decimal:
     case string:
@@ -89,6 +93,23 @@ bool Parser::starts_argument(std::size_t ahead) const {
     case kw_new: return true;
     default: return false;
   }
+}
+
+/// `execute during 5.seconds run t`: a chain as argument, and not the old `task during 5.seconds`.
+bool Parser::at_during_chain(std::size_t ahead) const {
+  if (!at_word("during", ahead)) return false;
+  for (auto at = next_ + ahead + 1; at < tokens_.size(); ++at) {
+    auto const& token = tokens_[at];
+    bool const is_run = token.kind == identifier && text(token) == "run";
+    if (is_run) return true;
+    if (token.newline_before || token.kind == comma || token.kind == semicolon || is_closing_bracket(token.kind)) {
+      return false;
+    }
+    bool const opens = token.kind == left_paren || token.kind == left_bracket || token.kind == left_brace;
+    if (opens && token.partner == Token::unclosed) return false;
+    if (opens) at = token.partner;
+  }
+  return false;
 }
 
 /// `move (-5), 0, 0`: the comma tells that the parentheses hold only the first of several arguments.

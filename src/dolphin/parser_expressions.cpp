@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -128,6 +129,11 @@ ast::ExprPtr Parser::binary(int weakest) {
   }
 }
 
+/// The digits of the least integer, which has no positive counterpart.
+bool Parser::at_least_integer() const {
+  return at(integer) && text(token()) == "9223372036854775808";
+}
+
 ast::ExprPtr Parser::unary() {
   auto const begin = token().span.begin;
   auto const sign = unary_operator(kind());
@@ -138,6 +144,10 @@ ast::ExprPtr Parser::unary() {
     return broken();
   }
   auto const op = advance().kind;
+  if (op == minus && at_least_integer()) {
+    advance();
+    return make(ast::IntegerLiteral{std::numeric_limits<std::int64_t>::min()}, since(begin));
+  }
   auto operand = unary();
   if (sign) return make(ast::Unary{*sign, std::move(operand)}, since(begin));
   return make(ast::Step{std::move(operand), op == plus_plus ? 1 : -1, true}, since(begin));
@@ -332,11 +342,11 @@ ast::ExprPtr Parser::new_object() {
 
 // ---- closures -----------------------------------------------------------------------------------
 
-/// Looks ahead for the -> behind parameters, within one line and outside nested brackets.
+/// Looks ahead for the -> behind parameters, outside nested brackets and within one line but for breaks after commas.
 bool Parser::has_arrow() const {
   for (auto at = next_; at < tokens_.size(); ++at) {
     auto const& token = tokens_[at];
-    if (token.newline_before && at > next_) return false;
+    if (token.newline_before && at > next_ && tokens_[at - 1].kind != comma) return false;
     if (token.kind == arrow) return true;
     bool const opens = token.kind == left_paren || token.kind == left_bracket || token.kind == left_brace;
     if (opens && token.partner == Token::unclosed) return false;

@@ -104,6 +104,9 @@ TEST(Chains, AreOneNodeInEverySpelling) {
   EXPECT_EQ(tree("x = a >> waitFor {c} then b | d"), "(= x (>> a (waitFor {c} (| b d))))");
   EXPECT_EQ(tree("x = during { 0.3 } run t"), "(= x (during {0.3} t))");
   EXPECT_EQ(tree("x = during 5.seconds run t"), "(= x (during 5.seconds t))");
+  EXPECT_EQ(tree("execute during 5.seconds run t"), "(call execute (during 5.seconds t))");
+  EXPECT_EQ(tree("execute during { 5 } run t >> u"), "(call execute (during {5} (>> t u)))");
+  EXPECT_EQ(tree("execute v: during 5 run t, w: u"), "(call execute v: (during 5 t) w: u)");
   EXPECT_EQ(tree("x = watch(t).onError { e }"), "(= x (watch t {e}))");
   EXPECT_EQ(tree("when = 1; until = when + 1"), "(= when 1)\n(= until (+ when 1))");
   EXPECT_EQ(read("task 't' during 2.seconds").tree, "(during 2.seconds (call task 't'))\n");

@@ -51,14 +51,41 @@ def every(items, f = { it }) {
   for (x in items) { if (!f(x)) { return false } }
   return true
 }
-def inject(items, start, f) {
-  def result = start
-  for (x in items) { result = f(result, x) }
+def inject(items, start, f = null) {
+  def fold = f == null ? start : f
+  def result = f == null ? null : start
+  def isFirst = f == null
+  for (x in items) {
+    result = isFirst ? x : fold(result, x)
+    isFirst = false
+  }
   return result
 }
 def sum(items, f = { it }) {
   def result = null
   for (x in items) { result = result == null ? f(x) : result + f(x) }
+  return result
+}
+def collectMany(items, f) {
+  def result = []
+  for (x in items) { result.addAll(f(x).toList()) }
+  return result
+}
+def findResult(items, f) {
+  for (x in items) {
+    def found = f(x)
+    if (found != null) { return found }
+  }
+  return null
+}
+def reverseEach(items, f) {
+  for (x in items.toList().reverse()) { f(x) }
+  return items
+}
+def withIndex(items) {
+  def result = []
+  def i = 0
+  for (x in items) { result << [x, i++] }
   return result
 }
 def count(items, f) {
@@ -76,41 +103,44 @@ def groupBy(items, f) {
   }
   return result
 }
-def min(items, f = { it }) {
+def smallest(items, f, sign) {
+  def precedes = f.parameterCount() > 1 ? { a, b -> f(a, b) * sign < 0 } : null
   def best = null
-  def least = null
+  def key = null
+  def isFirst = true
   for (x in items) {
-    def key = f(x)
-    if (least == null || key < least) {
+    def other = precedes == null ? f(x) : null
+    if (isFirst || (precedes == null ? (other <=> key) * sign < 0 : precedes(x, best))) {
       best = x
-      least = key
+      key = other
     }
+    isFirst = false
   }
   return best
 }
-def max(items, f = { it }) {
-  def best = null
-  def most = null
-  for (x in items) {
-    def key = f(x)
-    if (most == null || key > most) {
-      best = x
-      most = key
-    }
+def min(items, f = { it }) { return smallest(items, f, 1) }
+def max(items, f = { it }) { return smallest(items, f, -1) }
+def sort(items, f = null) {
+  if (items instanceof Map) {
+    def sorted = [:]
+    for (pair in ordered(items.toList(), f == null ? { it.key } : f)) { sorted[pair.key] = pair.value }
+    return sorted
   }
-  return best
+  def result = ordered(items.toList(), f == null ? { it } : f)
+  return items instanceof List ? items.become(result) : result
 }
-def sort(items, f = { it }) {
+def toSorted(items, f = { it }) { return ordered(items.toList(), f) }
+def ordered(items, f) {
   def before = f.parameterCount() > 1 ? f : { a, b -> f(a) <=> f(b) }
-  def from = items.toList()
+  def from = items
   def n = from.size()
   def width = 1
   while (width < n) {
     def to = []
     def low = 0
     while (low < n) {
-      def middle = min([low + width, n])
-      def high = min([low + 2 * width, n])
+      def middle = smaller(low + width, n)
+      def high = smaller(low + 2 * width, n)
       def i = low
       def j = middle
       while (i < middle || j < high) {
@@ -123,6 +153,7 @@ def sort(items, f = { it }) {
   }
   return from
 }
+def smaller(a, b) { a < b ? a : b }
 def times(n, f) {
   for (def i = 0; i < n; i++) { f(i) }
   return null
@@ -133,6 +164,10 @@ def upto(first, last, f) {
 }
 def downto(first, last, f) {
   for (def i = first; i >= last; i--) { f(i) }
+  return null
+}
+def step(first, last, by, f) {
+  for (def i = first; by > 0 ? i < last : i > last; i += by) { f(i) }
   return null
 }
 def during(limit, t) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ class Compilation {
   [[nodiscard]] std::shared_ptr<Function const> answer(ast::Expr const& expr);
 
  private:
+  static constexpr int nowhere = -1;
+
   struct Loop {
     std::vector<int> breaks;
     std::vector<int> continues;
@@ -45,6 +48,11 @@ class Compilation {
     int local = 0;
     std::vector<int> calls;
   };
+  /// One of the functions that share a name.
+  struct Overload {
+    ast::FunctionDecl const* declaration;
+    int index;  ///< in the program
+  };
   /// What belongs to one function but not to what it becomes.
   struct Surroundings {
     std::vector<Loop> loops;
@@ -53,20 +61,25 @@ class Compilation {
 
   // statements
   void declare_functions(ast::Block const& block);
-  void block(ast::Block const& block);
+  [[nodiscard]] int index_of(ast::FunctionDecl const& declaration) const;
+  /// The function of that name that takes so many arguments, else the first of that name; nothing when there is none.
+  [[nodiscard]] std::optional<int> function_for(std::string const& name, std::size_t arguments) const;
+  /// `sink`: the local that gets the value of its last statement.
+  void block(ast::Block const& block, int sink = nowhere);
+  void value_statement(ast::Stmt const& stmt, int sink);
   /// Returns the value of the block's last statement from the function.
   void body(ast::Block const& block);
   void last_statement(ast::Stmt const& stmt);
   void statement(ast::Stmt const& stmt);
   void assign(ast::Assign const& assign, bool keeps_value);
   void declare_variables(ast::VarDecl const& decl);
-  void if_statement(ast::If const& node);
+  void if_statement(ast::If const& node, int sink = nowhere);
   void while_loop(ast::While const& node);
   void for_loop(ast::For const& node);
   void for_in_loop(ast::ForIn const& node);
-  void switch_statement(ast::Switch const& node);
-  void try_statement(ast::Try const& node);
-  void catches(ast::Try const& node, int begin, int end);
+  void switch_statement(ast::Switch const& node, int sink = nowhere);
+  void try_statement(ast::Try const& node, int sink = nowhere);
+  void catches(ast::Try const& node, int begin, int end, int sink);
   void leave(bool is_break, base::Span span);
   void return_statement(ast::Return const& node);
   void assert_statement(ast::Assert const& node);
@@ -113,6 +126,7 @@ class Compilation {
   std::span<tasks::BuilderSpec const> builders_;
   base::Diagnostics& diagnostics_;
   std::unordered_map<std::string, int>* functions_ = nullptr;  ///< of the program, script's or prelude's
+  std::map<std::string, std::vector<Overload>> overloads_;
   std::map<std::string, int> globals_;
   FunctionBuilder* function_ = nullptr;
   Surroundings surroundings_;

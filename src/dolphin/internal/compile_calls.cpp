@@ -21,6 +21,13 @@ bool has_names(ast::Call const& node) {
   return std::ranges::any_of(node.arguments, [](auto const& argument) { return argument.name.has_value(); });
 }
 
+/// Named arguments are gathered into one.
+std::size_t argument_count(ast::Call const& node) {
+  auto const named =
+      std::ranges::count_if(node.arguments, [](auto const& argument) { return argument.name.has_value(); });
+  return node.arguments.size() - static_cast<std::size_t>(named > 0 ? named - 1 : 0);
+}
+
 bool is_choice(std::string_view name) {
   return name == "oneOf" || name == "choose" || name == "allOf";
 }
@@ -59,9 +66,9 @@ void Compilation::call(ast::Call const& node, base::Span span) {
 
 void Compilation::named_call(std::string const& name, ast::Call const& node, base::Span span) {
   if (block_command(name, node)) return;
-  if (auto const found = functions_->find(name); found != functions_->end()) {
+  if (auto const function = function_for(name, argument_count(node))) {
     int const count = arguments(node.arguments);
-    function_->emit(Op::call_function, found->second, count);
+    function_->emit(Op::call_function, *function, count);
     return;
   }
   if (block_call(name, node)) return;

@@ -1,23 +1,87 @@
+#include <algorithm>
+#include <array>
 #include <variant>
 
 #include "dolphin/internal/compilation.hpp"
 #include "dolphin/objects.hpp"
 
 namespace lapwing::dolphin::internal {
+namespace {
+
+/// Types that a declared variable's first value is turned into: `int n = 2.5` is 2.
+bool is_converting_type(std::string_view type) {
+  static constexpr std::array names = {"int",    "long",  "short",  "byte", "double",     "float",
+                                       "String", "Float", "Double", "Long", "BigDecimal", "Integer"};
+  return std::ranges::find(names, type) != names.end();
+}
+
+}  // namespace
 
 void Compilation::declare_functions(ast::Block const& block) {
   for (auto const& stmt : block.statements) {
     auto const* decl = std::get_if<ast::FunctionDecl>(&stmt->node);
     if (!decl) continue;
-    (*functions_)[decl->name.text] = static_cast<int>(program_.functions.size());
+    auto const index = static_cast<int>(program_.functions.size());
+    functions_->try_emplace(decl->name.text, index);
+    overloads_[decl->name.text].push_back({decl, index});
     program_.functions.emplace_back();
   }
 }
 
-void Compilation::block(ast::Block const& block) {
+int Compilation::index_of(ast::FunctionDecl const& declaration) const {
+  auto const found = overloads_.find(declaration.name.text);
+  if (found == overloads_.end()) return -1;
+  auto const overload = std::ranges::find(found->second, &declaration, &Overload::declaration);
+  return overload == found->second.end() ? -1 : overload->index;
+}
+
+std::optional<int> Compilation::function_for(std::string const& name, std::size_t arguments) const {
+  auto const found = overloads_.find(name);
+  if (found == overloads_.end()) return std::nullopt;
+  auto const takes = [&](Overload const& overload) {
+    auto const& parameters = overload.declaration->parameters;
+    auto const has_no_default = [](ast::Parameter const& parameter) { return !parameter.fallback; };
+    auto const required = std::ranges::count_if(parameters, has_no_default);
+    return arguments >= static_cast<std::size_t>(required) && arguments <= parameters.size();
+  };
+  auto const fitting = std::ranges::find_if(found->second, takes);
+  return fitting == found->second.end() ? found->second.front().index : fitting->index;
+}
+
+void Compilation::block(ast::Block const& block, int sink) {
+  auto const& statements = block.statements;
+  // `case 1: 'one'; break` has the value that stands before the break.
+  bool const breaks = statements.size() > 1 && std::holds_alternative<ast::Break>(statements.back()->node);
+  auto const last = statements.size() - (breaks ? 1 : 0);
   function_->open_scope();
-  for (auto const& stmt : block.statements) statement(*stmt);
+  for (std::size_t i = 0; i < statements.size(); ++i) {
+    if (sink != nowhere && i + 1 == last) {
+      value_statement(*statements[i], sink);
+    } else {
+      statement(*statements[i]);
+    }
+  }
   function_->close_scope();
+}
+
+/// A statement whose value goes into a local: the last one of a block that gives a value.
+void Compilation::value_statement(ast::Stmt const& stmt, int sink) {
+  function_->at_line(diagnostics_.source().place(stmt.span.begin).line);
+  if (auto const* node = std::get_if<ast::ExprStmt>(&stmt.node)) {
+    expression(*node->expr);
+    function_->emit(Op::store_local, sink);
+  } else if (auto const* assignment = std::get_if<ast::Assign>(&stmt.node)) {
+    assign(*assignment, true);
+    function_->emit(Op::store_local, sink);
+  } else if (auto const* choice = std::get_if<ast::If>(&stmt.node)) {
+    if_statement(*choice, sink);
+  } else if (auto const* cases = std::get_if<ast::Switch>(&stmt.node)) {
+    switch_statement(*cases, sink);
+  } else if (auto const* guarded = std::get_if<ast::Try>(&stmt.node)) {
+    try_statement(*guarded, sink);
+  } else {
+    statement(stmt);
+  }
 }
 
 void Compilation::body(ast::Block const& block) {
@@ -45,8 +109,11 @@ void Compilation::last_statement(ast::Stmt const& stmt) {
     if (choice->otherwise) return body(*choice->otherwise);
     function_->emit(Op::null);
   } else {
-    statement(stmt);
+    int const sink = function_->hidden();
     function_->emit(Op::null);
+    function_->emit(Op::store_local, sink);
+    value_statement(stmt, sink);
+    function_->emit(Op::load_local, sink);
   }
   function_->emit(Op::return_value);
 }
@@ -63,14 +130,14 @@ void Compilation::statement(ast::Stmt const& stmt) {
     void operator()(ast::Assign const& node) const { self.assign(node, false); }
     void operator()(ast::VarDecl const& node) const { self.declare_variables(node); }
     void operator()(ast::FunctionDecl const& node) const {
-      auto const found = self.functions_->find(node.name.text);
-      if (found == self.functions_->end() || self.function_->enclosing()) {
+      int const index = self.index_of(node);
+      if (index < 0 || self.function_->enclosing()) {
         return self.diagnostics_.report(code("nested-function"), node.name.span,
                                         "functions are declared at the top level of a script",
                                         "use a closure: def " + node.name.text + " = { ... }");
       }
       // Functions see global variables only, so there is no enclosing function.
-      self.program_.functions[static_cast<std::size_t>(found->second)] =
+      self.program_.functions[static_cast<std::size_t>(index)] =
           self.function(node.name.text, node.parameters, false, node.body, nullptr);
     }
     void operator()(ast::If const& node) const { self.if_statement(node); }
@@ -147,7 +214,12 @@ void Compilation::declare_variables(ast::VarDecl const& decl) {
   if (decl.value) expression(*decl.value);
   if (!decl.value) f.emit(Op::null);
   if (!decl.unpacks) {
+    if (decl.type && decl.value && is_converting_type(decl.type->text)) f.emit(Op::cast, f.name(decl.type->text));
     f.emit(Op::declare_local, f.declare(decl.names.front().text));
+    for (std::size_t i = 1; i < decl.names.size(); ++i) {
+      f.emit(Op::null);
+      f.emit(Op::declare_local, f.declare(decl.names[i].text));
+    }
     return;
   }
   int const list = f.hidden();
@@ -160,14 +232,14 @@ void Compilation::declare_variables(ast::VarDecl const& decl) {
   }
 }
 
-void Compilation::if_statement(ast::If const& node) {
+void Compilation::if_statement(ast::If const& node, int sink) {
   expression(*node.condition);
   int const otherwise = function_->emit(Op::jump_if_false);
-  block(node.then);
+  block(node.then, sink);
   if (!node.otherwise) return function_->patch(otherwise);
   int const end = function_->emit(Op::jump);
   function_->patch(otherwise);
-  block(*node.otherwise);
+  block(*node.otherwise, sink);
   function_->patch(end);
 }
 
@@ -222,7 +294,7 @@ void Compilation::for_in_loop(ast::ForIn const& node) {
   f.close_scope();
 }
 
-void Compilation::switch_statement(ast::Switch const& node) {
+void Compilation::switch_statement(ast::Switch const& node, int sink) {
   auto& f = *function_;
   int const subject = f.hidden();
   expression(*node.subject);
@@ -242,19 +314,19 @@ void Compilation::switch_statement(ast::Switch const& node) {
   for (std::size_t i = 0; i < node.cases.size(); ++i) {
     if (entries[i] < 0) has_default = true;
     f.patch(entries[i] < 0 ? no_case : entries[i]);
-    block(node.cases[i].body);
+    block(node.cases[i].body, sink);
   }
   if (!has_default) f.patch(no_case);
   close_loop();
 }
 
-void Compilation::try_statement(ast::Try const& node) {
+void Compilation::try_statement(ast::Try const& node, int sink) {
   auto& f = *function_;
   if (node.finally) surroundings_.finallies.push_back({.local = f.hidden(), .calls = {}});
   int const begin = f.here();
-  block(node.body);
+  block(node.body, sink);
   int const end = f.here();
-  if (!node.catches.empty()) catches(node, begin, end);
+  if (!node.catches.empty()) catches(node, begin, end, sink);
   if (!node.finally) return;
   int const protected_end = f.here();
   auto finally = std::move(surroundings_.finallies.back());
@@ -269,7 +341,7 @@ void Compilation::try_statement(ast::Try const& node) {
   f.patch(over);
 }
 
-void Compilation::catches(ast::Try const& node, int begin, int end) {
+void Compilation::catches(ast::Try const& node, int begin, int end, int sink) {
   auto& f = *function_;
   std::vector<int> ends{f.emit(Op::jump)};
   f.function().handlers.push_back({begin, end, f.here(), -1});
@@ -287,7 +359,7 @@ void Compilation::catches(ast::Try const& node, int begin, int end) {
     f.open_scope();
     f.emit(Op::load_local, caught);
     f.emit(Op::declare_local, f.declare(clause.name.text));
-    block(clause.body);
+    block(clause.body, sink);
     f.close_scope();
     ends.push_back(f.emit(Op::jump));
     if (skip >= 0) f.patch(skip);

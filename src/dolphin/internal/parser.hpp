@@ -98,6 +98,7 @@ class Parser {
   ast::ExprPtr binary(int weakest);
   [[nodiscard]] bool operator_continues() const;
   ast::ExprPtr unary();
+  [[nodiscard]] bool at_least_integer() const;
   ast::ExprPtr power();
   ast::ExprPtr primary();
   ast::ExprPtr literal();
@@ -132,6 +133,7 @@ class Parser {
   ast::ExprPtr index(ast::ExprPtr object, std::uint32_t begin);
   std::vector<ast::Argument> arguments_in_parentheses();
   [[nodiscard]] std::optional<ast::ChainKind> chain_head() const;
+  [[nodiscard]] bool at_during_chain(std::size_t ahead) const;
   ast::ExprPtr chain(ast::ChainKind kind);
   ast::ExprPtr chain_subject(ast::ChainKind kind);
   ast::ExprPtr chain_body(ast::ChainKind kind);

@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "dolphin/equality.hpp"
+#include "dolphin/internal/code_points.hpp"
+#include "dolphin/objects.hpp"
+#include "dolphin/operators.hpp"
+#include "dolphin/text.hpp"
+
+/// What is in what: `x in list`, `list[0]`, `text[1..2]`, `task[vehicles]`, ranges.
+namespace lapwing::dolphin {
+namespace {
+
+Checked<std::size_t> position_in(std::int64_t index, std::size_t size) {
+  auto const count = static_cast<std::int64_t>(size);
+  auto const position = index < 0 ? index + count : index;
+  if (position < 0 || position >= count) {
+    return fault(fmt::format("index {} is outside 0..<{}", index, count), "IndexOutOfBoundsException");
+  }
+  return static_cast<std::size_t>(position);
+}
+
+Checked<Value> restricted_task(Heap& heap, TaskValue const& task, Value const& index, tasks::Origin const& origin) {
+  std::vector<vehicle::VehicleId> ids;
+  if (auto const* set = index.as<Vehicles>()) ids = set->ids;
+  if (auto const* one = index.as<Vehicle>()) ids = {one->value};
+  if (!index.is(ValueKind::vehicles) && !index.is(ValueKind::vehicle)) return fault(fmt::format("a task can be restricted to a vehicle set, not to {}", kind_name(index)));
+  return task_value(heap, tasks::restricted(task.value, std::move(ids), origin));
+}
+
+}  // namespace
+
+Checked<Value> make_range(Heap& heap, Value const& first, Value const& last, bool is_inclusive) {
+  if (!first.is(ValueKind::integer) || !last.is(ValueKind::integer)) {
+    return fault("a range goes from one integer to another", "IllegalArgumentException");
+  }
+  std::int64_t const from = first.integer();
+  std::int64_t to = last.integer();
+  if (!is_inclusive && from == to) return Value(heap.make<Range>(from, to, 0));
+  if (!is_inclusive) to += to > from ? -1 : 1;
+  std::int64_t length = 0;
+  bool const is_too_long =
+      to >= from ? __builtin_sub_overflow(to, from, &length) : __builtin_sub_overflow(from, to, &length);
+  if (is_too_long || __builtin_add_overflow(length, std::int64_t{1}, &length)) return fault("the range is too long");
+  return Value(heap.make<Range>(from, to, length));
+}
+
+Checked<bool> contains(Value const& container, Value const& item) {
+  auto const same = [&](Value const& other) { return equal(other, item); };
+  switch (container.kind()) {
+    case ValueKind::null: return false;
+    case ValueKind::list: return std::ranges::any_of(container.as<List>()->items, same);
+    case ValueKind::map: return container.as<Map>()->contains(item);
+    case ValueKind::text: return container.as<Text>()->text.find(to_text(item)) != std::string::npos;
+    case ValueKind::range: {
+      auto const& range = *container.as<Range>();
+      if (!item.is_number() || range.size == 0) return false;
+      double const x = item.number();
+      auto const [low, high] = std::minmax(range.first, range.last);
+      return x >= static_cast<double>(low) && x <= static_cast<double>(high) && x == std::floor(x);
+    }
+    case ValueKind::vehicles: {
+      auto const& ids = container.as<Vehicles>()->ids;
+      auto const holds = [&](auto const& id) { return std::ranges::find(ids, id) != ids.end(); };
+      if (auto const* one = item.as<Vehicle>()) return holds(one->value);
+      if (auto const* set = item.as<Vehicles>()) return std::ranges::all_of(set->ids, holds);
+      return holds(vehicle::VehicleId{to_text(item)});
+    }
+    case ValueKind::area:
+      if (auto const* place = item.as<Position>()) return container.as<Area>()->value.contains(place->value);
+      return fault("an area contains positions only", "IllegalArgumentException");
+    default: return fault(fmt::format("{} has no members", kind_name(container)), "IllegalArgumentException");
+  }
+}
+
+namespace {
+
+/// The elements at several indices: text[1..2], list[0, 2].
+Checked<Value> elements(Heap& heap, Value const& object, Value const& indices, tasks::Origin const& origin) {
+  auto const size = object.is(ValueKind::text)    ? count_code_points(object.as<Text>()->text)
+                    : object.is(ValueKind::list)  ? object.as<List>()->items.size()
+                    : object.is(ValueKind::range) ? static_cast<std::size_t>(object.as<Range>()->size)
+                                                  : object.as<Vehicles>()->ids.size();
+  std::vector<Value> wanted;
+  if (auto const* list = indices.as<List>()) wanted = list->items;
+  if (auto const* range = indices.as<Range>()) {
+    // 1..-1 is from the second to the last.
+    auto const first = range->size == 0 ? Checked<std::size_t>(0) : position_in(range->first, size);
+    auto const last = range->size == 0 ? Checked<std::size_t>(0) : position_in(range->last, size);
+    if (!first) return std::unexpected(first.error());
+    if (!last) return std::unexpected(last.error());
+    auto const from = static_cast<std::int64_t>(*first);
+    auto const to = static_cast<std::int64_t>(*last);
+    auto const count = range->size == 0 ? 0 : std::abs(to - from) + 1;
+    for (std::int64_t i = 0; i < count; ++i) wanted.push_back(Value::integer(to < from ? from - i : from + i));
+  }
+  std::string text;
+  std::vector<Value> items;
+  std::vector<vehicle::VehicleId> ids;
+  for (auto const& index : wanted) {
+    auto item = element(heap, object, index, origin);
+    if (!item) return item;
+    if (object.is(ValueKind::text)) text += item->as<Text>()->text;
+    if (object.is(ValueKind::vehicles)) ids.push_back(item->as<Vehicle>()->value);
+    items.push_back(std::move(*item));
+  }
+  if (object.is(ValueKind::text)) return Value(heap.make<Text>(std::move(text)));
+  if (object.is(ValueKind::vehicles)) return Value(heap.make<Vehicles>(std::move(ids)));
+  return Value(heap.make<List>(std::move(items)));
+}
+
+bool has_places(Value const& object) {
+  return object.is(ValueKind::text) || object.is(ValueKind::list) || object.is(ValueKind::range) ||
+         object.is(ValueKind::vehicles);
+}
+
+}  // namespace
+
+Checked<Value> element(Heap& heap, Value const& object, Value const& index, tasks::Origin const& origin) {
+  if (auto const* map = object.as<Map>()) return map->at(index);
+  if (auto const* task = object.as<TaskValue>()) return restricted_task(heap, *task, index, origin);
+  if (!has_places(object)) return fault(fmt::format("{} has no elements", kind_name(object)), "MissingMethodException");
+  if (index.is(ValueKind::range) || index.is(ValueKind::list)) return elements(heap, object, index, origin);
+  if (!index.is(ValueKind::integer)) {
+    return fault(fmt::format("{} is no index of {}", kind_name(index), kind_name(object)), "IllegalArgumentException");
+  }
+  std::int64_t const i = index.integer();
+  if (auto const* list = object.as<List>()) {
+    // As in Groovy: beyond the end there is nothing, before the start is an error.
+    if (i >= static_cast<std::int64_t>(list->items.size())) return Value();
+    auto const at = position_in(i, list->items.size());
+    if (!at) return std::unexpected(at.error());
+    return list->items[*at];
+  }
+  if (auto const* text = object.as<Text>()) {
+    auto const pieces = code_points(text->text);
+    auto const at = position_in(i, pieces.size());
+    if (!at) return std::unexpected(at.error());
+    return Value(heap.make<Text>(std::string(pieces[*at])));
+  }
+  if (auto const* range = object.as<Range>()) {
+    auto const at = position_in(i, static_cast<std::size_t>(range->size));
+    if (!at) return std::unexpected(at.error());
+    return Value::integer(range->at(static_cast<std::int64_t>(*at)));
+  }
+  auto const& ids = object.as<Vehicles>()->ids;
+  auto const at = position_in(i, ids.size());
+  if (!at) return std::unexpected(at.error());
+  return Value(heap.make<Vehicle>(ids[*at]));
+}
+
+Checked<Value> set_element(Value const& object, Value const& index, Value value) {
+  if (auto* map = object.as<Map>()) {
+    map->set(index, std::move(value));
+    return Value();
+  }
+  auto* list = object.as<List>();
+  if (!list || !index.is(ValueKind::integer))
+    return fault(fmt::format("cannot assign to an element of {}", kind_name(object)));
+  constexpr std::int64_t furthest = 1'000'000;
+  auto const size = static_cast<std::int64_t>(list->items.size());
+  if (index.integer() >= size && index.integer() < size + furthest) {
+    while (static_cast<std::int64_t>(list->items.size()) < index.integer()) list->push(Value());
+    list->push(std::move(value));
+    return Value();
+  }
+  auto const at = position_in(index.integer(), list->items.size());
+  if (!at) return std::unexpected(at.error());
+  list->items[*at] = std::move(value);
+  return Value();
+}
+
+}  // namespace lapwing::dolphin
