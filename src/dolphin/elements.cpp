@@ -27,7 +27,8 @@ Checked<Value> restricted_task(Heap& heap, TaskValue const& task, Value const& i
   std::vector<vehicle::VehicleId> ids;
   if (auto const* set = index.as<Vehicles>()) ids = set->ids;
   if (auto const* one = index.as<Vehicle>()) ids = {one->value};
-  if (!index.is(ValueKind::vehicles) && !index.is(ValueKind::vehicle)) return fault(fmt::format("a task can be restricted to a vehicle set, not to {}", kind_name(index)));
+  if (!index.is(ValueKind::vehicles) && !index.is(ValueKind::vehicle))
+    return fault(fmt::format("a task can be restricted to a vehicle set, not to {}", kind_name(index)));
   return task_value(heap, tasks::restricted(task.value, std::move(ids), origin));
 }
 
