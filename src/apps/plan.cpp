@@ -16,6 +16,7 @@
 #include "dolphin/needs.hpp"
 #include "dolphin/parser.hpp"
 #include "dryrun/json.hpp"
+#include "dryrun/svg.hpp"
 #include "dryrun/text.hpp"
 #include "plan/fence_geojson.hpp"
 #include "tasks/mission_builder.hpp"
@@ -117,6 +118,9 @@ int refuse(base::Error const& error) {
 
 base::Result<> write_files(PlanOptions const& options, dryrun::FlightRecord const& record,
                            dryrun::Analysis const& analysis, plan::Fence const& fence) {
+  if (!options.svg.empty()) {
+    if (auto written = write_file(options.svg, dryrun::to_svg(record, analysis, fence)); !written) return written;
+  }
   if (options.json.empty()) return {};
   return write_file(options.json, dryrun::to_json(record, analysis, fence));
 }
@@ -154,6 +158,7 @@ void add_plan(CLI::App& program, int& exit_code) {
                    "Where they stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the script's first home");
   verb->add_option("--fence", options->fence, "GeoJSON file of the areas to stay in or out of; a breach exits with 1");
   verb->add_option("--wind", options->wind, "How the air moves: NORTH,EAST in m/s");
+  verb->add_option("--svg", options->svg, "Draw the flight, map and time lines, to this file");
   verb->add_option("--json", options->json, "Write everything, tracks included, to this file");
   verb->add_option("--answers", options->answers, "File with the answers to the script's questions, one a line");
   verb->add_option("--seed", options->seed, "Of everything that is left to chance")->capture_default_str();

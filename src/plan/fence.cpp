@@ -13,6 +13,8 @@ namespace {
 
 /// Along an edge a vehicle is in and out with every rounding: that is no breach.
 constexpr double touching_m = 0.01;
+/// The worst moment is the first one: what comes later has to be worse by this much.
+constexpr double deeper_m = 0.005;
 
 LevelPoint level(geo::Ned place) {
   return {place.north, place.east};
@@ -193,7 +195,7 @@ class Examination {
 
   void deepen(TrackPoint const& point) {
     auto const wrong = rule_.wrong_at(point);
-    if (!wrong.depth_m || *wrong.depth_m < open_->depth_m) return;
+    if (!wrong.depth_m || (!open_->zone.empty() && *wrong.depth_m < open_->depth_m + deeper_m)) return;
     open_->depth_m = *wrong.depth_m;
     open_->by_height = wrong.by_height;
     open_->zone = wrong.zone->name;

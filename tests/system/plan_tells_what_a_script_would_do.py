@@ -3,6 +3,7 @@
 import json
 import pathlib
 import tempfile
+import xml.etree.ElementTree
 
 import harness
 
@@ -41,12 +42,13 @@ with tempfile.TemporaryDirectory() as name:
         return str(folder / file)
 
     # The same flight each time, with the vehicles that the script picks, at its home.
-    report = folder / "plan.json"
-    out, _ = harness.expect_exit(0, "plan", script(SQUARE), "--json", str(report))
+    report, picture = folder / "plan.json", folder / "plan.svg"
+    out, _ = harness.expect_exit(0, "plan", script(SQUARE), "--json", str(report), "--svg", str(picture))
     expect(out, "--vehicles copter:1", "done after", "There", "NAV_TAKEOFF", "back", "battery 100 ->", "Wh")
     first = report.read_text()
     again, _ = harness.expect_exit(0, "plan", script(SQUARE), "--json", str(report))
     assert again == out and report.read_text() == first, "two dry runs of one script differ"
+    assert xml.etree.ElementTree.fromstring(picture.read_text()).tag.endswith("svg")
     plan = json.loads(first)
     copter = plan["vehicles"][0]
     assert plan["outcome"] == "done" and abs(plan["home"]["lat_deg"] - 41.1780) < 1e-9
