@@ -1,0 +1,172 @@
+#include "base/config.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include "base/spelling.hpp"
+
+namespace lapwing::base {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> type_names{"true or false", "a whole number", "a number", "text",
+                                                     "a date",        "an array",       "a table"};
+
+/// toml++ counts lines and columns (in code points) from 1; 0 stands for a place it does not know.
+std::uint32_t offset_of(SourceFile const& source, toml::source_position at) {
+  if (at.line == 0) return 0;
+  auto const line = source.line_span(at.line);
+  auto const bytes = source.text(line);
+  std::size_t offset = 0;
+  for (auto column = at.column; column > 1 && offset < bytes.size(); --column) {
+    do {
+      ++offset;
+    } while (offset < bytes.size() && (static_cast<unsigned char>(bytes[offset]) & 0xC0u) == 0x80u);
+  }
+  return line.begin + static_cast<std::uint32_t>(offset);
+}
+
+Span span_of(SourceFile const& source, toml::source_region const& region) {
+  auto const begin = offset_of(source, region.begin);
+  return {begin, std::max(begin + 1, offset_of(source, region.end))};
+}
+
+ConfigValue::Table convert(SourceFile const& source, toml::table const& table);
+
+ConfigValue convert(SourceFile const& source, toml::node const& node) {
+  ConfigValue value{.span = span_of(source, node.source()), .content = ConfigValue::Date{}};
+  if (auto const* flag = node.as_boolean()) value.content = flag->get();
+  if (auto const* integer = node.as_integer()) value.content = integer->get();
+  if (auto const* number = node.as_floating_point()) value.content = number->get();
+  if (auto const* text = node.as_string()) value.content = text->get();
+  if (auto const* table = node.as_table()) value.content = convert(source, *table);
+  if (auto const* array = node.as_array()) {
+    ConfigValue::Array elements;
+    for (auto const& element : *array) elements.push_back(convert(source, element));
+    value.content = std::move(elements);
+  }
+  return value;
+}
+
+ConfigValue::Table convert(SourceFile const& source, toml::table const& table) {
+  ConfigValue::Table entries;
+  for (auto const& [key, node] : table) {
+    entries.push_back({std::string(key.str()), span_of(source, key.source()), convert(source, node)});
+  }
+  return entries;
+}
+
+}  // namespace
+
+ConfigValue::Table parse_config(SourceFile const& source, Diagnostics& diagnostics) {
+  auto const parsed = toml::parse(source.text(), source.name());
+  if (!parsed) {
+    diagnostics.report(config_kinds::not_toml, span_of(source, parsed.error().source()),
+                       std::string(parsed.error().description()));
+    return {};
+  }
+  return convert(source, parsed.table());
+}
+
+ConfigEntry const* ConfigReader::find(std::string_view key) {
+  known_.emplace(key);
+  auto const found = std::ranges::find(table_, key, &ConfigEntry::key);
+  return found == table_.end() ? nullptr : &*found;
+}
+
+void ConfigReader::wrong_type(ConfigEntry const& entry, std::string_view wanted) {
+  diagnostics_.report(
+      config_kinds::wrong_type, entry.value.span,
+      fmt::format("{} must be {}, not {}", entry.key, wanted, type_names.at(entry.value.content.index())));
+}
+
+std::optional<Placed<bool>> ConfigReader::flag(std::string_view key) {
+  auto const* entry = find(key);
+  if (!entry) return std::nullopt;
+  if (auto const* value = std::get_if<bool>(&entry->value.content)) return Placed{*value, entry->value.span};
+  wrong_type(*entry, "true or false");
+  return std::nullopt;
+}
+
+std::optional<Placed<std::int64_t>> ConfigReader::integer(std::string_view key, std::int64_t low, std::int64_t high) {
+  auto const* entry = find(key);
+  if (!entry) return std::nullopt;
+  auto const* value = std::get_if<std::int64_t>(&entry->value.content);
+  if (!value) {
+    wrong_type(*entry, "a whole number");
+    return std::nullopt;
+  }
+  if (*value < low || *value > high) {
+    diagnostics_.report(config_kinds::invalid_value, entry->value.span,
+                        fmt::format("{} must be from {} to {}", key, low, high));
+    return std::nullopt;
+  }
+  return Placed{*value, entry->value.span};
+}
+
+std::optional<Placed<std::string>> ConfigReader::text(std::string_view key) {
+  auto const* entry = find(key);
+  if (!entry) return std::nullopt;
+  if (auto const* value = std::get_if<std::string>(&entry->value.content)) return Placed{*value, entry->value.span};
+  wrong_type(*entry, "text");
+  return std::nullopt;
+}
+
+std::optional<std::vector<Placed<std::string>>> ConfigReader::texts(std::string_view key) {
+  auto const* entry = find(key);
+  if (!entry) return std::nullopt;
+  auto const* elements = std::get_if<ConfigValue::Array>(&entry->value.content);
+  if (!elements) {
+    wrong_type(*entry, "an array of texts");
+    return std::nullopt;
+  }
+  std::vector<Placed<std::string>> texts;
+  for (auto const& element : *elements) {
+    if (auto const* text = std::get_if<std::string>(&element.content)) {
+      texts.push_back({*text, element.span});
+    } else {
+      diagnostics_.report(
+          config_kinds::wrong_type, element.span,
+          fmt::format("every element of {} must be text, not {}", key, type_names.at(element.content.index())));
+    }
+  }
+  return texts;
+}
+
+std::optional<ConfigReader> ConfigReader::table(std::string_view key) {
+  auto const* entry = find(key);
+  if (!entry) return std::nullopt;
+  if (auto const* table = std::get_if<ConfigValue::Table>(&entry->value.content)) {
+    return ConfigReader(*table, diagnostics_);
+  }
+  wrong_type(*entry, fmt::format("a table: [{}]", key));
+  return std::nullopt;
+}
+
+void ConfigReader::refuse(std::string_view key, std::string_view advice) {
+  auto const found = std::ranges::find(table_, key, &ConfigEntry::key);
+  if (found == table_.end()) return;
+  diagnostics_.report(config_kinds::misplaced, found->key_span, fmt::format("{} does not belong here", key),
+                      std::string(advice));
+  refused_.emplace(key);
+}
+
+void ConfigReader::refuse_unknown() {
+  std::vector<std::string_view> const candidates(known_.begin(), known_.end());
+  for (auto const& entry : table_) {
+    if (known_.contains(entry.key) || refused_.contains(entry.key)) continue;
+    auto hint = did_you_mean(entry.key, candidates);
+    if (hint.empty()) hint = fmt::format("known here: {}", fmt::join(candidates, ", "));
+    diagnostics_.report(config_kinds::unknown_setting, entry.key_span, fmt::format("there is no setting {}", entry.key),
+                        std::move(hint));
+  }
+}
+
+}  // namespace lapwing::base
