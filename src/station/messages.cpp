@@ -56,6 +56,7 @@ void add_hello(Json& json, Hello const& hello) {
   json["server_time"] = to_text(hello.server_time);
   json["site"] = {{"name", hello.site.name}};
   if (hello.site.origin) json["site"]["origin"] = position_json(*hello.site.origin);
+  if (!hello.site.tiles.empty()) json["site"]["tiles"] = hello.site.tiles;
 }
 
 std::unexpected<base::Error> wrong(std::string message) {
@@ -154,6 +155,16 @@ std::string status_body(StationStatus const& status) {
   json["viewers"] = status.viewers;
   json["script"] = {{"name", status.script_name}, {"state", to_string(status.script)}};
   return dump(json);
+}
+
+std::string scripts_body(std::span<std::string const> names) {
+  Json json{{"scripts", Json::array()}};
+  for (auto const& name : names) json["scripts"].push_back({{"name", name}});
+  return dump(json);
+}
+
+std::string script_text_body(std::string_view name, std::string_view source) {
+  return dump({{"name", name}, {"source", source}});
 }
 
 std::string start_failure_body(int http_status, std::string_view title, StartFailure const& failure) {

@@ -27,6 +27,7 @@ inline constexpr int protocol_version = 1;
 struct Site {
   std::string name;
   std::optional<geo::Wgs84> origin;
+  std::string tiles = {};  ///< XYZ address of its base map, for browsers that have chosen none; may be empty
 };
 
 /// A log line with its place in the station's history, by which a client that connects again leaves out what it has.
@@ -64,6 +65,9 @@ struct StationStatus {
   double uptime_s = 0.0;
 };
 [[nodiscard]] std::string status_body(StationStatus const& status);
+[[nodiscard]] std::string scripts_body(std::span<std::string const> names);
+/// What `POST /api/v1/script` takes.
+[[nodiscard]] std::string script_text_body(std::string_view name, std::string_view source);
 /// `application/problem+json` with the diagnostics beside the usual members.
 [[nodiscard]] std::string start_failure_body(int http_status, std::string_view title, StartFailure const& failure);
 

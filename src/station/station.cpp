@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "station/openapi.hpp"
+#include "station/script_folder.hpp"
 
 namespace lapwing::station {
 namespace {
@@ -132,6 +133,9 @@ Router Station::make_router() {
   router.add("GET", "/api/v1/script",
              [this](auto const&) { return HttpResponse{.body = script_message(script_.status())}; });
   router.add("POST", "/api/v1/script", [this](auto const& request) { return post_script(request); });
+  router.add("GET", "/api/v1/scripts",
+             [this](auto const&) { return HttpResponse{.body = scripts_body(list_scripts(options_.scripts))}; });
+  router.add("GET", "/api/v1/scripts/text", [this](auto const& request) { return get_script_text(request); });
   router.add("GET", "/api/v1/tasks",
              [this](auto const&) { return HttpResponse{.body = tasks_message(script_.task_trees())}; });
   router.add("POST", "/api/v1/stop", [this](auto const&) { return post_stop(); });
@@ -163,6 +167,15 @@ HttpResponse Station::post_script(HttpRequest const& request) {
   auto const started = script_.start(std::move(asked->name), std::move(asked->source));
   if (!started) return start_failure(started.error());
   return {.status = 202, .body = script_message(script_.status())};
+}
+
+HttpResponse Station::get_script_text(HttpRequest const& request) const {
+  auto const name = request.parameter("name");
+  if (!name) return problem(400, "The parameter \"name\" is missing.", "Give a name from /api/v1/scripts.");
+  auto const text = read_script(options_.scripts, *name);
+  if (text) return {.body = script_text_body(*name, *text)};
+  bool const is_missing = text.error().kind == base::ErrorKind::not_found;
+  return problem(is_missing ? 404 : 400, text.error().message, text.error().hint);
 }
 
 HttpResponse Station::post_stop() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,6 +30,7 @@ class Station {
     std::size_t log_history = 500;          ///< lines kept for viewers that connect later
     std::string program_version = "0";
     Site site = {};
+    std::filesystem::path scripts = {};  ///< folder of scripts that viewers may choose from; empty: none
   };
 
   /// Listens at once. `vehicles`, `script` and `loop` must outlive the station; `hub` may go first or last.
@@ -65,6 +67,7 @@ class Station {
   [[nodiscard]] HttpResponse get_status() const;
   [[nodiscard]] HttpResponse post_script(HttpRequest const& request);
   [[nodiscard]] HttpResponse post_stop();
+  [[nodiscard]] HttpResponse get_script_text(HttpRequest const& request) const;
   [[nodiscard]] HttpResponse get_log(HttpRequest const& request) const;
 
   base::Loop& loop_;

@@ -1,5 +1,6 @@
 #include "station/station.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -231,6 +232,54 @@ TEST_F(StationTest, MayEndBeforeTheLog) {
   open();
   station.reset();
   base::Logger(hub, "test").info("nobody listens");
+}
+
+TEST_F(StationTest, OffersTheScriptsOfItsFolder) {
+  Station::Options options;
+  options.scripts = LAPWING_SOURCE_DIR "/examples";
+  open(options);
+  auto const names = json::parse(get("/api/v1/scripts").body)["scripts"];
+  EXPECT_TRUE(std::ranges::any_of(names, [](auto const& script) { return script["name"] == "survey.dolphin"; }));
+  auto const text = json::parse(get("/api/v1/scripts/text?name=survey.dolphin").body);
+  EXPECT_EQ(text["name"], "survey.dolphin");
+  EXPECT_NE(text["source"].get<std::string>().find("mission {"), std::string::npos);
+  EXPECT_EQ(get("/api/v1/scripts/text").status, 400);
+  EXPECT_EQ(get("/api/v1/scripts/text?name=..%2FREADME.md").status, 400);
+  EXPECT_EQ(get("/api/v1/scripts/text?name=absent.dolphin").status, 404);
+}
+
+TEST_F(StationTest, OffersNoScriptsWithoutAFolder) {
+  open();
+  EXPECT_EQ(json::parse(get("/api/v1/scripts").body), (json{{"scripts", json::array()}}));
+}
+
+TEST_F(StationTest, NamesItsMapTiles) {
+  Station::Options options;
+  options.site.tiles = "https://tiles.example/{z}/{x}/{y}.png";
+  open(options);
+  EXPECT_EQ(json::parse(get("/api/v1/status").body)["site"]["tiles"], options.site.tiles);
+}
+
+TEST_F(StationTest, AsksForItsTokenOverHttpAndWebSocket) {
+  Station::Options options;
+  options.http.token = "0123456789abcdef";
+  open(options);
+  EXPECT_EQ(get("/api/v1/status").status, 401);
+  EXPECT_EQ(get("/api/v1/scripts").status, 401);
+  EXPECT_EQ(post("/api/v1/stop", "{}").status, 401);
+  auto const with = [&](std::string token) {
+    return ask(loop, station->port(),
+               {.target = "/api/v1/status", .headers = {{"Authorization", "Bearer " + std::move(token)}}})
+        .status;
+  };
+  EXPECT_EQ(with("0123456789abcdef"), 200);
+  EXPECT_EQ(with("0123456789abcdeF"), 401);
+  EXPECT_EQ(with("0123456789abcdef0"), 401);
+  EXPECT_EQ(watch(), nullptr);
+  auto const client = WebSocketClient::open(loop, station->port(), {.target = "/api/v1/ws?token=0123456789abcdef"});
+  ASSERT_TRUE(client);
+  EXPECT_EQ(next(*client, "hello")["protocol"], 1);
+  EXPECT_EQ(control.stops, 0);
 }
 
 TEST_F(StationTest, ServesItsDescription) {
