@@ -18,7 +18,7 @@ struct DemoOptions {
   std::string report;
   std::string vehicles = "copter:2,rover:1";
   std::string on_stop = "loiter";
-  int port = 8080;
+  WebArguments web;
   std::optional<double> speedup;
 };
 
@@ -54,8 +54,10 @@ int demo(DemoOptions const& options) {
   sim::WorldOptions world;
   world.vehicles = *vehicles;
   if (!options.headless) {
-    if (auto opened = session.open_map(options.port, world.home); !opened) return refuse(opened.error());
-    fmt::print(stderr, "\n    map  {}\n\n", session.map->url());
+    WebAccess access;
+    apply(options.web, access);
+    auto const opened = session.open_map(access, {.home = world.home, .scripts = home_directory() / "examples"});
+    if (!opened) return refuse(opened.error());
   }
   if (auto simulated = session.simulate(std::move(world)); !simulated) return refuse(simulated.error());
   auto const started = session.host.start(script, *source);
@@ -79,9 +81,7 @@ void add_demo(CLI::App& program, int& exit_code) {
   verb->add_option("--script", options->script, "Another script than examples/survey.dolphin");
   verb->add_option("--vehicles", options->vehicles, "What and how many")->capture_default_str();
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
-  verb->add_option("--port", options->port, "TCP port of the map on 127.0.0.1")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
+  add_web_options(*verb, options->web);
   verb->add_option("--speedup", options->speedup, "1 real time; default 4 with the map, as fast as possible without")
       ->check(CLI::Range(0.0, 1000.0));
   verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");

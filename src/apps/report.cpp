@@ -8,10 +8,10 @@ namespace lapwing::apps {
 using nlohmann::json;
 
 std::string to_iso8601(base::UtcTime time) {
-  auto const millis = std::chrono::time_point_cast<std::chrono::milliseconds>(time);
-  auto const seconds = std::chrono::time_point_cast<std::chrono::seconds>(millis);
+  auto const millis = std::chrono::floor<std::chrono::milliseconds>(time);
+  auto const seconds = std::chrono::floor<std::chrono::seconds>(millis);
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
-                     ((millis - seconds).count() + 1000) % 1000);
+                     (millis - seconds).count());
 }
 
 namespace {

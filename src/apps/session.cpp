@@ -57,15 +57,28 @@ base::Result<> Session::simulate(sim::WorldOptions options) {
   return {};
 }
 
-base::Result<> Session::open_map(int port, std::optional<geo::Wgs84> site) {
+base::Result<> Session::open_map(WebAccess const& access, MapContent const& content) {
+  auto token = token_for(access);
+  if (!token) return std::unexpected(token.error());
   station::Station::Options options;
-  options.http.port = port;
+  options.http.address = access.bind;
+  options.http.port = access.port;
+  options.http.token = *token;
+  options.http.host_names = access.host_names;
   options.http.static_root = home_directory() / "web/dist";
   options.program_version = LAPWING_VERSION;
-  options.site.origin = site;
+  options.site = {content.site_name, content.home, content.tiles};
+  options.scripts = content.scripts;
   auto opened = station::Station::open(loop, ground.registry, host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
+  fmt::print(stderr, "\n");
+  for (auto const& address : map_addresses(access.bind, map->port(), *token))
+    fmt::print(stderr, "    map  {}\n", address);
+  fmt::print(stderr, "\n");
+  if (!std::filesystem::exists(home_directory() / "web/dist/index.html")) {
+    log.warn("the browser app is not built, so the map shows nothing: ./lapwing build builds it");
+  }
   return {};
 }
 

@@ -6,6 +6,8 @@
 
 #include "apps/ground.hpp"
 #include "apps/script_host.hpp"
+#include "apps/station_config.hpp"
+#include "apps/web_access.hpp"
 #include "base/log.hpp"
 #include "sim/world.hpp"
 #include "station/station.hpp"
@@ -25,7 +27,8 @@ class Session {
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls) { return ground.open(urls); }
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
-  [[nodiscard]] base::Result<> open_map(int port, std::optional<geo::Wgs84> site);
+  /// Serves the map and tells its addresses on standard error; the token is in them, and nowhere else.
+  [[nodiscard]] base::Result<> open_map(WebAccess const& access, MapContent const& content);
 
   /// Runs the script that the host was given to its end; `timeout` (loop time) halts it. Ctrl-C stops it. Then every
   /// vehicle that still runs a mission of ours is made safe.

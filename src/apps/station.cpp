@@ -1,19 +1,27 @@
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "apps/files.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
+#include "apps/station_config.hpp"
 #include "apps/verb.hpp"
 
 namespace lapwing::apps {
 
 namespace {
 
-struct StationOptions {
+/// What the command line says; it goes before the file.
+struct StationArguments {
+  std::string config;
   std::vector<std::string> links;
-  std::string on_stop = "loiter";
-  int port = 8080;
+  std::optional<std::string> on_stop;
+  std::optional<std::string> scripts;
+  std::optional<std::string> tiles;
+  WebArguments web;
 };
 
 int refuse(base::Error const& error) {
@@ -21,15 +29,47 @@ int refuse(base::Error const& error) {
   return error.kind == base::ErrorKind::io ? exit_halted : exit_usage;
 }
 
-int serve(StationOptions const& options) {
-  auto const on_stop = parse_on_stop(options.on_stop);
-  if (!on_stop) return refuse(on_stop.error());
-  Session session({.on_stop = *on_stop});
-  auto const links = options.links.empty() ? std::vector<std::string>{default_link} : options.links;
-  if (auto opened = session.open_links(links); !opened) return refuse(opened.error());
-  if (auto opened = session.open_map(options.port, std::nullopt); !opened) return refuse(opened.error());
-  fmt::print(stderr, "\n    map  {}\n\nlistening for vehicles on {}; Ctrl-C ends\n", session.map->url(),
-             fmt::join(links, ", "));
+/// The file's settings, or nothing when it has mistakes, which have been shown.
+base::Result<StationConfig> load(std::string const& path) {
+  auto text = read_script(path);
+  if (!text) return std::unexpected(text.error());
+  base::SourceFile const source(path, *std::move(text));
+  base::Diagnostics diagnostics(source);
+  auto config = read_station_config(source, diagnostics);
+  fmt::print(stderr, "{}", base::render(diagnostics));
+  if (!diagnostics.has_errors()) return config;
+  return base::fail(
+      base::ErrorKind::invalid_input,
+      fmt::format("{} has {} mistake{}", path, diagnostics.error_count(), diagnostics.error_count() == 1 ? "" : "s"),
+      "docs/reference/station-config.md lists every setting");
+}
+
+base::Result<StationConfig> settings_of(StationArguments const& arguments) {
+  auto config = arguments.config.empty() ? StationConfig{} : load(arguments.config);
+  if (!config) return config;
+  if (!arguments.links.empty()) config->links = arguments.links;
+  if (config->links.empty()) config->links = {default_link};
+  if (arguments.on_stop) {
+    auto const on_stop = parse_on_stop(*arguments.on_stop);
+    if (!on_stop) return std::unexpected(on_stop.error());
+    config->on_stop = *on_stop;
+  }
+  if (arguments.tiles) {
+    if (auto checked = check_tiles(*arguments.tiles); !checked) return std::unexpected(checked.error());
+    config->map.tiles = *arguments.tiles;
+  }
+  if (arguments.scripts) config->map.scripts = *arguments.scripts;
+  apply(arguments.web, config->web);
+  return config;
+}
+
+int serve(StationArguments const& arguments) {
+  auto const config = settings_of(arguments);
+  if (!config) return refuse(config.error());
+  Session session({.on_stop = config->on_stop});
+  if (auto opened = session.open_links(config->links); !opened) return refuse(opened.error());
+  if (auto opened = session.open_map(config->web, config->map); !opened) return refuse(opened.error());
+  fmt::print(stderr, "listening for vehicles on {}; Ctrl-C ends\n", fmt::join(config->links, ", "));
   {
     StopSignals const signals(session.loop, [&session] { session.loop.stop(); });
     session.loop.run();
@@ -44,15 +84,18 @@ int serve(StationOptions const& options) {
 }  // namespace
 
 void add_station(CLI::App& program, int& exit_code) {
-  auto options = std::make_shared<StationOptions>();
+  auto arguments = std::make_shared<StationArguments>();
   auto* verb = program.add_subcommand("station", "Ground station with the map; scripts start from the browser");
-  verb->add_option("--link", options->links,
+  verb->add_option("--config", arguments->config, "TOML file with the settings; options given here go before it");
+  verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(default_link));
-  verb->add_option("--port", options->port, "TCP port of the map on 127.0.0.1")
-      ->check(CLI::Range(0, 65535))
-      ->capture_default_str();
-  verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
-  verb->callback([options, &exit_code] { exit_code = serve(*options); });
+  add_web_options(*verb, arguments->web);
+  verb->add_option("--scripts", arguments->scripts, "Folder whose scripts the map offers")
+      ->check(CLI::ExistingDirectory);
+  verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");
+  verb->add_option("--on-stop", arguments->on_stop,
+                   "What a vehicle does when its task is stopped: loiter (default), rtl or land");
+  verb->callback([arguments, &exit_code] { exit_code = serve(*arguments); });
 }
 
 }  // namespace lapwing::apps

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/web_access.hpp"
+#include "base/diagnostic.hpp"
+#include "fleet/vehicle_actions.hpp"
+#include "geo/position.hpp"
+
+namespace lapwing::apps {
+
+/// What the map shows and offers.
+struct MapContent {
+  std::string site_name = {};
+  std::optional<geo::Wgs84> home = {};  ///< what it looks at before a vehicle is heard
+  std::string tiles = {};               ///< XYZ address of a base map; empty: a plain grid
+  std::filesystem::path scripts = {};   ///< folder whose scripts it offers; empty: none
+};
+
+/// A ground station as its file describes it: docs/reference/station-config.md.
+struct StationConfig {
+  std::vector<std::string> links;  ///< empty: the default link
+  fleet::OnStop on_stop = fleet::OnStop::loiter;
+  WebAccess web;
+  MapContent map;
+};
+
+/// Reads the file's text; paths in it count from the file's folder. Everything wrong is reported; the result is to be
+/// used only when nothing was.
+[[nodiscard]] StationConfig read_station_config(base::SourceFile const& source, base::Diagnostics& diagnostics);
+
+/// What browsers let this program's pages load tiles from. Error: invalid_input.
+[[nodiscard]] base::Result<> check_tiles(std::string const& address);
+
+}  // namespace lapwing::apps

@@ -1,0 +1,121 @@
+#include "apps/station_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "apps/files.hpp"
+
+namespace lapwing::apps {
+namespace {
+
+struct Read {
+  explicit Read(std::string text, std::string name = "/etc/lapwing/station.toml")
+      : source(std::move(name), std::move(text)),
+        diagnostics(source),
+        config(read_station_config(source, diagnostics)) {}
+  std::string complaints() const { return render(diagnostics); }
+
+  base::SourceFile source;
+  base::Diagnostics diagnostics;
+  StationConfig config;
+};
+
+/// The first complaint's place, message and hint.
+std::string first_complaint(std::string text) {
+  Read const read(std::move(text));
+  auto const records = to_records(read.diagnostics);
+  if (records.empty()) return "";
+  return std::to_string(records[0].begin.line) + ":" + std::to_string(records[0].begin.column) + " " +
+         records[0].message + " | " + records[0].hint;
+}
+
+TEST(StationConfig, OfAnEmptyFileIsLoopbackAlone) {
+  Read const read("");
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_TRUE(read.config.links.empty());
+  EXPECT_EQ(read.config.web.bind, "127.0.0.1");
+  EXPECT_EQ(read.config.web.port, 8080);
+  EXPECT_FALSE(read.config.web.generate_token);
+  EXPECT_FALSE(read.config.map.home);
+}
+
+TEST(StationConfig, ReadsEverySetting) {
+  Read const read(R"(links = ["udpin://0.0.0.0:14550", "serial:///dev/ttyUSB0:57600"]
+on_stop = "rtl"
+[web]
+bind = "0.0.0.0"
+port = 0
+token_file = "secret"
+host_names = ["station.local"]
+[map]
+site = "Field"
+home = "41.5,-8.5,90"
+tiles = "https://tiles.example/{z}/{x}/{y}.png"
+scripts = "."
+)",
+                  LAPWING_SOURCE_DIR "/examples/station.toml");
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_EQ(read.config.links.size(), 2U);
+  EXPECT_EQ(read.config.on_stop, fleet::OnStop::rtl);
+  EXPECT_EQ(read.config.web.bind, "0.0.0.0");
+  EXPECT_EQ(read.config.web.port, 0);
+  EXPECT_EQ(read.config.web.token_file, LAPWING_SOURCE_DIR "/examples/secret") << "beside the file";
+  EXPECT_EQ(read.config.web.host_names, (std::vector<std::string>{"station.local"}));
+  EXPECT_EQ(read.config.map.site_name, "Field");
+  EXPECT_NEAR(read.config.map.home->lat_deg(), 41.5, 1e-9);
+  EXPECT_EQ(read.config.map.tiles, "https://tiles.example/{z}/{x}/{y}.png");
+  EXPECT_EQ(read.config.map.scripts, LAPWING_SOURCE_DIR "/examples/.");
+}
+
+TEST(StationConfig, TakesTheExample) {
+  std::string const path = LAPWING_SOURCE_DIR "/examples/station.toml";
+  Read const read(read_script(path).value(), path);
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_EQ(read.config.map.site_name, "Car park");
+}
+
+TEST(StationConfig, SuggestsForUnknownSettings) {
+  EXPECT_EQ(first_complaint("link = []\n"), "1:1 there is no setting link | did you mean links?");
+  EXPECT_EQ(first_complaint("[web]\nprot = 1\n"), "2:1 there is no setting prot | did you mean port?");
+  EXPECT_EQ(first_complaint("[mpa]\n"), "1:2 there is no setting mpa | did you mean map?");
+}
+
+TEST(StationConfig, RefusesWrongTypes) {
+  EXPECT_EQ(first_complaint("links = \"udpin://127.0.0.1:1\""), "1:9 links must be an array of texts, not text | ");
+  EXPECT_EQ(first_complaint("[web]\nport = \"80\""), "2:8 port must be a whole number, not text | ");
+  EXPECT_EQ(first_complaint("web = 1"), "1:7 web must be a table: [web], not a whole number | ");
+}
+
+TEST(StationConfig, RefusesBadValuesWithTheirPlace) {
+  EXPECT_EQ(first_complaint("on_stop = \"lioter\""), "1:11 on_stop cannot be \"lioter\" | did you mean loiter?");
+  EXPECT_EQ(first_complaint("[web]\nport = 65536").substr(0, 4), "2:8 ");
+  EXPECT_EQ(first_complaint("links = [\n  \"udpin://127.0.0.1:1\",\n  \"udp:14550\",\n]").substr(0, 4), "3:3 ");
+  EXPECT_EQ(first_complaint("[map]\nhome = \"41\"").substr(0, 4), "2:8 ");
+  EXPECT_EQ(first_complaint("[map]\nscripts = \"absent\""),
+            "2:11 there is no folder /etc/lapwing/absent | a relative path counts from this file's folder");
+  EXPECT_EQ(first_complaint("[map]\ntiles = \"https://tiles.example/{z}/{x}\""),
+            "2:9 the address of map tiles must contain {y} | https://tiles.example/{z}/{x}/{y}.png");
+  EXPECT_EQ(first_complaint("[map]\ntiles = \"http://tiles.example/{z}/{x}/{y}\"").substr(0, 13), "2:9 map tiles");
+}
+
+TEST(StationConfig, WantsTheTokenInAFileOfItsOwn) {
+  Read const read("[web]\ntoken = \"0123456789abcdef\"\n");
+  EXPECT_EQ(read.diagnostics.error_count(), 1U);
+  EXPECT_NE(read.complaints().find("token_file = "), std::string::npos);
+}
+
+TEST(StationConfig, WantsOneTokenOnly) {
+  EXPECT_EQ(first_complaint("[web]\ntoken_file = \"t\"\ngenerate_token = true"),
+            "3:18 a token comes from token_file or is generated, not both | remove one of them");
+}
+
+TEST(StationConfig, ShowsAllMistakesAtOnce) {
+  Read const read("on_stop = 1\nlinks = [2]\nx = 3\n[web]\nport = -1\n[map]\nsite = true\n");
+  EXPECT_EQ(read.diagnostics.error_count(), 5U);
+}
+
+TEST(StationConfig, RefusesWhatIsNoToml) {
+  EXPECT_EQ(first_complaint("links = [\n").substr(0, 2), "1:") << first_complaint("links = [\n");
+}
+
+}  // namespace
+}  // namespace lapwing::apps
