@@ -9,10 +9,10 @@ import { chromium } from 'playwright-core';
 const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
 
-/** A station over moving vehicles on a port; 0 picks a free one. */
-export async function startStation(port = 0) {
+/** A station over moving vehicles on a port; 0 picks a free one. With a token, only who has it gets in. */
+export async function startStation(port = 0, token = '') {
   const program = path.join(build, 'src', 'station', 'station_demo');
-  const child = spawn(program, [String(port), path.join(web, 'dist')], { stdio: ['ignore', 'pipe', 'ignore'] });
+  const child = spawn(program, [String(port), path.join(web, 'dist'), token], { stdio: ['ignore', 'pipe', 'ignore'] });
   const url = await new Promise((resolve, reject) => {
     child.stdout.once('data', (data) => resolve(String(data).trim()));
     child.once('error', () => reject(new Error(`${program} does not start: build the target station_demo first`)));

@@ -131,6 +131,112 @@ test('has landmarks, names and one heading of each kind for screen readers', asy
   assert.deepEqual(faults, []);
 });
 
+/** Every vehicle's marker lies on the map beside the panels, not below them. */
+const inSight = (page) =>
+  page.waitForFunction(() => {
+    const panels = [...document.querySelectorAll('.panel:not([hidden]), header, nav.tabs')].map((panel) => panel.getBoundingClientRect());
+    const markers = [...document.querySelectorAll('.vehicle')].map((marker) => marker.getBoundingClientRect());
+    const isCovered = (x, y) => panels.some((panel) => x > panel.left && x < panel.right && y > panel.top && y < panel.bottom);
+    return markers.length === 5 && markers.every(({ x, y }) => x > 0 && y > 0 && x + 44 < innerWidth && !isCovered(x + 22, y + 22));
+  });
+
+for (const size of [{ width: 1280, height: 800 }, { width: 1920, height: 1080 }, { width: 390, height: 844 }]) {
+  test(`has every vehicle in sight from the start at ${size.width} px`, async ({ open }) => {
+    const page = await open({ size });
+    await inSight(page);
+  });
+}
+
+test('leaves the view alone once the operator has moved it, until F', async ({ open }) => {
+  const page = await open({ size: { width: 1280, height: 800 } });
+  await inSight(page);
+  await page.mouse.move(640, 600);
+  await page.mouse.down();
+  await page.mouse.move(640, 250, { steps: 5 });
+  await page.mouse.up();
+  const scale = page.locator('.maplibregl-ctrl-scale');
+  await page.keyboard.press('-');
+  await page.keyboard.press('-');
+  await page.keyboard.press('-');
+  await page.waitForTimeout(400);
+  const zoomedOut = await scale.textContent();
+  await page.waitForTimeout(1500);
+  assert.equal(await scale.textContent(), zoomedOut);
+  await page.keyboard.press('f');
+  await page.waitForFunction((before) => document.querySelector('.maplibregl-ctrl-scale').textContent !== before, zoomedOut);
+  await inSight(page);
+});
+
+test('shows no label over another', async ({ open }) => {
+  const page = await open({ size: { width: 1280, height: 800 } });
+  await inSight(page);
+  for (let i = 0; i < 8; ++i) await page.keyboard.press('-'); // until all of them stand on one spot
+  await page.waitForFunction(() => {
+    const boxes = [...document.querySelectorAll('.vehicle')].map((marker) => marker.getBoundingClientRect());
+    return boxes.every(({ x, y }) => Math.hypot(x - boxes[0].x, y - boxes[0].y) < 20);
+  });
+  await page.waitForFunction(() => {
+    const boxes = [...document.querySelectorAll('.vehicle .label')].map((label) => label.getBoundingClientRect());
+    return boxes.every((a, i) => boxes.slice(i + 1).every((b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 0.5 || b.bottom <= a.top + 0.5));
+  });
+});
+
+test('opens a script of the station and starts it', async ({ open }) => {
+  const page = await open();
+  await page.getByRole('button', { name: 'STOP' }).click();
+  await scriptState(page, 'idle');
+  await page.getByLabel('Open a script').selectOption('listing2.dolphin');
+  await page.getByLabel('Script text').waitFor();
+  assert.match(await page.getByLabel('Script text').inputValue(), /pick/);
+  await page.locator('#script').getByRole('button', { name: 'Start' }).click();
+  await scriptState(page, 'running');
+  await page.locator('header .name', { hasText: 'listing2.dolphin' }).waitFor();
+});
+
+test('keeps some lines of the log in sight, however long the script', async ({ open }) => {
+  const page = await open({ size: { width: 1280, height: 800 } });
+  await live(page);
+  const log = await page.locator('#log .lines').boundingBox();
+  assert.ok(log.height > 80, `only ${log.height} px`);
+});
+
+test('asks for the token, tells a wrong one, and goes on with the right one', async ({ open, station, restart }) => {
+  await station().stop();
+  await restart('0123456789abcdef');
+  const page = await open();
+  const dialog = page.getByRole('dialog', { name: 'This station asks for its token' });
+  await dialog.getByLabel('Token').fill('wrong-wrong-wrong');
+  await dialog.getByRole('button', { name: 'Connect' }).click();
+  await dialog.getByText('The station refused the token').waitFor();
+  await page.keyboard.press('Escape');
+  await dialog.getByLabel('Token').fill('http://127.0.0.1:8080/#token=0123456789abcdef');
+  await page.keyboard.press('Enter');
+  await live(page);
+  await dialog.waitFor({ state: 'hidden' });
+  await row(page, 'copter 1').waitFor();
+  await page.locator('#script option', { hasText: 'survey.dolphin' }).waitFor({ state: 'attached' });
+}, { complaintsAllowed: true });
+
+test('takes the token out of the address', async ({ open, station, restart }) => {
+  await station().stop();
+  await restart('0123456789abcdef');
+  const page = await open({ hash: '#token=0123456789abcdef' });
+  await live(page);
+  assert.ok(!page.url().includes('token'), page.url());
+  await page.reload();
+  await live(page);
+});
+
+test('tells the state of the script on a phone', async ({ open }) => {
+  const page = await open({ size: { width: 390, height: 844 } });
+  await page.locator('header .state', { hasText: 'running' }).waitFor();
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  for (const tab of ['Tasks', 'Script', 'Log', 'Vehicles']) {
+    await page.getByRole('button', { name: tab, exact: true }).click();
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, tab);
+  }
+});
+
 for (const scheme of ['dark', 'light']) {
   test(`has enough contrast in ${scheme} colours`, async ({ open }) => {
     const page = await open({ scheme });
@@ -197,9 +303,9 @@ async function runTest(browser, { run, options }) {
   try {
     await run({
       station: () => station,
-      restart: async () => (station = await startStation(station.port)),
+      restart: async (token) => (station = await startStation(station.port, token)),
       open: async (pageOptions) => {
-        const it = await browser.open(station.url, pageOptions);
+        const it = await browser.open(station.url + (pageOptions?.hash ?? ''), pageOptions);
         it.page.setDefaultTimeout(15_000);
         opened.push(it);
         return it.page;

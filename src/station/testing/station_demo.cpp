@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -151,8 +152,9 @@ class DemoScript : public ScriptControl {
   static StartFailure misspelt(std::string const& name, std::string_view source) {
     auto const place = source.find("takeOf ");
     auto const line = static_cast<std::uint32_t>(1 + std::ranges::count(source.substr(0, place), '\n'));
-    return {{base::ErrorKind::invalid_input, "The script does not check: 1 error.", "Mend it and start again."},
-            {{name, {line, 3}, {line, 9}, "error", "takeOf is not defined", "did you mean takeOff?", {}}}};
+    return {
+        {base::ErrorKind::invalid_input, "The script does not check: 1 error.", "Mend it and start again."},
+        {{name, {line, 3}, {line, 9}, "error", "takeOf is not defined", "did you mean takeOff?", {}, "unknown-name"}}};
   }
 
   base::Loop& loop_;
@@ -218,7 +220,7 @@ base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScri
   }
 }
 
-int run(int port, char const* web_folder) {
+int run(int port, std::filesystem::path const& web_folder, std::string token) {
   base::Loop loop;
   base::LogHub hub;
   hub.add_sink(base::standard_error_sink(base::LogLevel::info));
@@ -229,7 +231,9 @@ int run(int port, char const* web_folder) {
   options.http.port = port;
   options.http.static_root = web_folder;
   options.program_version = "0.1.0";
+  options.http.token = std::move(token);
   options.site = {"demo field", origin};
+  options.scripts = web_folder / "../../examples";
   auto const station = Station::open(loop, registry, script, hub, options);
   if (!station) {
     fmt::print(stderr, "{} {}\n", station.error().message, station.error().hint);
@@ -249,9 +253,9 @@ int run(int port, char const* web_folder) {
 }  // namespace lapwing::station
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    fmt::print(stderr, "usage: station_demo PORT WEB_FOLDER\n");
+  if (argc != 3 && argc != 4) {
+    fmt::print(stderr, "usage: station_demo PORT WEB_FOLDER [TOKEN]\n");
     return 2;
   }
-  return lapwing::station::run(std::atoi(argv[1]), argv[2]);
+  return lapwing::station::run(std::atoi(argv[1]), argv[2], argc == 4 ? argv[3] : "");
 }

@@ -59,6 +59,12 @@ export class Connection {
     this.pingTimer = setInterval(() => this.watch(), PING_MS);
   }
 
+  /** Gives up until `connect` is called again. */
+  stop(): void {
+    clearTimeout(this.retryTimer);
+    this.drop();
+  }
+
   /** Sends a request and gives the station's reply; a lost station replies with an error too. */
   request(message: { type: 'start_script'; name: string; source: string } | { type: 'stop_script' }): Promise<Reply> {
     const id = String(++this.requests);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { boundsOf, gridLines, niceStep } from './geometry';
+import { boundsOf, contains, cover, gridLines, niceStep, rowsWithoutOverlap } from './geometry';
 
 const origin = { lat_deg: -35.363262, lon_deg: 149.165237, alt_m: 584 };
 
@@ -48,4 +48,23 @@ describe('gridLines', () => {
     const labels = gridLines({ south: -10, north: 10, west: 175, east: 190 }, undefined, 5).map((line) => line.label);
     expect(labels).toContain('175° W');
   });
+});
+
+describe('cover and contains', () => {
+  const inner = { west: 1, south: 1, east: 2, north: 2 };
+  const other = { west: 0, south: 1.5, east: 1.5, north: 3 };
+  it('hold both', () => {
+    expect(cover(inner, other)).toEqual({ west: 0, south: 1, east: 2, north: 3 });
+    expect(contains(cover(inner, other), inner)).toBe(true);
+    expect(contains(inner, other)).toBe(false);
+    expect(contains(inner, inner)).toBe(true);
+  });
+});
+
+describe('rowsWithoutOverlap', () => {
+  const box = (left: number, top: number) => ({ left, top, width: 10, height: 5 });
+  it('leaves boxes alone that are apart', () => expect(rowsWithoutOverlap([box(0, 0), box(10, 0), box(0, 5)])).toEqual([0, 0, 0]));
+  it('stacks those on one spot', () => expect(rowsWithoutOverlap([box(0, 0), box(0, 0), box(0, 0)])).toEqual([0, 1, 2]));
+  it('keeps the topmost in its place', () => expect(rowsWithoutOverlap([box(0, 3), box(4, 0)])).toEqual([1, 0]));
+  it('is nothing for nothing', () => expect(rowsWithoutOverlap([])).toEqual([]));
 });

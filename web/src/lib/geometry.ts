@@ -21,6 +21,44 @@ export function boundsOf(positions: Position[], leastSpan: number): Bounds | und
   return { west, south, east, north };
 }
 
+/** The smallest bounds round both. */
+export function cover(a: Bounds, b: Bounds): Bounds {
+  return { west: Math.min(a.west, b.west), south: Math.min(a.south, b.south), east: Math.max(a.east, b.east), north: Math.max(a.north, b.north) };
+}
+
+export function contains(outer: Bounds, inner: Bounds): boolean {
+  return outer.west <= inner.west && outer.south <= inner.south && outer.east >= inner.east && outer.north >= inner.north;
+}
+
+export interface Box {
+  left: number;
+  top: number;
+  width: number;
+  height: number;
+}
+
+/** How many rows each box must move down, one row its own height, so that none covers another; the topmost stay. */
+export function rowsWithoutOverlap(boxes: Box[]): number[] {
+  const rows = boxes.map(() => 0);
+  const placed: Box[] = [];
+  const order = boxes.map((_, index) => index).sort((a, b) => boxes[a]!.top - boxes[b]!.top || a - b);
+  for (const index of order) {
+    const box = { ...boxes[index]! };
+    for (let blocked = true; blocked && rows[index]! <= boxes.length; ) {
+      blocked = placed.some((other) => overlap(box, other));
+      if (!blocked) continue;
+      rows[index] = rows[index]! + 1;
+      box.top += box.height;
+    }
+    placed.push(box);
+  }
+  return rows;
+}
+
+function overlap(a: Box, b: Box): boolean {
+  return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height && b.top < a.top + a.height;
+}
+
 function widened(low: number, high: number, least: number): [number, number] {
   const missing = Math.max(0, least - (high - low)) / 2;
   return [low - missing, high + missing];

@@ -94,7 +94,7 @@ export interface Hello {
   protocol: number;
   version: string;
   server_time: string;
-  site: { name: string; origin?: Position };
+  site: { name: string; origin?: Position; tiles?: string };
 }
 
 export interface Reply {

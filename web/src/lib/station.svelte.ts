@@ -2,9 +2,10 @@ import { Connection } from './connection';
 import { extendTrail, mergeUpdates, type Fleet } from './fleet';
 import { appendLines } from './log';
 import { PROTOCOL, type Diagnostic, type LogLine, type Position, type Reply, type Script, type ServerMessage, type Task } from './protocol';
-import { socketUrl, takeToken } from './token';
+import { rememberToken, socketUrl, takeToken } from './token';
 
-export type Phase = 'connecting' | 'live' | 'lost';
+/** locked: the station is there and asks for a token that this browser does not have. */
+export type Phase = 'connecting' | 'live' | 'lost' | 'locked';
 
 const CLOCK_MS = 500;
 
@@ -20,7 +21,9 @@ class Station {
   trees = $state.raw<Task[]>([]);
   script = $state.raw<Script>({ name: '', state: 'idle', message: '', source: '', diagnostics: [] });
   log = $state.raw<LogLine[]>([]);
-  site = $state.raw<{ name: string; origin?: Position }>({ name: '' });
+  site = $state.raw<{ name: string; origin?: Position; tiles?: string }>({ name: '' });
+  /** Scripts in the station's folder, by name. */
+  scripts = $state.raw<string[]>([]);
   version = $state('');
   /** The last thing to be told at once, for screen readers. */
   alert = $state('');
@@ -28,11 +31,12 @@ class Station {
   refusal = $state.raw<{ message: string; hint: string; diagnostics: Diagnostic[] } | undefined>(undefined);
 
   private lastSeq = 0;
+  private token: string | undefined;
   private connection: Connection;
 
   constructor() {
-    const token = takeToken(location, sessionStorage, history);
-    this.connection = new Connection(() => new WebSocket(socketUrl(location, token)) as never, {
+    this.token = takeToken(location, sessionStorage, history);
+    this.connection = new Connection(() => new WebSocket(socketUrl(location, this.token)) as never, {
       opened: () => {},
       received: (message) => this.receive(message),
       lost: () => this.lose(),
@@ -41,8 +45,20 @@ class Station {
     this.connection.connect();
   }
 
+  /** What is shown is old. */
   get isLost(): boolean {
-    return this.phase === 'lost';
+    return this.phase === 'lost' || this.phase === 'locked';
+  }
+
+  get hasToken(): boolean {
+    return this.token !== undefined;
+  }
+
+  unlock(token: string): void {
+    this.token = token;
+    rememberToken(token, sessionStorage);
+    this.phase = 'connecting';
+    this.connection.connect();
   }
 
   get origin(): Position | undefined {
@@ -63,6 +79,28 @@ class Station {
     return this.noteRefusal(await this.connection.request({ type: 'stop_script' }));
   }
 
+  /** The text of a script in the station's folder; nothing when it cannot be had, which `refusal` then explains. */
+  async open(name: string): Promise<string | undefined> {
+    const answer = await this.ask(`/api/v1/scripts/text?name=${encodeURIComponent(name)}`);
+    if (answer?.ok) return ((await answer.json()) as { source: string }).source;
+    this.refusal = { message: `${name} cannot be opened.`, hint: answer ? 'It may have been removed.' : 'The station did not answer.', diagnostics: [] };
+    this.alert = this.refusal.message;
+    return undefined;
+  }
+
+  private async listScripts(): Promise<void> {
+    const answer = await this.ask('/api/v1/scripts');
+    if (answer?.ok) this.scripts = ((await answer.json()) as { scripts: { name: string }[] }).scripts.map(({ name }) => name);
+  }
+
+  private async ask(address: string): Promise<Response | undefined> {
+    try {
+      return await fetch(address, { headers: this.token ? { Authorization: `Bearer ${this.token}` } : {} });
+    } catch {
+      return undefined;
+    }
+  }
+
   private noteRefusal(reply: Reply): boolean {
     this.refusal = reply.ok
       ? undefined
@@ -73,7 +111,17 @@ class Station {
 
   private lose(): void {
     if (this.phase === 'live') this.alert = 'Station lost. The vehicles carry on; what you see is old.';
-    this.phase = 'lost';
+    if (this.phase !== 'locked') this.phase = 'lost';
+    void this.askWhetherLocked();
+  }
+
+  /** A browser does not tell why a WebSocket was refused; the same question over HTTP does. */
+  private async askWhetherLocked(): Promise<void> {
+    const answer = await this.ask('/api/v1/status');
+    if (answer?.status !== 401 || this.phase === 'live') return;
+    this.connection.stop();
+    this.phase = 'locked';
+    this.alert = 'This station asks for its token.';
   }
 
   private receive(message: ServerMessage): void {
@@ -86,6 +134,7 @@ class Station {
         this.phase = 'live';
         this.site = message.site;
         this.version = message.version;
+        void this.listScripts();
         break;
       case 'vehicles':
         this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, now);

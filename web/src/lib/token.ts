@@ -10,6 +10,10 @@ export function takeToken(location: Location, storage: Storage, history: History
   return storage.getItem(KEY) ?? undefined;
 }
 
+export function rememberToken(token: string, storage: Storage): void {
+  storage.setItem(KEY, token);
+}
+
 export function socketUrl(location: Location, token: string | undefined): string {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
   const query = token ? `?token=${encodeURIComponent(token)}` : '';

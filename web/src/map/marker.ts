@@ -67,6 +67,16 @@ export class VehicleMarker {
     this.moveTo(state.at, glides);
   }
 
+  /** Size of the label on the screen in px. */
+  labelSize(): { width: number; height: number } {
+    return { width: this.label.offsetWidth, height: this.label.offsetHeight };
+  }
+
+  /** Moves the label down by so many of its heights, where another vehicle's would cover it. */
+  lowerLabel(rows: number): void {
+    this.label.style.marginTop = rows > 0 ? `${rows * this.label.offsetHeight}px` : '';
+  }
+
   remove(): void {
     cancelAnimationFrame(this.frame);
     this.marker.remove();
@@ -91,7 +101,7 @@ export class VehicleMarker {
     if (share < 1) this.frame = requestAnimationFrame(() => this.glide());
   }
 
-  private shown(): LonLat {
+  shown(): LonLat {
     const { lng, lat } = this.marker.getLngLat();
     return [lng, lat];
   }
