@@ -1,6 +1,7 @@
 #include "mavlink/mission_transfer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,18 +41,45 @@ Inbox::Wanted meant_for(Party const& party) {
   };
 }
 
-/// How long until a message is repeated: twice the round trip once it is known, within bounds.
+/// How long until a message is repeated: as TCP does it (RFC 6298), with bounds that fit a vehicle's link. An
+/// autopilot asks again for what it misses only after a second, so on a lossy link the ground's patience decides how
+/// long a transfer takes.
 class Patience {
  public:
-  explicit Patience(base::Duration longest) : longest_(longest), now_(longest) {}
+  explicit Patience(TransferOptions const& options) : first_(options.reply_timeout) {}
+
+  /// The answer to a message that went out once (Karn: an answer to a repeated one tells nothing).
   void measured(base::Duration round_trip) {
-    now_ = std::clamp<base::Duration>(2 * round_trip + 200ms, 400ms, longest_);
+    auto const sample = base::to_seconds(round_trip);
+    if (!is_measured_) {
+      smoothed_s_ = sample;
+      deviation_s_ = sample / 2;
+      is_measured_ = true;
+    } else {
+      deviation_s_ = 0.75 * deviation_s_ + 0.25 * std::abs(smoothed_s_ - sample);
+      smoothed_s_ = 0.875 * smoothed_s_ + 0.125 * sample;
+    }
+    repeats_ = 0;
   }
-  [[nodiscard]] base::Duration value() const { return now_; }
+  /// Waits longer the next time, up to a limit; until something is measured again.
+  void repeated() { repeats_ = std::min(repeats_ + 1, 4); }
+  /// The other side has moved on after a repetition: what was repeated was lost, or the round trip has become longer.
+  void moved_on() { repeats_ = std::max(repeats_ - (is_measured_ ? 1 : 0), 0); }
+
+  [[nodiscard]] base::Duration value() const {
+    auto const once = is_measured_ ? base::from_seconds(smoothed_s_ + 4 * deviation_s_) : first_;
+    return std::min(std::max<base::Duration>(once, shortest) * (1 << repeats_), longest);
+  }
 
  private:
-  base::Duration longest_;
-  base::Duration now_;
+  static constexpr base::Duration shortest = 50ms;  // a few turns of an autopilot's telemetry loop
+  // The protocol's own default. Beyond it too few tries would fit into what a vehicle waits before it gives up.
+  static constexpr base::Duration longest = 1500ms;
+  base::Duration first_;
+  bool is_measured_ = false;
+  double smoothed_s_ = 0.0;
+  double deviation_s_ = 0.0;
+  int repeats_ = 0;
 };
 
 /// Tells the vehicle that the transfer is off, if it ends (or is destroyed) before `settled()`.
@@ -80,7 +108,7 @@ class Upload {
  public:
   Upload(Party party, std::vector<MissionItem> const& items, TransferOptions const& options,
          TransferProgress const& progress)
-      : party_(party), items_(items), options_(options), progress_(progress), patience_(options.reply_timeout) {}
+      : party_(party), items_(items), options_(options), progress_(progress), patience_(options) {}
 
   base::Task<base::Result<>> run();
 
@@ -92,6 +120,7 @@ class Upload {
   [[nodiscard]] Ended take_request(std::size_t seq);
   [[nodiscard]] Ended take_ack(MavMissionResult result);
   [[nodiscard]] Ended repeat();
+  [[nodiscard]] Ended take_invalid_sequence();
   [[nodiscard]] bool begun() const { return last_sent_.has_value(); }
   [[nodiscard]] bool all_sent() const { return items_.empty() || last_sent_ == items_.size() - 1; }
   [[nodiscard]] base::Error refusal(MavMissionResult result) const;
@@ -103,11 +132,14 @@ class Upload {
   Patience patience_;
   int counts_sent_ = 0;
   std::optional<std::size_t> last_sent_;
+  std::size_t sent_ = 0;        ///< how many items have gone out at least once
   bool last_repeated_ = false;  ///< the item sent last was sent before
   TimePoint count_sent_at_{};
   TimePoint advanced_at_{};    ///< when the item before the last one first went out
   TimePoint first_sent_at_{};  ///< when the last one first went out
   std::optional<MavMissionResult> doubtful_;
+  std::size_t requested_ = 0;  ///< what the vehicle asked for last
+  std::size_t guessed_ = 0;    ///< what it is taken to want now: that, or an item a little further on
 };
 
 base::Result<> Upload::send_count() {
@@ -117,8 +149,11 @@ base::Result<> Upload::send_count() {
 }
 
 base::Result<> Upload::send_item(std::size_t seq) {
-  last_repeated_ = last_sent_ == seq;
-  if (!last_repeated_) advanced_at_ = std::exchange(first_sent_at_, party_.now());
+  last_repeated_ = seq < sent_;
+  if (!last_repeated_) {
+    advanced_at_ = std::exchange(first_sent_at_, party_.now());
+    sent_ = seq + 1;
+  }
   last_sent_ = seq;
   MissionItem item = items_[seq];
   item.seq = static_cast<std::uint16_t>(seq);
@@ -142,7 +177,14 @@ base::Error Upload::refusal(MavMissionResult result) const {
 
 Upload::Ended Upload::take_request(std::size_t seq) {
   if (seq >= items_.size()) return std::nullopt;  // of another transfer
-  if (!begun() && counts_sent_ == 1) patience_.measured(party_.now() - count_sent_at_);
+  if (!begun() && counts_sent_ == 1) {
+    patience_.measured(party_.now() - count_sent_at_);
+  } else if (begun() && seq == *last_sent_ + 1 && !last_repeated_ && guessed_ == requested_) {
+    patience_.measured(party_.now() - first_sent_at_);
+  } else if (begun() && seq != *last_sent_) {
+    patience_.moved_on();
+  }
+  requested_ = guessed_ = seq;
   if (auto sent = send_item(seq); !sent) return sent;
   if (progress_) progress_(seq, items_.size());
   return std::nullopt;
@@ -154,8 +196,7 @@ Upload::Ended Upload::take_ack(MavMissionResult result) {
     case MavMissionResult::accepted:
       if (all_sent()) return base::Result<>{};
       return std::nullopt;
-    case MavMissionResult::invalid_sequence:  // an item came twice; the transfer goes on
-      return std::nullopt;
+    case MavMissionResult::invalid_sequence: return take_invalid_sequence();
     case MavMissionResult::operation_cancelled:
       if (!begun()) return std::nullopt;
       break;
@@ -176,9 +217,25 @@ Upload::Ended Upload::take_ack(MavMissionResult result) {
   return std::unexpected(refusal(result));
 }
 
+/// ArduPilot says so to an item that it has already: if that was a repetition, the request for the next one was lost.
+/// The next one goes out at once, since the vehicle would repeat its request only after a second. It is a guess (the
+/// answer can be to an older repetition), so it never goes far ahead of the requests.
+Upload::Ended Upload::take_invalid_sequence() {
+  constexpr std::size_t farthest_lead = 3;
+  if (!begun() || !last_repeated_) return std::nullopt;
+  if (*last_sent_ == guessed_) {
+    if (guessed_ + 1 == items_.size() || guessed_ - requested_ == farthest_lead) return std::nullopt;
+    ++guessed_;
+  }
+  if (auto sent = send_item(guessed_); !sent) return sent;
+  return std::nullopt;
+}
+
 Upload::Ended Upload::repeat() {
+  patience_.repeated();
   if (begun()) {
-    if (auto sent = send_item(*last_sent_); !sent) return sent;
+    // After a wrong guess the vehicle still waits for what it asked for: take turns.
+    if (auto sent = send_item(*last_sent_ == guessed_ && last_repeated_ ? requested_ : guessed_); !sent) return sent;
     return std::nullopt;
   }
   if (counts_sent_ == options_.tries) {
@@ -248,6 +305,7 @@ base::Task<base::Result<Message>> ask(Party const& party, Inbox& inbox, Message 
                                       TransferOptions const& options) {
   bool first = true;
   for (Attempts attempts(party.now(), options); attempts.another(party.now()); first = false) {
+    if (!first) patience.repeated();
     if (auto sent = party.send(request); !sent) co_return std::unexpected(sent.error());
     auto const sent_at = party.now();
     auto const deadline = sent_at + patience.value();
@@ -255,7 +313,10 @@ base::Task<base::Result<Message>> ask(Party const& party, Inbox& inbox, Message 
       auto got = co_await inbox.next(deadline);
       if (!got) break;
       if (fits(*got)) {
-        if (first) patience.measured(party.now() - sent_at);
+        if (first)
+          patience.measured(party.now() - sent_at);
+        else
+          patience.moved_on();
         co_return std::move(*got);
       }
       auto const* ack = std::get_if<MissionAck>(&*got);
@@ -283,7 +344,7 @@ base::Task<base::Result<std::vector<MissionItem>>> download_mission(Connection& 
                                                                     MissionType type, TransferOptions options,
                                                                     TransferProgress progress) {
   Party const party{connection, target, type};
-  Patience patience(options.reply_timeout);
+  Patience patience(options);
   Inbox inbox(connection, target.system, meant_for<MissionCount, MissionItem, MissionAck>(party));
 
   Message const list = MissionRequestList{.type = type};

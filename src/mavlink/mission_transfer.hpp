@@ -12,8 +12,9 @@
 namespace lapwing::mavlink {
 
 struct TransferOptions {
-  base::Duration reply_timeout = std::chrono::milliseconds(1500);  ///< until COUNT or a request is repeated
-  int tries = 5;                                                   ///< of one message
+  /// Until COUNT or a request is repeated for the first time; later by the measured round trip, longer each time.
+  base::Duration reply_timeout = std::chrono::milliseconds(500);
+  int tries = 5;  ///< of one message
   base::Duration silence_limit =
       std::chrono::seconds(8);  ///< an upload in which nothing comes for this long has failed
   int restarts = 2;  ///< how often a transfer that timed out begins anew; the vehicle forgets an upload it gave up
