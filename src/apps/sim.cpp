@@ -1,5 +1,7 @@
 #include <memory>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -25,6 +27,7 @@ struct SimOptions {
   std::uint64_t seed = 1;
   int first_id = 1;
   bool realistic_boot = false;
+  std::vector<std::string> parameters;
 };
 
 base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
@@ -44,6 +47,11 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   world.impairment.loss = options.loss;
   world.impairment.delay = base::from_seconds(options.delay_s);
   world.impairment.duplication = options.duplication;
+  for (auto const& text : options.parameters) {
+    auto const parameter = sim::parse_parameter(text);
+    if (!parameter) return std::unexpected(parameter.error());
+    world.parameters.push_back(*parameter);
+  }
   world.boot = options.realistic_boot ? sim::BootStyle::realistic : sim::BootStyle::quick;
   return world;
 }
@@ -91,6 +99,7 @@ void add_sim(CLI::App& program, int& exit_code) {
   verb->add_option("--first-id", options->first_id, "System id of the first vehicle")
       ->check(CLI::Range(1, 250))
       ->capture_default_str();
+  verb->add_option("--param", options->parameters, "NAME=VALUE: a parameter of every vehicle; may come several times");
   verb->add_flag("--realistic-boot", options->realistic_boot, "Take 41 s to start up, as ArduPilot does, instead of 3");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }

@@ -17,6 +17,16 @@ constexpr base::Duration runtime_period = 30s;
 /// 75 a step of 50 ms: the 1500 a second of ArduPilot.
 constexpr std::size_t parameters_a_step = 75;
 
+struct StreamRate {
+  std::string_view parameter;
+  int stream;  ///< MAV_DATA_STREAM
+};
+constexpr std::array stream_rates{
+    StreamRate{"SR0_RAW_SENS", 1}, StreamRate{"SR0_EXT_STAT", 2}, StreamRate{"SR0_RC_CHAN", 3},
+    StreamRate{"SR0_POSITION", 6}, StreamRate{"SR0_EXTRA1", 10},  StreamRate{"SR0_EXTRA2", 11},
+    StreamRate{"SR0_EXTRA3", 12},
+};
+
 Connection::Options connection_options(std::uint8_t system_id) {
   // The vehicle's heartbeat is telemetry like any other here: its rate can be changed.
   return {.self = {system_id, autopilot_component}, .heartbeat = {}};
@@ -49,6 +59,13 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       connection_(loop, connection_options(setup.system_id), std::move(log)),
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
   connection_.add_link(std::move(link));
+  for (auto const& [name, stream] : stream_rates) follow_stream_rate(name, stream);
+}
+
+void FlightController::follow_stream_rate(std::string_view name, int stream) {
+  auto const rate = static_cast<int>(memory_.parameters.value(name));
+  // Zero leaves a running stream as it is: ArduPilot only reads these parameters when they are set or at the start.
+  if (rate > 0) telemetry_.set_stream(stream, rate, since_power_on());
 }
 
 MissionStore::Ports FlightController::mission_ports() {
@@ -288,6 +305,9 @@ void FlightController::on(ParamRequestRead const& request, Address from) {
 
 void FlightController::on(ParamSet const& set) {
   if (!memory_.parameters.set(set.name, set.value)) return;
+  for (auto const& [name, stream] : stream_rates) {
+    if (set.name == name) follow_stream_rate(name, stream);
+  }
   send_parameter(*memory_.parameters.index_of(set.name), false, nullptr);
 }
 

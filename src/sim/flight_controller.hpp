@@ -64,6 +64,8 @@ class FlightController {
   void on(mavlink::SetPositionTargetGlobalInt const& target);
   void on(mavlink::ParamRequestRead const& request, mavlink::Address from);
   void on(mavlink::ParamSet const& set);
+  /// Sends a stream at the rate of the parameter of that name (SR0_...), if there is one.
+  void follow_stream_rate(std::string_view name, int stream);
 
   // Commands, in commands.cpp.
   Result perform(mavlink::CommandInt const& command, mavlink::Address from);

@@ -1,7 +1,11 @@
 #include "sim/parameters.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <span>
+
+#include <fmt/core.h>
 
 namespace lapwing::sim {
 
@@ -141,6 +145,22 @@ bool Parameters::set(std::string_view name, float value) {
   table_[*index].value = value;
   ++revision_;
   return true;
+}
+
+base::Result<ParameterSetting> parse_parameter(std::string_view text) {
+  auto const wrong = [&](std::string_view why) {
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("parameter '{}' {}", text, why),
+                      "write NAME=VALUE, e.g. SR0_POSITION=10");
+  };
+  auto const equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0) return wrong("has no name or no value");
+  auto const digits = text.substr(equals + 1);
+  ParameterSetting setting{.name = std::string(text.substr(0, equals))};
+  auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), setting.value);
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(setting.value)) {
+    return wrong("has a value that is not a number");
+  }
+  return setting;
 }
 
 }  // namespace lapwing::sim

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.hpp"
 #include "mavlink/enums.hpp"
 #include "vehicle/vehicle_state.hpp"
 
@@ -17,6 +18,15 @@ struct Parameter {
   float value = 0.0F;
   mavlink::MavParamType type = mavlink::MavParamType::real32;
 };
+
+/// What a parameter is to be instead of its default.
+struct ParameterSetting {
+  std::string name;
+  float value = 0.0F;
+};
+
+/// Reads "SR0_POSITION=10". Errors: invalid_input. Whether there is such a parameter depends on the vehicle.
+[[nodiscard]] base::Result<ParameterSetting> parse_parameter(std::string_view text);
 
 /// The autopilot's parameter table: those of ArduPilot's that matter to a ground station or to this simulation.
 class Parameters {

@@ -153,6 +153,26 @@ TEST(VehicleTelemetry, StreamsStartWithoutAcknowledgement) {
   EXPECT_TRUE(ground.all<GlobalPosition>(1, stopped).empty());
 }
 
+TEST(VehicleTelemetry, ItsParametersStartStreams) {
+  WorldOptions options;
+  options.parameters = {{"SR0_POSITION", 10}};
+  TestGround ground("copter", options);
+  ground.boot();
+  auto from = ground.heard.size();
+  ground.run_for(10s);
+  EXPECT_NEAR(static_cast<double>(ground.all<GlobalPosition>(1, from).size()), 100.0, 1.0);
+  EXPECT_TRUE(ground.all<SysStatus>(1, from).empty());
+
+  ParamSet set;
+  set.name = "SR0_EXT_STAT";
+  set.value = 2;
+  ground.send(set);
+  ground.run_for(1s);
+  from = ground.heard.size();
+  ground.run_for(10s);
+  EXPECT_NEAR(static_cast<double>(ground.all<SysStatus>(1, from).size()), 20.0, 1.0);
+}
+
 TEST(VehicleRequests, AnswersWhatItHasAndFailsTheRest) {
   TestGround ground("copter");
   ground.boot();

@@ -1,6 +1,11 @@
 #include "sim/world.hpp"
 
+#include <set>
+#include <string_view>
+
 #include <fmt/core.h>
+
+#include "base/spelling.hpp"
 
 namespace lapwing::sim {
 
@@ -61,8 +66,25 @@ base::Result<> World::start() {
                       fmt::format("system ids {} to {} do not exist", options_.first_system_id, last),
                       "MAVLink counts systems from 1 to 254");
   }
+  if (auto set = set_parameters(); !set) return set;
   for (auto const& vehicle : vehicles_) {
     if (auto on = vehicle->power_on(); !on) return on;
+  }
+  return {};
+}
+
+base::Result<> World::set_parameters() {
+  for (auto const& [name, value] : options_.parameters) {
+    bool known = false;
+    for (auto const& vehicle : vehicles_) known |= vehicle->parameters().set(name, value);
+    if (known) continue;
+    std::set<std::string_view> names;
+    for (auto const& vehicle : vehicles_) {
+      for (auto const& parameter : vehicle->parameters().all()) names.insert(parameter.name);
+    }
+    std::vector<std::string_view> const candidates(names.begin(), names.end());
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("no simulated vehicle has a parameter {}", name),
+                      base::did_you_mean(name, candidates));
   }
   return {};
 }

@@ -30,6 +30,7 @@ struct WorldOptions {
   link::Impairment impairment = {};  ///< of every vehicle's link, in each direction; its seed is set from `seed`
   BootStyle boot = BootStyle::quick;
   double battery_capacity_mah = 5000.0;
+  std::vector<ParameterSetting> parameters = {};  ///< for every vehicle that has them
 };
 
 /// The simulated vehicles of one site, numbered from `first_system_id`, parked in rows a few metres apart.
@@ -44,7 +45,8 @@ class World {
   /// The same over links from `open_link`, which is asked at each power-on.
   World(base::Loop& loop, WorldOptions options, OpenLink open_link, base::Logger log);
 
-  /// Powers all vehicles on. Errors: those of the links, or invalid_input when the system ids do not suffice.
+  /// Powers all vehicles on. Errors: those of the links, or invalid_input when the system ids do not suffice or no
+  /// vehicle has a parameter of that name.
   base::Result<> start();
 
   [[nodiscard]] std::vector<std::unique_ptr<Vehicle>> const& vehicles() const { return vehicles_; }
@@ -55,6 +57,7 @@ class World {
 
  private:
   void park(VehicleGroup const& group, int system_id);
+  base::Result<> set_parameters();
 
   base::Loop& loop_;
   WorldOptions options_;

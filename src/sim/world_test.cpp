@@ -119,6 +119,27 @@ TEST(World, RefusesSystemIdsThatDoNotExist) {
   EXPECT_EQ(started.error().kind, base::ErrorKind::invalid_input);
 }
 
+TEST(World, RefusesAParameterThatNoVehicleHas) {
+  base::Loop loop(quick_pace);
+  WorldOptions options;
+  options.parameters = {{"SR0_POSITON", 10}};
+  World world(loop, options, base::Logger());
+  auto const started = world.start();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().message, "no simulated vehicle has a parameter SR0_POSITON");
+  EXPECT_NE(started.error().hint.find("SR0_POSITION"), std::string::npos);
+}
+
+TEST(ParameterSetting, IsANameAndANumber) {
+  auto const parameter = parse_parameter("WPNAV_SPEED=750.5");
+  ASSERT_TRUE(parameter);
+  EXPECT_EQ(parameter->name, "WPNAV_SPEED");
+  EXPECT_FLOAT_EQ(parameter->value, 750.5F);
+  for (auto const* wrong : {"", "WPNAV_SPEED", "=1", "WPNAV_SPEED=", "WPNAV_SPEED=fast", "WPNAV_SPEED=1x", "A=nan"}) {
+    EXPECT_FALSE(parse_parameter(wrong)) << wrong;
+  }
+}
+
 TEST(World, TellsWhyALinkCannotBeOpened) {
   base::Loop loop(quick_pace);
   World world(
