@@ -27,4 +27,4 @@ async def main():
     print(f"{time.monotonic() - started:.4f}")
 
 
-asyncio.run(asyncio.wait_for(main(), 240))
+asyncio.run(asyncio.wait_for(main(), 120))

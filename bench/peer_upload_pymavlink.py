@@ -5,7 +5,7 @@ import time
 
 from pymavlink import mavutil
 
-PORT, ITEMS, GIVE_UP_S = int(sys.argv[1]), int(sys.argv[2]), 180.0
+PORT, ITEMS, GIVE_UP_S = int(sys.argv[1]), int(sys.argv[2]), 120.0
 
 link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{PORT}", source_system=255, source_component=190)
 link.wait_heartbeat(timeout=30)

@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [upload] [start] [scale]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [language] [upload]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -94,7 +94,7 @@ def upload(repeats: int = 3) -> list:
                     with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{port}", "--loss", str(loss),
                                    "--seed", str(repeat + 1)):
                         try:
-                            done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=260)
+                            done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=130)
                             if done.returncode == 0:
                                 seconds.append(float(done.stdout))
                             else:
@@ -189,33 +189,47 @@ def ardupilot_ground(parser):
     return lambda message_id: packer.command_long_encode(1, 1, 511, 0, message_id, 100_000, 0, 0, 0, 0, 0).pack(packer)
 
 
-# ---- CPU and memory of `run` with a fleet, at the message rates that it asks for -----------------------------------------------------------------------------------
+# ---- CPU and memory of `run` with a fleet -------------------------------------------------------------------------------------
+
+TEN_HERTZ = [f"--param=SR0_{stream}=10" for stream in ("EXT_STAT", "POSITION", "EXTRA1", "EXTRA2", "EXTRA3")]
+
 
 def scale(seconds: float = 20.0) -> list:
+    """Every vehicle sends ATTITUDE, GLOBAL_POSITION_INT, VFR_HUD, SYS_STATUS and the rest of its streams at 10 Hz; the script has
+    picked them all, so all are known to be there."""
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         script = pathlib.Path(folder, "watch.dolphin")
-        script.write_text("pick { count 1; timeout 60.seconds }\nexecute idle(1000)\n")
         for vehicles in (2, 20, 100):
+            script.write_text(f"pick {{ count {vehicles}; timeout 60.seconds }}\nprintln 'all here'\nexecute idle(1000)\n")
             port = free_udp_port()
-            with simulator("--vehicles", f"copter:{vehicles}", "--out", f"udpout://127.0.0.1:{port}") as sim:
+            with simulator("--vehicles", f"copter:{vehicles}", "--out", f"udpout://127.0.0.1:{port}", *TEN_HERTZ) as sim:
                 run = subprocess.Popen([LAPWING, "run", script, "--link", f"udpin://127.0.0.1:{port}"],
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
                 try:
-                    time.sleep(8)  # discovery and the asking for intervals; the figure is the steady state
-                    before, sim_before, wall = cpu_seconds(run.pid), cpu_seconds(sim.pid), time.monotonic()
+                    if run.stdout.readline().strip() != b"all here":
+                        raise SystemExit(f"scale: {vehicles} vehicles were not found")
+                    time.sleep(8)  # the asking for intervals; the figure is the steady state
+                    before, sim_before, sent, wall = cpu_seconds(run.pid), cpu_seconds(sim.pid), datagrams(), time.monotonic()
                     time.sleep(seconds)
                     elapsed = time.monotonic() - wall
                     row = {"vehicles": vehicles, "run_cpu_percent": 100 * (cpu_seconds(run.pid) - before) / elapsed,
                            "sim_cpu_percent": 100 * (cpu_seconds(sim.pid) - sim_before) / elapsed,
-                           "run_rss_mb": resident_mb(run.pid), "sim_rss_mb": resident_mb(sim.pid)}
+                           "run_rss_mb": resident_mb(run.pid), "sim_rss_mb": resident_mb(sim.pid),
+                           "messages_per_s": (datagrams() - sent) / elapsed}
                 finally:
                     run.terminate()
                     run.wait(timeout=15)
             rows.append(row)
-            say(f"scale   {vehicles:4} vehicles at the rates run asks for: run {row['run_cpu_percent']:5.1f} % of a core, {row['run_rss_mb']:5.1f} MB; "
-                f"sim {row['sim_cpu_percent']:5.1f} %, {row['sim_rss_mb']:5.1f} MB")
+            say(f"scale   {vehicles:4} vehicles at 10 Hz, {row['messages_per_s']:7.0f} messages/s: run {row['run_cpu_percent']:5.1f} % of a core, "
+                f"{row['run_rss_mb']:5.1f} MB; sim {row['sim_cpu_percent']:5.1f} %, {row['sim_rss_mb']:5.1f} MB")
     return rows
+
+
+def datagrams() -> int:
+    """UDP datagrams that this machine has received since it started: one message each here."""
+    header, values = [line.split() for line in pathlib.Path("/proc/net/snmp").read_text().splitlines() if line.startswith("Udp:")]
+    return int(values[header.index("InDatagrams")])
 
 
 def cpu_seconds(pid: int) -> float:
@@ -230,6 +244,12 @@ def resident_mb(pid: int) -> float:
     return 0.0
 
 
+def language() -> dict:
+    import language as beside_the_original
+
+    return beside_the_original.measure(LAPWING, BENCH_BIN / "bench_language", say)
+
+
 def machine() -> dict:
     cpu = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                 if line.startswith("model name")), platform.machine())
@@ -238,11 +258,11 @@ def machine() -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "start", "scale", "upload"]
+    wanted = sys.argv[1:] or ["decode", "start", "scale", "language", "upload"]
     results = {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale}[name]()
+        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "language": language}[name]()
     path = ROOT / "build/bench-results.json"
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")

@@ -90,7 +90,7 @@ TEST_F(MissionRun, IsNotDoneBecauseTheVehicleWasInRtlBeforehand) {
   copter.change_mode(copter_mode::rtl);
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_waypoint));
-  EXPECT_EQ(end_of(*run, 6s), RunState::in_progress);
+  EXPECT_EQ(end_of(*run, 15s), RunState::in_progress);
   EXPECT_NE(run->progress().find("uploading"), std::string::npos) << run->progress();
   EXPECT_EQ(end_of(*run), RunState::done) << run->error();
   EXPECT_TRUE(copter.is_flying);  // it flew, and holds at the last place

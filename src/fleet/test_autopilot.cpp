@@ -201,6 +201,7 @@ void TestAutopilot::take_item(mavlink::MissionItem item) {
     send(mavlink::MissionAck{.target = upload_->partner, .result = result});
   };
   if (item.seq != upload_->items.size()) return reply(mavlink::MavMissionResult::invalid_sequence);
+  if (!upload_->is_asking) return;  // still busy with the item before
   if (silent_from_item == item.seq) {
     is_silent = true;
     return;
@@ -212,6 +213,7 @@ void TestAutopilot::take_item(mavlink::MissionItem item) {
   }
   if (forgets_items) item.place.z_m += 100.0;
   upload_->items.push_back(item);
+  upload_->is_asking = false;
   upload_->last_good = loop_.now();
   upload_->next_request = loop_.now() + options_.request_spacing;
   if (upload_->items.size() < upload_->count) return;
@@ -257,6 +259,7 @@ base::Task<> TestAutopilot::live() {
     }
     if (upload_ && loop_.now() >= upload_->next_request) {
       request_item();
+      upload_->is_asking = true;
       upload_->next_request = loop_.now() + request_again;
     }
     advance_mission();

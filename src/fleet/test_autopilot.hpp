@@ -103,6 +103,7 @@ class TestAutopilot {
     std::uint16_t count = 0;
     base::TimePoint last_good{};
     base::TimePoint next_request{};
+    bool is_asking = false;  ///< an item that it has not asked for yet is not taken
     mavlink::Address partner{};
   };
 
