@@ -8,6 +8,7 @@
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/characters.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/vehicle_flow.hpp"
 
 namespace lapwing::dolphin {
 
@@ -25,6 +26,17 @@ void add_words(std::string_view text, std::unordered_set<std::string>& words) {
 bool is_true(ast::ExprPtr const& condition) {
   auto const* literal = std::get_if<ast::BoolLiteral>(&condition->node);
   return literal && literal->value;
+}
+
+/// No way leads to its end. Looks at its last statement only.
+bool ends_early(ast::Block const& block) {
+  if (block.statements.empty()) return false;
+  auto const& last = block.statements.back()->node;
+  if (auto const* branch = std::get_if<ast::If>(&last)) {
+    return branch->otherwise && ends_early(branch->then) && ends_early(*branch->otherwise);
+  }
+  return std::holds_alternative<ast::Return>(last) || std::holds_alternative<ast::Break>(last) ||
+         std::holds_alternative<ast::Continue>(last) || std::holds_alternative<ast::Throw>(last);
 }
 
 /// A break that ends the loop with this body.
@@ -45,23 +57,6 @@ bool has_break(ast::Block const& body) {
   });
 }
 
-/// Why nothing comes after this statement: "return", or empty.
-std::string_view ends_with(ast::Stmt const& statement) {
-  if (std::holds_alternative<ast::Return>(statement.node)) return "return";
-  if (std::holds_alternative<ast::Break>(statement.node)) return "break";
-  if (std::holds_alternative<ast::Continue>(statement.node)) return "continue";
-  if (std::holds_alternative<ast::Throw>(statement.node)) return "throw";
-  if (auto const* loop = std::get_if<ast::While>(&statement.node)) {
-    return is_true(loop->condition) && !has_break(loop->body) ? "a loop without a break" : "";
-  }
-  if (auto const* expr = std::get_if<ast::ExprStmt>(&statement.node)) {
-    auto const* call = std::get_if<ast::Call>(&expr->expr->node);
-    auto const* callee = call ? std::get_if<ast::Name>(&call->callee->node) : nullptr;
-    return callee && callee->text == "halt" ? "halt" : "";
-  }
-  return "";
-}
-
 }  // namespace
 
 void check(ast::Program const& program, std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics) {
@@ -70,11 +65,18 @@ void check(ast::Program const& program, std::span<tasks::BuilderSpec const> buil
 
 Checker::Checker(ast::Program const& program, std::span<tasks::BuilderSpec const> builders,
                  base::Diagnostics& diagnostics)
-    : program_(program), diagnostics_(diagnostics), resolution_(resolve(program)), inference_(resolution_, builders) {
+    : program_(program),
+      diagnostics_(diagnostics),
+      resolution_(resolve(program)),
+      inference_(resolution_, builders),
+      tasks_(resolution_, inference_, builders) {
   for (auto const& spec : builders) {
     Builder made{&spec, {}};
     for (auto const& command : spec.commands) made.words.push_back(instruction_of(command));
     builders_.push_back(std::move(made));
+  }
+  for (auto const& variable : resolution_.variables) {
+    if (variable.kind == VariableKind::local) locals_.insert(variable.name);
   }
   for (auto const span : program.unread) add_words(diagnostics.source().text(span), unread_names_);
 }
@@ -86,6 +88,9 @@ void Checker::run() {
                         "write it without def to change its value");
   }
   block(program_.body, false);
+  // What could not be read may have picked or released any vehicle.
+  if (program_.unread.empty()) check_vehicle_flow(program_, resolution_, inference_, tasks_, diagnostics_);
+  unused_tasks();
 }
 
 /// Functions of one name differ in the number of their parameters.
@@ -104,6 +109,36 @@ void Checker::function_overloads() {
 }
 
 // ---- statements ---------------------------------------------------------------------------------
+
+/// Why nothing comes after this statement: "return", or empty.
+std::string_view Checker::ends_with(ast::Stmt const& statement) {
+  if (std::holds_alternative<ast::Return>(statement.node)) return "return";
+  if (std::holds_alternative<ast::Break>(statement.node)) return "break";
+  if (std::holds_alternative<ast::Continue>(statement.node)) return "continue";
+  if (std::holds_alternative<ast::Throw>(statement.node)) return "throw";
+  if (auto const* loop = std::get_if<ast::While>(&statement.node)) {
+    return is_true(loop->condition) && !has_break(loop->body) ? "a loop without a break" : "";
+  }
+  if (auto const* loop = std::get_if<ast::For>(&statement.node)) {
+    return !loop->condition && !has_break(loop->body) ? "a loop without a break" : "";
+  }
+  if (auto const* branch = std::get_if<ast::If>(&statement.node)) {
+    bool const ends = branch->otherwise && ends_early(branch->then) && ends_early(*branch->otherwise);
+    return ends ? "an if of which no branch goes on" : "";
+  }
+  auto const* expr = std::get_if<ast::ExprStmt>(&statement.node);
+  auto const* call = expr ? std::get_if<ast::Call>(&expr->expr->node) : nullptr;
+  return call ? ends_with(*call) : "";
+}
+
+std::string_view Checker::ends_with(ast::Call const& call) {
+  auto const instruction = called_instruction(call, resolution_);
+  if (instruction == "halt") return "halt";
+  if (instruction != "execute" || block_word("execute")) return "";
+  bool const never_ends = std::ranges::any_of(
+      call.arguments, [this](ast::Argument const& argument) { return tasks_.of(*argument.value).never_ends; });
+  return never_ends ? "a task that never ends" : "";
+}
 
 void Checker::block(ast::Block const& block, bool is_value) {
   bool const is_script = &block == &program_.body;

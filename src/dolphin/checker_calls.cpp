@@ -8,7 +8,6 @@
 
 #include "base/spelling.hpp"
 #include "dolphin/internal/checker.hpp"
-#include "dolphin/internal/rehearsal.hpp"
 
 namespace lapwing::dolphin {
 
@@ -146,9 +145,17 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
                         "define a mission { ... }, or write imcPlan('name') for a plan made elsewhere");
     return;
   }
+  names_plans_ = names_plans_ || spec.name == "task" || spec.name == "imcPlan";
   std::optional<BlockContext> context;
   if (spec.block != BlockKind::none) context = BlockContext{spec.block, spec.name, block_words(spec.block)};
+  auto const outer = place_;
+  place_.in_task = place_.in_task || spec.name == "action" || spec.name == "condition";
   arguments(call, context);
+  place_ = outer;
+  if (spec.name == "execute" && place_.in_task) {
+    diagnostics_.report(code("nested-execute"), call.callee->span, "execute inside a task fails",
+                        "join the tasks with >> or | and execute them together");
+  }
   auto const positional = positional_count(call);
   auto const named = call.arguments.size() - positional;
   if (named > 0 && spec.named == NamedArguments::none) {
@@ -167,8 +174,11 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
   if (named > 0 && positional == 0) return;  // signals and parameters have any name
   auto const before = diagnostics_.error_count();
   signatures(call, span, spec);
-  bool const fits = diagnostics_.error_count() == before;
-  if (fits && spec.name == "setConnectionTimeout" && positional == 1) connection_timeout(*call.arguments[0].value);
+  if (diagnostics_.error_count() > before) return;
+  if (spec.name == "setConnectionTimeout" && positional == 1) connection_timeout(*call.arguments[0].value);
+  if (spec.block == BlockKind::choice) empty_choice(call, spec);
+  single_vehicle(call, spec);
+  values(call, spec);
 }
 
 /// `execute v1: task`, `setConnectionTimeout v1: 30`: keys are variables that hold vehicles.
@@ -178,6 +188,7 @@ void Checker::vehicle_keys(ast::Call const& call, InstructionSpec const& spec) {
     if (!argument.name) continue;
     auto const& key = *argument.name;
     auto const* variable = resolution_.find(key);
+    read_.insert(variable);
     if (!variable && !(runs_tasks && key.text == "_")) undefined_name(key.text, key.span);
     auto const kinds = variable ? inference_.facts(*variable).kinds : Kinds::any();
     if (!kinds.meets(Kind::vehicles)) {
@@ -328,10 +339,9 @@ void Checker::builder_call(ast::Call const& call, base::Span span, Builder const
 /// later.
 void Checker::rehearse(ast::Closure const& body, Builder const& builder, base::Span span) {
   if (!builder.spec->begin) return;
-  if (auto problem = rehearsal(body, *builder.spec, inference_)) {
+  if (auto const& problem = tasks_.rehearsed(body, *builder.spec).problem) {
     auto const place = problem->place.size() > 0 ? problem->place : span;
-    diagnostics_.report(code("invalid-mission"), place, std::move(problem->error.message),
-                        std::move(problem->error.hint));
+    diagnostics_.report(code("invalid-mission"), place, problem->error.message, problem->error.hint);
   }
 }
 

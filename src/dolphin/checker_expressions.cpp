@@ -65,6 +65,7 @@ bool Checker::may_be_defined_in_unread(std::string_view name) const {
 /// Looks for what was meant among variables, functions and instructions alike; the words of the block one is in come
 /// first.
 std::string Checker::suggestion(std::string_view name) const {
+  if (diagnostics_.error_count() >= base::Diagnostics::default_limit) return {};  // nobody would see it
   std::vector<std::string_view> near;
   for (auto const& context : contexts_) std::ranges::copy(names_of(context.words), std::back_inserter(near));
   if (auto const found = base::did_you_mean(name, near); !found.empty()) return found;
@@ -102,9 +103,7 @@ void Checker::undefined_name(std::string const& name, base::Span span) {
                         fmt::format("to use it write {}(...)", name));
     return;
   }
-  auto const is_hidden_local = std::ranges::any_of(resolution_.variables, [&](Variable const& variable) {
-    return variable.name == name && variable.kind == VariableKind::local;
-  });
+  auto const is_hidden_local = locals_.contains(name);
   if (is_hidden_local) {
     diagnostics_.report(code("hidden-variable"), span, fmt::format("{} is not defined here", name),
                         "def makes a local; assign without def to see it everywhere");
@@ -118,6 +117,7 @@ void Checker::undefined_name(std::string const& name, base::Span span) {
 void Checker::name(ast::Expr const& expr) {
   auto const& text = std::get<ast::Name>(expr.node).text;
   if (auto const* variable = resolution_.find(expr)) {
+    read_.insert(variable);
     used_too_early(expr, *variable);
     return;
   }
@@ -167,14 +167,31 @@ void Checker::expression(ast::Expr const& expr) {
   }
   auto const* binary = std::get_if<ast::Binary>(&expr.node);
   if (binary && missing_parentheses(expr, *binary)) return expression(binary->right);
+  if (binary) return operation(*binary, expr.span);
   ast::for_each_child(expr.node, [this](auto const& child) {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(child)>, ast::Expr>) expression(child);
   });
-  if (binary) operands(*binary, expr.span);
+}
+
+/// `task / { condition }`: the guard can stop the task.
+void Checker::operation(ast::Binary const& binary, base::Span span) {
+  bool const is_guarded =
+      binary.op == ast::BinaryOp::divide && std::holds_alternative<ast::Closure>(binary.right->node);
+  auto const outer = place_;
+  place_.can_be_stopped = place_.can_be_stopped || is_guarded;
+  expression(binary.left);
+  place_.can_be_stopped = outer.can_be_stopped;
+  place_.in_task = place_.in_task || is_guarded;
+  expression(binary.right);
+  place_ = outer;
+  operands(binary, span);
+  endless_sequence(binary);
 }
 
 void Checker::closure(ast::Closure const& closure, std::optional<BlockContext> context) {
-  auto const outer = std::exchange(place_, {.in_closure = true});
+  auto const outer = place_;
+  bool const is_choice = context && context->kind == BlockKind::choice;
+  place_ = {.in_closure = true, .in_task = outer.in_task, .can_be_stopped = is_choice && outer.can_be_stopped};
   // The blocks of pick and of a mission are carried out where they stand.
   bool const runs_now = context && context->kind != BlockKind::handler && context->kind != BlockKind::choice;
   place_.in_closure = outer.in_closure || !runs_now;
@@ -249,13 +266,24 @@ void Checker::chain(ast::Expr const& expr) {
     diagnostics_.report(code("misplaced-when"), n.head_span, "when stands outside oneOf, choose and allOf",
                         "outside of them write waitFor { ... } then task");
   }
+  auto const outer = place_;
+  bool const is_guard = n.kind != ast::ChainKind::watch && n.kind != ast::ChainKind::during;
+  place_.in_task = place_.in_task || is_guard;
   expression(n.subject);
+  place_.in_task = true;
   auto const* handler = std::get_if<ast::Closure>(&n.body->node);
   if (n.kind == ast::ChainKind::watch && handler) {
     closure(*handler, BlockContext{BlockKind::handler, "onError", block_words(BlockKind::handler)});
   } else {
+    place_.in_task = outer.in_task;
+    bool const can_stop = n.kind == ast::ChainKind::until || n.kind == ast::ChainKind::during;
+    place_.can_be_stopped = place_.can_be_stopped || can_stop;
     expression(n.body);
   }
+  place_ = outer;
+  bool const is_choice = n.kind == ast::ChainKind::when || n.kind == ast::ChainKind::wait_for;
+  if (is_choice && place_.can_be_stopped) consuming_guard(*n.subject);
+  if (n.kind == ast::ChainKind::during) value(*n.subject, code("argument-value"), 0.0, 1e9, "a time limit");
   auto const& task = n.kind == ast::ChainKind::watch ? n.subject : n.body;
   auto const facts = inference_.facts(*task);
   if (!facts.kinds.meets(Kind::task)) {
@@ -333,6 +361,9 @@ void Checker::battery_comparison(ast::Binary const& binary) {
   using enum ast::BinaryOp;
   if (binary.op < less || binary.op > greater_equal) return;
   auto const is_battery = [&](ast::Expr const& expr) {
+    if (auto const* member = std::get_if<ast::Member>(&expr.node); member && member->name.text == "battery") {
+      return inference_.facts(*member->object).kinds == Kinds(Kind::vehicles);
+    }
     auto const* called = std::get_if<ast::Call>(&expr.node);
     auto const* callee = called ? std::get_if<ast::Name>(&called->callee->node) : nullptr;
     return callee && callee->text == "battery" && !resolution_.functions.contains(callee->text);

@@ -67,6 +67,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"radians", codes_detail::warning, "`new Position` takes radians."},
     {"not-a-task", codes_detail::error, "Something that is no task where one is needed."},
     {"not-vehicles", codes_detail::error, "Something that is no set of vehicles where one is needed."},
+    {"halting-value", codes_detail::warning, "A number with which the instruction halts the script."},
     {"imc-plan", codes_detail::error, "Plans in the form of IMC are not supported."},
     {"invalid-mission", codes_detail::error, "A mission that cannot be flown, for example a relative move without `home`."},
     // ---- flow
@@ -74,7 +75,19 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"misplaced-when", codes_detail::error, "`when` outside `oneOf`, `choose` and `allOf`."},
     {"unreachable-code", codes_detail::warning, "Code that nothing reaches."},
     {"never-executed", codes_detail::warning, "A task is made and thrown away."},
+    {"no-branches", codes_detail::warning, "A choice without `when`: it halts the script."},
+    {"nested-execute", codes_detail::warning, "`execute` in code that a running task calls; it fails there."},
+    {"consume-in-guard", codes_detail::warning, "A guard takes a signal that is lost when the task round it is stopped."},
     {"never-called", codes_detail::warning, "A closure is written and thrown away."},
+    // ---- vehicles
+    {"used-after-release", codes_detail::error, "Released vehicles are used."},
+    {"maybe-released", codes_detail::warning, "Vehicles are used that have been released on some way to here."},
+    {"vehicle-used-twice", codes_detail::error, "Tasks that run at once need the same vehicle."},
+    {"too-few-vehicles", codes_detail::error, "Tasks that run at once need more vehicles than there are."},
+    {"no-vehicle", codes_detail::warning, "A task that needs a vehicle, and the script has picked none."},
+    {"several-vehicles", codes_detail::warning, "A set of several vehicles where one is needed; the script halts there."},
+    {"unsuited-vehicle", codes_detail::error, "A task that vehicles of the picked type cannot carry out."},
+    {"missing-payload", codes_detail::warning, "A task that needs a payload which was not asked for."},
     {"internal", codes_detail::error, "A mistake of Lapwing itself; please report it."},
 });
 // clang-format on

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "dolphin/ast_walk.hpp"
 
@@ -17,6 +18,9 @@ class Resolver {
     scopes_.emplace_back();
     for (statement_ = 0; statement_ < program_.body.statements.size(); ++statement_)
       walk(*program_.body.statements[statement_]);
+    for (auto const name : changed_globals_) {
+      if (auto const found = globals_.find(name); found != globals_.end()) found->second->has_other_values = true;
+    }
     return std::move(out_);
   }
 
@@ -47,6 +51,7 @@ class Resolver {
     made.name = name.text;
     made.kind = kind;
     made.defined = name.span;
+    out_.locals.emplace(&name, &made);
     if (!scopes_.back().insert_or_assign(made.name, &made).second) out_.redeclared.push_back(&name);
     return made;
   }
@@ -99,6 +104,7 @@ class Resolver {
     if (!name) return;
     auto* variable = local(name->text);
     if (!variable && !n.op) variable = &global(name->text, n.target->span);
+    if (!variable) changed_globals_.push_back(name->text);
     if (!variable) return;
     if (variable->kind != VariableKind::global) out_.locals.emplace(n.target.get(), variable);
     if (n.op) {
@@ -186,11 +192,8 @@ class Resolver {
   void note_step(ast::Step const& step) {
     auto const* name = std::get_if<ast::Name>(&step.target->node);
     auto* variable = name ? local(name->text) : nullptr;
-    if (!variable && name) {
-      auto const found = globals_.find(name->text);
-      variable = found == globals_.end() ? nullptr : found->second;
-    }
     if (variable) variable->has_other_values = true;
+    if (!variable && name) changed_globals_.push_back(name->text);
   }
 
   void walk_closure(ast::Closure const& closure) {
@@ -218,6 +221,7 @@ class Resolver {
   std::unordered_map<std::string_view, Variable*> globals_;
   std::vector<Scope> scopes_;
   std::size_t first_visible_ = 0;  ///< scopes below belong to code that a function does not see
+  std::vector<std::string_view> changed_globals_;  ///< by += or ++, perhaps before they are known
   bool in_function_ = false;
   std::size_t statement_ = 0;
 };

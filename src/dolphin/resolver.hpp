@@ -33,7 +33,7 @@ struct Resolution {
   std::deque<Variable> variables;
   std::unordered_map<std::string_view, Variable const*> globals;
   std::unordered_map<std::string_view, std::vector<ast::FunctionDecl const*>> functions;
-  /// Names (Expr) and keys of `execute` (Identifier) that mean something other than a global.
+  /// Names (Expr), keys of `execute` and declared names (Identifier) that mean something other than a global.
   std::unordered_map<void const*, Variable const*> locals;
   std::vector<ast::Identifier const*> redeclared;  ///< declared a second time in the same scope
 

@@ -11,6 +11,7 @@
 #include "dolphin/ast.hpp"
 #include "dolphin/codes.hpp"
 #include "dolphin/inference.hpp"
+#include "dolphin/internal/task_shape.hpp"
 #include "dolphin/resolver.hpp"
 #include "dolphin/signatures.hpp"
 
@@ -41,6 +42,8 @@ class Checker {
     bool in_closure = false;  ///< code that runs later than where it stands
     bool in_loop = false;
     bool in_switch = false;
+    bool in_task = false;         ///< code that running tasks call: actions, guards, handlers
+    bool can_be_stopped = false;  ///< part of a task that a guard or time limit ends
   };
 
   // ---- statements (checker.cpp)
@@ -64,6 +67,8 @@ class Checker {
   void check(ast::Import const& n, ast::Stmt const& statement, bool is_value);
   void loop_body(ast::Block const& body);
   void function_overloads();
+  [[nodiscard]] std::string_view ends_with(ast::Stmt const& statement);
+  [[nodiscard]] std::string_view ends_with(ast::Call const& call);
 
   // ---- expressions (checker_expressions.cpp)
   void expression(ast::ExprPtr const& expr);
@@ -71,6 +76,7 @@ class Checker {
   void name(ast::Expr const& expr);
   void undefined_name(std::string const& name, base::Span span);
   bool used_too_early(ast::Expr const& expr, Variable const& variable);
+  void operation(ast::Binary const& binary, base::Span span);
   void closure(ast::Closure const& closure, std::optional<BlockContext> context);
   void member(ast::Expr const& expr);
   void index(ast::Expr const& expr);
@@ -99,6 +105,16 @@ class Checker {
                        std::size_t position);
   void rehearse(ast::Closure const& body, Builder const& builder, base::Span span);
 
+  // ---- tasks (checker_tasks.cpp)
+  void empty_choice(ast::Call const& call, InstructionSpec const& spec);
+  void consuming_guard(ast::Expr const& guard);
+  void single_vehicle(ast::Call const& call, InstructionSpec const& spec);
+  [[nodiscard]] std::size_t least_vehicles(ast::Expr const& set, int depth);
+  void values(ast::Call const& call, InstructionSpec const& spec);
+  void value(ast::Expr const& expr, base::DiagnosticKind const& kind, double least, double most, std::string_view what);
+  void endless_sequence(ast::Binary const& binary);
+  void unused_tasks();
+
   // ---- names (checker_expressions.cpp)
   [[nodiscard]] InstructionSpec const* block_word(std::string_view name) const;
   [[nodiscard]] Builder const* find_builder(std::string_view name) const;
@@ -116,6 +132,10 @@ class Checker {
   std::vector<BlockContext> contexts_;
   std::unordered_set<std::string> unread_names_;
   std::unordered_set<std::string> reported_;  ///< undefined names, each once
+  std::unordered_set<std::string_view> locals_;
+  std::unordered_set<Variable const*> read_;
+  bool names_plans_ = false;  ///< task('name'): a mission may be executed by its name
+  TaskShapes tasks_;
   Place place_;
   std::size_t top_statement_ = 0;
 };

@@ -109,26 +109,26 @@ std::optional<Chosen> choose(ast::Call const& call, tasks::BuilderSpec const& bu
 
 }  // namespace
 
-std::optional<RehearsalProblem> rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder,
-                                          Inference& inference) {
+Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder, Inference& inference) {
   std::vector<std::pair<Chosen, base::Span>> commands;
   for (auto const& statement : body.body.statements) {
     auto const* expr = std::get_if<ast::ExprStmt>(&statement->node);
     auto const* call = expr ? std::get_if<ast::Call>(&expr->expr->node) : nullptr;
     auto chosen = call ? choose(*call, builder, inference) : std::nullopt;
-    if (!chosen) return std::nullopt;
+    if (!chosen) return {};
     commands.emplace_back(*std::move(chosen), statement->span);
   }
   auto const session = builder.begin();
   bool all_certain = true;
   for (auto const& [command, place] : commands) {
     auto const added = session->add(command.command, command.prepared.overload, command.prepared.arguments);
-    if (!added && command.prepared.is_certain) return RehearsalProblem{place, added.error()};
+    if (!added && command.prepared.is_certain) return {RehearsalProblem{place, added.error()}, nullptr};
     all_certain = all_certain && command.prepared.is_certain;
-    if (!added) return std::nullopt;  // what follows may depend on what a stand-in could not do
+    if (!added) return {};  // what follows may depend on what a stand-in could not do
   }
-  if (auto const finished = session->finish(); !finished && all_certain) return RehearsalProblem{{}, finished.error()};
-  return std::nullopt;
+  auto finished = session->finish();
+  if (finished) return {std::nullopt, *std::move(finished)};
+  return all_certain ? Rehearsal{RehearsalProblem{{}, finished.error()}, nullptr} : Rehearsal();
 }
 
 }  // namespace lapwing::dolphin

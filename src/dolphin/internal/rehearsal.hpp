@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "base/error.hpp"
@@ -13,10 +14,15 @@ struct RehearsalProblem {
   base::Error error;
 };
 
+/// How it went: a problem, a task, or neither.
+struct Rehearsal {
+  std::optional<RehearsalProblem> problem;
+  std::shared_ptr<tasks::PlatformTask const> task;  ///< where its numbers are not known before, with others
+};
+
 /// Builds a block whose statements are all commands of the platform, with those arguments that are the same in every
 /// run and stand-ins for the others, and gives what the platform refuses. Says nothing about commands with stand-ins,
 /// nor about blocks with other code.
-[[nodiscard]] std::optional<RehearsalProblem> rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder,
-                                                        Inference& inference);
+[[nodiscard]] Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder, Inference& inference);
 
 }  // namespace lapwing::dolphin
