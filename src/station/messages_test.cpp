@@ -83,9 +83,9 @@ TEST(Messages, ReadTheBodyThatStartsAScript) {
 
 TEST(Messages, ListDiagnosticsOfAFailedStart) {
   base::DiagnosticRecord const note{"f", {5, 6}, {5, 7}, "note", "first defined here", "", {}, ""};
-  StartFailure const failure{
-      {base::ErrorKind::invalid_input, "2 mistakes", ""},
-      {{"f", {1, 2}, {1, 3}, "error", "first", "", {note}, ""}, {"f", {3, 4}, {3, 5}, "warning", "second", "", {}, ""}}};
+  StartFailure const failure{{base::ErrorKind::invalid_input, "2 mistakes", ""},
+                             {{"f", {1, 2}, {1, 3}, "error", "first", "", {note}, ""},
+                              {"f", {3, 4}, {3, 5}, "warning", "second", "", {}, ""}}};
   auto const body = json::parse(start_failure_body(422, "Unprocessable Content", failure));
   EXPECT_EQ(body["status"], 422);
   EXPECT_EQ(body["diagnostics"].size(), 2U);

@@ -63,7 +63,7 @@ test('shows what is wrong with a script and leads there', async ({ open }) => {
   await page.getByRole('button', { name: 'STOP' }).click();
   await scriptState(page, 'idle');
   await page.getByRole('button', { name: 'Edit' }).click();
-  await page.getByLabel('Script text').fill('m = mission {\n  takeOf here\n}\n');
+  await page.getByLabel('Script text').fill(`${'// above\n'.repeat(40)}m = mission {\n  takeOf here\n}\n${'// below\n'.repeat(40)}`);
   await page.locator('#script').getByRole('button', { name: 'Start' }).click();
   await page.getByText('did you mean takeOff?').click();
   const selected = await page.evaluate(() => {
@@ -71,6 +71,12 @@ test('shows what is wrong with a script and leads there', async ({ open }) => {
     return editor.value.slice(editor.selectionStart, editor.selectionEnd);
   });
   assert.equal(selected, 'takeOf');
+  const { scrollTop, clientHeight, scrollHeight } = await page.evaluate(() => {
+    const { scrollTop, clientHeight, scrollHeight } = document.activeElement;
+    return { scrollTop, clientHeight, scrollHeight };
+  });
+  const top = (scrollHeight / 84) * 41; // of its line
+  assert.ok(scrollTop <= top && top < scrollTop + clientHeight, 'the mistake is in sight');
   await page.getByRole('button', { name: 'Discard' }).click();
   await page.locator('#script li', { hasText: 'north = mission' }).waitFor();
 });
@@ -86,6 +92,29 @@ test('says that the station is lost, and finds it again', async ({ open, station
   await live(page);
   await row(page, 'in the air').first().waitFor();
 }, { complaintsAllowed: true });
+
+for (const size of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
+  test(`tells of the lost station beside everything else at ${size.width} px`, async ({ open, station }) => {
+    const page = await open({ size });
+    await live(page);
+    await station().stop();
+    const banner = page.locator('.banner', { hasText: 'Station lost' });
+    await banner.waitFor();
+    await page.locator('header .phase', { hasText: 'station lost' }).waitFor();
+    const box = await banner.boundingBox();
+    assert.ok(box.x >= 0 && box.x + box.width <= size.width);
+    const covered = await page.evaluate(() => {
+      const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+      const within = document.querySelector('.banner').getBoundingClientRect();
+      const panels = [...document.querySelectorAll('.panel:not([hidden]), header')].filter((panel) => overlap(panel.getBoundingClientRect(), within));
+      const icons = [...document.querySelectorAll('header .icon')].map((icon) => icon.getBoundingClientRect()).filter((icon) => icon.width > 0);
+      const words = [...document.querySelectorAll('header .phase, header .state')].map((word) => word.getBoundingClientRect());
+      return [...panels.map((panel) => panel.id), ...words.filter((word) => icons.some((icon) => overlap(icon, word))).map(() => 'header')];
+    });
+    assert.deepEqual(covered, []);
+    assert.equal(await page.evaluate(() => document.querySelector('header').scrollWidth), size.width);
+  }, { complaintsAllowed: true });
+}
 
 test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
   const page = await open();

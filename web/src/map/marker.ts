@@ -67,6 +67,11 @@ export class VehicleMarker {
     this.moveTo(state.at, glides);
   }
 
+  /** Where it stands, or glides to; nothing before it was shown. */
+  place(): LonLat {
+    return this.to ?? this.shown();
+  }
+
   /** Size of the label on the screen in px. */
   labelSize(): { width: number; height: number } {
     return { width: this.label.offsetWidth, height: this.label.offsetHeight };
@@ -101,7 +106,7 @@ export class VehicleMarker {
     if (share < 1) this.frame = requestAnimationFrame(() => this.glide());
   }
 
-  shown(): LonLat {
+  private shown(): LonLat {
     const { lng, lat } = this.marker.getLngLat();
     return [lng, lat];
   }
