@@ -160,6 +160,11 @@ std::vector<dryrun::Sample> DryRun::look() const {
 dryrun::FlightRecord DryRun::record() const {
   auto record = recorder_.finish(ended_.time_since_epoch());
   auto const& outcome = *host_.outcome();
+  for (auto& vehicle : record.vehicles) {
+    auto const missions = ground_.platform.missions(vehicle::VehicleId{vehicle.id});
+    for (std::size_t i = 0; i < std::min(missions.size(), vehicle.tasks.size()); ++i)
+      vehicle.tasks[i].flown = missions[i].flown;
+  }
   record.script = host_.status().name;
   record.outcome = is_cut_off_ ? "unfinished" : outcome_word(outcome);
   if (outcome.kind != dolphin::Outcome::Kind::done) record.reason = outcome.message;

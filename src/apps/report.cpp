@@ -32,11 +32,19 @@ json to_json_value(tasks::TaskView const& view) {
 json to_json_value(VehicleReport const& vehicle) {
   auto missions = json::array();
   for (auto const& mission : vehicle.missions) {
-    missions.push_back({{"name", mission.name},
-                        {"items", mission.items},
-                        {"upload_s", mission.upload_s},
-                        {"outcome", mission.outcome},
-                        {"error", mission.error}});
+    json value{{"name", mission.name},
+               {"items", mission.items},
+               {"upload_s", mission.upload_s},
+               {"outcome", mission.outcome},
+               {"error", mission.error}};
+    if (mission.flown) {
+      value["estimate_s"] = base::to_seconds(mission.flown->estimate.duration);
+      value["actual_s"] = base::to_seconds(mission.flown->duration);
+      value["estimate_m"] = mission.flown->estimate.path_m;
+      value["actual_m"] = mission.flown->path_m;
+      value["estimate_is_endless"] = mission.flown->estimate.is_endless;
+    }
+    missions.push_back(std::move(value));
   }
   return {{"id", vehicle.id},
           {"system_id", vehicle.system_id},

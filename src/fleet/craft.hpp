@@ -54,6 +54,8 @@ struct Craft {
   std::optional<mavlink::GpsFix> fix;
   std::optional<geo::Wgs84> track_end;  ///< up to where `track_m` has been counted
   base::TimePoint track_end_heard{};
+  std::optional<geo::Wgs84> path_end;  ///< up to where `path_m` has been counted
+  double path_m = 0.0;                 ///< like `track_m`, height differences included
   StatusTexts texts;
   std::optional<MessageRates> rates;
   bool is_asking = false;  ///< message intervals are being asked for

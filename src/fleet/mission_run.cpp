@@ -120,16 +120,26 @@ Task<> set_home(RunContext context, geo::Wgs84 home) {
   if (!set) context.log.warn(fmt::format("{} keeps its own home: {}", context.craft.state.name, set.error().message));
 }
 
+/// How far and how long the vehicle should fly, from where it is now.
+plan::Estimate expectation(plan::Mission const& mission, vehicle::VehicleState const& state) {
+  return plan::estimate(mission, state.position.value, plan::performance_of(state.family),
+                        state.heading_rad.value.value_or(0.0));
+}
+
 /// Phase 5.
 Task<Result<>> start(RunContext context, plan::Mission const& mission, FlightPlan const& plan, RunRecord& record) {
   record.progress = "starting";
   if (mission.home) co_await set_home(context, *mission.home);
   if (auto selected = co_await select_first_item(context, plan.first_seq); !selected) co_return selected;
   context.craft.trace = {};
+  auto const expected = expectation(mission, context.craft.state);
   record.may_have_armed = !context.craft.is_armed;
   auto started = co_await arm_and_start(context.connection, context.craft);
   if (!started) co_return started;
   record.has_begun = true;
+  record.flown = plan::Flown{.estimate = expected, .path_m = 0.0, .duration = {}};
+  record.begun = context.connection.loop().now();
+  record.path_before_m = context.craft.path_m;
   context.log.info(fmt::format("{} flies '{}'", context.craft.state.name, mission.name));
   co_return Result<>{};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/log.hpp"
@@ -7,6 +8,7 @@
 #include "fleet/craft.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "mavlink/connection.hpp"
+#include "plan/estimate.hpp"
 #include "plan/mission.hpp"
 
 namespace lapwing::fleet {
@@ -20,10 +22,16 @@ struct RunRecord {
   std::string progress;
   std::string error;             ///< why, when failed or stopped
   base::Duration upload_time{};  ///< zero until the mission was on the vehicle
+  /// From when the mission was begun, beside what was expected; grows until the run ends.
+  std::optional<plan::Flown> flown;
 
   // What a stop has to undo.
   bool may_have_armed = false;  ///< it was disarmed before
   bool has_begun = false;       ///< a heartbeat has confirmed the mission mode
+
+  // Where `flown` counts from.
+  base::TimePoint begun{};
+  double path_before_m = 0.0;
 };
 [[nodiscard]] std::string_view to_string(RunRecord::Outcome outcome);
 

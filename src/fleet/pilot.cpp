@@ -80,7 +80,12 @@ Task<> Pilot::guard() {
 void Pilot::end(Outcome outcome, std::string error) {
   run_->outcome = outcome;
   run_->error = std::move(error);
-  auto const line = fmt::format("{}: '{}' {}", context_.craft.state.name, run_->mission, to_string(outcome));
+  auto line = fmt::format("{}: '{}' {}", context_.craft.state.name, run_->mission, to_string(outcome));
+  if (auto& flown = run_->flown) {
+    flown->duration = context_.connection.loop().now() - run_->begun;
+    flown->path_m = context_.craft.path_m - run_->path_before_m;
+    if (outcome == Outcome::done) line += ": " + plan::to_text(*flown);
+  }
   if (outcome == Outcome::failed) return context_.log.error(fmt::format("{}: {}", line, run_->error));
   context_.log.info(line);
 }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct MissionReport {
   double upload_s = 0.0;
   std::string outcome;  ///< "done", "failed", "stopped", "running"
   std::string error;
+  std::optional<plan::Flown> flown = {};  ///< missions that were begun: what was expected, and what came of it
 };
 
 /// MAVLink vehicles as a platform of the mission language: `mission { ... }` blocks, flown by the autopilots of a

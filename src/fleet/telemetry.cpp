@@ -31,6 +31,14 @@ void extend_track(Craft& craft, VehicleState& state, geo::Wgs84 place, TimePoint
   craft.track_end_heard = now;
 }
 
+/// The same with height differences, to compare with estimates.
+void extend_path(Craft& craft, geo::Wgs84 place) {
+  double const step_m = craft.path_end ? geo::distance_m(*craft.path_end, place) : 0.0;
+  if (craft.path_end && step_m < smallest_step_m) return;
+  if (step_m <= jump_allowance_m + fastest_vehicle_m_s) craft.path_m += step_m;
+  craft.path_end = place;
+}
+
 bool has_fix(Craft const& craft) {
   return !craft.fix || *craft.fix >= mavlink::GpsFix::fix_3d;
 }
@@ -64,6 +72,7 @@ struct Taking {
     state.velocity_m_s.set(heard.velocity_m_s, now);
     if (heard.heading_rad && position_is_estimated(state)) state.heading_rad.set(*heard.heading_rad, now);
     extend_track(craft, state, heard.position, now);
+    extend_path(craft, heard.position);
     return true;
   }
 

@@ -67,8 +67,11 @@ RotorDemand sink(geo::Ned over, Body const& body, Pace const& pace) {
 Demand steer_rotor(Goal const& goal, Body const& body, Pace const& pace) {
   if (auto const* hold = std::get_if<HoldAt>(&goal)) return towards(hold->point, body, pace);
   if (auto const* way = std::get_if<FlyTo>(&goal)) {
-    // A waypoint that is only passed is not braked for fully: corners are cut at half speed.
-    return towards(way->point, body, pace, way->passing ? 0.5 * pace.speed_m_s : 0.0);
+    // A waypoint that is only passed is not braked for fully: corners are cut at half speed. Who has yet to climb to it
+    // waits for that on the spot instead of circling.
+    constexpr double about_level_m = 5.0;
+    bool const passes = way->passing && std::abs(way->point.down - body.position_m.down) < about_level_m;
+    return towards(way->point, body, pace, passes ? 0.5 * pace.speed_m_s : 0.0);
   }
   if (auto const* circle = std::get_if<Circle>(&goal)) return around(*circle, body, pace);
   if (auto const* take_off = std::get_if<TakeOff>(&goal)) {
