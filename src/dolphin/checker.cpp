@@ -175,7 +175,9 @@ void Checker::check(ast::ExprStmt const& n, ast::Stmt const&, bool is_value) {
 void Checker::check(ast::Assign const& n, ast::Stmt const&, bool) {
   expression(n.value);
   bool const is_name = std::holds_alternative<ast::Name>(n.target->node);
-  if (!is_name || n.op) expression(n.target);
+  bool const is_place =
+      std::holds_alternative<ast::Member>(n.target->node) || std::holds_alternative<ast::Index>(n.target->node);
+  if (is_place || (is_name && n.op)) expression(n.target);  // of anything else the reader has complained
 }
 
 void Checker::check(ast::VarDecl const& n, ast::Stmt const&, bool) {

@@ -35,7 +35,6 @@ Outcome outcome_of(Fiber const& fiber, Program const& program) {
 std::shared_ptr<Program const> load(std::shared_ptr<base::SourceFile const> source,
                                     std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics) {
   auto const tree = parse(diagnostics);
-  if (diagnostics.has_errors()) return nullptr;
   check(tree, builders, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   return compile(tree, std::move(source), builders, diagnostics);

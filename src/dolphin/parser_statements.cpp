@@ -189,7 +189,8 @@ ast::StmtPtr Parser::labelled() {
   auto const begin = token().span.begin;
   auto const& word = advance();
   advance();
-  if (is_reserved_word(kind()) && !starts_argument(0)) {
+  bool const is_statement = is_reserved_word(kind()) && !starts_argument(0);
+  if (is_statement || (at(identifier) && on_same_line() && starts_argument(1))) {
     error(code("label"), word.span, "labels are not part of the language");
     quiet_ = false;
     return statement();
