@@ -50,7 +50,7 @@ std::string ending_text(TaskSpan const& span) {
   if (span.flown && span.ending == TaskSpan::End::done) {
     text += fmt::format(
         ", estimated {} ({})", clock_text(span.flown->estimate.duration),
-        difference_text(base::to_seconds(span.flown->estimate.duration), base::to_seconds(span.flown->duration)));
+        difference_text(base::to_seconds(span.flown->duration), base::to_seconds(span.flown->estimate.duration)));
   }
   return text;
 }

@@ -36,9 +36,9 @@ std::string place_text(geo::Ned place) {
   return text.empty() ? "at home" : text + " of home";
 }
 
-std::string difference_text(double expected, double actual) {
-  if (expected <= 0.0) return {};
-  return fmt::format("{:+.0f} %", 100.0 * (actual - expected) / expected);
+std::string difference_text(double reference, double value) {
+  if (reference <= 0.0) return {};
+  return fmt::format("{:+.0f} %", 100.0 * (value - reference) / reference);
 }
 
 }  // namespace lapwing::dryrun

@@ -16,7 +16,7 @@ namespace lapwing::dryrun {
 [[nodiscard]] std::string number_text(double value, int decimals);
 /// "12 m north and 3 m west of home", "over home".
 [[nodiscard]] std::string place_text(geo::Ned place);
-/// "+4 %": how much more `actual` is than `expected`; empty when nothing was expected.
-[[nodiscard]] std::string difference_text(double expected, double actual);
+/// "+4 %": how much more `value` is than `reference`; empty when that is nothing.
+[[nodiscard]] std::string difference_text(double reference, double value);
 
 }  // namespace lapwing::dryrun

@@ -61,6 +61,30 @@ TEST_F(MissionRun, FliesARoverWithoutTouchingItsModeBeforehand) {
   EXPECT_EQ(rover.commands_heard(MavCmd::mission_start), 0);
 }
 
+TEST_F(MissionRun, ComparesTheFlightWithItsEstimate) {
+  world->add();
+  world->run_for(5s);
+  auto const begun = world->loop.now();
+  auto const run = start(mission_ending_with(MavCmd::nav_land));
+  EXPECT_EQ(end_of(*run), RunState::done) << run->error();
+  auto const flown = world->platform->missions(one).front().flown;
+  ASSERT_TRUE(flown);
+  EXPECT_GT(flown->estimate.duration, 0s);
+  EXPECT_GT(flown->estimate.path_m, 0.0);
+  EXPECT_GT(flown->path_m, 0.0);
+  EXPECT_GT(flown->duration, 0s);
+  EXPECT_LE(flown->duration, world->loop.now() - begun);
+  EXPECT_TRUE(world->has_logged(plan::to_text(*flown)));
+}
+
+TEST_F(MissionRun, ComparesNothingWhenTheMissionNeverBegan) {
+  world->add().refused_item = 3;
+  world->run_for(5s);
+  auto const run = start(mission_ending_with(MavCmd::nav_land));
+  EXPECT_EQ(end_of(*run), RunState::failed);
+  EXPECT_FALSE(world->platform->missions(one).front().flown);
+}
+
 // Row 81.
 TEST_F(MissionRun, AnswersMissionRequestInt) {
   world->add({.asks_with_request_int = true});
