@@ -49,7 +49,7 @@ std::string ending_text(TaskSpan const& span) {
   if (!span.reason.empty()) text += ": " + span.reason;
   if (span.flown && span.ending == TaskSpan::End::done) {
     text += fmt::format(
-        ", estimated {} ({})", clock_text(span.flown->estimate.duration),
+        ", flown in {}, estimated {} ({})", clock_text(span.flown->duration), clock_text(span.flown->estimate.duration),
         difference_text(base::to_seconds(span.flown->duration), base::to_seconds(span.flown->estimate.duration)));
   }
   return text;
