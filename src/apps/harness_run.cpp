@@ -9,13 +9,15 @@
 #include "apps/script_host.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
+#include "apps/simulation.hpp"
 #include "apps/verb.hpp"
 #include "tasks/event_json.hpp"
 #include "tasks/harness_platform.hpp"
 
 namespace lapwing::apps {
 
-int run_on_harness(std::string const& name, std::string const& source, std::string const& events) {
+int run_on_harness(std::string const& name, std::string const& source, std::string const& events,
+                   std::optional<std::uint64_t> seed) {
   using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
   File opened(events.empty() || events == "-" ? nullptr : std::fopen(events.c_str(), "w"), &std::fclose);
   std::FILE* const sink = events == "-" ? stdout : opened.get();
@@ -24,17 +26,19 @@ int run_on_harness(std::string const& name, std::string const& source, std::stri
     return exit_usage;
   }
 
-  base::Loop loop({.speedup = 1.0, .unpaced = true});
+  base::Loop loop(pace_for(0.0, seed));
   base::LogHub hub;
-  hub.add_sink([to_terminal = base::standard_error_sink(base::LogLevel::warn)](base::LogRecord const& record) {
+  hub.add_sink([to_terminal = base::standard_error_sink(base::LogLevel::info)](base::LogRecord const& record) {
     if (record.source != script_source) to_terminal(record);
   });
   base::Logger const log(hub, "lapwing");
   tasks::HarnessPlatform platform(loop);
   auto const console = make_console(loop, log);
-  ScriptHost host(loop, platform, *console, log, [sink](tasks::TaskEvent const& event) {
+  auto const note = [sink, task_log = log.named("task")](tasks::TaskEvent const& event) {
     if (sink) fmt::print(sink, "{}\n", tasks::to_json_line(event));
-  });
+    task_log.info(to_log_text(event));
+  };
+  ScriptHost host(loop, platform, *console, log, note, seed.value_or(1));
   auto const started = host.start(name, source);
   fmt::print(stderr, "{}", host.rendered_diagnostics());
   if (!started) return exit_usage;

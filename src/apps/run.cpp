@@ -24,6 +24,7 @@ struct RunOptions {
   std::string on_stop = "loiter";
   std::string platform = "mavlink";
   std::string events;
+  std::optional<std::uint64_t> seed;
 };
 
 /// Simulated vehicles, or the links, or the default link.
@@ -35,6 +36,7 @@ base::Result<> connect(Session& session, RunOptions const& options) {
   if (!vehicles) return std::unexpected(vehicles.error());
   sim::WorldOptions world;
   world.vehicles = *vehicles;
+  world.seed = options.seed.value_or(world.seed);
   if (!options.home.empty()) {
     auto const home = parse_home(options.home);
     if (!home) return std::unexpected(home.error());
@@ -54,11 +56,13 @@ int refuse(base::Error const& error) {
 int run(RunOptions const& options) {
   auto const source = read_script(options.script);
   if (!source) return refuse(source.error());
-  if (options.platform == "test") return run_on_harness(options.script, *source, options.events);
+  if (options.platform == "test") return run_on_harness(options.script, *source, options.events, options.seed);
   auto const on_stop = parse_on_stop(options.on_stop);
   if (!on_stop) return refuse(on_stop.error());
 
-  Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0), .on_stop = *on_stop});
+  Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
+                   .on_stop = *on_stop,
+                   .seed = options.seed});
   if (auto connected = connect(session, options); !connected) return refuse(connected.error());
   auto const started = session.host.start(options.script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());
@@ -92,6 +96,9 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
   verb->add_option("--platform", options->platform, "mavlink, or test: the language's own test vehicles, no MAVLink")
       ->check(CLI::IsMember({"mavlink", "test"}));
+  verb->add_option("--seed", options->seed,
+                   "Of all chance: simulated vehicles and what the script draws by lot; sets a fixed calendar too, so "
+                   "that a run repeats");
   verb->add_option("--events", options->events,
                    "With --platform test: write task events to this file as JSON lines (- for standard output)");
   verb->callback([options, &exit_code] { exit_code = run(*options); });

@@ -23,14 +23,21 @@ std::string outcome_word(dolphin::Outcome const& outcome) {
   return "error";
 }
 
+std::string to_log_text(tasks::TaskEvent const& event) {
+  return fmt::format("{} {}{}{}{}", to_string(event.kind), event.task,
+                     event.vehicle ? " vehicle=" + event.vehicle->text : "", event.detail.empty() ? "" : ": ",
+                     event.detail);
+}
+
 ScriptHost::ScriptHost(base::Loop& loop, tasks::Platform& platform, dolphin::Output& output, base::Logger log,
-                       tasks::Execution::Observer on_event)
+                       tasks::Execution::Observer on_event, std::uint64_t seed)
     : loop_(loop),
       platform_(platform),
       log_(log.named("engine")),
-      engine_(
-          loop, platform, output, log.named("engine"),
-          {.on_event = std::move(on_event), .on_executed = [this](tasks::TaskView tree) { keep(std::move(tree)); }}),
+      engine_(loop, platform, output, log.named("engine"),
+              {.seed = seed,
+               .on_event = std::move(on_event),
+               .on_executed = [this](tasks::TaskView tree) { keep(std::move(tree)); }}),
       ended_(loop),
       scope_(loop) {}
 

@@ -17,9 +17,9 @@ namespace lapwing::apps {
 /// `run` waits for its end, the station shows it.
 class ScriptHost final : public station::ScriptControl {
  public:
-  /// `platform` and `output` outlive the host.
+  /// `platform` and `output` outlive the host. `seed`: of what scripts draw by lot.
   ScriptHost(base::Loop& loop, tasks::Platform& platform, dolphin::Output& output, base::Logger log,
-             tasks::Execution::Observer on_event = {});
+             tasks::Execution::Observer on_event = {}, std::uint64_t seed = 1);
 
   [[nodiscard]] station::ScriptStatus status() const override { return status_; }
   [[nodiscard]] std::vector<tasks::TaskView> task_trees() const override;
@@ -56,6 +56,9 @@ class ScriptHost final : public station::ScriptControl {
   base::Notifier ended_;
   base::Scope scope_;
 };
+
+/// "START survey vehicle=1", for the log.
+[[nodiscard]] std::string to_log_text(tasks::TaskEvent const& event);
 
 /// "done", "error", "halted" or "interrupted": the report's word for the outcome.
 [[nodiscard]] std::string outcome_word(dolphin::Outcome const& outcome);

@@ -36,16 +36,14 @@ base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
 }
 
 Session::Session(Options const& options)
-    : loop(pace_for(options.speedup)),
+    : loop(pace_for(options.speedup, options.seed)),
       log(hub, "lapwing"),
       ground(loop, options.on_stop, log),
       console(make_console(loop, log)),
-      host(loop, ground.platform, *console, log,
-           [this](tasks::TaskEvent const& event) {
-             log.named("task").info(fmt::format("{} {}{}{}{}", to_string(event.kind), event.task,
-                                                event.vehicle ? " vehicle=" + event.vehicle->text : "",
-                                                event.detail.empty() ? "" : ": ", event.detail));
-           }),
+      host(
+          loop, ground.platform, *console, log,
+          [this](tasks::TaskEvent const& event) { log.named("task").info(to_log_text(event)); },
+          options.seed.value_or(1)),
       on_stop_(options.on_stop) {
   hub.add_sink(terminal_sink(options.log_level));
 }

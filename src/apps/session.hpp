@@ -22,6 +22,8 @@ class Session {
     double speedup = 1.0;  ///< 0: as fast as the machine computes
     fleet::OnStop on_stop = fleet::OnStop::loiter;
     base::LogLevel log_level = base::LogLevel::info;
+    /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
+    std::optional<std::uint64_t> seed = std::nullopt;
   };
   explicit Session(Options const& options);
 

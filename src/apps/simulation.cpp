@@ -1,6 +1,7 @@
 #include "apps/simulation.hpp"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -49,9 +50,11 @@ base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::
   return world;
 }
 
-base::Loop::Pace pace_for(double speedup) {
-  if (speedup == 0.0) return {.speedup = 1.0, .unpaced = true};
-  return {.speedup = speedup, .unpaced = false};
+base::Loop::Pace pace_for(double speedup, std::optional<std::uint64_t> seed) {
+  constexpr std::chrono::sys_days start = std::chrono::year{2000} / std::chrono::January / 1;
+  auto const begins_at = seed ? std::optional<base::UtcTime>(start) : std::nullopt;
+  if (speedup == 0.0) return {.speedup = 1.0, .unpaced = true, .begins_at = begins_at};
+  return {.speedup = speedup, .unpaced = false, .begins_at = begins_at};
 }
 
 }  // namespace lapwing::apps

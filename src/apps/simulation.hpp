@@ -20,7 +20,8 @@ struct HomePlace {
 [[nodiscard]] base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::WorldOptions options,
                                                                          base::Logger log);
 
-/// How loop time passes for `--speedup`: 0 means as fast as the machine computes.
-[[nodiscard]] base::Loop::Pace pace_for(double speedup);
+/// How loop time passes for `--speedup`: 0 means as fast as the machine computes. With a seed the calendar begins at
+/// 2000-01-01, so that the run repeats.
+[[nodiscard]] base::Loop::Pace pace_for(double speedup, std::optional<std::uint64_t> seed = std::nullopt);
 
 }  // namespace lapwing::apps

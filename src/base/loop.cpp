@@ -21,7 +21,7 @@ Loop::Loop(Pace pace)
     : io_(std::make_unique<Io>()),
       pace_(pace),
       started_(steady_clock::now()),
-      started_utc_(std::chrono::system_clock::now()) {}
+      started_utc_(pace.begins_at.value_or(std::chrono::system_clock::now())) {}
 
 Loop::~Loop() = default;
 

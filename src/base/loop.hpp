@@ -3,6 +3,7 @@
 #include <coroutine>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "base/task.hpp"
 #include "base/time.hpp"
@@ -25,6 +26,8 @@ class Loop {
   struct Pace {
     double speedup = 1.0;
     bool unpaced = false;
+    std::optional<UtcTime> begins_at =
+        std::nullopt;  ///< what `utc_now` tells at the start, for runs that repeat exactly
   };
 
   Loop() : Loop(Pace{}) {}
@@ -34,7 +37,8 @@ class Loop {
   Loop& operator=(Loop const&) = delete;
 
   [[nodiscard]] TimePoint now() const;
-  /// UTC that belongs to `now()`: wall time at the loop's start plus loop time. For file stamps and people.
+  /// UTC that belongs to `now()`: wall time at the loop's start (or `Pace::begins_at`) plus loop time. For file stamps
+  /// and people.
   [[nodiscard]] UtcTime utc_now() const;
 
   /// Runs `function` on a later turn, in the order of the calls.

@@ -49,6 +49,14 @@ class ScriptCall final : public tasks::Call {
     fiber_.begin(closure, std::move(arguments));
   }
 
+  /// What is left of it ends as by `halt`, so that its `finally` blocks run.
+  ~ScriptCall() override {
+    wait_.reset();
+    fiber_.unwind(runtime_.limits.slice);
+  }
+  ScriptCall(ScriptCall const&) = delete;
+  ScriptCall& operator=(ScriptCall const&) = delete;
+
   [[nodiscard]] std::expected<tasks::CallState, tasks::Failure> step() override {
     int budget = runtime_.limits.slice;
     while (true) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <variant>
 
 #include "dolphin/codes.hpp"
@@ -64,7 +65,7 @@ class Purity {
   }
   bool is_pure(ast::Name const& node) const {
     return std::ranges::find(program_.globals, node.text) != program_.globals.end() || node.text == "PI" ||
-           node.text == "E" || node.text == "NaN";
+           node.text == "E" || node.text == "NaN" || node.text == "Math";
   }
   bool is_pure(ast::ListLiteral const& node) const { return all(node.items); }
   bool is_pure(ast::MapLiteral const& node) const {
@@ -81,10 +82,23 @@ class Purity {
   bool is_pure(ast::Member const& node) const { return holds(*node.object); }
   bool is_pure(ast::Index const& node) const { return holds(*node.object) && holds(*node.index); }
   bool is_pure(ast::Call const& node) const {
+    auto const is_pure_argument = [&](auto const& argument) { return !argument.name && holds(*argument.value); };
+    if (!std::ranges::all_of(node.arguments, is_pure_argument)) return false;
+    if (auto const* method = std::get_if<ast::Member>(&node.callee->node)) return is_pure_method(*method);
     auto const* name = std::get_if<ast::Name>(&node.callee->node);
     auto const native = name ? find_native(name->text) : std::nullopt;
-    return native && natives()[static_cast<std::size_t>(*native)].is_pure &&
-           std::ranges::all_of(node.arguments, [&](auto const& a) { return !a.name && holds(*a.value); });
+    return native && natives()[static_cast<std::size_t>(*native)].is_pure;
+  }
+  /// Methods that change nothing; `Math.sqrt(2)`.
+  bool is_pure_method(ast::Member const& method) const {
+    static constexpr std::array names = {
+        "abs",    "contains", "distanceTo", "drop",        "endsWith", "first",       "get",       "indexOf",
+        "intdiv", "isEmpty",  "join",       "keySet",      "last",     "length",      "max",       "min",
+        "near",   "replace",  "round",      "size",        "split",    "startsWith",  "substring", "sum",
+        "take",   "toDouble", "toInteger",  "toLowerCase", "toString", "toUpperCase", "trim",      "values"};
+    auto const* type = std::get_if<ast::Name>(&method.object->node);
+    if (type && type->text == "Math") return method.name.text != "random";
+    return std::ranges::find(names, method.name.text) != names.end() && holds(*method.object);
   }
   bool is_pure(auto const&) const { return false; }
 

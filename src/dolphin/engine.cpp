@@ -25,9 +25,16 @@ Outcome outcome_of(Fiber const& fiber, Program const& program) {
       .kind = Outcome::Kind::halted, .message = error.message, .file = program.source->name(), .line = error.line};
   if (error.ending == Ending::error) {
     outcome.kind = Outcome::Kind::script_error;
+    outcome.type = error.type;
     outcome.message = error.type + ": " + error.message;
   }
   return outcome;
+}
+
+/// As the original engine prints it, and where it was.
+std::string unexpected(Outcome const& outcome) {
+  auto const message = std::string_view(outcome.message).substr(outcome.type.size() + 2);
+  return fmt::format("Unexpected exception ...  {} : {} ! ({}:{})", outcome.type, message, outcome.file, outcome.line);
 }
 
 }  // namespace
@@ -80,6 +87,7 @@ base::Task<Outcome> Engine::run(std::shared_ptr<Program const> program) {
                              .program = std::move(program),
                              .limits = options_.limits,
                              .tick = options_.tick,
+                             .random = std::mt19937_64(options_.seed),
                              .observer = options_.on_event,
                              .on_executed = options_.on_executed});
   runtime_->globals.resize(runtime_->program->globals.size());
@@ -103,6 +111,7 @@ base::Task<Outcome> Engine::run_script(Runtime& runtime) {
     scope.spawn(drive_and_notify(runtime, fiber, is_done, changed_));
     while (!is_done && !is_stopping_) co_await changed_.wait();
     scope.clear();  // ends the running `execute`, which stops its tasks
+    fiber.unwind(runtime.limits.slice);
     outcome = is_done ? outcome_of(fiber, *runtime.program) : Outcome{.kind = Outcome::Kind::stopped};
     script_ = nullptr;
   }
@@ -112,7 +121,7 @@ base::Task<Outcome> Engine::run_script(Runtime& runtime) {
   if (outcome.kind == Outcome::Kind::done) log_.info(fmt::format("Script '{}' completed", name));
   if (outcome.kind == Outcome::Kind::stopped) log_.warn("Script interrupted!");
   if (outcome.kind == Outcome::Kind::halted) log_.error("Halting program ... " + outcome.message);
-  if (outcome.kind == Outcome::Kind::script_error) log_.error("Unexpected exception ... " + to_text(outcome));
+  if (outcome.kind == Outcome::Kind::script_error) log_.error(unexpected(outcome));
   co_return outcome;
 }
 

@@ -36,7 +36,8 @@ struct Outcome {
   Kind kind = Kind::done;
   std::string message = {};  ///< what people read: the exception, the text of `halt`
   std::string file = {};
-  int line = 0;  ///< 0: unknown
+  int line = 0;           ///< 0: unknown
+  std::string type = {};  ///< of the exception
 };
 
 /// The exit code of a program that runs one script: 0 done, 1 script error, 3 halted, 130 stopped.
@@ -47,14 +48,16 @@ struct Outcome {
 struct EngineOptions {
   Limits limits = {};
   base::Duration tick = tasks::default_tick;
+  std::uint64_t seed = 1;                                 ///< of `Math.random()`; the same in every run unless set
   tasks::Execution::Observer on_event = {};               ///< ALLOC, START, DONE, ERROR and STOP of tasks
   std::function<void(tasks::TaskView)> on_executed = {};  ///< each `execute`, as it stood at its end
 };
 
 /// Runs scripts on a platform, one after the other.
 ///
-/// However a script ends, its running tasks are stopped, its vehicles released, and the platform has settled before the
-/// outcome is there. Thread-bound to its loop.
+/// However a script ends, its running tasks are stopped, `finally` blocks on the way out run (without waiting when it
+/// is stopped from outside), its vehicles released, and the platform has settled before the outcome is there.
+/// Thread-bound to its loop.
 class Engine {
  public:
   /// All outlive the engine.

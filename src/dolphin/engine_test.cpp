@@ -45,6 +45,81 @@ TEST(Engine, StopEndsTheRunningTasksAndReleasesTheirVehicles) {
   EXPECT_TRUE(engine.picked().empty());
 }
 
+/// Runs the script, stops it from outside after `seconds`; what it printed and its exit code.
+std::string stopped_after(double seconds, std::string const& script) {
+  Bench bench;
+  auto const program = loaded(bench, script);
+  bench.options.on_event = [&](tasks::TaskEvent const& event) {
+    bench.transcript.text += std::string(to_string(event.kind)) + " ";
+  };
+  Engine engine(bench.loop, bench.platform, bench.transcript, {}, bench.options);
+  base::Scope scope(bench.loop);
+  scope.spawn(at(bench.loop, seconds, [&] { engine.stop(); }));
+  auto const outcome = bench.loop.run_until_done(engine.run(program));
+  return bench.transcript.text + std::to_string(exit_code(outcome));
+}
+
+TEST(Engine, StopRunsFinallyBlocksAfterTheTasksAreStopped) {
+  EXPECT_EQ(stopped_after(1.05,
+                          "v = pick {}\ndef f() { try { execute task('A:100') } catch (Throwable e) { print 'c' } "
+                          "finally { print 'inner ' } }\n"
+                          "try { f() } finally { release v\n print 'outer ' }\nprint 'no'"),
+            "ALLOC START STOP inner outer 130");
+  EXPECT_EQ(stopped_after(1.05, "try { while (true) { pause 0.1 } } finally { print 'looped ' }"), "looped 130");
+  EXPECT_EQ(stopped_after(1.05, "try { pause 100 } finally { print 'paused ' }"), "paused 130");
+}
+
+TEST(Engine, StopLetsFinallyBlocksNotWait) {
+  EXPECT_EQ(stopped_after(1.05,
+                          "v = pick {}\ntry { pause 100 } finally { print 'a '\n try { pause 1\n print 'no' } "
+                          "finally { print 'b ' }\n execute task('A:1') }"),
+            "a b 130");
+  EXPECT_EQ(stopped_after(1.05, "try { pause 100 } finally { while (true) { } }"), "130");
+}
+
+TEST(Action, ThatIsStoppedRunsItsFinallyBlocks) {
+  EXPECT_EQ(testing::printed("execute during 0.3 run action { try { pause 10 } finally { print 'cleared' } }"),
+            "cleared");
+  auto const text = testing::printed(
+      "t = action { try { pause 10 } finally { print 'left ' } }\n"
+      "try { execute t | (idle(0.2) >> action { throw new RuntimeException('x') }) } "
+      "catch (e) { print e.message }");
+  EXPECT_EQ(text, "left x");
+  EXPECT_EQ(stopped_after(1.05, "execute action { try { pause 10 } finally { print 'gone ' } }"), "gone 130");
+  EXPECT_NE(
+      testing::printed("execute action { try { pause 10 } finally { print 'halted' } } | (idle(0.2) >> action { halt "
+                       "'enough' })")
+          .find("haltedexit 3"),
+      std::string::npos);
+}
+
+TEST(Action, MayReleaseVehiclesInItsFinallyBlock) {
+  Bench bench;
+  EXPECT_EQ(
+      bench.run("v = pick {}\nexecute during 0.3 run (task('A:9') | action { try { pause 9 } finally { release v } })\n"
+                "message pick { id 'a1' }"),
+      "{\"t\":0,\"event\":\"ALLOC\",\"task\":\"A\",\"vehicle\":\"a1\"}\n"
+      "{\"t\":0,\"event\":\"START\",\"task\":\"A\",\"vehicle\":\"a1\"}\n"
+      "{\"t\":0.3,\"event\":\"STOP\",\"task\":\"A\",\"vehicle\":\"a1\"}\n"
+      "Program message: { a1 }\nexit 0 at 0.4\n");
+}
+
+/// What the script writes, chance and clock included.
+std::string written(std::string const& script, std::uint64_t seed) {
+  Bench bench;
+  bench.options.seed = seed;
+  return bench.run(script);
+}
+
+TEST(Replay, TheSameScriptAndSeedGiveTheSameEvents) {
+  std::string const script =
+      "v = pick { count 2 }\n"
+      "t = idle(0)\nfor (i in 1..20) { t = t >> task(\"T$i:${Math.random().round(2)}\") }\n"
+      "execute t / { Math.random() < 0.02 }\nmessage Math.random()\n";
+  EXPECT_EQ(written(script, 7), written(script, 7));
+  EXPECT_NE(written(script, 7), written(script, 8));
+}
+
 TEST(Engine, ShowsTheTaskTreeAndTheLineOfTheScript) {
   Bench bench;
   auto const program = loaded(bench, "v = pick {}\nexecute v: task('A:1') >> task('B:1')");
@@ -98,6 +173,21 @@ TEST(Battery, UnknownFailsEveryComparisonAndWarnsOnce) {
   EXPECT_EQ(exit_code(bench.loop.run_until_done(engine.run(program))), 0);
   EXPECT_EQ(bench.transcript.text, "falsefalse");
   EXPECT_EQ(warnings, 1);
+}
+
+TEST(Battery, IsWaitedForOutsideOfGuards) {
+  Bench bench;
+  bench.platform.set_vehicle(copter("z9"));
+  base::Scope scope(bench.loop);
+  scope.spawn(at(bench.loop, 2.25, [&] {
+    auto heard = copter("z9");
+    heard.battery = 0.5;
+    bench.platform.set_vehicle(heard);
+  }));
+  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprintln battery(v)"), "0.5\nexit 0 at 2.3\n");
+  Bench silent;
+  silent.platform.set_vehicle(copter("z9"));
+  EXPECT_EQ(silent.run("v = pick { id 'z9' }\nprintln battery(v)\nprintln battery(v)"), "NaN\nNaN\nexit 0 at 20.0\n");
 }
 
 TEST(Heap, LetsGoOfCyclesAtItsEnd) {

@@ -45,6 +45,18 @@ void Fiber::abandon() {
   result_ = Value();
 }
 
+void Fiber::unwind(int budget) {
+  if (state_ == State::returned || state_ == State::failed) return;
+  is_unwinding_ = true;
+  state_ = State::ready;
+  raise(stopped());
+  if (run(budget) == State::ready) abandon();
+}
+
+Fault Fiber::stopped() {
+  return {"HaltException", "the script is being stopped", Ending::halts};
+}
+
 void Fiber::resume(Checked<Value> result) {
   state_ = State::ready;
   give(std::move(result));

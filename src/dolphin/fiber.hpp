@@ -48,6 +48,9 @@ class Fiber {
 
   /// Forgets what was running, as if it had never begun. `finally` does not run.
   void abandon();
+  /// Ends what is running as `halt` would: its `finally` blocks run, for at most `budget` instructions, and must not
+  /// wait.
+  void unwind(int budget);
 
   /// When returned.
   [[nodiscard]] Value const& result() const { return result_; }
@@ -96,6 +99,7 @@ class Fiber {
   void give(Checked<Value> result);
   void replace(std::size_t operands, Checked<Value> result);
   void raise(Fault fault);
+  [[nodiscard]] static Fault stopped();
   void raise(Value error);
   [[nodiscard]] bool is_heap_full();
 
@@ -110,7 +114,8 @@ class Fiber {
 
   Runtime& runtime_;
   Role role_;
-  State state_ = State::ready;
+  State state_ = State::returned;
+  bool is_unwinding_ = false;
   std::vector<Value> stack_;
   std::vector<Frame> frames_;
   std::vector<std::unique_ptr<Block>> blocks_;

@@ -191,13 +191,15 @@ void Fiber::execute_call(Instruction i) {
 void Fiber::call_native(int index, int count) {
   auto const& native = natives()[static_cast<std::size_t>(index)];
   auto const given = arguments(count);
-  if (native.call) {
+  bool const must_not_wait = role_ == Role::guard || is_unwinding_;
+  if (native.call && (must_not_wait || !native.start)) {
     auto result = native.call(runtime_, *this, given);
     return replace(static_cast<std::size_t>(count), std::move(result));
   }
   if (role_ == Role::guard) {
     return raise({"IllegalStateException", fmt::format("a guard must not wait, so it cannot use {}", native.name)});
   }
+  if (is_unwinding_) return raise(stopped());
   waits_for_ = &native;
   wait_arguments_.assign(given.begin(), given.end());
   drop(static_cast<std::size_t>(count));

@@ -201,5 +201,24 @@ TEST(Ask, EvaluatesPureExpressionsAndReturnsOtherTextAsItIs) {
             "1?\n26\n2?\nhello world\n3?\nhalt()\n4?\n3\n5?\nask: end of input\nexit 0 at 0.0\n");
 }
 
+TEST(Ask, KnowsPureMethodsAndFunctions) {
+  auto const answer = [](std::string const& typed) {
+    testing::Bench bench;
+    bench.transcript.answers = {typed};
+    auto const text = bench.run("l = [3, 1]\nprint ask('')");
+    return text.substr(1, text.rfind("exit 0") - 1);
+  };
+  EXPECT_EQ(answer("l.size() + Math.max(1, 2)"), "4");
+  EXPECT_EQ(answer("10.minutes + 'ab'.length()"), "602");
+  EXPECT_EQ(answer("'quoted'"), "quoted");
+  EXPECT_EQ(answer("location(41, -8) ^ 2.km"), "area((41.000000,-8.000000,0.000) <> 2000.000000)");
+  EXPECT_EQ(answer("[1, 2][0] > 0 ? 'yes' : 'no'"), "yes");
+  // What has effects, is not known or fails is only text.
+  for (auto const* text : {"l.add(4)", "l.clear()", "l << 1", "Math.random()", "halt('x')", "unknown + 1", "1 / 0",
+                           "l = 5", "{ 1 }", "l.each { print 'x' }", "post a: 1", "", "1 +", "Math.sqrt()"}) {
+    EXPECT_EQ(answer(text), text);
+  }
+}
+
 }  // namespace
 }  // namespace lapwing::dolphin

@@ -229,6 +229,9 @@ Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name
   if (type == "Position" && method == "fromDegrees") {
     return natives()[static_cast<std::size_t>(find_native("location").value())].call(runtime, fiber, arguments);
   }
+  if (type == "Math" && method == "random" && arguments.empty()) {
+    return Value::real(static_cast<double>(runtime.random() >> 11U) * 0x1p-53);  // 53 bits: [0, 1)
+  }
   if (type == "System" && method == "nanoTime" && arguments.empty()) {
     return Value::integer(std::chrono::nanoseconds(runtime.loop.now().time_since_epoch()).count());
   }

@@ -178,7 +178,13 @@ base::Task<Checked<Value>> run(Runtime& runtime, Order order) {
     if (auto info = runtime.platform.find(id)) available.push_back(std::move(*info));
   }
   auto const allocation = tasks::allocate(order.tree, available);
-  if (!allocation) co_return fault(allocation.error().message + order.remarks, "TaskError");
+  if (!allocation) {
+    runtime.log.warn(fmt::format("Task {} could not allocate necessary nodes.", tasks::name(order.tree)));
+    co_return fault(allocation.error().message + order.remarks, "TaskError");
+  }
+  for (auto const& one : allocation->assignments) {
+    runtime.log.info(fmt::format("Task {} allocated node {}.", one.task->name(), one.vehicle.text));
+  }
   tasks::Execution execution(order.tree, *allocation, runtime.platform, runtime.observer);
   OnItsWay const on_its_way(runtime, execution);
   auto running = tasks::run(runtime.loop, execution, runtime.tick);

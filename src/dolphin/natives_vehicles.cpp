@@ -57,7 +57,17 @@ std::string as_log_text(Filter const& filter) {
   std::string payload;
   for (auto const& name : filter.payload) payload += (payload.empty() ? "" : "+") + name;
   return fmt::format("id={},type={},payload={},area={}", filter.id.value_or("<null>"), filter.type.value_or("<null>"),
-                     payload.empty() ? "<null>" : payload, filter.region ? "yes" : "<null>");
+                     payload.empty() ? "<null>" : payload, filter.region ? to_text(*filter.region) : "<null>");
+}
+
+void log_available(Runtime const& runtime) {
+  std::vector<VehicleInfo> available;
+  for (auto& info : runtime.platform.vehicles()) {
+    bool const is_free = std::ranges::find(runtime.picked, info.id) == runtime.picked.end();
+    if (is_free && info.connected) available.push_back(std::move(info));
+  }
+  runtime.log.info(fmt::format("Available nodes: {}", available.size()));
+  for (auto const& info : available) runtime.log.info(fmt::format("  id={} type={}", info.id.text, info.type));
 }
 
 /// The first `count` free vehicles that match, in the platform's order; nothing when there are fewer.
@@ -78,6 +88,7 @@ base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<
   if (!fields) co_return fault("pick takes a block: pick { type 'UAV' }", "IllegalArgumentException");
   auto const filter = as_filter(*fields);
   auto const deadline = std::max(runtime.loop.now() + filter.timeout, runtime.platform.all_heard_by());
+  log_available(runtime);
   runtime.log.info(fmt::format("Matching requirement: {} count={}", as_log_text(filter), filter.count));
   auto ids = chosen(runtime, filter);
   while (!ids && runtime.loop.now() < deadline) {
@@ -85,8 +96,12 @@ base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<
     co_await runtime.platform.vehicles_changed().wait_until(next);
     ids = chosen(runtime, filter);
   }
-  if (!ids) co_return halting("Could not find required vehicles!", "VehicleError");
+  if (!ids) {
+    runtime.log.info("Requirements were not met!");
+    co_return halting("Could not find required vehicles!", "VehicleError");
+  }
   for (auto const& id : *ids) {
+    runtime.log.info("Requirement met by node " + id.text);
     runtime.picked.push_back(id);
     runtime.platform.set_connection_timeout(id, runtime.connection_timeout);
   }
@@ -138,7 +153,7 @@ Checked<Value> position(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments)
 }
 
 /// Not known is NaN, with which every comparison is false (REC-21).
-Checked<Value> battery(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+Checked<Value> battery_now(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const info = single_vehicle(runtime, arguments[0], "battery");
   if (!info) return std::unexpected(info.error());
   if (info->battery) return Value::real(*info->battery);
@@ -147,6 +162,21 @@ Checked<Value> battery(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) 
         fmt::format("the battery of vehicle {} is not known: comparisons with it are false", info->id.text));
   }
   return Value::real(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Outside of guards the first report is waited for, once and for at most the connection timeout.
+base::Task<Checked<Value>> battery(Runtime& runtime, Fiber& fiber, std::vector<Value> arguments) {
+  constexpr base::Duration look_again = std::chrono::milliseconds(100);
+  auto const info = single_vehicle(runtime, arguments[0], "battery");
+  if (!info) co_return std::unexpected(info.error());
+  bool const is_new = !info->battery && !runtime.warned_of_battery[info->id];
+  auto const deadline = runtime.loop.now() + (is_new ? info->connection_timeout : base::Duration::zero());
+  while (runtime.loop.now() < deadline) {
+    auto const fresh = runtime.platform.find(info->id);
+    if (!fresh || fresh->battery) break;
+    co_await runtime.loop.sleep(look_again);
+  }
+  co_return battery_now(runtime, fiber, arguments);
 }
 
 Checked<Value> connected(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
@@ -223,12 +253,12 @@ std::span<Native const> vehicle_natives() {
       Native{.name = "pick", .least = 1, .most = 1, .start = pick},
       Native{.name = "release", .least = 1, .most = 1, .call = release},
       Native{.name = "position", .least = 1, .most = 1, .call = position},
-      Native{.name = "battery", .least = 1, .most = 1, .call = battery},
+      Native{.name = "battery", .least = 1, .most = 1, .call = battery_now, .start = battery},
       Native{.name = "connected", .least = 1, .most = 1, .call = connected},
       Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
       Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},
-      Native{.name = "location", .least = 2, .most = 3, .call = location},
-      Native{.name = "area", .least = 2, .most = 2, .call = area},
+      Native{.name = "location", .least = 2, .most = 3, .call = location, .is_pure = true},
+      Native{.name = "area", .least = 2, .most = 2, .call = area, .is_pure = true},
       Native{.name = "move", .least = 2, .most = 2, .call = move},
   };
   return table;

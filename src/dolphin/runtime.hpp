@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct Runtime {
   std::shared_ptr<Program const> program;
   Limits limits = {};
   base::Duration tick = tasks::default_tick;
+  std::mt19937_64 random = {};  ///< of `Math.random()`
   tasks::Execution::Observer observer = {};
   std::function<void(tasks::TaskView)> on_executed = {};
 

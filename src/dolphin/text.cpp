@@ -126,10 +126,7 @@ class Printer {
         auto const& d = value.as<Displacement>()->value;
         return fmt::format("({:.3f},{:.3f},{:.3f})", d.north, d.east, d.down);
       }
-      case ValueKind::area: {
-        auto const& disc = value.as<Area>()->value;
-        return fmt::format("area({} <> {:.6f})", position_text(disc.center), disc.radius_m);
-      }
+      case ValueKind::area: return to_text(value.as<Area>()->value);
       case ValueKind::task: return tasks::name(value.as<TaskValue>()->value);
       case ValueKind::error: return value.as<Error>()->value.type + ": " + value.as<Error>()->value.message;
       case ValueKind::outcome: {
@@ -155,6 +152,10 @@ std::string to_text(double number) {
   if (decimal.exponent >= -6 && decimal.exponent < 15) return sign + plain(decimal);
   auto const rest = decimal.digits.size() > 1 ? decimal.digits.substr(1) : "0";
   return fmt::format("{}{}.{}E{}", sign, decimal.digits[0], rest, decimal.exponent);
+}
+
+std::string to_text(geo::Disc const& area) {
+  return fmt::format("area({} <> {:.6f})", position_text(area.center), area.radius_m);
 }
 
 std::string to_text(Value const& value) {
