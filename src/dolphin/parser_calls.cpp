@@ -37,7 +37,8 @@ bool is_chain_word(std::string_view word) {
   return word == "then" || word == "run" || word == "onError" || word == "during";
 }
 
-/// Instructions without a value: `message (1) + 2` can only mean `message ((1) + 2)` (REC-9).
+/// Instructions without a value: `message (1) + 2` can only mean `message ((1) + 2)`, and `execute (a | b)[v]` the
+/// restricted task (REC-9).
 constexpr auto void_instructions = std::to_array<std::string_view>(
     {"execute", "halt", "message", "pause", "post", "print", "println", "release", "setConnectionTimeout"});
 
@@ -185,7 +186,8 @@ bool Parser::at_wrapped_argument() const {
   }
   auto const& after = tokens_[token(1).partner + 1];
   bool const continues = !newlines_matter_ || !after.newline_before || (after.kind != plus && after.kind != minus);
-  return joins_values(after.kind) && continues;
+  bool const goes_on_with_it = (after.kind == dot || after.kind == left_bracket) && !after.newline_before;
+  return goes_on_with_it || (joins_values(after.kind) && continues);
 }
 
 ast::ExprPtr Parser::wrapped_argument() {

@@ -104,6 +104,8 @@ TEST(Chains, AreOneNodeInEverySpelling) {
   EXPECT_EQ(tree("x = a >> waitFor {c} then b | d"), "(= x (>> a (waitFor {c} (| b d))))");
   EXPECT_EQ(tree("x = during { 0.3 } run t"), "(= x (during {0.3} t))");
   EXPECT_EQ(tree("x = during 5.seconds run t"), "(= x (during 5.seconds t))");
+  EXPECT_EQ(read("execute (a | b)[v]").tree, "(call execute (at (| a b) v))\n");
+  EXPECT_EQ(read("message (1..5).sum()").tree, "(call message (call (.. 1 5).sum))\n");
   EXPECT_EQ(tree("execute during 5.seconds run t"), "(call execute (during 5.seconds t))");
   EXPECT_EQ(tree("execute during { 5 } run t >> u"), "(call execute (during {5} (>> t u)))");
   EXPECT_EQ(tree("execute v: during 5 run t, w: u"), "(call execute v: (during 5 t) w: u)");
