@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/files.hpp"
+#include "apps/plans.hpp"
 #include "apps/verb.hpp"
 #include "base/diagnostic.hpp"
 #include "dolphin/engine.hpp"
@@ -27,13 +28,25 @@ nlohmann::json to_json(base::DiagnosticRecord const& record) {
 
 struct CheckOptions {
   std::vector<std::string> scripts;
+  std::string plans;
   bool json = false;
 };
+
+/// What is wrong with the plan files; on standard output, or as records. Returns how many.
+std::size_t check_plans(CheckOptions const& options, nlohmann::json& records) {
+  auto const plans = load_plans(options.plans);
+  auto const mistakes = plans ? plans->mistakes : std::vector{plans.error()};
+  for (auto const& mistake : mistakes) {
+    records.push_back({{"file", options.plans}, {"severity", "error"}, {"message", mistake.message}});
+    if (!options.json) fmt::print("error: {}\n", mistake.message);
+  }
+  return mistakes.size();
+}
 
 int check(CheckOptions const& options) {
   std::array const builders{tasks::mission_builder()};
   auto all = nlohmann::json::array();
-  std::size_t errors = 0;
+  std::size_t errors = check_plans(options, all);
   std::size_t warnings = 0;
   for (auto const& path : options.scripts) {
     auto const text = read_script(path);
@@ -69,6 +82,7 @@ void add_check(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   auto* verb = program.add_subcommand("check", "Show every mistake in scripts, without vehicles");
   verb->add_option("script", options->scripts, "Dolphin scripts")->required();
+  verb->add_option("--plans", options->plans, "Check the plan files of this directory too (.plan, .waypoints)");
   verb->add_flag("--json", options->json, "Machine-readable list on standard output");
   verb->callback([options, &exit_code] { exit_code = check(*options); });
 }

@@ -74,7 +74,7 @@ DryRun::DryRun(Options options)
       loop_(pace_for(0.0)),
       log_(hub_, "lapwing"),
       air_(loop_),
-      ground_(loop_, fleet::OnStop::loiter, log_, equipped(options_)),
+      ground_(loop_, fleet::OnStop::loiter, log_, equipped(options_), options_.plans),
       world_(
           loop_, options_.world, [this] { return base::Result<std::unique_ptr<link::ByteLink>>(air_.connect()); },
           log_.named("sim")),

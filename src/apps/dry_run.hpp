@@ -22,6 +22,7 @@ class DryRun {
     sim::WorldOptions world;
     base::Duration timeout = std::chrono::hours(2);  ///< simulated: a script that still runs then is cut off
     std::vector<std::string> answers;                ///< to the script's questions, in order
+    tasks::PlanLibrary plans;                        ///< what scripts name by `task('...')`
     std::vector<std::string> payload;                ///< what every vehicle carries, by the names that scripts use
   };
   explicit DryRun(Options options);

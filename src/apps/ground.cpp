@@ -9,20 +9,22 @@ namespace lapwing::apps {
 
 namespace {
 
-fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop) {
+fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop, tasks::PlanLibrary plans) {
   fleet::FleetPlatform::Options options;
   options.run.on_stop = on_stop;
+  options.plan_library = std::move(plans);
   return options;
 }
 
 }  // namespace
 
-Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options)
+Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options,
+               tasks::PlanLibrary plans)
     : loop(on),
       connection(on, {}, log.named("link")),
       registry(on),
       fleet(connection, registry, std::move(fleet_options), log.named("fleet")),
-      platform(fleet, platform_options(on_stop), log.named("fleet")) {}
+      platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")) {}
 
 base::Result<> Ground::open(std::vector<std::string> const& urls) {
   std::vector<std::unique_ptr<link::ByteLink>> links;

@@ -17,7 +17,7 @@
 namespace lapwing::apps {
 
 int run_on_harness(std::string const& name, std::string const& source, std::string const& events,
-                   std::optional<std::uint64_t> seed) {
+                   std::optional<std::uint64_t> seed, LoadedPlans plans) {
   using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
   File opened(events.empty() || events == "-" ? nullptr : std::fopen(events.c_str(), "w"), &std::fclose);
   std::FILE* const sink = events == "-" ? stdout : opened.get();
@@ -32,7 +32,8 @@ int run_on_harness(std::string const& name, std::string const& source, std::stri
     if (record.source != script_source) to_terminal(record);
   });
   base::Logger const log(hub, "lapwing");
-  tasks::HarnessPlatform platform(loop);
+  for (auto const& mistake : plans.mistakes) log.warn(mistake.message);
+  tasks::HarnessPlatform platform(loop, std::move(plans.library));
   auto const console = make_console(loop, log);
   auto const note = [sink, task_log = log.named("task")](tasks::TaskEvent const& event) {
     if (sink) fmt::print(sink, "{}\n", tasks::to_json_line(event));

@@ -8,6 +8,7 @@
 #include "apps/crew.hpp"
 #include "apps/dry_run.hpp"
 #include "apps/files.hpp"
+#include "apps/plans.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
@@ -31,6 +32,7 @@ struct PlanOptions {
   std::string home;
   std::string wind;
   std::string fence;
+  std::string plans;
   std::string svg;
   std::string json;
   std::string answers;
@@ -83,7 +85,10 @@ base::Result<> place_world(PlanOptions const& options, dolphin::Needs const& nee
 base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::string const& text) {
   auto const needs = read_needs(options.script, text);
   if (!needs) return std::unexpected(needs.error());
+  auto plans = load_plans(options.plans);
+  if (!plans) return std::unexpected(plans.error());
   DryRun::Options result;
+  result.plans = std::move(plans->library);
   result.timeout = base::from_seconds(options.timeout_s);
   result.payload = payload_for(*needs);
   auto& world = result.world;
@@ -157,6 +162,7 @@ void add_plan(CLI::App& program, int& exit_code) {
   verb->add_option("--home", options->home,
                    "Where they stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the script's first home");
   verb->add_option("--fence", options->fence, "GeoJSON file of the areas to stay in or out of; a breach exits with 1");
+  verb->add_option("--plans", options->plans, plans_help);
   verb->add_option("--wind", options->wind, "How the air moves: NORTH,EAST in m/s");
   verb->add_option("--svg", options->svg, "Draw the flight, map and time lines, to this file");
   verb->add_option("--json", options->json, "Write everything, tracks included, to this file");

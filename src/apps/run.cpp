@@ -25,6 +25,7 @@ struct RunOptions {
   std::string platform = "mavlink";
   std::string events;
   std::optional<std::uint64_t> seed;
+  std::string plans;
 };
 
 /// Simulated vehicles, or the links, or the default link.
@@ -56,13 +57,18 @@ int refuse(base::Error const& error) {
 int run(RunOptions const& options) {
   auto const source = read_script(options.script);
   if (!source) return refuse(source.error());
-  if (options.platform == "test") return run_on_harness(options.script, *source, options.events, options.seed);
+  auto plans = load_plans(options.plans);
+  if (!plans) return refuse(plans.error());
+  if (options.platform == "test") {
+    return run_on_harness(options.script, *source, options.events, options.seed, *std::move(plans));
+  }
   auto const on_stop = parse_on_stop(options.on_stop);
   if (!on_stop) return refuse(on_stop.error());
 
   Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
                    .on_stop = *on_stop,
-                   .seed = options.seed});
+                   .seed = options.seed,
+                   .plans = *std::move(plans)});
   if (auto connected = connect(session, options); !connected) return refuse(connected.error());
   auto const started = session.host.start(options.script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());
@@ -94,6 +100,7 @@ void add_run(CLI::App& program, int& exit_code) {
       ->check(CLI::PositiveNumber);
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
   verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
+  verb->add_option("--plans", options->plans, plans_help);
   verb->add_option("--platform", options->platform, "mavlink, or test: the language's own test vehicles, no MAVLink")
       ->check(CLI::IsMember({"mavlink", "test"}));
   verb->add_option("--seed", options->seed,

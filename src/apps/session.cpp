@@ -38,7 +38,7 @@ base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
 Session::Session(Options const& options)
     : loop(pace_for(options.speedup, options.seed)),
       log(hub, "lapwing"),
-      ground(loop, options.on_stop, log),
+      ground(loop, options.on_stop, log, {}, options.plans.library),
       console(make_console(loop, log)),
       host(
           loop, ground.platform, *console, log,
@@ -46,6 +46,9 @@ Session::Session(Options const& options)
           options.seed.value_or(1)),
       on_stop_(options.on_stop) {
   hub.add_sink(terminal_sink(options.log_level));
+  auto const plans = log.named("plans");
+  for (auto const& note : options.plans.notes) plans.info(note);
+  for (auto const& mistake : options.plans.mistakes) plans.warn(mistake.message);
 }
 
 base::Result<> Session::simulate(sim::WorldOptions options) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/ground.hpp"
+#include "apps/plans.hpp"
 #include "apps/script_host.hpp"
 #include "apps/station_config.hpp"
 #include "apps/web_access.hpp"
@@ -21,6 +22,7 @@ class Session {
   struct Options {
     double speedup = 1.0;  ///< 0: as fast as the machine computes
     fleet::OnStop on_stop = fleet::OnStop::loiter;
+    LoadedPlans plans = {};
     base::LogLevel log_level = base::LogLevel::info;
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
     std::optional<std::uint64_t> seed = std::nullopt;

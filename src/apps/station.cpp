@@ -18,6 +18,7 @@ namespace {
 struct StationArguments {
   std::string config;
   std::vector<std::string> links;
+  std::string plans;
   std::optional<std::string> on_stop;
   std::optional<std::string> scripts;
   std::optional<std::string> tiles;
@@ -66,7 +67,9 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
 int serve(StationArguments const& arguments) {
   auto const config = settings_of(arguments);
   if (!config) return refuse(config.error());
-  Session session({.on_stop = config->on_stop});
+  auto plans = load_plans(arguments.plans);
+  if (!plans) return refuse(plans.error());
+  Session session({.on_stop = config->on_stop, .plans = *std::move(plans)});
   if (auto opened = session.open_links(config->links); !opened) return refuse(opened.error());
   if (auto opened = session.open_map(config->web, config->map); !opened) return refuse(opened.error());
   fmt::print(stderr, "listening for vehicles on {}; Ctrl-C ends\n", fmt::join(config->links, ", "));
@@ -92,6 +95,7 @@ void add_station(CLI::App& program, int& exit_code) {
   add_web_options(*verb, arguments->web);
   verb->add_option("--scripts", arguments->scripts, "Folder whose scripts the map offers")
       ->check(CLI::ExistingDirectory);
+  verb->add_option("--plans", arguments->plans, plans_help);
   verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");
   verb->add_option("--on-stop", arguments->on_stop,
                    "What a vehicle does when its task is stopped: loiter (default), rtl or land");

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
+#include "base/spelling.hpp"
 #include "dolphin/fiber.hpp"
 #include "dolphin/internal/natives.hpp"
 #include "dolphin/operators.hpp"
@@ -23,13 +25,26 @@ tasks::Origin origin(Fiber const& fiber) {
   return {.line = static_cast<int>(fiber.line())};
 }
 
+/// The error with what may have been meant: missions of the script and plans of the platform.
+std::string no_plan(Runtime const& runtime, std::string const& name, base::Error const& error) {
+  auto known = runtime.platform.plan_names();
+  for (auto const& [own, task] : runtime.plans) known.push_back(own);
+  std::vector<std::string_view> const names(known.begin(), known.end());
+  std::string hint = error.kind == base::ErrorKind::not_found ? base::did_you_mean(name, names) : "";
+  constexpr std::size_t most_named = 12;
+  if (hint.empty()) hint = error.hint;
+  if (hint.empty() && !names.empty() && names.size() <= most_named)
+    hint = fmt::format("the plans are {}", fmt::join(names, ", "));
+  return hint.empty() ? error.message : fmt::format("{}: {}", error.message, hint);
+}
+
 Checked<Value> named_task(Runtime& runtime, Fiber& fiber, Arguments arguments) {
   auto const name = to_text(arguments[0]);
   if (auto const own = runtime.plans.find(name); own != runtime.plans.end()) {
     return task_value(runtime.heap, tasks::performed(own->second, origin(fiber)));
   }
   auto task = runtime.platform.named_task(name);
-  if (!task) return fault(task.error().message, "IllegalArgumentException");
+  if (!task) return fault(no_plan(runtime, name, task.error()), "IllegalArgumentException");
   return task_value(runtime.heap, tasks::performed(std::move(*task), origin(fiber)));
 }
 

@@ -40,11 +40,15 @@ MissionShape shape_of(std::vector<mavlink::MissionItem> const& items) {
 
 FlightPlan flight_plan(plan::Mission const& mission, vehicle::VehicleState const& vehicle) {
   FlightPlan flight;
-  flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.home.value);
+  flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.home.value, vehicle.family);
   flight.first_seq = static_cast<std::uint16_t>(flight.items.size() - mission.items.size());
   flight.shape = shape_of(flight.items);
-  for (auto const& item : mission.items)
-    if (plan::has_position(item) && is_nav(item.command)) flight.path.push_back(plan::position_of(item));
+  auto const home = mission.home ? mission.home : vehicle.home.value;
+  for (auto const& item : mission.items) {
+    if (!plan::has_position(item) || !is_nav(item.command)) continue;
+    auto const here = flight.path.empty() ? home : flight.path.back();
+    flight.path.push_back(plan::place_of(item, here, home ? home->alt_m : 0.0));
+  }
   return flight;
 }
 

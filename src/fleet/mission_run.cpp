@@ -9,6 +9,7 @@
 #include "mavlink/command.hpp"
 #include "mavlink/mission_transfer.hpp"
 #include "mavlink/modes.hpp"
+#include "plan/capabilities.hpp"
 
 namespace lapwing::fleet {
 
@@ -194,6 +195,9 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   auto& craft = context.craft;
   if (auto claimed = claim(context); !claimed) co_return claimed;
   if (mission.items.empty()) co_return fail(ErrorKind::invalid_input, "the mission has no items");
+  auto const& shown = craft.state;
+  if (auto wrong = plan::objection(flight_plan(mission, shown).items, shown.autopilot, shown.family))
+    co_return std::unexpected(*std::move(wrong));
 
   record.progress = "waiting until the vehicle is ready";
   auto ready = co_await wait_until_ready(craft, context.connection.loop(), context.options.ready_timeout);

@@ -85,6 +85,16 @@ TEST_F(MissionRun, ComparesNothingWhenTheMissionNeverBegan) {
   EXPECT_FALSE(world->platform->missions(one).front().flown);
 }
 
+TEST_F(MissionRun, RefusesBeforeTheUploadWhatTheVehicleWouldSkip) {
+  auto& rover = world->add({.type = mavlink::MavType::ground_rover});
+  world->run_for(5s);
+  auto const run = start(mission_ending_with(MavCmd::nav_waypoint));
+  EXPECT_EQ(end_of(*run), RunState::failed);
+  EXPECT_NE(run->error().find("item 1, NAV_TAKEOFF: a rover with ArduPilot would skip it"), std::string::npos)
+      << run->error();
+  EXPECT_TRUE(rover.mission.empty());
+}
+
 // Row 81.
 TEST_F(MissionRun, AnswersMissionRequestInt) {
   world->add({.asks_with_request_int = true});

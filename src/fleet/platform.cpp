@@ -84,10 +84,7 @@ FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
 }
 
 Result<std::shared_ptr<tasks::PlatformTask const>> FleetPlatform::named_task(std::string_view name) const {
-  auto const found = options_.plan_library.find(name);
-  if (found == options_.plan_library.end())
-    return base::fail(ErrorKind::not_found, fmt::format("no plan named '{}'", name));
-  return std::make_shared<tasks::MissionTask>(found->second);
+  return tasks::find_plan(options_.plan_library, name);
 }
 
 std::vector<VehicleInfo> FleetPlatform::vehicles() const {

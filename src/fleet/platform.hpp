@@ -9,6 +9,7 @@
 #include "base/log.hpp"
 #include "fleet/fleet.hpp"
 #include "fleet/pilot.hpp"
+#include "tasks/plan_library.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::fleet {
@@ -31,7 +32,7 @@ class FleetPlatform final : public tasks::Platform {
  public:
   struct Options {
     RunOptions run = {};
-    std::map<std::string, plan::Mission, std::less<>> plan_library = {};  ///< what `task('survey1')` finds
+    tasks::PlanLibrary plan_library = {};  ///< what `task('survey1')` finds
   };
 
   /// `fleet` outlives the platform.
@@ -40,6 +41,7 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::span<tasks::BuilderSpec const> builders() const override { return builders_; }
   [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
       std::string_view name) const override;
+  [[nodiscard]] std::vector<std::string> plan_names() const override { return names_of(options_.plan_library); }
   [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
   [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
   [[nodiscard]] base::Notifier& vehicles_changed() override { return fleet_.registry().membership_changed(); }

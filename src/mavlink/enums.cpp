@@ -31,6 +31,7 @@ auto constexpr commands = std::to_array<CommandTraits>({
     {MavCmd::nav_loiter_to_alt, "NAV_LOITER_TO_ALT", true},
     {MavCmd::nav_pathplanning, "NAV_PATHPLANNING", true},
     {MavCmd::nav_spline_waypoint, "NAV_SPLINE_WAYPOINT", true},
+    {MavCmd::nav_altitude_wait, "NAV_ALTITUDE_WAIT", false},
     {MavCmd::nav_vtol_takeoff, "NAV_VTOL_TAKEOFF", true},
     {MavCmd::nav_vtol_land, "NAV_VTOL_LAND", true},
     {MavCmd::nav_guided_enable, "NAV_GUIDED_ENABLE", false},
@@ -50,6 +51,7 @@ auto constexpr commands = std::to_array<CommandTraits>({
     {MavCmd::do_repeat_servo, "DO_REPEAT_SERVO", false},
     {MavCmd::do_flight_termination, "DO_FLIGHTTERMINATION", false},
     {MavCmd::do_change_altitude, "DO_CHANGE_ALTITUDE", false},
+    {MavCmd::do_return_path_start, "DO_RETURN_PATH_START", true},
     {MavCmd::do_land_start, "DO_LAND_START", true},
     {MavCmd::do_rally_land, "DO_RALLY_LAND", false},
     {MavCmd::do_go_around, "DO_GO_AROUND", false},
@@ -67,8 +69,16 @@ auto constexpr commands = std::to_array<CommandTraits>({
     {MavCmd::do_fence_enable, "DO_FENCE_ENABLE", false},
     {MavCmd::do_parachute, "DO_PARACHUTE", false},
     {MavCmd::do_motor_test, "DO_MOTOR_TEST", false},
+    {MavCmd::do_inverted_flight, "DO_INVERTED_FLIGHT", false},
     {MavCmd::do_gripper, "DO_GRIPPER", false},
     {MavCmd::do_autotune_enable, "DO_AUTOTUNE_ENABLE", false},
+    {MavCmd::nav_set_yaw_speed, "NAV_SET_YAW_SPEED", false},
+    {MavCmd::do_set_resume_repeat_dist, "DO_SET_RESUME_REPEAT_DIST", false},
+    {MavCmd::do_sprayer, "DO_SPRAYER", false},
+    {MavCmd::do_send_script_message, "DO_SEND_SCRIPT_MESSAGE", false},
+    {MavCmd::do_aux_function, "DO_AUX_FUNCTION", false},
+    {MavCmd::do_guided_limits, "DO_GUIDED_LIMITS", false},
+    {MavCmd::do_engine_control, "DO_ENGINE_CONTROL", false},
     {MavCmd::do_set_mission_current, "DO_SET_MISSION_CURRENT", false},
     {MavCmd::preflight_calibration, "PREFLIGHT_CALIBRATION", false},
     {MavCmd::preflight_storage, "PREFLIGHT_STORAGE", false},
@@ -84,18 +94,25 @@ auto constexpr commands = std::to_array<CommandTraits>({
     {MavCmd::request_autopilot_capabilities, "REQUEST_AUTOPILOT_CAPABILITIES", false},
     {MavCmd::set_camera_mode, "SET_CAMERA_MODE", false},
     {MavCmd::set_camera_zoom, "SET_CAMERA_ZOOM", false},
+    {MavCmd::set_camera_focus, "SET_CAMERA_FOCUS", false},
+    {MavCmd::set_camera_source, "SET_CAMERA_SOURCE", false},
+    {MavCmd::jump_tag, "JUMP_TAG", false},
+    {MavCmd::do_jump_tag, "DO_JUMP_TAG", false},
     {MavCmd::do_gimbal_manager_pitchyaw, "DO_GIMBAL_MANAGER_PITCHYAW", false},
     {MavCmd::image_start_capture, "IMAGE_START_CAPTURE", false},
     {MavCmd::image_stop_capture, "IMAGE_STOP_CAPTURE", false},
     {MavCmd::video_start_capture, "VIDEO_START_CAPTURE", false},
     {MavCmd::video_stop_capture, "VIDEO_STOP_CAPTURE", false},
     {MavCmd::do_vtol_transition, "DO_VTOL_TRANSITION", false},
+    {MavCmd::condition_gate, "CONDITION_GATE", true},
     {MavCmd::nav_fence_return_point, "NAV_FENCE_RETURN_POINT", true},
     {MavCmd::nav_fence_polygon_vertex_inclusion, "NAV_FENCE_POLYGON_VERTEX_INCLUSION", true},
     {MavCmd::nav_fence_polygon_vertex_exclusion, "NAV_FENCE_POLYGON_VERTEX_EXCLUSION", true},
     {MavCmd::nav_fence_circle_inclusion, "NAV_FENCE_CIRCLE_INCLUSION", true},
     {MavCmd::nav_fence_circle_exclusion, "NAV_FENCE_CIRCLE_EXCLUSION", true},
     {MavCmd::nav_rally_point, "NAV_RALLY_POINT", true},
+    {MavCmd::do_winch, "DO_WINCH", false},
+    {MavCmd::nav_attitude_time, "NAV_ATTITUDE_TIME", false},
 });
 static_assert(std::ranges::is_sorted(commands, {}, &CommandTraits::command));
 
@@ -109,6 +126,10 @@ CommandTraits const* find(MavCmd command) {
 std::string to_string(MavCmd command) {
   auto const* traits = find(command);
   return traits ? std::string(traits->name) : fmt::format("command {}", static_cast<int>(command));
+}
+
+bool is_listed(MavCmd command) {
+  return find(command) != nullptr;
 }
 
 bool has_place(MavCmd command) {

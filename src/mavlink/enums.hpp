@@ -142,6 +142,7 @@ enum class MavCmd : std::uint16_t {
   nav_loiter_to_alt = 31,
   nav_pathplanning = 81,
   nav_spline_waypoint = 82,
+  nav_altitude_wait = 83,
   nav_vtol_takeoff = 84,
   nav_vtol_land = 85,
   nav_guided_enable = 92,
@@ -161,6 +162,7 @@ enum class MavCmd : std::uint16_t {
   do_repeat_servo = 184,
   do_flight_termination = 185,
   do_change_altitude = 186,
+  do_return_path_start = 188,
   do_land_start = 189,
   do_rally_land = 190,
   do_go_around = 191,
@@ -178,8 +180,16 @@ enum class MavCmd : std::uint16_t {
   do_fence_enable = 207,
   do_parachute = 208,
   do_motor_test = 209,
+  do_inverted_flight = 210,
   do_gripper = 211,
   do_autotune_enable = 212,
+  nav_set_yaw_speed = 213,
+  do_set_resume_repeat_dist = 215,
+  do_sprayer = 216,
+  do_send_script_message = 217,
+  do_aux_function = 218,
+  do_guided_limits = 222,
+  do_engine_control = 223,
   do_set_mission_current = 224,
   preflight_calibration = 241,
   preflight_storage = 245,
@@ -195,21 +205,30 @@ enum class MavCmd : std::uint16_t {
   request_autopilot_capabilities = 520,
   set_camera_mode = 530,
   set_camera_zoom = 531,
+  set_camera_focus = 532,
+  set_camera_source = 534,
+  jump_tag = 600,
+  do_jump_tag = 601,
   do_gimbal_manager_pitchyaw = 1000,
   image_start_capture = 2000,
   image_stop_capture = 2001,
   video_start_capture = 2500,
   video_stop_capture = 2501,
   do_vtol_transition = 3000,
+  condition_gate = 4501,
   nav_fence_return_point = 5000,
   nav_fence_polygon_vertex_inclusion = 5001,
   nav_fence_polygon_vertex_exclusion = 5002,
   nav_fence_circle_inclusion = 5003,
   nav_fence_circle_exclusion = 5004,
   nav_rally_point = 5100,
+  do_winch = 42600,
+  nav_attitude_time = 42703,
 };
 /// "NAV_WAYPOINT", or "command 12345" for one that is not listed.
 [[nodiscard]] std::string to_string(MavCmd command);
+/// Whether it is one of the enumerators, so that `has_place` knows.
+[[nodiscard]] bool is_listed(MavCmd command);
 /// Whether parameters 5 and 6 of the command are a latitude and a longitude (in a global frame).
 [[nodiscard]] bool has_place(MavCmd command);
 

@@ -21,8 +21,10 @@ class PaperFlight {
   PaperFlight(Mission const& mission, std::optional<geo::Wgs84> start, Performance const& performance,
               double heading_rad)
       : mission_(mission),
-        at_(start ? start : mission.home),
-        home_(mission.home ? mission.home : start),
+        at_(start          ? start
+            : mission.home ? mission.home
+                           : mission.planned_home),
+        home_(mission.home ? mission.home : at_),
         performance_(performance),
         curves_(performance, heading_rad),
         frame_(at_.value_or(geo::Wgs84{})) {}
@@ -35,9 +37,9 @@ class PaperFlight {
     while (next_ < mission_.items.size() && !is_endless_) {
       if (++flown > most_items || time_s_ > longest_s) is_endless_ = true;
       auto const& item = mission_.items[next_++];
-      if (has_position(item) && !at_) start_at(position_of(item));
+      if (has_position(item) && !at_) start_at(place_for(item));
       if (!perform(item) && has_position(item)) {
-        go_to(position_of(item), passes());
+        go_to(place_for(item), passes());
         time_s_ += circles() ? 0.0 : std::max(0.0F, item.params[0]);
       }
     }
@@ -119,23 +121,29 @@ class PaperFlight {
     at_->alt_m = alt_m;
   }
 
+  [[nodiscard]] geo::Wgs84 place_for(MissionItem const& item) const {
+    return place_of(item, at_, home_ ? home_->alt_m : 0.0);
+  }
+
   /// False when the item is nothing but a place to go to.
   bool perform(MissionItem const& item) {
-    double const first = item.params[0];
+    // Items of plan files may leave a parameter open (NaN) or say "as it was" (-1).
+    double const first = item.params[0] > 0.0F ? item.params[0] : 0.0;
+    double const third = std::isfinite(item.params[2]) ? item.params[2] : 0.0;
     switch (item.command) {
-      case MavCmd::nav_takeoff: return take_off(position_of(item));
-      case MavCmd::nav_land: return land(position_of(item));
+      case MavCmd::nav_takeoff: return take_off(place_for(item));
+      case MavCmd::nav_land: return land(place_for(item));
       case MavCmd::nav_return_to_launch: return_home(); return true;
       case MavCmd::nav_loiter_unlim:
-        go_to(position_of(item), false);
+        go_to(place_for(item), false);
         is_endless_ = true;
         return true;
-      case MavCmd::nav_loiter_turns: circle(position_of(item), first, item.params[2]); return true;
-      case MavCmd::nav_loiter_time: stay(position_of(item), first); return true;
+      case MavCmd::nav_loiter_turns: circle(place_for(item), first, third); return true;
+      case MavCmd::nav_loiter_time: stay(place_for(item), first); return true;
       case MavCmd::nav_delay: time_s_ += first; return true;
-      case MavCmd::do_set_home: home_ = position_of(item); return true;
-      case MavCmd::do_change_altitude: change_altitude(first); return true;
-      case MavCmd::do_change_speed: change_speed(static_cast<int>(first), item.params[1]); return true;
+      case MavCmd::do_set_home: home_ = place_for(item); return true;
+      case MavCmd::do_change_altitude: change_altitude(item.params[0]); return true;
+      case MavCmd::do_change_speed: change_speed(static_cast<int>(std::min(first, 4.0)), item.params[1]); return true;
       case MavCmd::do_jump: jump(static_cast<std::size_t>(first), static_cast<int>(item.params[1])); return true;
       default: return false;
     }
@@ -236,6 +244,7 @@ class PaperFlight {
   }
 
   void change_speed(int type, double speed_m_s) {
+    if (!(speed_m_s > 0.0)) return;
     int constexpr climb = 2;
     int constexpr descent = 3;
     auto& p = performance_;

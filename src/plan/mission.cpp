@@ -1,6 +1,7 @@
 #include "plan/mission.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace lapwing::plan {
@@ -16,6 +17,11 @@ bool has_position(MissionItem const& item) {
     case MavCmd::nav_loiter_time:
     case MavCmd::nav_land:
     case MavCmd::nav_takeoff:
+    case MavCmd::nav_loiter_to_alt:
+    case MavCmd::nav_spline_waypoint:
+    case MavCmd::nav_vtol_takeoff:
+    case MavCmd::nav_vtol_land:
+    case MavCmd::nav_payload_place:
     case MavCmd::do_set_home: return true;
     default: return false;
   }
@@ -23,6 +29,14 @@ bool has_position(MissionItem const& item) {
 
 geo::Wgs84 position_of(MissionItem const& item) {
   return {item.place.lat_rad, item.place.lon_rad, item.place.z_m};
+}
+
+geo::Wgs84 place_of(MissionItem const& item, std::optional<geo::Wgs84> here, double home_alt_m) {
+  using enum mavlink::MavFrame;
+  auto place = position_of(item);
+  if (item.frame != global && item.frame != global_int && item.frame != mission) place.alt_m += home_alt_m;
+  bool const is_here = place.lat_rad == 0.0 && place.lon_rad == 0.0;
+  return is_here && here ? geo::Wgs84{here->lat_rad, here->lon_rad, place.alt_m} : place;
 }
 
 bool takes_photos(Mission const& mission) {
@@ -39,7 +53,7 @@ MissionItem home_item(geo::Wgs84 home) {
   return item;
 }
 
-/// DO_CHANGE_ALTITUDE as an item that ArduPilot accepts; `before_m` is the altitude that it starts from.
+/// DO_CHANGE_ALTITUDE as ArduPilot's planes know it; `before_m` is the altitude that it starts from.
 MissionItem as_nav_change_alt(MissionItem const& change, std::optional<double> before_m) {
   float constexpr neutral = 0.0F;
   float constexpr climb = 1.0F;
@@ -55,34 +69,64 @@ MissionItem as_nav_change_alt(MissionItem const& change, std::optional<double> b
   return item;
 }
 
-std::vector<MissionItem> for_ardupilot(Mission const& mission, std::optional<geo::Wgs84> vehicle_home) {
-  auto const home = mission.home ? mission.home : vehicle_home;
-  std::vector<MissionItem> items{home_item(home.value_or(geo::Wgs84{}))};
-  std::optional<double> altitude_m;
-  if (home) altitude_m = home->alt_m;
-  for (auto const& item : mission.items) {
-    bool const is_change = item.command == MavCmd::do_change_altitude;
-    items.push_back(is_change ? as_nav_change_alt(item, altitude_m) : item);
-    if (is_change || (has_position(item) && item.command != MavCmd::do_set_home)) altitude_m = items.back().place.z_m;
-  }
-  return items;
+/// The same for a vehicle that has no such command. ArduPilot reads latitude and longitude 0 as "here".
+MissionItem as_waypoint_above(MissionItem const& change, std::optional<geo::Wgs84> last) {
+  MissionItem item;
+  item.command = MavCmd::nav_waypoint;
+  item.params[3] = std::numeric_limits<float>::quiet_NaN();
+  if (last) item.place = {.lat_rad = last->lat_rad, .lon_rad = last->lon_rad};
+  item.place.z_m = change.params[0];
+  return item;
 }
 
-std::vector<MissionItem> without_home_item(Mission const& mission) {
-  auto items = mission.items;
+/// Others are made to climb by a waypoint; what stays on the ground keeps a command that it cannot carry out.
+bool climbs_by_waypoint(vehicle::Family family, bool is_ardupilot) {
+  using enum vehicle::Family;
+  if (is_ardupilot) return family == copter || family == sub;
+  return family != rover && family != boat;
+}
+
+/// Replaces every change of altitude; `last` is where the mission starts.
+void replace_altitude_changes(std::vector<MissionItem>& items, vehicle::Autopilot autopilot, vehicle::Family family,
+                              std::optional<geo::Wgs84> last) {
+  bool const is_ardupilot = autopilot == vehicle::Autopilot::ardupilot;
+  std::optional<double> altitude_m;
+  if (last) altitude_m = last->alt_m;
   for (auto& item : items) {
-    if (item.command == MavCmd::do_jump) item.params[0] -= 1.0F;
+    if (item.command == MavCmd::do_change_altitude) {
+      auto const before_m = std::exchange(altitude_m, item.params[0]);
+      if (climbs_by_waypoint(family, is_ardupilot)) {
+        if (is_ardupilot || last) item = as_waypoint_above(item, last);
+      } else if (is_ardupilot) {
+        item = as_nav_change_alt(item, before_m);
+      }
+    } else if (has_position(item) && item.command != MavCmd::do_set_home) {
+      last = position_of(item);
+      altitude_m = item.place.z_m;
+    }
   }
-  return items;
+}
+
+/// PX4 takes a DO_LAND_START without its place only.
+bool has_frame_on_px4(MavCmd command) {
+  return mavlink::has_place(command) && command != MavCmd::do_land_start;
 }
 
 }  // namespace
 
 std::vector<MissionItem> for_autopilot(Mission const& mission, vehicle::Autopilot autopilot,
-                                       std::optional<geo::Wgs84> vehicle_home) {
-  auto items =
-      autopilot == vehicle::Autopilot::ardupilot ? for_ardupilot(mission, vehicle_home) : without_home_item(mission);
-  for (std::size_t i = 0; i < items.size(); ++i) items[i].seq = static_cast<std::uint16_t>(i);
+                                       std::optional<geo::Wgs84> vehicle_home, vehicle::Family family) {
+  using enum vehicle::Autopilot;
+  auto const home = mission.home ? mission.home : vehicle_home;
+  auto items = mission.items;
+  if (autopilot != other) replace_altitude_changes(items, autopilot, family, home);
+  if (autopilot == ardupilot) items.insert(items.begin(), home_item(home.value_or(geo::Wgs84{})));
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    auto& item = items[i];
+    item.seq = static_cast<std::uint16_t>(i);
+    if (autopilot != ardupilot && item.command == MavCmd::do_jump) item.params[0] -= 1.0F;
+    if (autopilot == px4 && !has_frame_on_px4(item.command)) item.frame = mavlink::MavFrame::mission;
+  }
   return items;
 }
 

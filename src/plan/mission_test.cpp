@@ -91,9 +91,41 @@ TEST(Mission, ChangeOfAltitudeIsWhatTheAutopilotKnows) {
   EXPECT_EQ(ardupilot[2].params[0], 2.0F);  // descend
   EXPECT_EQ(ardupilot[2].place.z_m, 120.0);
   EXPECT_EQ(ardupilot[3].params[0], 1.0F);  // climb
-  auto const px4 = for_autopilot(mission, Autopilot::px4, std::nullopt);
-  EXPECT_EQ(px4[1].command, MavCmd::do_change_altitude);
-  EXPECT_EQ(px4[1].params[0], 120.0F);
+}
+
+TEST(Mission, ChangeOfAltitudeIsAWaypointAboveTheLastPlaceWhereNothingElseIsFlown) {
+  MissionBuilder builder;
+  ASSERT_TRUE(builder.home(home));
+  ASSERT_TRUE(builder.take_off(Wgs84::from_degrees(40.1, -8, 150), 15.0));
+  ASSERT_TRUE(builder.change_altitude(120.0));
+  auto const mission = finished(builder);
+  auto const above = Wgs84::from_degrees(40.1, -8, 120);
+  for (auto const& items : {for_autopilot(mission, Autopilot::ardupilot, std::nullopt, vehicle::Family::copter),
+                            for_autopilot(mission, Autopilot::px4, std::nullopt, vehicle::Family::plane)}) {
+    EXPECT_EQ(items.back().command, MavCmd::nav_waypoint);
+    EXPECT_EQ(position_of(items.back()), above);
+  }
+}
+
+TEST(Mission, ChangeOfAltitudeWithoutAnEarlierPlaceIsAboveTheCopter) {
+  MissionBuilder builder;
+  ASSERT_TRUE(builder.change_altitude(120.0));
+  auto const copter =
+      for_autopilot(finished(builder), Autopilot::ardupilot, std::nullopt, vehicle::Family::copter).back();
+  EXPECT_EQ(copter.command, MavCmd::nav_waypoint);
+  EXPECT_EQ(position_of(copter), (Wgs84{0.0, 0.0, 120.0}));
+  EXPECT_EQ(for_autopilot(finished(builder), Autopilot::px4, std::nullopt).back().command, MavCmd::do_change_altitude);
+}
+
+TEST(Mission, ItemsWithoutAPlaceHaveNoFrameOnPx4) {
+  MissionBuilder builder;
+  ASSERT_TRUE(builder.waypoint(home));
+  ASSERT_TRUE(builder.change_speed(5.0, 0));
+  auto const mission = finished(builder);
+  auto const px4 = for_autopilot(mission, Autopilot::px4, home);
+  EXPECT_EQ(px4[0].frame, mavlink::MavFrame::global);
+  EXPECT_EQ(px4[1].frame, mavlink::MavFrame::mission);
+  EXPECT_EQ(for_autopilot(mission, Autopilot::ardupilot, home)[2].frame, mavlink::MavFrame::global);
 }
 
 TEST(Mission, ChangeOfAltitudeFromAnUnknownOneLeavesTheWayOpen) {

@@ -55,7 +55,7 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       powered_on_(setup.powered_on),
       autopilot_(setup.autopilot, site, memory.parameters, memory.plans.mission),
       telemetry_(setup.autopilot.boot.first_heartbeat),
-      missions_(memory.plans, mission_ports()),
+      missions_(memory.plans, mission_ports(), autopilot_.airframe().family),
       connection_(loop, connection_options(setup.system_id), std::move(log)),
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
   connection_.add_link(std::move(link));

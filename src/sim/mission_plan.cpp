@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "plan/capabilities.hpp"
 
 namespace lapwing::sim {
 
@@ -20,7 +23,7 @@ struct Row {
   Role role;
 };
 
-// Commands that AP_Mission stores, with the names it uses in texts such as "Mission: 3 WP".
+// Commands that are simulated, with the names that AP_Mission uses in texts such as "Mission: 3 WP".
 constexpr std::array rows{
     Row{MavCmd::nav_waypoint, "WP", Role::navigation},
     Row{MavCmd::nav_loiter_unlim, "LoitUnlim", Role::navigation},
@@ -75,22 +78,15 @@ MavFrame folded(MavFrame frame) {
 }  // namespace
 
 bool is_navigation(MavCmd command) {
-  auto const* row = find(command);
-  return row && row->role == Role::navigation;
-}
-
-bool is_supported(MavCmd command) {
-  return find(command) != nullptr;
+  constexpr int last_navigation_command = 95;  // AP_Mission::is_nav_cmd
+  return std::to_underlying(command) <= last_navigation_command || command == MavCmd::nav_set_yaw_speed ||
+         command == MavCmd::nav_attitude_time;
 }
 
 bool can_fly(vehicle::Family family, MavCmd command) {
-  if (!is_navigation(command)) return false;
-  using enum vehicle::Family;
-  using enum MavCmd;
-  if (command == nav_continue_and_change_alt || command == nav_loiter_to_alt) return family == plane;
-  if (command == nav_takeoff || command == nav_land) return family != rover;
-  if (command == nav_spline_waypoint) return family == copter;
-  return true;
+  auto const* row = find(command);
+  if (!row || row->role != Role::navigation) return false;
+  return plan::handling(vehicle::Autopilot::ardupilot, family, command) == plan::Handling::carried_out;
 }
 
 std::string_view short_name(MavCmd command) {
@@ -141,22 +137,52 @@ mavlink::MissionItem normalised(mavlink::MissionItem item) {
   return item;
 }
 
-MavMissionResult refusal(mavlink::MissionItem const& item) {
-  if (!is_supported(item.command)) return MavMissionResult::unsupported;
-  if (item.frame != MavFrame::mission && !mavlink::is_global(item.frame)) return MavMissionResult::unsupported_frame;
-  if (!mavlink::has_place(item.command)) return MavMissionResult::accepted;
-  if (!(std::abs(item.place.lat_rad) <= std::numbers::pi / 2.0)) return MavMissionResult::invalid_param5_x;
-  if (!(std::abs(item.place.lon_rad) <= std::numbers::pi)) return MavMissionResult::invalid_param6_y;
-  // Only these may leave the fourth parameter (yaw) to the vehicle.
+namespace {
+
+bool may_leave_yaw(MavCmd command) {
   using enum MavCmd;
-  bool const yaw_may_be_nan = item.command == nav_waypoint || item.command == nav_loiter_unlim ||
-                              item.command == nav_takeoff || item.command == nav_land;
+  switch (command) {
+    case nav_waypoint:
+    case nav_loiter_unlim:
+    case nav_takeoff:
+    case nav_land:
+    case nav_vtol_takeoff:
+    case nav_vtol_land: return true;
+    default: return false;
+  }
+}
+
+/// As AP_Mission::sanity_check_params: only a yaw may be left to the vehicle.
+MavMissionResult check_params(mavlink::MissionItem const& item) {
   for (std::size_t i = 0; i < item.params.size(); ++i) {
-    if (std::isnan(item.params[i]) && !(i == 3 && yaw_may_be_nan)) {
-      return static_cast<MavMissionResult>(static_cast<int>(MavMissionResult::invalid_param1) + static_cast<int>(i));
-    }
+    float const value = item.params[i];
+    bool const may_be_nan = i == 3 && may_leave_yaw(item.command);
+    if (std::isinf(value) || (std::isnan(value) && !may_be_nan))
+      return static_cast<MavMissionResult>(std::to_underlying(MavMissionResult::invalid_param1) + i);
   }
   return MavMissionResult::accepted;
+}
+
+MavMissionResult check_place(mavlink::MissionItem const& item) {
+  constexpr double highest_m = 83000.0;  // LOCATION_ALT_MAX_M
+  if (!(std::abs(item.place.lat_rad) <= std::numbers::pi / 2.0)) return MavMissionResult::invalid_param5_x;
+  if (!(std::abs(item.place.lon_rad) <= std::numbers::pi)) return MavMissionResult::invalid_param6_y;
+  if (!(std::abs(item.place.z_m) < highest_m)) return MavMissionResult::invalid_param7;
+  return MavMissionResult::accepted;
+}
+
+}  // namespace
+
+MavMissionResult refusal(mavlink::MissionItem const& item, vehicle::Family family, int total) {
+  auto const checked = check_params(item);
+  if (checked != MavMissionResult::accepted) return checked;
+  auto const how = plan::handling(vehicle::Autopilot::ardupilot, family, item.command);
+  if (how != plan::Handling::carried_out && how != plan::Handling::skipped) return MavMissionResult::unsupported;
+  if (item.command == MavCmd::do_jump && !(item.params[0] >= 1.0F && item.params[0] < static_cast<float>(total)))
+    return MavMissionResult::error;
+  if (!mavlink::has_place(item.command)) return MavMissionResult::accepted;
+  if (item.frame != MavFrame::mission && !mavlink::is_global(item.frame)) return MavMissionResult::unsupported_frame;
+  return check_place(item);
 }
 
 }  // namespace lapwing::sim

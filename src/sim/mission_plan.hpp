@@ -15,9 +15,8 @@ using MissionPlan = std::vector<mavlink::MissionItem>;
 
 /// Navigation commands follow each other; everything else ("do" commands) runs on the way between two of them.
 [[nodiscard]] bool is_navigation(mavlink::MavCmd command);
-/// Whether ArduPilot stores such an item at all. Unsupported ones are refused on upload.
-[[nodiscard]] bool is_supported(mavlink::MavCmd command);
-/// Whether that family's autopilot can fly the navigation command; what it cannot is stored but skipped.
+/// Whether that family's autopilot can fly the navigation command; what it cannot is stored but skipped
+/// (`plan::handling`, less what is not simulated).
 [[nodiscard]] bool can_fly(vehicle::Family family, mavlink::MavCmd command);
 /// ArduPilot's short name in status texts: "WP", "Takeoff".
 [[nodiscard]] std::string_view short_name(mavlink::MavCmd command);
@@ -32,7 +31,7 @@ using MissionPlan = std::vector<mavlink::MissionItem>;
 /// for dropped.
 [[nodiscard]] mavlink::MissionItem normalised(mavlink::MissionItem item);
 
-/// Why ArduPilot would not store the item; `accepted` when it would.
-[[nodiscard]] mavlink::MavMissionResult refusal(mavlink::MissionItem const& item);
+/// Why ArduPilot would not store the item in a mission of `total` items, item 0 included; `accepted` when it would.
+[[nodiscard]] mavlink::MavMissionResult refusal(mavlink::MissionItem const& item, vehicle::Family family, int total);
 
 }  // namespace lapwing::sim

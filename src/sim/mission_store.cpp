@@ -144,7 +144,7 @@ void MissionStore::on(mavlink::MissionItem const& item, Address from, base::Dura
 
 MavMissionResult MissionStore::check(mavlink::MissionItem const& item) const {
   if (refused_seq_ == item.seq) return refused_with_;
-  if (item.type == MissionType::mission) return refusal(item);
+  if (item.type == MissionType::mission) return refusal(item, family_, transfer_->end);
   return zone_refusal(item);
 }
 

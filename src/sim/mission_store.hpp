@@ -34,7 +34,8 @@ class MissionStore {
     MissionPlan rally;
   };
 
-  MissionStore(Plans& plans, Ports ports) : plans_(plans), ports_(std::move(ports)) {}
+  MissionStore(Plans& plans, Ports ports, vehicle::Family family = vehicle::Family::copter)
+      : plans_(plans), ports_(std::move(ports)), family_(family) {}
 
   /// True when the message belonged to the mission protocol.
   bool handle(mavlink::Message const& message, mavlink::Address from, base::Duration now);
@@ -75,6 +76,7 @@ class MissionStore {
 
   Plans& plans_;
   Ports ports_;
+  vehicle::Family family_;
   std::optional<Transfer> transfer_;
   std::optional<int> refused_seq_;
   mavlink::MavMissionResult refused_with_ = mavlink::MavMissionResult::error;

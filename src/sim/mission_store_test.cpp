@@ -214,6 +214,31 @@ TEST(MissionUpload, RefusesBadItemsAtOnce) {
   EXPECT_EQ(refused_with(turns), invalid_param1);
 }
 
+TEST(MissionUpload, RefusesJumpsThatLeadNowhereAndHeightsBeyondTheSky) {
+  auto const refused_with = [](MissionItem const& item) {
+    Desk desk;
+    desk.count(3);
+    desk.give(desk.three()[0], 0);
+    desk.give(item, 1);
+    return desk.results().empty() ? accepted : desk.results().back();
+  };
+  EXPECT_EQ(refused_with(ItemMaker::plain(MavCmd::do_jump, {2, 1, 0, 0})), accepted);
+  EXPECT_EQ(refused_with(ItemMaker::plain(MavCmd::do_jump, {3, 1, 0, 0})), error);
+  EXPECT_EQ(refused_with(ItemMaker::plain(MavCmd::do_jump, {0, 1, 0, 0})), error);
+  Desk const desk;
+  EXPECT_EQ(refused_with(desk.make.waypoint(0, 0, 90000)), invalid_param7);
+  auto waypoint = desk.make.waypoint(0, 0, 10);
+  waypoint.params[0] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(refused_with(waypoint), invalid_param1);
+}
+
+TEST(MissionUpload, OfASplineIsRefusedByPlanesAlone) {
+  for (auto const family : {vehicle::Family::copter, vehicle::Family::rover, vehicle::Family::plane}) {
+    auto const item = ItemMaker{geo::Wgs84::from_degrees(41.0, -8.0, 90.0)}.at(MavCmd::nav_spline_waypoint, {});
+    EXPECT_EQ(refusal(item, family, 2), family == vehicle::Family::plane ? unsupported : accepted);
+  }
+}
+
 TEST(MissionUpload, IsNotAtomic) {
   Desk desk;
   desk.upload({desk.make.waypoint(0, 0, 0), desk.make.waypoint(1, 0, 11), desk.make.waypoint(2, 0, 12),

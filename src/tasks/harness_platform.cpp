@@ -71,10 +71,15 @@ std::vector<VehicleInfo> conformance_vehicles() {
 
 }  // namespace
 
-HarnessPlatform::HarnessPlatform(base::Loop& loop)
-    : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()), builders_{mission_builder()} {}
+HarnessPlatform::HarnessPlatform(base::Loop& loop, PlanLibrary plans)
+    : loop_(loop),
+      plans_(std::move(plans)),
+      changed_(loop),
+      vehicles_(conformance_vehicles()),
+      builders_{mission_builder()} {}
 
 base::Result<std::shared_ptr<PlatformTask const>> HarnessPlatform::named_task(std::string_view name) const {
+  if (plans_.contains(name)) return find_plan(plans_, name);
   auto const colon = name.rfind(':');
   double seconds = -1.0;
   if (colon != std::string_view::npos) {

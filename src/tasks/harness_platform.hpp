@@ -7,6 +7,7 @@
 
 #include "base/loop.hpp"
 #include "base/notifier.hpp"
+#include "tasks/plan_library.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::tasks {
@@ -25,10 +26,12 @@ namespace lapwing::tasks {
 /// it is estimated to. Any number of tasks may run on one vehicle; keeping them apart is what allocation is tested for.
 class HarnessPlatform final : public Platform {
  public:
-  explicit HarnessPlatform(base::Loop& loop);
+  /// `plans`: what named tasks are looked up in first.
+  explicit HarnessPlatform(base::Loop& loop, PlanLibrary plans = {});
 
   [[nodiscard]] std::span<BuilderSpec const> builders() const override { return builders_; }
   [[nodiscard]] base::Result<std::shared_ptr<PlatformTask const>> named_task(std::string_view name) const override;
+  [[nodiscard]] std::vector<std::string> plan_names() const override { return names_of(plans_); }
   [[nodiscard]] std::vector<VehicleInfo> vehicles() const override { return vehicles_; }
   [[nodiscard]] std::optional<VehicleInfo> find(VehicleId const& id) const override;
   [[nodiscard]] base::Notifier& vehicles_changed() override { return changed_; }
@@ -41,6 +44,7 @@ class HarnessPlatform final : public Platform {
 
  private:
   base::Loop& loop_;
+  PlanLibrary plans_;
   base::Notifier changed_;
   std::vector<VehicleInfo> vehicles_;
   std::vector<BuilderSpec> builders_;

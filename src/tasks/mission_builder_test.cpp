@@ -330,6 +330,35 @@ TEST(MissionTask, WithPhotosNeedsACameraWherePayloadIsKnown) {
   EXPECT_EQ(task_of({{"goPos", {p}}}).unsuited(*stage.platform.find({"u1"})), std::nullopt);
 }
 
+VehicleInfo vehicle_of(std::string type) {
+  VehicleInfo info;
+  info.id = {"7"};
+  info.type = std::move(type);
+  return info;
+}
+
+TEST(MissionTask, IsUnsuitedForVehiclesThatWouldSkipAnItem) {
+  auto const task = task_of({{"home", {p}}, {"takeOff", {p}}});
+  EXPECT_EQ(task.unsuited(vehicle_of("UAV")), std::nullopt);
+  EXPECT_EQ(task.unsuited(vehicle_of("UGV")), "item 1, NAV_TAKEOFF: a rover with ArduPilot would skip it");
+  EXPECT_EQ(task.unsuited(vehicle_of("")), std::nullopt);
+}
+
+/// The table says the same as the items do when they come to a vehicle.
+TEST(MissionTask, AgreesWithTheTableOnVehicleTypes) {
+  Command const forms[] = {{"takeOff", {p}},      {"takeOffWithYaw", {p, n(8)}}, {"landingPoint", {p}},
+                           {"returnHomeAndLand"}, {"altitude", {n(150)}},        {"goPos", {n(1), n(2)}},
+                           {"loiterTurns", {p}},  {"surveyArea", {n(9), n(9)}},  {"capturePhoto"},
+                           {"delay", {n(5)}},     {"returnHomeAndLoiter"},       {"speed", {n(5)}}};
+  auto const spec = mission_builder();
+  for (auto const& form : forms) {
+    auto const task = task_of({{"home", {p}}, form});
+    auto const command = std::ranges::find(spec.commands, form.name, &CommandSpec::name);
+    for (auto const* type : {"UAV", "UGV", "USV", "UUV"})
+      EXPECT_EQ(!task.unsuited(vehicle_of(type)), command->suits(type)) << form.name << " " << type;
+  }
+}
+
 TEST(MissionTask, TakesItsEstimatedTimeOnTheHarness) {
   testing::Stage stage;
   auto const task = std::make_shared<MissionTask>(

@@ -1,10 +1,31 @@
 #include "tasks/mission_task.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "plan/capabilities.hpp"
 
 namespace lapwing::tasks {
 
+namespace {
+
+/// Why no vehicle of that type could carry out the mission, its autopilot being unknown: ArduPilot's takes the most.
+std::optional<std::string> unsuited_type(plan::Mission const& mission, std::string_view type) {
+  std::optional<std::string> why;
+  for (auto const family : plan::families_of(type)) {
+    auto constexpr autopilot = vehicle::Autopilot::ardupilot;
+    auto const items = plan::for_autopilot(mission, autopilot, std::nullopt, family);
+    auto objection = plan::objection(items, autopilot, family);
+    if (!objection) return std::nullopt;
+    why = std::move(objection->message);
+  }
+  return why;
+}
+
+}  // namespace
+
 std::optional<std::string> MissionTask::unsuited(VehicleInfo const& vehicle) const {
+  if (auto why = unsuited_type(mission_, vehicle.type)) return why;
   if (vehicle.payload.empty() || !plan::takes_photos(mission_)) return std::nullopt;
   if (std::ranges::find(vehicle.payload, "Camera") != vehicle.payload.end()) return std::nullopt;
   return "no payload Camera";

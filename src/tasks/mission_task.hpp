@@ -16,8 +16,8 @@ class MissionTask final : public PlatformTask {
 
   [[nodiscard]] std::string name() const override { return mission_.name; }
   [[nodiscard]] std::string kind() const override { return "mission"; }
-  /// Photos need a vehicle with the payload "Camera"; one of which no payload at all is known gets the benefit of the
-  /// doubt.
+  /// A vehicle of a type that cannot carry out one of the items is unsuited (`plan::objection`). Photos need a vehicle
+  /// with the payload "Camera"; one of which no payload at all is known gets the benefit of the doubt.
   [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override;
   /// Nothing: missions take the first suitable vehicle. Of vehicles parked side by side the nearest is a matter of
   /// chance.

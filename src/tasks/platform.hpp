@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -53,6 +54,13 @@ struct CommandSpec {
   std::string_view name;
   std::vector<Overload> overloads;
   std::string_view doc;
+  /// The types of vehicle ("UAV") that can carry it out; empty: every type.
+  std::vector<std::string_view> vehicle_types = {};
+
+  /// False when no vehicle of that type can carry it out: `takeOff` for a "UGV".
+  [[nodiscard]] bool suits(std::string_view vehicle_type) const {
+    return vehicle_types.empty() || std::ranges::find(vehicle_types, vehicle_type) != vehicle_types.end();
+  }
 };
 
 class PlatformTask;
@@ -101,6 +109,12 @@ class PlatformTask {
   [[nodiscard]] virtual std::optional<geo::Wgs84> reference_position() const = 0;
 };
 
+/// One named value of a raw message. A text stands for the number that the protocol gives that name.
+struct MessageField {
+  std::string name;
+  Argument value;
+};
+
 enum class RunState { in_progress, done, failed };
 
 /// One platform task on its way on one vehicle. Polled once a tick; destroyed after it ended or was stopped.
@@ -125,6 +139,8 @@ class Platform {
   [[nodiscard]] virtual std::span<BuilderSpec const> builders() const = 0;
   /// The plan called `name` made elsewhere: `task('survey1')`.
   [[nodiscard]] virtual base::Result<std::shared_ptr<PlatformTask const>> named_task(std::string_view name) const = 0;
+  /// The names that `named_task` knows, as far as they can be listed: for "did you mean".
+  [[nodiscard]] virtual std::vector<std::string> plan_names() const { return {}; }
 
   /// All known vehicles, lost ones included, in the order in which `pick` prefers them.
   [[nodiscard]] virtual std::vector<VehicleInfo> vehicles() const = 0;
@@ -135,6 +151,15 @@ class Platform {
   /// timeout.
   [[nodiscard]] virtual base::TimePoint all_heard_by() const { return {}; }
   virtual void set_connection_timeout(VehicleId const& id, base::Duration timeout) = 0;
+
+  /// Sends the vehicle one message of the platform's protocol, raw: `sendMessage v, 'COMMAND_LONG', command: 400`.
+  /// Returns without waiting for any answer. Errors: not_found (with what may have been meant) or invalid_input for a
+  /// message or field that there is not, or a value that does not fit it; the kinds of a link's errors.
+  [[nodiscard]] virtual base::Result<> send_message(VehicleId const& id, std::string_view message,
+                                                    std::span<MessageField const> fields) {
+    (void)id, (void)message, (void)fields;
+    return base::fail(base::ErrorKind::refused, "these vehicles take no raw messages");
+  }
 
   /// Starts `task` on the vehicle. Never blocks; every failure shows in the run.
   [[nodiscard]] virtual std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task,

@@ -225,20 +225,22 @@ std::vector<MissionCommand> movement_commands() {
   auto pitch = [](std::optional<Argument> fallback) {
     return angle("pitch", "least climb angle of a plane in degrees", std::move(fallback));
   };
+  std::vector<std::string_view> const fliers{"UAV"};
+  std::vector<std::string_view> const landers{"UAV", "UUV"};
   auto commands = loiter_commands();
   std::vector<MissionCommand> const others{
       {{"home", by_coordinates_or_position({}, zero), "Where the vehicle starts and returns to."}, home},
       {{"goPos", by_coordinates_or_position({}, zero), "Goes there."}, go_to},
       {{"move", {{offset(zero)}}, "Goes there from the last position."}, move<&MissionBuilder::from_last>},
       {{"moveFromHome", {{offset(zero)}}, "Goes there from home."}, move<&MissionBuilder::from_home>},
-      {{"takeOff", {{{place("where to climb to"), pitch(Argument{15.0})}}}, "Takes off."}, take_off},
-      {{"takeOffWithYaw", {{{place("where to climb to"), pitch(std::nullopt), yaw()}}}, "Takes off and turns."},
+      {{"takeOff", {{{place("where to climb to"), pitch(Argument{15.0})}}}, "Takes off.", fliers}, take_off},
+      {{"takeOffWithYaw", {{{place("where to climb to"), pitch(std::nullopt), yaw()}}}, "Takes off and turns.", fliers},
        take_off},
-      {{"landingPoint", by_coordinates_or_position(ending, zero), "Lands there."}, landing_point},
+      {{"landingPoint", by_coordinates_or_position(ending, zero), "Lands there.", landers}, landing_point},
       {{"returnHome", {{}}, "Goes back to home."}, return_home},
       {{"returnHomeAndLoiter", {{{radius()}}}, "Goes back to home and circles until told otherwise."},
        return_home_and_loiter},
-      {{"returnHomeAndLand", {{ending}}, "Goes back to home and lands."}, return_home_and_land},
+      {{"returnHomeAndLand", {{ending}}, "Goes back to home and lands.", landers}, return_home_and_land},
       {{"surveyArea",
         {{survey_parameters()}, {Parameters{place("a corner of the area")} + survey_parameters()}},
         "Sweeps a rectangle in parallel legs, from one corner and back to it."},

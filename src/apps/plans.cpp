@@ -1,0 +1,68 @@
+#include "apps/plans.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/files.hpp"
+#include "plan/plan_file.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using base::ErrorKind;
+
+constexpr std::size_t most_plans = 10'000;
+
+base::Result<std::vector<fs::path>> plan_files(std::string const& directory) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (auto entry = fs::directory_iterator(directory, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    auto const ending = entry->path().extension();
+    if (ending == ".plan" || ending == ".waypoints") files.push_back(entry->path());
+    if (files.size() > most_plans)
+      return base::fail(ErrorKind::invalid_input, fmt::format("{}: more than {} plans", directory, most_plans));
+  }
+  if (error)
+    return base::fail(ErrorKind::not_found, fmt::format("--plans {}: {}", directory, error.message()),
+                      "name a directory that holds .plan or .waypoints files");
+  std::ranges::sort(files);
+  return files;
+}
+
+base::Result<plan::PlanFile> read(fs::path const& path) {
+  auto const text = read_script(path.string());
+  if (!text) return std::unexpected(text.error());
+  return plan::read_plan(path.string(), *text);
+}
+
+}  // namespace
+
+base::Result<LoadedPlans> load_plans(std::string const& directory) {
+  LoadedPlans plans;
+  if (directory.empty()) return plans;
+  auto const files = plan_files(directory);
+  if (!files) return std::unexpected(files.error());
+  for (auto const& path : *files) {
+    auto const name = plan::plan_name(path.string());
+    if (plans.library.contains(name))
+      return base::fail(ErrorKind::invalid_input,
+                        fmt::format("{}: another plan is called '{}' too", path.string(), name),
+                        "rename one of the files");
+    auto plan = read(path);
+    if (!plan) {
+      plans.mistakes.push_back(plan.error());
+      plans.library.emplace(name, std::unexpected(plan.error()));
+      continue;
+    }
+    for (auto const& note : plan->notes) plans.notes.push_back(fmt::format("{}: {}", path.string(), note));
+    plans.library.emplace(name, std::move(plan->mission));
+  }
+  return plans;
+}
+
+}  // namespace lapwing::apps

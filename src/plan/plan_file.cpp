@@ -1,0 +1,114 @@
+#include "plan/plan_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "plan/internal/plan_reader.hpp"
+
+namespace lapwing::plan {
+
+using base::ErrorKind;
+using base::fail;
+using base::Result;
+
+namespace internal {
+
+std::unexpected<base::Error> wrong(std::string_view where, std::string_view what, std::string_view hint) {
+  return fail(ErrorKind::invalid_input, fmt::format("{}: {}", where, what), std::string(hint));
+}
+
+Result<geo::Wgs84> to_place(double lat_deg, double lon_deg, double alt_m) {
+  auto const refuse = [](std::string text) { return fail(ErrorKind::invalid_input, std::move(text)); };
+  if (!(std::abs(lat_deg) <= 90.0)) return refuse(fmt::format("latitude {} is beyond 90 degrees", lat_deg));
+  if (!(std::abs(lon_deg) <= 180.0)) return refuse(fmt::format("longitude {} is beyond 180 degrees", lon_deg));
+  constexpr double beyond_the_sky_m = 1e6;
+  if (!(std::abs(alt_m) < beyond_the_sky_m)) return refuse(fmt::format("height {} m is no height to fly at", alt_m));
+  return geo::Wgs84::from_degrees(lat_deg, lon_deg, alt_m);
+}
+
+namespace {
+
+bool is_whole(double value, double most) {
+  return value >= 0.0 && value <= most && value == std::floor(value);
+}
+
+/// As a float of the wire; what no float can hold becomes infinite, which is refused.
+Result<std::array<float, 4>> to_params(std::array<double, 7> const& values) {
+  std::array<float, 4> params{};
+  for (std::size_t i = 0; i < params.size(); ++i) {
+    bool const fits = std::isnan(values[i]) || std::abs(values[i]) <= std::numeric_limits<float>::max();
+    if (!fits) return fail(ErrorKind::invalid_input, fmt::format("parameter {} is too large: {}", i + 1, values[i]));
+    params[i] = static_cast<float>(values[i]);
+  }
+  return params;
+}
+
+double or_zero(double value) {
+  return std::isnan(value) ? 0.0 : value;
+}
+
+/// Parameters 5 to 7 of a command that goes nowhere; the wire has 32 bits for the first two.
+mavlink::ItemPlace to_plain_place(std::array<double, 7> const& values) {
+  constexpr double most = 2e9;
+  return {.x = std::clamp(or_zero(values[4]), -most, most),
+          .y = std::clamp(or_zero(values[5]), -most, most),
+          .z_m = std::clamp(or_zero(values[6]), -most, most)};
+}
+
+}  // namespace
+
+Result<mavlink::MissionItem> to_item(FileItem const& from) {
+  if (!is_whole(from.command, 65535.0))
+    return fail(ErrorKind::invalid_input, fmt::format("{} is no command", from.command));
+  mavlink::MissionItem item;
+  item.command = static_cast<mavlink::MavCmd>(static_cast<int>(from.command));
+  if (!mavlink::is_listed(item.command))
+    return fail(ErrorKind::invalid_input, fmt::format("command {} is not known here", from.command));
+  auto const frame = is_whole(from.frame, 255.0) ? static_cast<mavlink::MavFrame>(static_cast<int>(from.frame))
+                                                 : mavlink::MavFrame::local_ned;
+  bool const is_placed = mavlink::has_place(item.command) && frame != mavlink::MavFrame::mission;
+  if (is_placed && !mavlink::is_global(frame))
+    return fail(ErrorKind::invalid_input, fmt::format("frame {} is not supported", from.frame),
+                "use heights above sea level (0), home (3) or terrain (10)");
+  item.frame = frame;
+  auto params = to_params(from.params);
+  if (!params) return std::unexpected(std::move(params.error()));
+  item.params = *params;
+  item.autocontinue = from.autocontinue;
+  item.place = to_plain_place(from.params);
+  if (!is_placed) return item;
+  auto const place = to_place(or_zero(from.params[4]), or_zero(from.params[5]), from.params[6]);
+  if (!place) return std::unexpected(place.error());
+  item.place = {.lat_rad = place->lat_rad, .lon_rad = place->lon_rad, .z_m = place->alt_m};
+  return item;
+}
+
+}  // namespace internal
+
+std::string plan_name(std::string_view file) {
+  auto const slash = file.find_last_of('/');
+  if (slash != std::string_view::npos) file.remove_prefix(slash + 1);
+  auto const dot = file.find_last_of('.');
+  return std::string(dot == std::string_view::npos || dot == 0 ? file : file.substr(0, dot));
+}
+
+Result<PlanFile> read_plan(std::string_view file, std::string_view text) {
+  if (text.size() > max_plan_bytes)
+    return internal::wrong(
+        file, fmt::format("{} MB is too large for a plan (limit {} MB)", text.size() >> 20, max_plan_bytes >> 20));
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  auto const first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return internal::wrong(file, "the file is empty");
+  auto plan = text.substr(first).starts_with("QGC WPL") ? internal::read_way_points(file, text)
+                                                        : internal::read_qgc_plan(file, text);
+  if (!plan) return plan;
+  plan->mission.name = plan_name(file);
+  if (plan->mission.items.empty()) return internal::wrong(file, "the plan has no items");
+  return plan;
+}
+
+}  // namespace lapwing::plan
