@@ -12,7 +12,17 @@ add_custom_command(
   DEPENDS ${CMAKE_SOURCE_DIR}/cmake/generate_dialect.py
   COMMENT "Generating MAVLink headers (ardupilotmega)"
   VERBATIM)
-add_custom_target(lapwing_dialect_headers DEPENDS ${DIALECT_STAMP})
+# Names of messages, fields and enumerations, for messages that people write by hand.
+set(DIALECT_TABLES ${DIALECT_DIR}/tables)
+set(DIALECT_TABLE_FILES
+  ${DIALECT_TABLES}/dialect_messages.inc ${DIALECT_TABLES}/dialect_fields.inc ${DIALECT_TABLES}/dialect_names.inc)
+add_custom_command(
+  OUTPUT ${DIALECT_TABLE_FILES}
+  COMMAND ${LAPWING_PYTHON} ${CMAKE_SOURCE_DIR}/cmake/generate_message_tables.py ardupilotmega ${DIALECT_TABLES}
+  DEPENDS ${CMAKE_SOURCE_DIR}/cmake/generate_message_tables.py
+  COMMENT "Generating tables of MAVLink names (ardupilotmega)"
+  VERBATIM)
+add_custom_target(lapwing_dialect_headers DEPENDS ${DIALECT_STAMP} ${DIALECT_TABLE_FILES})
 
 add_library(lapwing_dialect INTERFACE)
 add_dependencies(lapwing_dialect lapwing_dialect_headers)

@@ -67,8 +67,8 @@ int run(RunOptions const& options) {
 
   Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
                    .on_stop = *on_stop,
-                   .seed = options.seed,
-                   .plans = *std::move(plans)});
+                   .plans = *std::move(plans),
+                   .seed = options.seed});
   if (auto connected = connect(session, options); !connected) return refuse(connected.error());
   auto const started = session.host.start(options.script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());

@@ -213,6 +213,48 @@ Checked<Value> set_connection_timeouts(Runtime& runtime, Fiber& /*fiber*/, Argum
   return Value();
 }
 
+std::optional<tasks::Argument> message_value(Value const& value) {
+  if (auto const* text = value.as<Text>()) return tasks::Argument{text->text};
+  if (value.kind() == ValueKind::integer) return tasks::Argument{value.integer()};
+  if (value.is_number()) return tasks::Argument{value.number()};
+  if (value.kind() == ValueKind::boolean) return tasks::Argument{value.boolean()};
+  return std::nullopt;
+}
+
+/// `sendMessage v, 'COMMAND_LONG', command: 400`; the fields, being named, come first.
+Checked<Value> send_message(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const* named = arguments[0].as<Map>();
+  if (named) arguments = arguments.subspan(1);
+  auto const ids = arguments.size() == 2 ? members(arguments[0]) : std::nullopt;
+  auto const* message = ids ? arguments[1].as<Text>() : nullptr;
+  if (!message)
+    return fault(
+        "sendMessage takes vehicles, the name of a message and its fields: sendMessage v, 'COMMAND_LONG', command: 400",
+        "IllegalArgumentException");
+  std::vector<tasks::MessageField> fields;
+  if (named) {
+    for (auto const& [name, value] : named->items()) {
+      auto converted = message_value(value);
+      if (!converted)
+        return fault(fmt::format("sendMessage: {} takes a number or a text, not {}", to_text(name), kind_name(value)),
+                     "IllegalArgumentException");
+      fields.push_back({to_text(name), *std::move(converted)});
+    }
+  }
+  for (auto const& id : *ids) {
+    if (std::ranges::find(runtime.picked, id) == runtime.picked.end())
+      return fault(fmt::format("sendMessage: vehicle {} is not picked", id.text), "IllegalStateException");
+  }
+  for (auto const& id : *ids) {
+    auto const sent = runtime.platform.send_message(id, to_text(arguments[1]), fields);
+    if (sent) continue;
+    auto const& [kind, text, hint] = sent.error();
+    return fault(fmt::format("sendMessage to {}: {}{}{}", id.text, text, hint.empty() ? "" : ": ", hint),
+                 "IllegalArgumentException");
+  }
+  return Value();
+}
+
 // ---- geometry
 // ------------------------------------------------------------------------------------------------------------
 
@@ -257,6 +299,7 @@ std::span<Native const> vehicle_natives() {
       Native{.name = "connected", .least = 1, .most = 1, .call = connected},
       Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
       Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},
+      Native{.name = "sendMessage", .least = 2, .most = 3, .call = send_message},
       Native{.name = "location", .least = 2, .most = 3, .call = location, .is_pure = true},
       Native{.name = "area", .least = 2, .most = 2, .call = area, .is_pure = true},
       Native{.name = "move", .least = 2, .most = 2, .call = move},

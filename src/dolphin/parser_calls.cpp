@@ -39,8 +39,9 @@ bool is_chain_word(std::string_view word) {
 
 /// Instructions without a value: `message (1) + 2` can only mean `message ((1) + 2)`, and `execute (a | b)[v]` the
 /// restricted task (REC-9).
-constexpr auto void_instructions = std::to_array<std::string_view>(
-    {"execute", "halt", "message", "pause", "post", "print", "println", "release", "setConnectionTimeout"});
+constexpr auto void_instructions =
+    std::to_array<std::string_view>({"execute", "halt", "message", "pause", "post", "print", "println", "release",
+                                     "sendMessage", "setConnectionTimeout"});
 
 bool is_void_instruction(std::string_view word) {
   return std::ranges::find(void_instructions, word) != void_instructions.end();

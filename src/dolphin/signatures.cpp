@@ -80,6 +80,11 @@ std::vector<InstructionSpec> vehicle_instructions() {
        .doc = "After how long a silence a vehicle counts as lost, 5 s to 1 h: for all picked ones and later picks, or "
               "`v1: 30.seconds` for some.",
        .named = NamedArguments::vehicles},
+      {.name = "sendMessage",
+       .signatures = {takes({plain("vehicles", vehicles), plain("message", text)})},
+       .doc = "Sends each vehicle, which must be picked, a raw message of its protocol: sendMessage v, 'COMMAND_LONG', "
+              "command: 'MAV_CMD_DO_SET_SERVO', param1: 9, param2: 1500. Fields left out are 0.",
+       .named = NamedArguments::values},
   };
 }
 

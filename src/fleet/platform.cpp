@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mavlink/raw_message.hpp"
 #include "tasks/mission_builder.hpp"
 #include "tasks/mission_task.hpp"
 
@@ -69,6 +70,15 @@ VehicleInfo info_of(Craft const& craft) {
   return info;
 }
 
+/// Nothing for what no field of a message holds.
+std::optional<mavlink::RawValue> raw_value(tasks::Argument const& value) {
+  if (auto const* whole = std::get_if<std::int64_t>(&value)) return *whole;
+  if (auto const* real = std::get_if<double>(&value)) return *real;
+  if (auto const* text = std::get_if<std::string>(&value)) return *text;
+  if (auto const* truth = std::get_if<bool>(&value)) return std::int64_t{*truth};
+  return std::nullopt;
+}
+
 }  // namespace
 
 /// Heartbeats come once a second and a position a second or two after it was asked for; some are lost.
@@ -113,6 +123,25 @@ std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::Plat
         fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));
   auto& its_pilot = pilot(*craft);
   return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
+}
+
+Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view message,
+                                     std::span<tasks::MessageField const> fields) {
+  auto const* craft = fleet_.find(id);
+  if (!craft) return base::fail(ErrorKind::lost, fmt::format("no vehicle {}", id.text));
+  std::vector<mavlink::RawField> raw;
+  for (auto const& [name, value] : fields) {
+    auto converted = raw_value(value);
+    if (!converted)
+      return base::fail(ErrorKind::invalid_input, fmt::format("{}: {} takes a number or a text", message, name));
+    raw.push_back({name, *std::move(converted)});
+  }
+  auto& connection = fleet_.connection();
+  auto frame = mavlink::raw_message(message, raw, connection.self(), craft->address);
+  if (!frame) return std::unexpected(frame.error());
+  auto sent = connection.send(craft->address, *frame);
+  if (sent) log_.info(fmt::format("sent {} to {}", message, craft->state.name));
+  return sent;
 }
 
 base::Task<void> FleetPlatform::settle() {

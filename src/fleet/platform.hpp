@@ -49,6 +49,9 @@ class FleetPlatform final : public tasks::Platform {
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
                                                       vehicle::VehicleId const& id) override;
+  /// The message goes out raw, by its MAVLink name.
+  [[nodiscard]] base::Result<> send_message(vehicle::VehicleId const& id, std::string_view message,
+                                            std::span<tasks::MessageField const> fields) override;
   [[nodiscard]] base::Task<void> settle() override;
 
   /// Stops every run of ours and ends when each vehicle has confirmed its stop mode, or has failed to with a logged

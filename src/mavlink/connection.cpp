@@ -111,6 +111,10 @@ base::Result<> Connection::send(Address target, Message message) {
     send_to_all(message);
     return {};
   }
+  return send(target, encode(message, options_.self, 0));
+}
+
+base::Result<> Connection::send(Address target, Frame frame) {
   if (auto const both = conflict(target.system))
     return fail(ErrorKind::refused,
                 fmt::format("two vehicles use system id {}: {} and {}", both->system_id, both->first, both->second),
@@ -119,7 +123,6 @@ base::Result<> Connection::send(Address target, Message message) {
   if (!route)
     return fail(ErrorKind::lost, fmt::format("vehicle {} has not been heard on any link", target.system),
                 "check that it is switched on and sends to this station");
-  auto frame = encode(message, options_.self, 0);
   if (send_frame(*route, frame)) return {};
   auto const& link = *links_[route->link];
   return fail(ErrorKind::lost, fmt::format("vehicle {} cannot be reached over {}: {}", target.system, link.name(),

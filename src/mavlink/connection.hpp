@@ -88,6 +88,8 @@ class Connection {
   /// Sends to where the system was last heard, with `target` written into the message if it has a target.
   /// Errors: lost (never heard, or its link is down), refused (two vehicles use this system id; names both).
   base::Result<> send(Address target, Message message);
+  /// The same for a frame made by hand (`raw_message`), which names its addressee already.
+  base::Result<> send(Address target, Frame frame);
   /// Sends on every link: to peers that spoke MAVLink and to standing peers. For heartbeats and a simulated vehicle's
   /// telemetry.
   void send_to_all(Message const& message);

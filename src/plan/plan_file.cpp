@@ -77,6 +77,9 @@ Result<mavlink::MissionItem> to_item(FileItem const& from) {
   auto params = to_params(from.params);
   if (!params) return std::unexpected(std::move(params.error()));
   item.params = *params;
+  if (item.command == mavlink::MavCmd::do_jump &&
+      !(is_whole(from.params[0], 65535.0) && is_whole(from.params[1] + 1.0, 65535.0)))
+    return fail(ErrorKind::invalid_input, "a jump needs the number of an item, and how many times (-1 for ever)");
   item.autocontinue = from.autocontinue;
   item.place = to_plain_place(from.params);
   if (!is_placed) return item;

@@ -88,6 +88,8 @@ TEST(WayPoints, ThatAreWrongNameTheLine) {
   EXPECT_EQ(in_line_2("0 1 0 16 1e300 0 0 0 41 -8 90 1"), "a.waypoints:2: parameter 1 is too large: 1e+300");
   EXPECT_EQ(in_line_2("0 1 0 16 0 0 0 0 41 -8 inf 1"), "a.waypoints:2: height inf m is no height to fly at");
   EXPECT_EQ(in_line_2("0 1 0 16 0 0 0 0 41 -8 nan 1"), "a.waypoints:2: height nan m is no height to fly at");
+  EXPECT_EQ(in_line_2("0 1 0 177 1 nan 0 0 0 0 0 1"),
+            "a.waypoints:2: a jump needs the number of an item, and how many times (-1 for ever)");
   EXPECT_EQ(in_line_2(""), "a.waypoints: the plan has no items");
   EXPECT_EQ(message_of("a.waypoints", "QGC WPL 99\n"), "a.waypoints:1: this version of way point files is not known");
   EXPECT_EQ(message_of("a.waypoints", "QGC WPL 110\n0 1 0 16 0 0 0 0 41 -8 90 1\n1 0 0 177 7 1 0 0 0 0 0 1\n"),

@@ -32,6 +32,10 @@ base::Result<> check(SurveyArea const& area) {
     return fail(ErrorKind::invalid_input,
                 fmt::format("legs of a survey need a spacing above 0, not {} m", area.spacing_m));
   }
+  if (!(area.overshoot_m >= 0.0) || !std::isfinite(area.overshoot_m)) {
+    return fail(ErrorKind::invalid_input,
+                fmt::format("the room to turn beyond a survey must be 0 or more, not {} m", area.overshoot_m));
+  }
   if (2.0 * legs(area) + 1.0 > static_cast<double>(max_mission_items)) {
     return fail(ErrorKind::invalid_input,
                 fmt::format("a survey {} m wide with legs {} m apart has more places than a mission can hold ({})",

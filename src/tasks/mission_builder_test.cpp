@@ -124,6 +124,14 @@ TEST(Mission, SurveyWithDefaults) {  // case 70
   }
 }
 
+TEST(Mission, SurveyMayTurnInAnotherRoom) {
+  auto const mission = build({{"surveyArea", {p, n(1000), n(150), n(50), "NORTH_WEST", n(0)}}});
+  ASSERT_TRUE(mission);
+  EXPECT_NEAR(geo::LocalFrame(p).ned_from(plan::position_of(mission->items[1])).north, 1000.0, 0.1);
+  EXPECT_EQ(dump({{"surveyArea", {p, n(10), n(10), n(50), "NORTH_WEST", n(-1)}}}),
+            (Lines{"the room to turn beyond a survey must be 0 or more, not -1 m"}));
+}
+
 TEST(Mission, SurveyOfListingThreeStartsAtTheTakeOff) {  // case 71
   auto const mission = build({{"home", {base_position}},
                               {"takeOff", {take_off_position}},

@@ -157,7 +157,8 @@ Parameters survey_parameters() {
                       .doc = "where the area lies as seen from its base"};
   for (auto const& [word, value] : directions) direction.choices.push_back(word);
   return {length("len", "metres north to south"), length("width", "metres east to west"),
-          length("spacing", "metres between legs", Argument{50.0}), direction};
+          length("spacing", "metres between legs", Argument{50.0}), direction,
+          length("overshoot", "metres to turn in, beyond the area at both ends", Argument{25.0})};
 }
 
 Result<plan::SurveyDirection> direction_of(std::string const& word) {
@@ -168,7 +169,7 @@ Result<plan::SurveyDirection> direction_of(std::string const& word) {
                     "NORTH_WEST, NORTH_EAST, SOUTH_WEST or SOUTH_EAST");
 }
 
-/// `[pos,] len, width, spacing, dir`; without a position it begins at the last one.
+/// `[pos,] len, width, spacing, dir, overshoot`; without a position it begins at the last one.
 Result<> survey_area(MissionBuilder& builder, std::size_t overload, Arguments arguments) {
   auto const base = overload == 1 ? position(arguments[0]) : builder.from_last({});
   if (!base) return std::unexpected(base.error());
@@ -179,7 +180,8 @@ Result<> survey_area(MissionBuilder& builder, std::size_t overload, Arguments ar
                          .length_m = number(arguments[0]),
                          .width_m = number(arguments[1]),
                          .spacing_m = number(arguments[2]),
-                         .direction = *direction});
+                         .direction = *direction,
+                         .overshoot_m = number(arguments[4])});
 }
 
 std::vector<Overload> by_coordinates_or_position(Parameters const& rest,

@@ -1,0 +1,52 @@
+"""Write the names of a MAVLink dialect as C++ initialisers: messages with their fields, and entries of enumerations.
+
+usage: generate_message_tables.py DIALECT OUT_DIR
+
+Writes OUT_DIR/dialect_messages.inc, dialect_fields.inc and dialect_names.inc, which src/mavlink/dialect_names.cpp includes.
+Rows are sorted by name, fields by message and place on the wire.
+"""
+
+import pathlib
+import sys
+
+import pymavlink
+from pymavlink.generator import mavparse
+
+FOLDER = pathlib.Path(pymavlink.__file__).parent / "dialects" / "v20"
+
+
+def dialect_with_includes(name: str, seen: dict[str, mavparse.MAVXML]) -> None:
+    if name in seen:
+        return
+    parsed = mavparse.MAVXML(str(FOLDER / name), "2.0")
+    seen[name] = parsed
+    for included in parsed.include:
+        dialect_with_includes(included, seen)
+
+
+def main() -> int:
+    dialect, out = sys.argv[1], pathlib.Path(sys.argv[2])
+    seen: dict[str, mavparse.MAVXML] = {}
+    dialect_with_includes(f"{dialect}.xml", seen)
+    messages = {m.name: m for xml in seen.values() for m in xml.message}
+    names = {e.name: int(e.value) for xml in seen.values() for group in xml.enum for e in group.entry}
+
+    message_rows, field_rows = [], []
+    for name in sorted(messages):
+        message = messages[name]
+        fields = message.ordered_fields
+        message_rows.append(f'{{"{name}", {message.id}, {len(field_rows)}, {len(fields)}}},')
+        for field in fields:
+            kind = field.type.removesuffix("_t") if field.type != "uint8_t_mavlink_version" else "uint8"
+            length = field.array_length
+            field_rows.append(f'{{"{field.name}", WireType::{kind}_, {field.wire_offset}, {length}}},')
+    name_rows = [f'{{"{name}", {names[name]}}},' for name in sorted(names) if not name.endswith("_ENUM_END")]
+
+    out.mkdir(parents=True, exist_ok=True)
+    for file, rows in (("messages", message_rows), ("fields", field_rows), ("names", name_rows)):
+        (out / f"dialect_{file}.inc").write_text("\n".join(rows) + "\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
