@@ -196,6 +196,15 @@ TEST_P(EveryCommand, BecomesItsItem) {
   EXPECT_EQ(dump({{"home", {home}}, {"goPos", {p}}, GetParam().command}).back(), GetParam().item);
 }
 
+/// Editors show it.
+TEST_P(EveryCommand, SaysInItsDocWhichItemItBecomes) {
+  auto const spec = mission_builder();
+  auto const found = std::ranges::find(spec.commands, GetParam().command.name, &CommandSpec::name);
+  ASSERT_NE(found, spec.commands.end());
+  auto const number = GetParam().item.substr(0, GetParam().item.find(' '));
+  EXPECT_NE(found->doc.find(fmt::format("({})", number)), std::string_view::npos) << found->doc;
+}
+
 /// 100 m north and 200 m east of `p` and of home, 10 m up.
 std::string const from_p = " at 40.00090 -7.99766 110.00";
 std::string const from_home = " at 50.00090 10.00279 510.00";

@@ -8,6 +8,7 @@ import sys
 HOUSE = [
     {"apps"},
     {"station", "onboard", "sim", "dryrun"},
+    {"lsp"},
     {"dolphin", "fleet", "robot", "imm", "autonomy"},
     {"tasks"},
     {"plan"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dolphin/codes.hpp"
 #include "dolphin/lexer.hpp"
 #include "dolphin/parser.hpp"
 #include "dolphin/services/formatted_lines.hpp"
@@ -209,9 +210,7 @@ std::optional<std::string> format(base::Diagnostics& diagnostics) {
   auto const places = statement_places(program, stream.tokens, source);
   auto text = join_lines(Layout(layout_pieces(stream, places, source), places, source).run());
   if (have_same_tokens(stream, source, text)) return text;
-  static constexpr base::DiagnosticKind unformattable = {"unformattable", base::Severity::error,
-                                                         "The formatter made a mistake and changed nothing."};
-  diagnostics.report(unformattable, {0, 0}, "this script cannot be formatted without changing what it means",
+  diagnostics.report(code("internal"), {0, 0}, "this script cannot be formatted without changing what it means",
                      "this is a mistake of the formatter, please report it");
   return std::nullopt;
 }

@@ -1,0 +1,51 @@
+// Any bytes as what an editor sends: the reader of messages, and the server behind it.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "lsp/message_reader.hpp"
+#include "lsp/server.hpp"
+#include "tasks/mission_builder.hpp"
+
+namespace {
+
+using namespace lapwing;
+
+std::vector<tasks::BuilderSpec> const& builders() {
+  static std::vector<tasks::BuilderSpec> const specs = {tasks::mission_builder()};
+  return specs;
+}
+
+/// A session with an open script, so that questions of the input reach the language services.
+constexpr std::string_view openings[] = {
+    R"({"id":0,"method":"initialize","params":{}})",
+    R"({"method":"textDocument/didOpen","params":{"textDocument":{"uri":"u","version":1,"text":"v = pick { }\nm = mission { move 1, 2 }\nexecute v: m / { battery(v) < 0.3 }\n"}}})"};
+
+void work(lsp::Server& server) {
+  while (server.has_work() && !server.exit_code()) (void)server.work();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+  lsp::Server server(builders(), "fuzz");
+  for (auto const opening : openings) server.receive(opening);
+  work(server);
+  lsp::MessageReader reader(1 << 16);
+  auto const half = size / 2;
+  for (auto const part : {std::string_view(reinterpret_cast<char const*>(data), half),
+                          std::string_view(reinterpret_cast<char const*>(data) + half, size - half)}) {
+    reader.feed(part);
+    while (auto const message = reader.next()) {
+      if (message->mistake.empty()) {
+        server.receive(message->body);
+      } else {
+        server.receive_mistake(message->mistake);
+      }
+    }
+    work(server);
+  }
+  return 0;
+}

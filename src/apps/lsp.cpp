@@ -1,0 +1,79 @@
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/verb.hpp"
+#include "lsp/message_reader.hpp"
+#include "lsp/server.hpp"
+#include "tasks/mission_builder.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+bool has_input() {
+  pollfd standard_input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+  return ::poll(&standard_input, 1, 0) > 0;
+}
+
+/// Waits for some bytes and hands their messages on. False at the end of the input.
+bool read_some(lsp::MessageReader& reader, lsp::Server& server) {
+  std::array<char, 65536> buffer;
+  auto const count = ::read(STDIN_FILENO, buffer.data(), buffer.size());
+  if (count < 0 && errno == EINTR) return true;
+  if (count <= 0) return false;
+  reader.feed({buffer.data(), static_cast<std::size_t>(count)});
+  while (auto const message = reader.next()) {
+    if (message->mistake.empty()) {
+      server.receive(message->body);
+    } else {
+      server.receive_mistake(message->mistake);
+    }
+  }
+  return true;
+}
+
+bool write_all(std::vector<std::string> const& messages) {
+  for (auto const& one : messages) {
+    auto const text = lsp::with_header(one);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) return false;
+  }
+  return std::fflush(stdout) == 0;
+}
+
+/// What has arrived is taken in before each step, so that a cancellation overtakes the request that it is about.
+int serve() {
+  std::vector const builders{tasks::mission_builder()};
+  lsp::Server server(builders, LAPWING_VERSION);
+  lsp::MessageReader reader;
+  bool is_open = true;
+  while (!server.exit_code()) {
+    while (is_open && (!server.has_work() || has_input())) is_open = read_some(reader, server);
+    if (!server.has_work()) return exit_failed;  // the editor is gone without a word
+    if (!write_all(server.work())) return exit_failed;
+  }
+  return *server.exit_code();
+}
+
+}  // namespace
+
+void add_lsp(CLI::App& program, int& exit_code) {
+  auto* verb = program.add_subcommand("lsp", "Serve an editor (Language Server Protocol on standard input and output)");
+  verb->add_flag("--stdio")->description("Accepted for editors that say so; there is no other way");
+  verb->callback([&exit_code] {
+    if (::isatty(STDIN_FILENO) == 1) {
+      fmt::print(stderr, "lapwing lsp is started by an editor (docs/guide/editors.md); end it with Ctrl-D\n");
+    }
+    exit_code = serve();
+  });
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "dolphin/services/formatting.hpp"
+#include "dolphin/services/rename.hpp"
+#include "lsp/server.hpp"
+#include "lsp/translate.hpp"
+
+/// The questions that an editor asks about an open script.
+namespace lapwing::lsp {
+
+using base::Result;
+
+Result<Server::OpenScript const*> Server::script_of(Json const& parameters) const {
+  auto const uri = text(member(member(parameters, "textDocument"), "uri"));
+  auto const found = scripts_.find(uri);
+  if (found != scripts_.end()) return &found->second;
+  return base::fail(base::ErrorKind::not_found, fmt::format("'{}' is not open", uri));
+}
+
+Result<Server::Place> Server::place_of(Json const& parameters) const {
+  auto const script = script_of(parameters);
+  if (!script) return std::unexpected(script.error());
+  auto const where = position(member(parameters, "position"));
+  if (!where) return base::fail(base::ErrorKind::invalid_input, "a position is missing");
+  Positions const positions((*script)->document->source());
+  return Place{**script, text(member(member(parameters, "textDocument"), "uri")), positions.offset(*where)};
+}
+
+Result<Json> Server::hover(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  auto const& document = *place->script.document;
+  auto const found = dolphin::hover(document, place->offset);
+  Positions positions(document.source());
+  return found ? hover_result(*found, positions) : Json();
+}
+
+Result<Json> Server::completion(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  auto const& document = *place->script.document;
+  Positions positions(document.source());
+  return completion_result(dolphin::complete(document, place->offset), positions, takes_snippets_);
+}
+
+Result<Json> Server::signature_help(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  auto const help = dolphin::signature_help(*place->script.document, place->offset);
+  return help ? signature_result(*help) : Json();
+}
+
+Result<Json> Server::definition(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  auto const& document = *place->script.document;
+  Positions positions(document.source());
+  auto out = Json::array();
+  for (auto const span : dolphin::definition(document, place->offset))
+    out.push_back(location(place->uri, span, positions));
+  return out;
+}
+
+Result<Json> Server::references(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  bool const with_definitions = member(member(parameters, "context"), "includeDeclaration") == Json(true);
+  Positions positions(place->script.document->source());
+  auto out = Json::array();
+  for (auto const& one : dolphin::references(*place->script.document, place->offset)) {
+    if (with_definitions || !one.is_definition) out.push_back(location(place->uri, one.span, positions));
+  }
+  return out;
+}
+
+Result<Json> Server::highlights(Json const& parameters) {
+  constexpr int read = 2;
+  constexpr int write = 3;
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  Positions positions(place->script.document->source());
+  auto out = Json::array();
+  for (auto const& one : dolphin::references(*place->script.document, place->offset)) {
+    out.push_back({{"range", range(one.span, positions)}, {"kind", one.is_definition ? write : read}});
+  }
+  return out;
+}
+
+Result<Json> Server::symbols(Json const& parameters) {
+  auto const script = script_of(parameters);
+  if (!script) return std::unexpected(script.error());
+  Positions positions((*script)->document->source());
+  auto out = Json::array();
+  for (auto const& one : dolphin::symbols(*(*script)->document)) out.push_back(symbol_result(one, positions));
+  return out;
+}
+
+Result<Json> Server::prepare_rename(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  auto const& document = *place->script.document;
+  auto const word = dolphin::renamable(document, place->offset);
+  if (!word) return std::unexpected(word.error());
+  Positions positions(document.source());
+  return Json{{"range", range(*word, positions)}, {"placeholder", document.text(*word)}};
+}
+
+Result<Json> Server::rename(Json const& parameters) {
+  auto const place = place_of(parameters);
+  if (!place) return std::unexpected(place.error());
+  auto const new_name = text(member(parameters, "newName"));
+  auto const places = dolphin::rename(*place->script.document, place->offset, new_name);
+  if (!places) return std::unexpected(places.error());
+  Positions positions(place->script.document->source());
+  auto edits = Json::array();
+  for (auto const span : *places) edits.push_back({{"range", range(span, positions)}, {"newText", new_name}});
+  Json changes;
+  changes[place->uri] = std::move(edits);
+  return Json{{"changes", std::move(changes)}};
+}
+
+/// A script that does not parse is left as it is.
+Result<Json> Server::formatting(Json const& parameters) {
+  auto const script = script_of(parameters);
+  if (!script) return std::unexpected(script.error());
+  auto const& source = (*script)->document->source();
+  base::Diagnostics mistakes(source);
+  auto const formatted = dolphin::format(mistakes);
+  return formatted ? edits_between(source, *formatted) : Json::array();
+}
+
+Result<Json> Server::semantic_tokens(Json const& parameters) {
+  auto const script = script_of(parameters);
+  if (!script) return std::unexpected(script.error());
+  auto const& document = *(*script)->document;
+  return semantic_result(dolphin::semantic_tokens(document), document.source());
+}
+
+/// "did you mean takeOff?" as something to click.
+Result<Json> Server::code_actions(Json const& parameters) {
+  auto const script = script_of(parameters);
+  if (!script) return std::unexpected(script.error());
+  auto const uri = text(member(member(parameters, "textDocument"), "uri"));
+  auto const begin = position(member(member(parameters, "range"), "start"));
+  auto const end = position(member(member(parameters, "range"), "end"));
+  if (!begin || !end) return base::fail(base::ErrorKind::invalid_input, "a range is missing");
+  constexpr std::string_view question = "did you mean ";
+  Positions positions((*script)->document->source());
+  auto const from = positions.offset(*begin);
+  auto const to = positions.offset(*end);
+  auto out = Json::array();
+  for (auto const& one : (*script)->diagnostics) {
+    bool const is_here = one.span.begin <= to && from <= one.span.end;
+    if (!is_here || !one.hint.starts_with(question) || !one.hint.ends_with('?')) continue;
+    auto const word = one.hint.substr(question.size(), one.hint.size() - question.size() - 1);
+    Json changes;
+    changes[uri] = {{{"range", range(one.span, positions)}, {"newText", word}}};
+    out.push_back({{"title", fmt::format("Change to {}", word)},
+                   {"kind", "quickfix"},
+                   {"isPreferred", true},
+                   {"diagnostics", {diagnostic(one, uri, positions)}},
+                   {"edit", {{"changes", std::move(changes)}}}});
+  }
+  return out;
+}
+
+}  // namespace lapwing::lsp

@@ -1,0 +1,221 @@
+#include "lsp/translate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lapwing::lsp {
+
+namespace {
+
+using dolphin::CompletionKind;
+using dolphin::SymbolKind;
+
+Json position_json(Position position) {
+  return {{"line", position.line}, {"character", position.character}};
+}
+
+int severity(base::Severity severity) {
+  switch (severity) {
+    case base::Severity::error: return 1;
+    case base::Severity::warning: return 2;
+    case base::Severity::note: return 3;
+  }
+  return 1;
+}
+
+/// CompletionItemKind
+int completion_kind(CompletionKind kind) {
+  switch (kind) {
+    case CompletionKind::variable: return 6;
+    case CompletionKind::function:
+    case CompletionKind::instruction: return 3;
+    case CompletionKind::block: return 9;
+    case CompletionKind::command:
+    case CompletionKind::method: return 2;
+    case CompletionKind::keyword: return 14;
+    case CompletionKind::property: return 10;
+    case CompletionKind::unit: return 11;
+    case CompletionKind::constant: return 21;
+    case CompletionKind::type: return 7;
+    case CompletionKind::value: return 12;
+  }
+  return 1;
+}
+
+/// LSP's SymbolKind
+int symbol_kind(SymbolKind kind) {
+  switch (kind) {
+    case SymbolKind::function: return 12;
+    case SymbolKind::mission: return 5;
+    case SymbolKind::vehicles: return 18;
+    case SymbolKind::task: return 24;
+    case SymbolKind::variable: return 13;
+  }
+  return 13;
+}
+
+Json markdown(std::string const& text) {
+  return {{"kind", "markdown"}, {"value", text}};
+}
+
+Json completion_item(dolphin::CompletionItem const& item, Json const& range, bool with_snippets) {
+  bool const is_snippet = with_snippets && !item.snippet.empty();
+  auto const& plain = item.insert.empty() ? item.label : item.insert;
+  Json out{{"label", item.label},
+           {"kind", completion_kind(item.kind)},
+           {"sortText", fmt::format("{}{}", item.rank, item.label)},
+           {"insertTextFormat", is_snippet ? 2 : 1},
+           {"textEdit", {{"range", range}, {"newText", is_snippet ? item.snippet : plain}}}};
+  if (!item.detail.empty()) out["detail"] = item.detail;
+  if (!item.markdown.empty()) out["documentation"] = markdown(item.markdown);
+  return out;
+}
+
+constexpr std::uint32_t definition_bit = 1;
+constexpr std::uint32_t built_in_bit = 2;
+
+/// Appends tokens relative to the one before, as LSP wants them.
+class TokenEncoder {
+ public:
+  explicit TokenEncoder(base::SourceFile const& source) : source_(source), positions_(source) {}
+
+  void add(dolphin::SemanticToken const& token) {
+    auto const first = source_.place(token.span.begin).line;
+    auto const last = source_.place(token.span.end).line;
+    for (auto line = first; line <= last; ++line) {
+      auto const whole = source_.line_span(line);
+      add(token, {std::max(whole.begin, token.span.begin), std::min(whole.end, token.span.end)});
+    }
+  }
+  [[nodiscard]] Json take() { return std::move(data_); }
+
+ private:
+  void add(dolphin::SemanticToken const& token, base::Span part) {
+    if (part.end <= part.begin) return;
+    auto const begin = positions_.of(part.begin);
+    auto const end = positions_.of(part.end);
+    data_.push_back(begin.line - last_.line);
+    data_.push_back(begin.line == last_.line ? begin.character - last_.character : begin.character);
+    data_.push_back(end.character - begin.character);
+    data_.push_back(static_cast<int>(token.type));
+    data_.push_back((token.is_definition ? definition_bit : 0u) | (token.is_built_in ? built_in_bit : 0u));
+    last_ = begin;
+  }
+
+  base::SourceFile const& source_;
+  Positions positions_;
+  Position last_;
+  Json data_ = Json::array();
+};
+
+}  // namespace
+
+Json range(base::Span span, Positions& positions) {
+  auto const begin = positions.of(span.begin);
+  return {{"start", position_json(begin)}, {"end", position_json(positions.of(span.end))}};
+}
+
+Json location(std::string const& uri, base::Span span, Positions& positions) {
+  return {{"uri", uri}, {"range", range(span, positions)}};
+}
+
+Json diagnostic(base::Diagnostic const& one, std::string const& uri, Positions& positions) {
+  Json out{{"range", range(one.span, positions)},
+           {"severity", severity(one.severity)},
+           {"source", "lapwing"},
+           {"message", one.hint.empty() ? one.message : fmt::format("{}\n{}", one.message, one.hint)}};
+  if (!one.code.empty()) out["code"] = one.code;
+  if (one.code == "unreachable-code") out["tags"] = {1};
+  if (one.code == "legacy-spelling") out["tags"] = {2};
+  for (auto const& note : one.notes) {
+    out["relatedInformation"].push_back({{"location", location(uri, note.span, positions)}, {"message", note.message}});
+  }
+  return out;
+}
+
+Json hover_result(dolphin::Hover const& hover, Positions& positions) {
+  return {{"contents", markdown(hover.markdown)}, {"range", range(hover.span, positions)}};
+}
+
+Json completion_result(dolphin::Completion const& completion, Positions& positions, bool with_snippets) {
+  auto const replaced = range(completion.replaced, positions);
+  auto items = Json::array();
+  for (auto const& item : completion.items) items.push_back(completion_item(item, replaced, with_snippets));
+  return {{"isIncomplete", false}, {"items", std::move(items)}};
+}
+
+Json signature_result(dolphin::SignatureHelp const& help) {
+  auto signatures = Json::array();
+  for (auto const& one : help.signatures) {
+    auto parameters = Json::array();
+    for (std::size_t i = 0; i < one.call.parameters.size(); ++i) {
+      auto const span = one.call.parameters[i];
+      Json parameter{{"label", one.call.text.substr(span.begin, span.size())}};
+      if (i < one.parameter_docs.size() && !one.parameter_docs[i].empty())
+        parameter["documentation"] = one.parameter_docs[i];
+      parameters.push_back(std::move(parameter));
+    }
+    Json signature{{"label", one.call.text}, {"parameters", std::move(parameters)}};
+    if (!one.doc.empty()) signature["documentation"] = markdown(one.doc);
+    signatures.push_back(std::move(signature));
+  }
+  return {{"signatures", std::move(signatures)},
+          {"activeSignature", help.active_signature},
+          {"activeParameter", help.active_parameter}};
+}
+
+Json symbol_result(dolphin::Symbol const& symbol, Positions& positions) {
+  return {{"name", symbol.name},
+          {"detail", symbol.detail},
+          {"kind", symbol_kind(symbol.kind)},
+          {"range", range(symbol.span, positions)},
+          {"selectionRange", range(symbol.name_span, positions)}};
+}
+
+Json semantic_result(std::vector<dolphin::SemanticToken> const& tokens, base::SourceFile const& source) {
+  TokenEncoder encoder(source);
+  for (auto const& token : tokens) encoder.add(token);
+  return {{"data", encoder.take()}};
+}
+
+Json edits_between(base::SourceFile const& before, std::string const& after) {
+  auto const old = before.text();
+  if (old == after) return Json::array();
+  auto const is_inside_character = [](std::string_view text, std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u;
+  };
+  auto const shorter = std::min(old.size(), after.size());
+  auto begin = static_cast<std::size_t>(
+      std::mismatch(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(shorter), after.begin()).first -
+      old.begin());
+  while (begin > 0 && (is_inside_character(old, begin) || old[begin - 1] == '\r')) --begin;
+  std::size_t tail = 0;
+  while (tail < shorter - begin && old[old.size() - tail - 1] == after[after.size() - tail - 1]) ++tail;
+  while (tail > 0 && (is_inside_character(old, old.size() - tail) || old[old.size() - tail] == '\n')) --tail;
+  base::Span const changed{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(old.size() - tail)};
+  Positions positions(before);
+  return {{{"range", range(changed, positions)}, {"newText", after.substr(begin, after.size() - tail - begin)}}};
+}
+
+Json server_capabilities() {
+  Json const legend{
+      {"tokenTypes",
+       {"variable", "parameter", "function", "method", "property", "keyword", "type", "string", "number", "comment"}},
+      {"tokenModifiers", {"definition", "defaultLibrary"}}};
+  return {{"positionEncoding", "utf-16"},
+          {"textDocumentSync", {{"openClose", true}, {"change", 2}}},
+          {"hoverProvider", true},
+          {"completionProvider", {{"triggerCharacters", {".", "'", "\""}}}},
+          {"signatureHelpProvider", {{"triggerCharacters", {" ", "(", ","}}}},
+          {"definitionProvider", true},
+          {"referencesProvider", true},
+          {"documentHighlightProvider", true},
+          {"documentSymbolProvider", true},
+          {"renameProvider", {{"prepareProvider", true}}},
+          {"documentFormattingProvider", true},
+          {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
+          {"semanticTokensProvider", {{"legend", legend}, {"full", true}}}};
+}
+
+}  // namespace lapwing::lsp
