@@ -18,6 +18,8 @@ struct RunOptions {
   std::vector<std::string> links;
   std::string simulated;
   std::string home;
+  double loss = 0.0;
+  double delay_s = 0.0;
   std::optional<double> speedup;
   std::optional<double> timeout_s;
   std::string report;
@@ -38,6 +40,8 @@ base::Result<> connect(Session& session, RunOptions const& options) {
   sim::WorldOptions world;
   world.vehicles = *vehicles;
   world.seed = options.seed.value_or(world.seed);
+  world.impairment.loss = options.loss;
+  world.impairment.delay = base::from_seconds(options.delay_s);
   if (!options.home.empty()) {
     auto const home = parse_home(options.home);
     if (!home) return std::unexpected(home.error());
@@ -93,6 +97,10 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--sim", options->simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
   verb->add_option("--home", options->home,
                    "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres");
+  verb->add_option("--loss", options->loss, "With --sim: share of packets lost, each way")
+      ->check(CLI::Range(0.0, 0.99));
+  verb->add_option("--delay", options->delay_s, "With --sim: seconds that each packet is late, each way")
+      ->check(CLI::Range(0.0, 60.0));
   verb->add_option("--speedup", options->speedup,
                    "1 real time, 10 ten times faster, 0 as fast as possible (default with --sim)")
       ->check(CLI::Range(0.0, 1000.0));
