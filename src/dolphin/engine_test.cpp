@@ -175,19 +175,93 @@ TEST(Battery, UnknownFailsEveryComparisonAndWarnsOnce) {
   EXPECT_EQ(warnings, 1);
 }
 
-TEST(Battery, IsWaitedForOutsideOfGuards) {
+/// Reports 0.5 when the loop's time is `seconds`.
+struct LateReport {
+  explicit LateReport(Bench& bench, double seconds) : scope(bench.loop) {
+    auto silent = copter("z9");
+    silent.battery_is_awaited = true;
+    silent.connection_timeout = std::chrono::seconds(20);
+    bench.platform.set_vehicle(silent);
+    scope.spawn(at(bench.loop, seconds, [&bench, silent]() mutable {
+      silent.battery = 0.5;
+      silent.battery_is_awaited = false;
+      bench.platform.set_vehicle(silent);
+    }));
+  }
+  base::Scope scope;
+};
+
+TEST(Battery, IsWaitedForUntilItsFirstReport) {
   Bench bench;
-  bench.platform.set_vehicle(copter("z9"));
-  base::Scope scope(bench.loop);
-  scope.spawn(at(bench.loop, 2.25, [&] {
-    auto heard = copter("z9");
-    heard.battery = 0.5;
-    bench.platform.set_vehicle(heard);
-  }));
-  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprintln battery(v)"), "0.5\nexit 0 at 2.3\n");
-  Bench silent;
-  silent.platform.set_vehicle(copter("z9"));
-  EXPECT_EQ(silent.run("v = pick { id 'z9' }\nprintln battery(v)\nprintln battery(v)"), "NaN\nNaN\nexit 0 at 20.0\n");
+  LateReport const report(bench, 3.0);
+  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint battery(v)"), "0.5exit 0 at 3.0\n");
+}
+
+TEST(Battery, IsWaitedForOnceAndNoLongerThanTheConnectionTimeout) {
+  Bench bench;
+  LateReport const report(bench, 100.0);
+  EXPECT_EQ(bench.run("setConnectionTimeout 10.seconds\nv = pick { id 'z9' }\nprint battery(v)\nprint battery(v)"),
+            "NaNNaNexit 0 at 10.0\n");
+}
+
+TEST(Battery, KeepsNeitherGuardsNorOtherTasksWaiting) {
+  Bench bench;
+  LateReport const report(bench, 3.0);
+  auto const script =
+      "v = pick { id 'z9' }\n"
+      "execute (action { print battery(v) } >> condition { battery(v) == 0.5 })\n"
+      "      | (idle(1) >> action { print 'other ' }) | (condition { !(battery(v) >= 0) })";
+  EXPECT_EQ(bench.run(script), "other 0.5exit 0 at 3.1\n");
+}
+
+TEST(VehicleInstructions, TellModeAndRelativeHeight) {
+  Bench bench;
+  auto flying = copter("z9");
+  flying.mode = "AUTO";
+  flying.relative_alt_m = 12.5;
+  bench.platform.set_vehicle(flying);
+  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint mode(v) + ' ' + relativeHeight(v)"), "AUTO 12.5exit 0 at 0.0\n");
+  flying.relative_alt_m.reset();
+  bench.platform.set_vehicle(flying);
+  bench.transcript.text.clear();
+  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint relativeHeight(v) > 10 || relativeHeight(v) <= 10"),
+            "falseexit 0 at 0.0\n");
+}
+
+/// Loses a1 when the loop's time is 0.5.
+struct Loss {
+  explicit Loss(Bench& bench) : scope(bench.loop) {
+    scope.spawn(at(bench.loop, 0.5, [&bench] {
+      auto lost = *bench.platform.find({"a1"});
+      lost.connected = false;
+      bench.platform.set_vehicle(lost);
+    }));
+  }
+  base::Scope scope;
+};
+
+std::string const two_tasks = "v = pick { id 'a1' }\nt = task('A:1') >> task('B:1')\n";
+
+// A vehicle that breaks down is no mistake of the script: exit 3, not 1.
+TEST(LostVehicle, HaltsTheScript) {
+  Bench bench;
+  Loss const loss(bench);
+  auto const text = bench.run(two_tasks + "execute v: watch t onError { propagate() }");
+  EXPECT_TRUE(text.ends_with("exit 3 at 1.1: test.dolphin:3: Halting program ... vehicle a1 is lost\n")) << text;
+}
+
+TEST(LostVehicle, CanBeDealtWith) {
+  Bench bench;
+  Loss const loss(bench);
+  auto const text = bench.run(two_tasks + "try { execute v: t } catch (TaskError e) { print 'caught' }");
+  EXPECT_TRUE(text.ends_with("caughtexit 0 at 1.1\n")) << text;
+}
+
+TEST(LostVehicle, HaltsWhenThereIsNoOtherForATask) {
+  Bench bench;
+  Loss const loss(bench);
+  auto const text = bench.run(two_tasks + "pause 1\nexecute v: t");
+  EXPECT_TRUE(text.starts_with("exit 3 at 1.0: test.dolphin:4: Halting program ... No vehicles to run task")) << text;
 }
 
 TEST(Heap, LetsGoOfCyclesAtItsEnd) {

@@ -196,7 +196,7 @@ void Fiber::call_native(int index, int count) {
     auto result = native.call(runtime_, *this, given);
     return replace(static_cast<std::size_t>(count), std::move(result));
   }
-  if (role_ == Role::guard) {
+  if (must_not_wait) {
     return raise({"IllegalStateException", fmt::format("a guard must not wait, so it cannot use {}", native.name)});
   }
   if (is_unwinding_) return raise(stopped());

@@ -14,8 +14,8 @@ namespace lapwing::dolphin {
 class Fiber;
 struct Runtime;
 
-/// One instruction of the language that is carried out here. Where both `call` and `start` are set, `call` is for
-/// guards, which must not wait.
+/// One instruction of the language that is carried out here. At least one of `call` and `start` is set;
+/// where both are, guards, which cannot wait, get `call`.
 struct Native {
   using Arguments = std::span<Value const>;
   std::string_view name;

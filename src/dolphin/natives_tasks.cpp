@@ -163,7 +163,8 @@ Checked<Order> keyed_order(Runtime const& runtime, Arguments parts, tasks::Origi
 Fault as_fault(tasks::Failure const& failure) {
   if (failure.payload)
     return {.type = {}, .message = {}, .thrown = *std::static_pointer_cast<Value const>(failure.payload)};
-  auto const ending = failure.kind == tasks::FailureKind::halt ? Ending::halts_unless_caught : Ending::error;
+  bool const halts = failure.kind == tasks::FailureKind::halt || failure.vehicle_failed;
+  auto const ending = halts ? Ending::halts_unless_caught : Ending::error;
   return {"TaskError", failure.message, ending};
 }
 
@@ -187,6 +188,12 @@ class OnItsWay {
   tasks::Execution& execution_;
 };
 
+/// A mistake in the script, or the lack of a vehicle that was lost since it was picked.
+std::unexpected<Fault> unallocated(std::string message, std::vector<tasks::VehicleInfo> const& available) {
+  bool const all_are_there = std::ranges::all_of(available, &tasks::VehicleInfo::connected);
+  return all_are_there ? fault(std::move(message), "TaskError") : halting(std::move(message), "TaskError");
+}
+
 base::Task<Checked<Value>> run(Runtime& runtime, Order order) {
   std::vector<tasks::VehicleInfo> available;
   for (auto const& id : runtime.picked) {
@@ -195,7 +202,7 @@ base::Task<Checked<Value>> run(Runtime& runtime, Order order) {
   auto const allocation = tasks::allocate(order.tree, available);
   if (!allocation) {
     runtime.log.warn(fmt::format("Task {} could not allocate necessary nodes.", tasks::name(order.tree)));
-    co_return fault(allocation.error().message + order.remarks, "TaskError");
+    co_return unallocated(allocation.error().message + order.remarks, available);
   }
   for (auto const& one : allocation->assignments) {
     runtime.log.info(fmt::format("Task {} allocated node {}.", one.task->name(), one.vehicle.text));

@@ -152,31 +152,42 @@ Checked<Value> position(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments)
   return Value(runtime.heap.make<Position>(*info->position));
 }
 
-/// Not known is NaN, with which every comparison is false (REC-21).
-Checked<Value> battery_now(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+/// Not known is NaN, with which every comparison is false (REC-21). At once: what guards get.
+Checked<Value> battery(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const info = single_vehicle(runtime, arguments[0], "battery");
   if (!info) return std::unexpected(info.error());
   if (info->battery) return Value::real(*info->battery);
-  if (!std::exchange(runtime.warned_of_battery[info->id], true)) {
+  if (runtime.batteries_warned_of.insert(info->id).second) {
     runtime.log.warn(
         fmt::format("the battery of vehicle {} is not known: comparisons with it are false", info->id.text));
   }
   return Value::real(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Outside of guards the first report is waited for, once and for at most the connection timeout.
-base::Task<Checked<Value>> battery(Runtime& runtime, Fiber& fiber, std::vector<Value> arguments) {
-  constexpr base::Duration look_again = std::chrono::milliseconds(100);
-  auto const info = single_vehicle(runtime, arguments[0], "battery");
-  if (!info) co_return std::unexpected(info.error());
-  bool const is_new = !info->battery && !runtime.warned_of_battery[info->id];
-  auto const deadline = runtime.loop.now() + (is_new ? info->connection_timeout : base::Duration::zero());
-  while (runtime.loop.now() < deadline) {
-    auto const fresh = runtime.platform.find(info->id);
-    if (!fresh || fresh->battery) break;
-    co_await runtime.loop.sleep(look_again);
+/// The same once the vehicle has had its connection timeout, one time, to report for the first time.
+base::Task<Checked<Value>> battery_when_reported(Runtime& runtime, Fiber& fiber, std::vector<Value> arguments) {
+  auto info = single_vehicle(runtime, arguments[0], "battery");
+  if (info && runtime.batteries_waited_for.insert(info->id).second) {
+    auto const deadline = runtime.loop.now() + info->connection_timeout;
+    while (info && info->battery_is_awaited && runtime.loop.now() < deadline) {
+      co_await runtime.loop.sleep(runtime.tick);
+      info = single_vehicle(runtime, arguments[0], "battery");
+    }
   }
-  co_return battery_now(runtime, fiber, arguments);
+  co_return battery(runtime, fiber, arguments);
+}
+
+/// Above the vehicle's home, not above the ground below it (REC-45).
+Checked<Value> relative_height(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "relativeHeight");
+  if (!info) return std::unexpected(info.error());
+  return Value::real(info->relative_alt_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+Checked<Value> mode(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "mode");
+  if (!info) return std::unexpected(info.error());
+  return Value(runtime.heap.make<Text>(info->mode));
 }
 
 Checked<Value> connected(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
@@ -295,7 +306,9 @@ std::span<Native const> vehicle_natives() {
       Native{.name = "pick", .least = 1, .most = 1, .start = pick},
       Native{.name = "release", .least = 1, .most = 1, .call = release},
       Native{.name = "position", .least = 1, .most = 1, .call = position},
-      Native{.name = "battery", .least = 1, .most = 1, .call = battery_now, .start = battery},
+      Native{.name = "battery", .least = 1, .most = 1, .call = battery, .start = battery_when_reported},
+      Native{.name = "relativeHeight", .least = 1, .most = 1, .call = relative_height},
+      Native{.name = "mode", .least = 1, .most = 1, .call = mode},
       Native{.name = "connected", .least = 1, .most = 1, .call = connected},
       Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
       Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,8 @@ struct Runtime {
   std::vector<tasks::VehicleId> picked = {};
   base::Duration connection_timeout = std::chrono::seconds(20);
   std::map<std::string, std::shared_ptr<tasks::PlatformTask const>> plans = {};  ///< those of the script with a name
-  std::map<tasks::VehicleId, bool> warned_of_battery = {};
+  std::set<tasks::VehicleId> batteries_warned_of = {};
+  std::set<tasks::VehicleId> batteries_waited_for = {};
   tasks::Execution* execution = nullptr;  ///< the one that is on its way
 };
 

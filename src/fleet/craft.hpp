@@ -44,6 +44,7 @@ struct Craft {
   int boots = 1;            ///< grows with every restart that was noticed
 
   std::uint32_t custom_mode = 0;
+  base::TimePoint mode_changed{};  ///< when a heartbeat first showed it
   bool is_armed = false;
   base::TimePoint armed_changed{};    ///< when a heartbeat first showed it
   bool mission_mode_pending = false;  ///< we commanded the mission mode, and no heartbeat has shown what came of it
@@ -56,6 +57,7 @@ struct Craft {
   base::TimePoint track_end_heard{};
   std::optional<geo::Wgs84> path_end;  ///< up to where `path_m` has been counted
   double path_m = 0.0;                 ///< like `track_m`, height differences included
+  bool has_reported_battery = false;  ///< be it that it does not know
   StatusTexts texts;
   std::optional<MessageRates> rates;
   bool is_asking = false;  ///< message intervals are being asked for

@@ -115,6 +115,7 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
   if (!is_new && has_moved(craft, received) && craft.rates) craft.rates->restart(received.at);
 
   craft.from = received.from;
+  if (craft.custom_mode != heartbeat.custom_mode) craft.mode_changed = received.at;
   craft.custom_mode = heartbeat.custom_mode;
   if (craft.is_armed != heartbeat.armed()) craft.armed_changed = received.at;
   craft.is_armed = heartbeat.armed();
@@ -204,7 +205,8 @@ base::Task<> Fleet::watch() {
     co_await loop().sleep(watch_period);
     for (auto& [system_id, craft] : crafts_) {
       check_connection(*craft);
-      if (!options_.asks_for_messages || !craft->is_connected() || craft->is_asking) continue;
+      bool const is_one = !connection_.is_contested(system_id);
+      if (!options_.asks_for_messages || !craft->is_connected() || !is_one || craft->is_asking) continue;
       if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
       auto due = craft->rates->due(loop().now());
       if (!due.empty()) scope_.spawn(ask_for_messages(*craft, std::move(due)));

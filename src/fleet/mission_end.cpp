@@ -1,5 +1,7 @@
 #include "fleet/mission_end.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace lapwing::fleet {
@@ -14,12 +16,17 @@ constexpr base::Duration begun_for_sure = 3s;
 // Autopilots disarm by themselves after landing; one that is set up not to is done as well.
 constexpr base::Duration landed_for_good = 5s;
 
-// After a landing the disarming may show before the news that the last item had begun, which a bad link may have to
-// repeat.
+// The mode after the mission, or the disarming after a landing, may show before the news that the last item was begun
+// or reached, which a bad link may have to repeat.
 constexpr base::Duration news_of_the_end = 5s;
 
 bool last_item_was_current(MissionShape const& shape, MissionSight const& sight) {
   return sight.current_seq.value_or(-1) >= shape.last_nav_seq || sight.reached_seq.value_or(-1) >= shape.last_nav_seq;
+}
+
+/// What was heard last may be one item old.
+bool may_have_ended(MissionShape const& shape, MissionSight const& sight) {
+  return std::max(sight.current_seq.value_or(0), sight.reached_seq.value_or(0)) >= shape.last_nav_seq - 1;
 }
 
 bool last_place_is_reached(MissionShape const& shape, MissionSight const& sight) {
@@ -38,6 +45,7 @@ MissionVerdict outside_auto(MissionShape const& shape, MissionSight const& sight
   if (ended_before(shape, sight)) return {Kind::done};
   if (!sight.failsafe.empty())
     return {Kind::failed, fmt::format("mode changed to {} by the vehicle: {}", sight.mode, sight.failsafe)};
+  if (may_have_ended(shape, sight) && sight.mode_for < news_of_the_end) return {};
   if (!sight.armed) return {Kind::failed, fmt::format("disarmed and mode changed to {}", sight.mode)};
   return {Kind::failed, fmt::format("mode changed to {} by operator", sight.mode)};
 }

@@ -26,6 +26,7 @@ struct MissionSight {
   bool mode_is_auto = true;
   bool mode_is_return = false;  ///< RTL or one of its relatives
   std::string mode = {};        ///< name, for people
+  base::Duration mode_for{};    ///< how long it has been in that mode
   bool armed = true;
   base::Duration disarmed_for{};
   bool was_active = false;  ///< the autopilot called the mission anything but complete since the start
@@ -44,7 +45,8 @@ struct MissionVerdict {
 
 /// Whether the mission is over, by the language specification's rules (5.4, phase 7): completion by the autopilot's
 /// word, by the last item reached, by a landing, by the autopilot's own return after the last item; and everything else
-/// that takes the vehicle out of AUTO is somebody else's decision.
+/// that takes the vehicle out of AUTO is somebody else's decision. Near the end that is decided seconds later, since
+/// the news of the end may have been lost and are repeated.
 [[nodiscard]] MissionVerdict judge(MissionShape const& shape, MissionSight const& sight);
 
 }  // namespace lapwing::fleet

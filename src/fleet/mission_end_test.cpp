@@ -97,9 +97,25 @@ TEST(MissionEnd, IsDoneWhenTheAutopilotHoldsByItselfAfterTheLastPlace) {
   auto sight = flying(5);
   sight.mode_is_auto = false;
   sight.mode = "HOLD";
+  sight.mode_for = 10s;
   EXPECT_EQ(judge(survey, sight).reason, "mode changed to HOLD by operator");
   sight.reached_seq = 5;
   EXPECT_EQ(judge(survey, sight).kind, Kind::done);
+}
+
+TEST(MissionEnd, AwaitsTheNewsOfTheEndThatABadLinkMayHaveLost) {
+  auto sight = flying(4);
+  sight.mode_is_auto = false;
+  sight.mode = "HOLD";
+  sight.mode_for = 2s;
+  EXPECT_EQ(judge(survey, sight).kind, Kind::running);
+  sight.current_seq = 5;
+  EXPECT_EQ(judge(survey, sight).kind, Kind::running);
+  sight.reports_complete = true;
+  EXPECT_EQ(judge(survey, sight).kind, Kind::done);
+  sight.reports_complete = false;
+  sight.mode_for = 6s;
+  EXPECT_EQ(judge(survey, sight).reason, "mode changed to HOLD by operator");
 }
 
 TEST(MissionEnd, BlamesNobodyForAModeThatChangedWithTheDisarming) {

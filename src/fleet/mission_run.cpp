@@ -37,10 +37,17 @@ base::Error named(std::string_view what, base::Error error) {
 Result<> claim(RunContext const& context) {
   auto const& craft = context.craft;
   if (auto const conflict = context.connection.conflict(craft.address.system))
-    return fail(ErrorKind::refused, fmt::format("two vehicles use system id {}: {} and {}", craft.address.system,
-                                                conflict->first, conflict->second));
+    return fail(ErrorKind::lost, fmt::format("two vehicles use system id {}: {} and {}", craft.address.system,
+                                             conflict->first, conflict->second));
   if (!craft.is_connected()) return fail(ErrorKind::lost, fmt::format("{} is not connected", craft.state.name));
   return {};
+}
+
+/// Two addresses that claimed the system id a moment ago may be a restart or two vehicles. The second shows within
+/// seconds, and then the run is ended from outside; until then nothing is sent that might reach the wrong one.
+Task<> wait_until_one(RunContext context) {
+  auto const& connection = context.connection;
+  while (connection.is_contested(context.craft.address.system)) co_await connection.loop().sleep(100ms);
 }
 
 Task<Result<>> upload(RunContext context, FlightPlan const& plan, RunRecord& record) {
@@ -152,6 +159,7 @@ MissionSight look(Craft const& craft, TimePoint started, TimePoint now) {
           .mode_is_auto = in_mission_mode(craft),
           .mode_is_return = craft.custom_mode == return_mode,
           .mode = mode_name(craft, craft.custom_mode),
+          .mode_for = now - craft.mode_changed,
           .armed = craft.is_armed,
           .disarmed_for = craft.is_armed ? base::Duration{} : now - craft.armed_changed,
           .was_active = trace.was_active,
@@ -195,6 +203,7 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   auto& craft = context.craft;
   if (auto claimed = claim(context); !claimed) co_return claimed;
   if (mission.items.empty()) co_return fail(ErrorKind::invalid_input, "the mission has no items");
+  co_await wait_until_one(context);
   auto const& shown = craft.state;
   if (auto wrong = plan::objection(flight_plan(mission, shown).items, shown.autopilot, shown.family))
     co_return std::unexpected(*std::move(wrong));

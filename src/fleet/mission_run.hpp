@@ -21,6 +21,7 @@ struct RunRecord {
   Outcome outcome = Outcome::running;
   std::string progress;
   std::string error;             ///< why, when failed or stopped
+  bool vehicle_failed = false;   ///< when failed: the vehicle or the way to it broke down, not the mission
   base::Duration upload_time{};  ///< zero until the mission was on the vehicle
   /// From when the mission was begun, beside what was expected; grows until the run ends.
   std::optional<plan::Flown> flown;

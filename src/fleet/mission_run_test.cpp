@@ -112,6 +112,7 @@ TEST_F(MissionRun, NamesItemAndReasonWhenAnItemIsRefused) {
   EXPECT_EQ(end_of(*run), RunState::failed);
   EXPECT_NE(run->error().find("item 3"), std::string::npos) << run->error();
   EXPECT_NE(run->error().find("support"), std::string::npos) << run->error();
+  EXPECT_FALSE(run->vehicle_failed());
   world->run_for(30s);
   EXPECT_FALSE(copter.is_armed);
   EXPECT_NE(copter.mode, copter_mode::automatic);
@@ -150,6 +151,7 @@ TEST_F(MissionRun, FailsAsLostWhenTheVehicleFallsSilentInFlight) {
   EXPECT_EQ(end_of(*run, 19s), RunState::in_progress);
   EXPECT_EQ(end_of(*run, 5s), RunState::failed);
   EXPECT_EQ(run->error(), "copter 1 lost: silent for 20 s");
+  EXPECT_TRUE(run->vehicle_failed());
 }
 
 TEST_F(MissionRun, SurvivesASilenceShorterThanTheTimeout) {
@@ -169,6 +171,17 @@ TEST_F(MissionRun, KnowsNoBatteryThatTheVehicleDoesNotReport) {
   copter.battery.reset();
   world->run_for(10s);
   EXPECT_FALSE(world->platform->find(one)->battery.has_value());
+  EXPECT_FALSE(world->platform->find(one)->battery_is_awaited);
+}
+
+TEST_F(MissionRun, AwaitsTheBatteryUntilTheFirstReport) {
+  world->add();
+  ASSERT_TRUE(world->run_until([&] { return world->platform->find(one).has_value(); }, 2s));
+  EXPECT_TRUE(world->platform->find(one)->battery_is_awaited);
+  world->run_for(5s);
+  EXPECT_FALSE(world->platform->find(one)->battery_is_awaited);
+  EXPECT_EQ(world->platform->find(one)->mode, "STABILIZE");
+  EXPECT_EQ(world->platform->find(one)->relative_alt_m, 0.0);
 }
 
 // Row 91.
@@ -310,10 +323,45 @@ TEST_F(MissionRun, FailsWhenTheVehicleRestartsInFlight) {
   auto const run = start(mission_ending_with(MavCmd::nav_land));
   ASSERT_TRUE(comes_to(*run, "item 2/"));
   copter.reboot(world->hub.connect());
-  EXPECT_EQ(end_of(*run, 5s), RunState::failed);
+  EXPECT_EQ(end_of(*run, 10s), RunState::failed);
   EXPECT_EQ(run->error(), "copter 1 restarted");
+  EXPECT_TRUE(run->vehicle_failed());
   world->run_for(30s);
   EXPECT_NE(copter.mode, copter_mode::automatic);
+}
+
+TEST_F(MissionRun, SendsNothingWhileItMayBeTwoVehicles) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  auto& twin = world->add();
+  ASSERT_TRUE(world->run_until([&] { return world->connection.is_contested(1); }, 2s));
+  auto const heard = copter.heard.size() + twin.heard.size();
+  auto const run = start(mission_ending_with(MavCmd::nav_land));
+  EXPECT_EQ(end_of(*run, 10s), RunState::failed);
+  EXPECT_NE(run->error().find("two vehicles use system id 1"), std::string::npos) << run->error();
+  EXPECT_TRUE(run->vehicle_failed());
+  EXPECT_EQ(copter.heard.size() + twin.heard.size(), heard);
+}
+
+TEST_F(MissionRun, TakesASecondVehicleThatAppearsInFlightForNoRestart) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  auto const run = start(mission_ending_with(MavCmd::nav_land, 8));
+  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  auto& twin = world->add();
+  EXPECT_EQ(end_of(*run, 10s), RunState::failed);
+  EXPECT_NE(run->error().find("two vehicles use system id 1"), std::string::npos) << run->error();
+  EXPECT_EQ(copter.mode, copter_mode::automatic);
+  EXPECT_EQ(twin.commands_heard(MavCmd::component_arm_disarm), 0);
+}
+
+TEST_F(MissionRun, FliesAVehicleThatRestartedJustBefore) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  copter.reboot(world->hub.connect());
+  ASSERT_TRUE(world->run_until([&] { return world->connection.is_contested(1); }, 2s));
+  auto const run = start(mission_ending_with(MavCmd::nav_land));
+  EXPECT_EQ(end_of(*run), RunState::done) << run->error();
 }
 
 TEST_F(MissionRun, UsesTheModeWhenMissionStartIsRefused) {

@@ -48,6 +48,7 @@ Task<> Pilot::fly(plan::Mission mission) {
     end(Outcome::done, {});
     co_return;
   }
+  run->vehicle_failed = flown.error().kind == base::ErrorKind::lost;
   end(Outcome::failed, flown.error().message);
   // A run that got as far as the mission mode and failed was taken over or ended by the vehicle: leave it alone then.
   if (!run->has_begun) begin_rest(context_.options.on_stop);
@@ -60,20 +61,23 @@ Task<> Pilot::guard() {
   auto const boots = craft.boots;
   std::string reason;
   while (run->outcome == Outcome::running && reason.empty()) {
-    if (craft.boots != boots) {
-      reason = fmt::format("{} restarted", craft.state.name);
+    if (auto const rivals = context_.connection.conflict(craft.address.system)) {
+      reason =
+          fmt::format("two vehicles use system id {}: {} and {}", craft.address.system, rivals->first, rivals->second);
     } else if (craft.state.connection == Connection::lost) {
       reason =
           fmt::format("{} lost: silent for {:.0f} s", craft.state.name, base::to_seconds(craft.connection_timeout));
-    } else if (auto const rivals = context_.connection.conflict(craft.address.system)) {
-      reason =
-          fmt::format("two vehicles use system id {}: {} and {}", craft.address.system, rivals->first, rivals->second);
+    } else if (craft.boots != boots && !context_.connection.is_contested(craft.address.system)) {
+      reason = fmt::format("{} restarted", craft.state.name);
     } else {
+      // What looks like a restart may be a second vehicle; that shows within seconds, and until then nothing is sent.
+      if (craft.boots != boots) flight_ = {};
       co_await context_.craft.changed.wait();
     }
   }
   if (reason.empty() || run->outcome != Outcome::running) co_return;
   flight_ = {};
+  run->vehicle_failed = true;
   end(Outcome::failed, std::move(reason));
 }
 

@@ -35,6 +35,7 @@ class MissionTaskRun final : public tasks::TaskRun {
     return RunState::failed;
   }
   [[nodiscard]] std::string error() const override { return record_->error; }
+  [[nodiscard]] bool vehicle_failed() const override { return record_->vehicle_failed; }
   [[nodiscard]] std::string progress() const override { return record_->progress; }
   void stop() override { pilot_.stop(*record_, on_stop_); }
 
@@ -67,6 +68,9 @@ VehicleInfo info_of(Craft const& craft) {
   info.position = state.position.value;
   if (state.battery.value) info.battery = state.battery.value->remaining;
   info.connection_timeout = craft.connection_timeout;
+  info.battery_is_awaited = !craft.has_reported_battery;
+  info.mode = state.mode.value.value_or("");
+  info.relative_alt_m = state.relative_alt_m.value;
   return info;
 }
 

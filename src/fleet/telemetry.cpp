@@ -87,6 +87,7 @@ struct Taking {
   }
 
   bool operator()(mavlink::SysStatus const& heard) const {
+    craft.has_reported_battery = true;
     if (heard.battery_remaining)
       state.battery.set({*heard.battery_remaining, heard.battery_voltage_v, heard.battery_current_a}, now);
     auto health = state.health.value.value_or(vehicle::Health{});
@@ -97,6 +98,7 @@ struct Taking {
 
   bool operator()(mavlink::BatteryStatus const& heard) const {
     if (heard.id != 0 || !heard.remaining) return false;
+    craft.has_reported_battery = true;
     state.battery.set({*heard.remaining, heard.voltage_v, heard.current_a}, now);
     return true;
   }

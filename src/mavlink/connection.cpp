@@ -174,6 +174,10 @@ std::optional<Conflict> Connection::conflict(std::uint8_t system_id) const {
   return Conflict{system_id, describe(both->first), describe(both->second)};
 }
 
+bool Connection::is_contested(std::uint8_t system_id) const {
+  return routes_->claimants(system_id, loop_.now()).size() > 1;
+}
+
 SourceCounters Connection::counters(Address source) const {
   return routes_->counters(source);
 }

@@ -107,6 +107,9 @@ class Connection {
   [[nodiscard]] std::optional<std::string> whereabouts(std::uint8_t system_id) const;
   /// Set while two peers both keep claiming to be the autopilot of one system. One that falls silent for 5 s has left.
   [[nodiscard]] std::optional<Conflict> conflict(std::uint8_t system_id) const;
+  /// The system id was heard from two addresses within seconds: two vehicles, or one that restarted and has not been
+  /// told apart from that yet. Messages are still sent, to the address heard last.
+  [[nodiscard]] bool is_contested(std::uint8_t system_id) const;
   [[nodiscard]] SourceCounters counters(Address source) const;
   /// Summed over the peers of one link.
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;

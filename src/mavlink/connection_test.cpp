@@ -37,9 +37,12 @@ TEST(Connection, FollowsAVehicleThatRebootedToItsNewAddress) {
   bench.run_for(2s);
   EXPECT_NE(bench.ground.whereabouts(1), before);
   EXPECT_FALSE(bench.ground.conflict(1));
+  EXPECT_TRUE(bench.ground.is_contested(1)) << "that it was no second vehicle shows later";
   ASSERT_TRUE(bench.ground.send({1, 1}, CommandLong{.command = MavCmd::mission_start}));
   bench.run_for(1s);
   EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u);
+  bench.run_for(5s);
+  EXPECT_FALSE(bench.ground.is_contested(1));
 }
 
 TEST(Connection, NamesBothVehiclesOfOneSystemIdAndRefusesToSend) {

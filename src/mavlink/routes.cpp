@@ -78,12 +78,19 @@ std::optional<PeerRef> Routes::route_to(Address target) const {
   return latest ? std::optional(latest->peer) : std::nullopt;
 }
 
+std::vector<PeerRef> Routes::claimants(std::uint8_t system_id, base::TimePoint now) const {
+  std::vector<PeerRef> peers;
+  auto const found = claims_.find(system_id);
+  if (found == claims_.end()) return peers;
+  for (auto const& claim : found->second.alive)
+    if (now - claim.heard <= claim_lasts) peers.push_back(claim.peer);
+  return peers;
+}
+
 std::optional<std::pair<PeerRef, PeerRef>> Routes::conflict(std::uint8_t system_id, base::TimePoint now) const {
   auto const found = claims_.find(system_id);
   if (found == claims_.end() || found->second.returns < returns_of_a_conflict) return std::nullopt;
-  std::vector<PeerRef> peers;
-  for (auto const& claim : found->second.alive)
-    if (now - claim.heard <= claim_lasts) peers.push_back(claim.peer);
+  auto peers = claimants(system_id, now);
   if (peers.size() < 2) return std::nullopt;
   std::ranges::sort(peers);
   return std::pair(peers[0], peers[1]);

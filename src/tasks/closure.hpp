@@ -23,6 +23,7 @@ struct Failure {
   std::shared_ptr<void const> payload = {};
   /// Which task failed, on which vehicle, for people: "survey on a1". Empty when no platform task was the cause.
   std::string culprit = {};
+  bool vehicle_failed = false;  ///< the vehicle or the way to it broke down, not the task
 };
 
 /// `{ battery(v) < 0.3 }`: evaluated at once, every tick while it matters. Its side effects are part of a script's

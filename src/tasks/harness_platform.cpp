@@ -35,13 +35,14 @@ class TimedTask final : public PlatformTask {
 /// Ends when its time has come, if ever, with an error if it has one.
 class TimedRun final : public TaskRun {
  public:
-  TimedRun(base::Loop& loop, std::optional<Duration> length, std::string error)
-      : loop_(loop), started_(loop.now()), length_(length), error_(std::move(error)) {}
+  TimedRun(base::Loop& loop, std::optional<Duration> length, std::string error, bool vehicle_failed = false)
+      : loop_(loop), started_(loop.now()), length_(length), error_(std::move(error)), vehicle_failed_(vehicle_failed) {}
   [[nodiscard]] RunState state() const override {
     if (!length_ || loop_.now() - started_ < *length_) return RunState::in_progress;
     return error_.empty() ? RunState::done : RunState::failed;
   }
   [[nodiscard]] std::string error() const override { return error_; }
+  [[nodiscard]] bool vehicle_failed() const override { return vehicle_failed_; }
   [[nodiscard]] std::string progress() const override {
     auto const passed_s = base::to_seconds(loop_.now() - started_);
     if (!length_) return fmt::format("{:.1f} s", passed_s);
@@ -54,6 +55,7 @@ class TimedRun final : public TaskRun {
   base::TimePoint started_;
   std::optional<Duration> length_;
   std::string error_;
+  bool vehicle_failed_;
 };
 
 std::vector<VehicleInfo> conformance_vehicles() {
@@ -63,7 +65,9 @@ std::vector<VehicleInfo> conformance_vehicles() {
                        .payload = std::move(payload),
                        .position = geo::Wgs84::from_degrees(lat_deg, -8.0),
                        .battery = 1.0,
-                       .connection_timeout = std::chrono::seconds(20)};
+                       .connection_timeout = std::chrono::seconds(20),
+                       .mode = "HOLD",
+                       .relative_alt_m = 0.0};
   };
   return {vehicle("a1", "UAV", {"Camera", "Sidescan"}, 41.0), vehicle("a2", "UAV", {"Camera"}, 41.01),
           vehicle("u1", "UUV", {"Sidescan", "Multibeam"}, 41.0), vehicle("u2", "UUV", {}, 42.0)};
@@ -108,10 +112,9 @@ void HarnessPlatform::set_connection_timeout(VehicleId const& id, base::Duration
 
 std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask const> task, VehicleId const& id) {
   auto const vehicle = find(id);
-  auto const failing = [&](std::string why) {
-    return std::make_unique<TimedRun>(loop_, Duration::zero(), std::move(why));
-  };
-  if (!vehicle || !vehicle->connected) return failing(fmt::format("vehicle {} is lost", id.text));
+  if (!vehicle || !vehicle->connected) {
+    return std::make_unique<TimedRun>(loop_, Duration::zero(), fmt::format("vehicle {} is lost", id.text), true);
+  }
   if (auto const* const timed = dynamic_cast<TimedTask const*>(task.get())) {
     return std::make_unique<TimedRun>(loop_, timed->length(), timed->fails() ? "boom" : "");
   }
@@ -120,7 +123,8 @@ std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask con
     auto const length = estimate.is_endless ? std::nullopt : std::optional(estimate.duration);
     return std::make_unique<TimedRun>(loop_, length, "");
   }
-  return failing(fmt::format("{} is a task of another platform", task->name()));
+  auto why = fmt::format("{} is a task of another platform", task->name());
+  return std::make_unique<TimedRun>(loop_, Duration::zero(), std::move(why));
 }
 
 base::Task<void> HarnessPlatform::settle() {

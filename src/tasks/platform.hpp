@@ -94,6 +94,9 @@ struct VehicleInfo {
   std::optional<geo::Wgs84> position;
   std::optional<double> battery;  ///< 0..1; nothing while unknown
   base::Duration connection_timeout{};
+  bool battery_is_awaited = false;  ///< it has not reported on its battery yet, not even that it does not know
+  std::string mode = {};            ///< the flight mode by the autopilot's own name; empty while unknown
+  std::optional<double> relative_alt_m = {};  ///< above its home; nothing while unknown
 };
 
 /// An immutable description of something one vehicle can do. Values of the language: shared, reused, never changed.
@@ -124,6 +127,8 @@ class TaskRun {
   [[nodiscard]] virtual RunState state() const = 0;
   /// Why, when failed.
   [[nodiscard]] virtual std::string error() const = 0;
+  /// When failed: it was the vehicle or the way to it (lost, restarted, not to be told apart), not the task.
+  [[nodiscard]] virtual bool vehicle_failed() const { return false; }
   /// Short text for people: "uploading 4/12", "item 3/12".
   [[nodiscard]] virtual std::string progress() const = 0;
   /// Ends it early. Returns at once; the platform goes on putting the vehicle into its stop state unless another task

@@ -37,6 +37,8 @@ class Routes {
 
   /// Where to send for `target`: its component, else the system's autopilot, else whoever of the system spoke last.
   [[nodiscard]] std::optional<PeerRef> route_to(Address target) const;
+  /// Every peer that claimed the system not long before `now`.
+  [[nodiscard]] std::vector<PeerRef> claimants(std::uint8_t system_id, base::TimePoint now) const;
   /// The two peers that keep claiming the system, at `now`.
   [[nodiscard]] std::optional<std::pair<PeerRef, PeerRef>> conflict(std::uint8_t system_id, base::TimePoint now) const;
   /// Peers that spoke MAVLink not long before `now`.

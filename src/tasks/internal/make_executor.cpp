@@ -240,12 +240,12 @@ class PerformedExecutor final : public Executor {
   void withdraw(VehicleId const& vehicle) override {
     if (vehicle != vehicle_ || state() != TaskState::running) return;
     end_run();
-    fail_with(withdrawn_text());
+    fail_with(withdrawn_text(), false);
   }
 
  private:
   void on_start() override {
-    if (context_.withdrawn.contains(vehicle_)) return report_failure(withdrawn_text());
+    if (context_.withdrawn.contains(vehicle_)) return report_failure(withdrawn_text(), false);
     context_.report(TaskEvent::Kind::start, subject_, vehicle_);
     run_ = context_.platform.start(subject_, vehicle_);
   }
@@ -257,9 +257,8 @@ class PerformedExecutor final : public Executor {
         context_.report(TaskEvent::Kind::done, subject_, vehicle_);
         return finish();
       case RunState::failed:
-        auto const why = run_->error();
-        run_.reset();
-        return report_failure(why);
+        auto const run = std::exchange(run_, nullptr);
+        return report_failure(run->error(), run->vehicle_failed());
     }
   }
   void on_end() override { end_run(); }
@@ -275,12 +274,14 @@ class PerformedExecutor final : public Executor {
     context_.report(TaskEvent::Kind::stop, subject_, vehicle_);
     run->stop();
   }
-  void report_failure(std::string const& why) {
+  void report_failure(std::string const& why, bool vehicle_failed) {
     context_.report(TaskEvent::Kind::error, subject_, vehicle_, why);
-    fail_with(why);
+    fail_with(why, vehicle_failed);
   }
-  void fail_with(std::string why) {
-    fail({.message = std::move(why), .culprit = fmt::format("{} on {}", subject_->name(), vehicle_.text)});
+  void fail_with(std::string why, bool vehicle_failed) {
+    fail({.message = std::move(why),
+          .culprit = fmt::format("{} on {}", subject_->name(), vehicle_.text),
+          .vehicle_failed = vehicle_failed});
   }
   [[nodiscard]] std::string withdrawn_text() const { return fmt::format("vehicle {} was released", vehicle_.text); }
 
