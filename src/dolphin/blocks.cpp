@@ -131,6 +131,9 @@ class ChoiceBlock final : public Block {
       return fault(fmt::format("when takes a closure, not {}", kind_name(arguments[0])), "IllegalArgumentException");
     if (!body)
       return fault(fmt::format("then takes a task, not {}", kind_name(arguments[1])), "IllegalArgumentException");
+    if (branches_.size() >= static_cast<std::size_t>(tasks::max_task_size)) {
+      return fault(fmt::format("more than {} choices", tasks::max_task_size), "IllegalArgumentException");
+    }
     branches_.push_back({make_guard(runtime_, Ref<Closure>(guard)), body->value});
     return {};
   }
@@ -247,8 +250,10 @@ class PlatformBlock final : public Block {
   [[nodiscard]] Checked<Value> finish() override {
     auto task = session_->finish();
     if (!task) return std::unexpected(as_fault(task.error()));
-    runtime_.plans[(*task)->name()] = *task;
-    return task_value(runtime_.heap, tasks::performed(std::move(*task), {.line = line_}));
+    auto const name = (*task)->name();
+    auto value = task_value(runtime_.heap, tasks::performed(std::move(*task), {.line = line_}));
+    if (value) runtime_.plans[name] = Ref<TaskValue>(value->as<TaskValue>());
+    return value;
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "dolphin/equality.hpp"
 #include "dolphin/internal/code_points.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 #include "dolphin/operators.hpp"
 #include "dolphin/text.hpp"
@@ -50,12 +51,16 @@ Checked<Value> make_range(Heap& heap, Value const& first, Value const& last, boo
 }
 
 Checked<bool> contains(Value const& container, Value const& item) {
-  auto const same = [&](Value const& other) { return equal(other, item); };
   switch (container.kind()) {
     case ValueKind::null: return false;
-    case ValueKind::list: return std::ranges::any_of(container.as<List>()->items, same);
+    case ValueKind::list: {
+      std::size_t compared = 0;
+      auto const found = find(container.as<List>()->items, item, compared);
+      if (!found) return std::unexpected(found.error());
+      return found->has_value();
+    }
     case ValueKind::map: return container.as<Map>()->contains(item);
-    case ValueKind::text: return container.as<Text>()->text.find(to_text(item)) != std::string::npos;
+    case ValueKind::text: return find_text(container.as<Text>()->text, to_text(item)) != std::string::npos;
     case ValueKind::range: {
       auto const& range = *container.as<Range>();
       if (!item.is_number() || range.size == 0) return false;
@@ -79,36 +84,71 @@ Checked<bool> contains(Value const& container, Value const& item) {
 
 namespace {
 
-/// The elements at several indices: text[1..2], list[0, 2].
-Checked<Value> elements(Heap& heap, Value const& object, Value const& indices, tasks::Origin const& origin) {
-  auto const size = object.is(ValueKind::text)    ? count_code_points(object.as<Text>()->text)
-                    : object.is(ValueKind::list)  ? object.as<List>()->items.size()
-                    : object.is(ValueKind::range) ? static_cast<std::size_t>(object.as<Range>()->size)
-                                                  : object.as<Vehicles>()->ids.size();
-  std::vector<Value> wanted;
-  if (auto const* list = indices.as<List>()) wanted = list->items;
-  if (auto const* range = indices.as<Range>()) {
-    // 1..-1 is from the second to the last.
-    auto const first = range->size == 0 ? Checked<std::size_t>(0) : position_in(range->first, size);
-    auto const last = range->size == 0 ? Checked<std::size_t>(0) : position_in(range->last, size);
-    if (!first) return std::unexpected(first.error());
-    if (!last) return std::unexpected(last.error());
-    auto const from = static_cast<std::int64_t>(*first);
-    auto const to = static_cast<std::int64_t>(*last);
-    auto const count = range->size == 0 ? 0 : std::abs(to - from) + 1;
-    for (std::int64_t i = 0; i < count; ++i) wanted.push_back(Value::integer(to < from ? from - i : from + i));
+/// Of what has places, but a text.
+std::size_t size_of(Value const& object) {
+  if (auto const* list = object.as<List>()) return list->items.size();
+  if (auto const* range = object.as<Range>()) return static_cast<std::size_t>(range->size);
+  return object.as<Vehicles>()->ids.size();
+}
+
+/// One element. `pieces`: the code points of a text.
+Checked<Value> element_at(Heap& heap, Value const& object, Value const& index,
+                          std::vector<std::string_view> const& pieces) {
+  if (!index.is(ValueKind::integer)) {
+    return fault(fmt::format("{} is no index of {}", kind_name(index), kind_name(object)), "IllegalArgumentException");
   }
+  std::int64_t const i = index.integer();
+  auto const* list = object.as<List>();
+  // As in Groovy: beyond the end of a list there is nothing, before its start is an error.
+  if (list && i >= static_cast<std::int64_t>(list->items.size())) return Value();
+  auto const* range = object.as<Range>();
+  auto const at = position_in(i, object.is(ValueKind::text) ? pieces.size() : size_of(object));
+  if (!at) return std::unexpected(at.error());
+  if (list) return list->items[*at];
+  if (range) return Value::integer(range->at(static_cast<std::int64_t>(*at)));
+  if (object.is(ValueKind::text)) return Value(heap.make<Text>(std::string(pieces[*at])));
+  return Value(heap.make<Vehicle>(object.as<Vehicles>()->ids[*at]));
+}
+
+std::vector<std::string_view> pieces_of(Value const& object) {
+  auto const* text = object.as<Text>();
+  return text ? code_points(text->text) : std::vector<std::string_view>();
+}
+
+/// 1..-1 is from the second to the last.
+Checked<std::vector<Value>> indices_of(Range const& range, std::size_t size) {
+  std::vector<Value> indices;
+  if (range.size == 0) return indices;
+  auto const first = position_in(range.first, size);
+  auto const last = position_in(range.last, size);
+  if (!first) return std::unexpected(first.error());
+  if (!last) return std::unexpected(last.error());
+  auto const from = static_cast<std::int64_t>(*first);
+  auto const to = static_cast<std::int64_t>(*last);
+  auto const count = std::abs(to - from) + 1;
+  if (count > max_copied_range) return fault("the range is too long to be made a list", "OutOfMemoryError");
+  for (std::int64_t i = 0; i < count; ++i) indices.push_back(Value::integer(to < from ? from - i : from + i));
+  return indices;
+}
+
+/// The elements at several indices: text[1..2], list[0, 2].
+Checked<Value> elements(Heap& heap, Value const& object, Value const& indices) {
+  auto const pieces = pieces_of(object);
+  auto const* range = indices.as<Range>();
+  auto const wanted = range ? indices_of(*range, object.is(ValueKind::text) ? pieces.size() : size_of(object))
+                            : Checked<std::vector<Value>>(indices.as<List>()->items);
+  if (!wanted) return std::unexpected(wanted.error());
   std::string text;
   std::vector<Value> items;
   std::vector<vehicle::VehicleId> ids;
-  for (auto const& index : wanted) {
-    auto item = element(heap, object, index, origin);
+  for (auto const& index : *wanted) {
+    auto item = element_at(heap, object, index, pieces);
     if (!item) return item;
     if (object.is(ValueKind::text)) text += item->as<Text>()->text;
     if (object.is(ValueKind::vehicles)) ids.push_back(item->as<Vehicle>()->value);
-    items.push_back(std::move(*item));
+    if (object.is(ValueKind::list) || object.is(ValueKind::range)) items.push_back(std::move(*item));
   }
-  if (object.is(ValueKind::text)) return Value(heap.make<Text>(std::move(text)));
+  if (object.is(ValueKind::text)) return make_text(heap, std::move(text));
   if (object.is(ValueKind::vehicles)) return Value(heap.make<Vehicles>(std::move(ids)));
   return Value(heap.make<List>(std::move(items)));
 }
@@ -124,33 +164,8 @@ Checked<Value> element(Heap& heap, Value const& object, Value const& index, task
   if (auto const* map = object.as<Map>()) return map->at(index);
   if (auto const* task = object.as<TaskValue>()) return restricted_task(heap, *task, index, origin);
   if (!has_places(object)) return fault(fmt::format("{} has no elements", kind_name(object)), "MissingMethodException");
-  if (index.is(ValueKind::range) || index.is(ValueKind::list)) return elements(heap, object, index, origin);
-  if (!index.is(ValueKind::integer)) {
-    return fault(fmt::format("{} is no index of {}", kind_name(index), kind_name(object)), "IllegalArgumentException");
-  }
-  std::int64_t const i = index.integer();
-  if (auto const* list = object.as<List>()) {
-    // As in Groovy: beyond the end there is nothing, before the start is an error.
-    if (i >= static_cast<std::int64_t>(list->items.size())) return Value();
-    auto const at = position_in(i, list->items.size());
-    if (!at) return std::unexpected(at.error());
-    return list->items[*at];
-  }
-  if (auto const* text = object.as<Text>()) {
-    auto const pieces = code_points(text->text);
-    auto const at = position_in(i, pieces.size());
-    if (!at) return std::unexpected(at.error());
-    return Value(heap.make<Text>(std::string(pieces[*at])));
-  }
-  if (auto const* range = object.as<Range>()) {
-    auto const at = position_in(i, static_cast<std::size_t>(range->size));
-    if (!at) return std::unexpected(at.error());
-    return Value::integer(range->at(static_cast<std::int64_t>(*at)));
-  }
-  auto const& ids = object.as<Vehicles>()->ids;
-  auto const at = position_in(i, ids.size());
-  if (!at) return std::unexpected(at.error());
-  return Value(heap.make<Vehicle>(ids[*at]));
+  if (index.is(ValueKind::range) || index.is(ValueKind::list)) return elements(heap, object, index);
+  return element_at(heap, object, index, pieces_of(object));
 }
 
 Checked<Value> set_element(Value const& object, Value const& index, Value value) {

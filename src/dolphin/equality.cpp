@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 #include "dolphin/text.hpp"
 
@@ -13,6 +14,7 @@ namespace lapwing::dolphin {
 namespace {
 
 constexpr double relative_tolerance = 1e-12;
+constexpr std::size_t bytes_of_item = 128;  // of a map: list node, index node, bucket
 
 bool same_number(Value const& a, Value const& b) {
   if (a.is(ValueKind::integer) && b.is(ValueKind::integer)) return a.integer() == b.integer();
@@ -31,6 +33,7 @@ bool same_members(Vehicles const& a, Vehicles const& b) {
 /// Counts what it compares, so that lists that share parts many times over, or hold themselves, end as unequal.
 class Comparison {
  public:
+  [[nodiscard]] int compared() const { return compared_; }
   bool equal(Value const& a, Value const& b, int depth) {
     if (a.is_number() && b.is_number()) return same_number(a, b);
     if (a.kind() != b.kind()) return same_sequence(a, b, depth);
@@ -112,6 +115,17 @@ bool equal(Value const& a, Value const& b) {
   return Comparison().equal(a, b, 0);
 }
 
+Checked<std::optional<std::size_t>> find(std::span<Value const> items, Value const& wanted, std::size_t& compared) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    Comparison comparison;
+    bool const is_found = comparison.equal(items[i], wanted, 0);
+    compared += 1 + static_cast<std::size_t>(comparison.compared());
+    if (is_found) return i;
+    if (compared > max_comparisons) return fault("the lists are too long to compare", "OutOfMemoryError");
+  }
+  return std::nullopt;
+}
+
 Checked<std::partial_ordering> compare(Value const& a, Value const& b) {
   if (a.is_number() && b.is_number()) return order_numbers(a, b);
   if (a.kind() == b.kind()) {
@@ -147,9 +161,9 @@ void Map::set(Value const& key, Value value) {
     found->second->second = std::move(value);
     return;
   }
-  charge(128);
   items_.emplace_back(key, std::move(value));
   index_.emplace(key, std::prev(items_.end()));
+  charge(items_.size() * bytes_of_item);
 }
 
 Value Map::at(Value const& key) const {
@@ -163,6 +177,7 @@ bool Map::erase(Value const& key) {
   auto const item = found->second;
   index_.erase(found);
   items_.erase(item);
+  charge(items_.size() * bytes_of_item);
   return true;
 }
 
@@ -170,6 +185,7 @@ void Map::clear() {
   // Values may refer to this map: empty it first, let them go after.
   auto const index = std::exchange(index_, {});
   auto const items = std::exchange(items_, {});
+  charge(0);
 }
 
 }  // namespace lapwing::dolphin

@@ -25,12 +25,24 @@ void Fiber::begin(Ref<Closure> const& closure, std::vector<Value> arguments) {
 }
 
 Fiber::State Fiber::run(int& budget) {
+  int const given = budget;
   while (state_ == State::ready && budget > 0) {
     --budget;
     auto& frame = frames_.back();
     execute(frame.function->code[frame.pc++]);
   }
+  runtime_.steps += static_cast<std::uint64_t>(given - budget);
+  if (state_ != State::failed && runtime_.steps > runtime_.limits.steps) end_early();
   return state_;
+}
+
+/// The run has taken its steps. Nothing catches it, `finally` does not run.
+void Fiber::end_early() {
+  auto message = fmt::format("the script took more than {} steps", runtime_.limits.steps);
+  ErrorData data{"TimeoutException", std::move(message), static_cast<int>(line()), Ending::halts};
+  abandon();
+  state_ = State::failed;
+  result_ = Value(runtime_.heap.make<Error>(std::move(data)));
 }
 
 base::Task<Checked<Value>> Fiber::take_wait() {
@@ -84,6 +96,11 @@ void Fiber::enter(Function const& function, Ref<Closure> closure, int passed) {
   if (frames_.size() >= runtime_.limits.call_depth) {
     drop(static_cast<std::size_t>(passed));
     return raise({"StackOverflowError", fmt::format("calls are nested more than {} deep", runtime_.limits.call_depth)});
+  }
+  auto const& limits = runtime_.limits;
+  if (base + static_cast<std::size_t>(function.locals) > limits.stack_values) {
+    drop(static_cast<std::size_t>(passed));
+    return raise({"StackOverflowError", fmt::format("calls under way hold more than {} values", limits.stack_values)});
   }
   stack_.resize(base + static_cast<std::size_t>(function.locals));
   frames_.push_back({&function, std::move(closure), 0, base, passed, blocks_.size()});

@@ -39,8 +39,10 @@ void Fiber::execute_operator(Instruction i) {
     case Op::make_range: return replace(2, make_range(heap, top(1), top(), i.a != 0));
     case Op::concatenate: {
       std::string text;
-      for (auto const& piece : arguments(i.a)) text += to_text(piece);
-      return replace(count, Value(heap.make<Text>(std::move(text))));
+      for (auto const& piece : arguments(i.a)) {
+        if (text.size() <= max_text_size) text += to_text(piece);
+      }
+      return replace(count, make_text(heap, std::move(text)));
     }
     case Op::make_closure: return make_closure(i.a);
     default: return;
@@ -114,18 +116,14 @@ Checked<Value> Fiber::iterable(Value const& value) {
   switch (value.kind()) {
     case ValueKind::list:
     case ValueKind::range:
-    case ValueKind::vehicles: return value;
+    case ValueKind::vehicles:
+    case ValueKind::text: return value;
     case ValueKind::null: return Value(heap.make<List>());
     case ValueKind::vehicle: return Value(heap.make<Vehicles>(std::vector{value.as<Vehicle>()->value}));
     case ValueKind::map: {
       auto entries = heap.make<List>();
       for (auto const& [key, held] : value.as<Map>()->items()) entries->push(heap.make<Entry>(key, held));
       return Value(entries);
-    }
-    case ValueKind::text: {
-      auto letters = heap.make<List>();
-      for (auto const letter : code_points(value.as<Text>()->text)) letters->push(heap.make<Text>(std::string(letter)));
-      return Value(letters);
     }
     default: return fault(fmt::format("{} cannot be walked through", kind_name(value)), "IllegalArgumentException");
   }
@@ -141,6 +139,12 @@ void Fiber::next_item(Instruction i) {
     return push(Value::integer(range->at(index)));
   if (auto const* set = items.as<Vehicles>(); set && at < set->ids.size()) {
     return push(Value(runtime_.heap.make<Vehicle>(set->ids[at])));
+  }
+  if (auto const* text = items.as<Text>(); text && at < text->text.size()) {
+    // For texts the place is counted in bytes.
+    auto const size = first_code_point_size(std::string_view(text->text).substr(at));
+    local(i.b + 1) = Value::integer(index + static_cast<std::int64_t>(size));
+    return give(Value(runtime_.heap.make<Text>(text->text.substr(at, size))));
   }
   frame().pc = static_cast<std::size_t>(i.a);
 }

@@ -1,16 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/token.hpp"
 
 namespace lapwing::dolphin {
-
-/// The longest scripts that are read; longer ones are refused with a diagnostic.
-inline constexpr std::size_t max_source_size = std::size_t{16} << 20u;
-inline constexpr std::size_t max_token_count = 4'000'000;
 
 struct TokenStream {
   std::vector<Token> tokens;         ///< the last one is end_of_file

@@ -1,3 +1,5 @@
+#include "dolphin/limits.hpp"
+
 #include <gtest/gtest.h>
 
 #include "dolphin/testing.hpp"
@@ -9,18 +11,91 @@ namespace {
 using testing::Bench;
 using testing::printed;
 
+/// What the script prints of the exception that `code` throws.
+std::string thrown_by(std::string const& code) {
+  auto text = printed("try { " + code + " } catch (Throwable e) { print e }");
+  return text.substr(0, text.find(':'));
+}
+
+/// How the script ends that has a mebibyte.
+std::string run_in_little_memory(std::string const& script) {
+  Bench bench;
+  bench.options.limits.heap_bytes = std::size_t{1} << 20U;
+  return bench.run(script);
+}
+
 TEST(Limits, EndlessRecursionIsAnException) {
   EXPECT_EQ(printed("def f(n) { f(n + 1) }\ntry { f(0) } catch (StackOverflowError e) { print 'deep' }"), "deep");
   EXPECT_EQ(printed("def f(n) { n == 0 ? 0 : 1 + f(n - 1) }\nprint f(5000)"), "5000");
+  EXPECT_EQ(printed("def f = null\nf = { n -> f(n + 1) }\ntry { f(0) } catch (StackOverflowError e) { print 'deep' }"),
+            "deep");
+}
+
+TEST(Limits, CallsWithManyVariablesAreAnException) {
+  std::string variables;
+  for (int i = 0; i < 500; ++i) variables += fmt::format("def v{} = {}\n", i, i);
+  auto const script = "def f(n) {\n" + variables + "f(n + 1) }\ntry { f(0) } catch (StackOverflowError e) { print e }";
+  EXPECT_EQ(printed(script), "StackOverflowError: calls under way hold more than 1000000 values");
 }
 
 TEST(Limits, TooMuchMemoryIsAnException) {
-  Bench bench;
-  bench.options.limits.heap_bytes = std::size_t{1} << 20U;
-  EXPECT_EQ(bench.run("l = []\nwhile (true) { l << 'x' * 1 }").substr(0, 6), "exit 1");
-  Bench other;
-  other.options.limits.heap_bytes = std::size_t{1} << 20U;
-  EXPECT_NE(other.run("l = []\nwhile (true) { l << [1] }").find("OutOfMemoryError"), std::string::npos);
+  EXPECT_EQ(run_in_little_memory("l = []\nwhile (true) { l << 'x' * 1 }").substr(0, 6), "exit 1");
+  EXPECT_NE(run_in_little_memory("l = []\nwhile (true) { l << [1] }").find("OutOfMemoryError"), std::string::npos);
+}
+
+TEST(Limits, EverythingThatGrowsEnds) {
+  for (auto const* growth : {"l = [1]\nwhile (true) { l = l + l }", "l = [1]\nwhile (true) { l.addAll(l) }",
+                             "m = [:]\nfor (i in 1..9000000) { m[i] = i }", "l = []\nwhile (true) { l << { l } }",
+                             "l = []\nwhile (true) { l << idle(1) }", "l = []\nwhile (true) { k = []\nk << k }"}) {
+    EXPECT_NE(run_in_little_memory(growth).find("OutOfMemoryError"), std::string::npos) << growth;
+  }
+}
+
+TEST(Limits, WhatIsTakenAwayGivesItsMemoryBack) {
+  for (auto const* use : {"m = [:]\nfor (i in 1..100000) {\nm[i] = i\nm.remove(i)\n}",
+                          "l = []\nfor (i in 1..100000) {\nl << i\nl.pop()\n}",
+                          "l = []\nfor (i in 1..1000) {\nfor (k in 1..100) { l << k }\nl.clear()\n}",
+                          "for (i in 1..100000) {\npost s: i\nconsume s: i\n}"}) {
+    EXPECT_EQ(run_in_little_memory(use).substr(0, 6), "exit 0") << use;
+  }
+}
+
+TEST(Limits, LongTextsAreAnException) {
+  EXPECT_EQ(thrown_by("s = 'ab'\nwhile (true) { s += s }"), "OutOfMemoryError");
+  EXPECT_EQ(thrown_by("s = 'ab'\nwhile (true) { s = \"$s$s$s\" }"), "OutOfMemoryError");
+  std::string const half = "s = 'a'\nfor (i in 1..19) { s += s }\n";
+  EXPECT_EQ(printed(half + "print s.length()"), "524288");
+  EXPECT_EQ(thrown_by(half + "s.replace('a', s)"), "OutOfMemoryError");
+  EXPECT_EQ(thrown_by(half + "(1..1000000).join(s)"), "OutOfMemoryError");
+  EXPECT_EQ(printed(half + "print s.toList().size()"), "524288");
+}
+
+TEST(Limits, SearchingLongTextsIsQuick) {
+  std::string const texts = "s = 'a'\nfor (i in 1..19) { s += s }\nwanted = s.substring(0, 262144) + 'b'\n";
+  EXPECT_EQ(printed(texts + "print s.indexOf(wanted)"), "-1");
+  EXPECT_EQ(printed(texts + "print s.contains(wanted)"), "false");
+  EXPECT_EQ(printed(texts + "print wanted in s"), "false");
+}
+
+TEST(Limits, OperationsOnLongListsEndInTime) {
+  std::string const lists = "a = (1..100000).toList()\nb = (200001..300000).toList()\n";
+  EXPECT_EQ(thrown_by(lists + "a - b"), "OutOfMemoryError");
+  EXPECT_EQ(thrown_by(lists + "a.unique()"), "OutOfMemoryError");
+  EXPECT_EQ(printed("print((1..1000).toList().unique().size())"), "1000");
+  EXPECT_EQ(thrown_by(lists + "a.intersect(b)"), "OutOfMemoryError");
+  EXPECT_EQ(thrown_by(lists + "a.removeAll(b)"), "OutOfMemoryError");
+  EXPECT_EQ(printed("print([1, 2, 3, 2] - 2)\nprint([1, 2, 3] - [3, 1])"), "[1, 3][2]");
+}
+
+TEST(Limits, SignalsThatNobodyConsumesAreAnException) {
+  EXPECT_EQ(thrown_by("for (i in 1..20000) { post s: i }"), "OutOfMemoryError");
+  EXPECT_EQ(thrown_by("for (i in 1..20000) { m = [:]\nm[\"s$i\"] = 1\npost m }"), "OutOfMemoryError");
+}
+
+TEST(Limits, MissionsWithANameCountAsMemory) {
+  auto const text = run_in_little_memory(
+      "for (i in 1..100000) { mission {\nname \"m$i\"\nhome location(41, -8)\ntakeOff location(41, -8)\n} }");
+  EXPECT_NE(text.find("OutOfMemoryError"), std::string::npos) << text;
 }
 
 TEST(Limits, EndlessLoopLeavesTheLoopResponsive) {
@@ -41,6 +116,19 @@ TEST(Limits, EndlessLoopLeavesTheLoopResponsive) {
   EXPECT_EQ(turns, 10);
 }
 
+TEST(Limits, StepsOfTheWholeRunMayBeLimited) {
+  for (auto const* endless :
+       {"while (true) { }", "while (true) { try { while (true) { } } finally { while (true) { } } }",
+        "while (true) { try { while (true) { } } catch (Throwable e) { } }", "execute action { while (true) { } }",
+        "execute condition { (1..1000).each { it }\nfalse }"}) {
+    Bench bench;
+    bench.options.limits.steps = 100'000;
+    auto const text = bench.run(endless);
+    EXPECT_NE(text.find("the script took more than 100000 steps"), std::string::npos) << endless << text;
+    EXPECT_NE(text.find("exit 3"), std::string::npos) << endless << text;
+  }
+}
+
 TEST(Limits, GuardThatNeverReturnsIsAnError) {
   Bench bench;
   bench.options.limits.guard_budget = 10'000;
@@ -59,9 +147,45 @@ TEST(Limits, ManyTasksRunAtOnce) {
             "1000");
 }
 
+TEST(Limits, TasksThatDoubleAreAnException) {
+  EXPECT_EQ(thrown_by("t = idle(1)\nfor (i in 1..40) { t = t | t }"), "IllegalArgumentException");
+  EXPECT_EQ(thrown_by("t = idle(1)\nfor (i in 1..40) { t = (t >> t) / { true } }"), "IllegalArgumentException");
+  EXPECT_EQ(thrown_by("t = idle(1)\nfor (i in 1..2000) { t = t / { true } }"), "IllegalArgumentException");
+  EXPECT_EQ(printed("t = idle(1)\nfor (i in 1..8) { t = (t >> t) | t }\nprint \"$t\".length() < 3000"), "true");
+}
+
 TEST(Limits, ListsThatHoldThemselvesPrintAndEnd) {
   EXPECT_NE(printed("l = []\nl << l\nprint l").find("…"), std::string::npos);
   EXPECT_EQ(printed("l = []\nfor (i in 1..200000) { l = [l] }\nprint 'built'\nl = null"), "built");
+  EXPECT_LT(printed("l = [1]\nfor (i in 1..60) { l = [l, l] }\nprint l").size(), max_printed_size + 1000);
+  EXPECT_LT(printed("m = [:]\nm.me = m\nprint m").size(), 1000U);
+}
+
+TEST(Limits, ListsThatHoldThemselvesCompareAndEnd) {
+  EXPECT_EQ(printed("a = []\na << a\nb = []\nb << b\nprint a == b"), "false");
+  EXPECT_EQ(printed("a = [1]\nb = [1]\nfor (i in 1..60) { a = [a, a]\nb = [b, b] }\nprint a == b"), "false");
+  EXPECT_EQ(printed("l = []\nl << l\nm = [:]\nm[l] = 1\nprint m[l]"), "1");
+  EXPECT_EQ(printed("m = [:]\nm[m] = m\nprint m.size()"), "1");
+}
+
+TEST(Limits, ListsThatHoldThemselvesHaveNoMembers) {
+  EXPECT_EQ(thrown_by("l = []\nl << l\nl.km"), "RuntimeException");
+  EXPECT_EQ(thrown_by("l = [1]\nfor (i in 1..30) { l = [l, l] }\nl.km"), "OutOfMemoryError");
+  EXPECT_EQ(printed("print([1, [2, 3]].km)"), "[1000, [2000, 3000]]");
+}
+
+TEST(Limits, ListsThatHoldThemselvesAreFlattenedAndUsedAsIndexAndEnd) {
+  EXPECT_EQ(thrown_by("l = []\nl << l\nl << l\nl.flatten()"), "OutOfMemoryError");
+  EXPECT_EQ(thrown_by("l = []\nl << l\n'abc'[l]"), "IllegalArgumentException");
+  EXPECT_EQ(thrown_by("r = 0..1000000000\nr[0..999999999]"), "OutOfMemoryError");
+  EXPECT_EQ(printed("s = 'a' * 500000\nprint s[0..499999].length()\nn = 0\nfor (c in s) { n++ }\nprint n"),
+            "500000500000");
+  EXPECT_EQ(thrown_by("s = 'a' * 500000\ns.padLeft(10000000, s)"), "IllegalArgumentException");
+}
+
+TEST(Limits, NumbersTooLargeHaveNoNearestInteger) {
+  EXPECT_EQ(thrown_by("print((1.0e300).round())"), "ArithmeticException");
+  EXPECT_EQ(printed("print((2.5).round())\nprint((7).round())"), "37");
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 
 #include "dolphin/equality.hpp"
 #include "dolphin/internal/methods.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/operators.hpp"
 
 /// Methods of lists, maps and ranges.
 namespace lapwing::dolphin::internal {
 namespace {
 
-constexpr std::int64_t largest_copied_range = 10'000'000;
 constexpr int deepest_flattened = 64;
 
 Checked<Value> membership(Value const& container, Value const& item) {
@@ -21,7 +21,7 @@ Checked<Value> membership(Value const& container, Value const& item) {
   return Value::boolean(*holds);
 }
 
-Value joined(MethodCall const& call, auto const& items) {
+Checked<Value> joined(MethodCall const& call, auto const& items) {
   std::string const between = call.arguments.empty() ? "" : call.text_argument();
   std::string text;
   bool is_first = true;
@@ -29,31 +29,51 @@ Value joined(MethodCall const& call, auto const& items) {
     if (!is_first) text += between;
     is_first = false;
     text += to_text(item);
+    if (text.size() > max_text_size) break;
   }
-  return call.text(std::move(text));
+  return call.long_text(std::move(text));
 }
 
-bool holds(std::vector<Value> const& items, Value const& wanted) {
-  return std::ranges::any_of(items, [&](Value const& item) { return equal(item, wanted); });
-}
-
-std::vector<Value> unique(std::vector<Value> const& items) {
-  std::vector<Value> result;
-  for (auto const& item : items) {
-    if (!holds(result, item)) result.push_back(item);
+/// Looks for items in lists during one operation, until that has become too much.
+class Search {
+ public:
+  bool holds(std::span<Value const> items, Value const& wanted) {
+    if (error_) return false;
+    auto const found = find(items, wanted, compared_);
+    if (!found) error_ = found.error();
+    return found && found->has_value();
   }
-  return result;
-}
+  /// What the operation gives, or the fault that it took too much.
+  [[nodiscard]] Checked<Value> result(Value value) const {
+    if (error_) return std::unexpected(*error_);
+    return value;
+  }
+  [[nodiscard]] bool gave_up() const { return error_.has_value(); }
 
-void flatten(List const& list, int depth, std::vector<Value>& out) {
+ private:
+  std::size_t compared_ = 0;
+  std::optional<Fault> error_;
+};
+
+/// False when there are too many: lists may share parts, and hold themselves.
+bool flatten(List const& list, int depth, std::size_t& looked_at, std::vector<Value>& out) {
   for (auto const& item : list.items) {
+    if (++looked_at > max_spread_values) return false;
     auto const* inner = item.as<List>();
-    if (inner && depth < deepest_flattened) {
-      flatten(*inner, depth + 1, out);
-    } else {
+    if (!inner || depth >= deepest_flattened) {
       out.push_back(item);
+    } else if (!flatten(*inner, depth + 1, looked_at, out)) {
+      return false;
     }
   }
+  return true;
+}
+
+Checked<Value> flattened(MethodCall const& call, List const& list) {
+  std::vector<Value> flat;
+  std::size_t looked_at = 0;
+  if (!flatten(list, 0, looked_at, flat)) return fault("the lists are too long to flatten", "OutOfMemoryError");
+  return call.list(std::move(flat));
 }
 
 /// Lists of `size` items each, the last one what is left.
@@ -118,12 +138,17 @@ MethodResult adding_method(MethodCall const& call, List& list) {
 MethodResult removing_method(MethodCall const& call, List& list) {
   auto& items = list.items;
   if (call.is("unique", 0)) {
-    auto kept = unique(items);
+    Search search;
+    std::vector<Value> kept;
+    for (auto const& item : items) {
+      if (!search.holds(kept, item)) kept.push_back(item);
+      if (search.gave_up()) return search.result({});
+    }
     std::swap(items, kept);
     return Value(&list);
   }
   if (call.is("clear", 0)) {
-    auto const gone = std::exchange(items, {});
+    auto const gone = list.take_all();
     return Value();
   }
   if (call.is("pop", 0) || call.is("removeLast", 0)) {
@@ -136,17 +161,24 @@ MethodResult removing_method(MethodCall const& call, List& list) {
     return removed_at(call, items);
   }
   if (call.is("remove", 1) || call.is("removeElement", 1)) {
-    auto const found = std::ranges::find_if(items, [&](Value const& item) { return equal(item, call.arguments[0]); });
-    bool const is_there = found != items.end();
-    Value const gone = is_there ? *found : Value();  // what it drops may refer to this list
-    if (is_there) items.erase(found);
-    return Value::boolean(is_there);
+    std::size_t compared = 0;
+    auto const found = find(items, call.arguments[0], compared);
+    if (!found) return std::unexpected(found.error());
+    Value const gone = *found ? items[**found] : Value();  // what it drops may refer to this list
+    if (*found) items.erase(items.begin() + static_cast<std::ptrdiff_t>(**found));
+    return Value::boolean(found->has_value());
   }
   bool const removes = call.is("removeAll", 1);
   if ((removes || call.is("retainAll", 1)) && call.arguments[0].is(ValueKind::list)) {
     auto const others = call.arguments[0].as<List>()->items;
     auto const before = items;
-    std::erase_if(items, [&](Value const& item) { return holds(others, item) == removes; });
+    Search search;
+    std::vector<Value> rest;
+    for (auto const& item : before) {
+      if (search.holds(others, item) != removes) rest.push_back(item);
+      if (search.gave_up()) return search.result({});
+    }
+    items = std::move(rest);
     return Value::boolean(items.size() != before.size());
   }
   return std::nullopt;
@@ -191,15 +223,20 @@ MethodResult list_part(MethodCall const& call, std::vector<Value> const& items) 
 MethodResult list_with_list(MethodCall const& call, std::vector<Value> const& items) {
   if (call.arguments.size() != 1 || !call.arguments[0].is(ValueKind::list)) return std::nullopt;
   auto const& others = call.arguments[0].as<List>()->items;
-  auto const in_others = [&](Value const& item) { return holds(others, item); };
+  Search search;
+  auto const in_others = [&](Value const& item) { return search.holds(others, item); };
   if (call.name == "containsAll") {
-    return Value::boolean(std::ranges::all_of(others, [&](Value const& other) { return holds(items, other); }));
+    bool const all = std::ranges::all_of(others, [&](Value const& other) { return search.holds(items, other); });
+    return search.result(Value::boolean(all));
   }
-  if (call.name == "disjoint") return Value::boolean(std::ranges::none_of(items, in_others));
+  if (call.name == "disjoint") {
+    bool const none = std::ranges::none_of(items, in_others);
+    return search.result(Value::boolean(none));
+  }
   if (call.name == "intersect") {
     std::vector<Value> both;
     std::ranges::copy_if(items, std::back_inserter(both), in_others);
-    return call.list(std::move(both));
+    return search.result(call.list(std::move(both)));
   }
   return std::nullopt;
 }
@@ -218,13 +255,18 @@ MethodResult list_element(MethodCall const& call, List& list) {
     }
     return element(call.heap, Value(&list), call.arguments[0], {});
   }
-  bool const from_end = call.is("lastIndexOf", 1);
-  if (call.is("indexOf", 1) || from_end) {
-    std::int64_t found = -1;
-    for (std::size_t i = 0; i < items.size() && (from_end || found < 0); ++i) {
-      if (equal(items[i], call.arguments[0])) found = static_cast<std::int64_t>(i);
-    }
-    return Value::integer(found);
+  if (call.is("indexOf", 1)) {
+    std::size_t compared = 0;
+    auto const at = find(items, call.arguments[0], compared);
+    if (!at) return std::unexpected(at.error());
+    return Value::integer(*at ? static_cast<std::int64_t>(**at) : -1);
+  }
+  if (call.is("lastIndexOf", 1)) {
+    std::size_t compared = 0;
+    std::vector<Value> const reversed(items.rbegin(), items.rend());
+    auto const at = find(reversed, call.arguments[0], compared);
+    if (!at) return std::unexpected(at.error());
+    return Value::integer(*at ? static_cast<std::int64_t>(items.size() - 1 - **at) : -1);
   }
   return std::nullopt;
 }
@@ -245,11 +287,7 @@ MethodResult list_method(MethodCall const& call, List& list) {
   if (call.name == "join" && call.arguments.size() <= 1) return joined(call, items);
   if (call.is("reverse", 0)) return call.list({items.rbegin(), items.rend()});
   if (call.is("toList", 0)) return call.list(items);
-  if (call.is("flatten", 0)) {
-    std::vector<Value> flat;
-    flatten(list, 0, flat);
-    return call.list(std::move(flat));
-  }
+  if (call.is("flatten", 0)) return flattened(call, list);
   if (call.is("emptyLike", 0)) return call.list({});
   if (auto result = list_element(call, list)) return result;
   if (auto result = list_part(call, items)) return result;
@@ -312,7 +350,7 @@ MethodResult range_method(MethodCall const& call, Range& range) {
   if (call.is("contains", 1)) return membership(Value(&range), call.arguments[0]);
   if (call.is("emptyLike", 0)) return call.list({});
   if (std::ranges::find(unchanging, call.name) == std::end(unchanging)) return std::nullopt;
-  if (range.size > largest_copied_range) return fault("the range is too long to be made a list", "OutOfMemoryError");
+  if (range.size > max_copied_range) return fault("the range is too long to be made a list", "OutOfMemoryError");
   std::vector<Value> items;
   items.reserve(static_cast<std::size_t>(range.size));
   for (std::int64_t i = 0; i < range.size; ++i) items.push_back(Value::integer(range.at(i)));

@@ -12,6 +12,7 @@
 #include "dolphin/equality.hpp"
 #include "dolphin/fiber.hpp"
 #include "dolphin/internal/methods.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/operators.hpp"
 #include "dolphin/runtime.hpp"
 #include "dolphin/text.hpp"
@@ -100,16 +101,30 @@ Checked<Value> type_member(Heap& heap, TypeName const& type, Value const& object
   return fault(fmt::format("{} has no constant {}", type.name, name), "MissingPropertyException");
 }
 
-Checked<Value> spread_member(Runtime& runtime, List const& list, std::string_view name) {
-  auto result = runtime.heap.make<List>();
-  auto const items = list.items;
-  for (auto const& item : items) {
-    auto value = member(runtime, item, name);
-    if (!value) return value;
-    result->push(std::move(*value));
+/// `list.name` is the list of that member of all; lists may nest, and may hold themselves.
+class Spread {
+ public:
+  Spread(Runtime& runtime, std::string_view name) : runtime_(runtime), name_(name) {}
+
+  Checked<Value> of(List const& list, int depth = 0) {
+    if (depth > max_printed_depth) return fault(fmt::format("lists are nested too deep to read {}", name_));
+    auto result = runtime_.heap.make<List>();
+    for (auto const& item : list.items) {
+      if (++looked_at_ > max_spread_values)
+        return fault(fmt::format("the lists are too long to read {}", name_), "OutOfMemoryError");
+      auto const* inner = item.as<List>();
+      auto value = inner ? of(*inner, depth + 1) : member(runtime_, item, name_);
+      if (!value) return value;
+      result->push(std::move(*value));
+    }
+    return Value(result);
   }
-  return Value(result);
-}
+
+ private:
+  Runtime& runtime_;
+  std::string_view name_;
+  std::size_t looked_at_ = 0;
+};
 
 std::string_view type_name(Value const& value) {
   switch (value.kind()) {
@@ -186,7 +201,7 @@ Checked<Value> member(Runtime& runtime, Value const& object, std::string_view na
       if (name == "key") return object.as<Entry>()->key;
       if (name == "value") return object.as<Entry>()->value;
       return no_member(object, name);
-    case ValueKind::list: return spread_member(runtime, *object.as<List>(), name);
+    case ValueKind::list: return Spread(runtime, name).of(*object.as<List>());
     case ValueKind::range:
       if (name == "from") return Value::integer(object.as<Range>()->first);
       if (name == "to") return Value::integer(object.as<Range>()->last);
@@ -194,7 +209,7 @@ Checked<Value> member(Runtime& runtime, Value const& object, std::string_view na
     case ValueKind::vehicles: {
       auto members = heap.make<List>();
       for (auto const& id : object.as<Vehicles>()->ids) members->push(heap.make<Vehicle>(id));
-      return spread_member(runtime, *members, name);
+      return Spread(runtime, name).of(*members);
     }
     case ValueKind::vehicle: return vehicle_member(runtime, object.as<Vehicle>()->value, object, name);
     case ValueKind::position: return position_member(heap, object.as<Position>()->value, object, name);
@@ -238,7 +253,7 @@ Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name
   if (type == "String" && method == "format" && !arguments.empty()) {
     auto text = internal::formatted(to_text(arguments.front()), arguments.subspan(1));
     if (!text) return std::unexpected(text.error());
-    return Value(runtime.heap.make<Text>(std::move(*text)));
+    return make_text(runtime.heap, std::move(*text));
   }
   if (type == "Math") {
     auto const index = find_native(method);

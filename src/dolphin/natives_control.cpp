@@ -90,7 +90,9 @@ std::string as_log_text(Signals::Wanted const& pairs) {
 Checked<Value> post(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const pairs = wanted(arguments[0], "post");
   if (!pairs) return std::unexpected(pairs.error());
-  for (auto const& [name, value] : *pairs) runtime.signals.post(name, value);
+  for (auto const& [name, value] : *pairs) {
+    if (auto const posted = runtime.signals.post(name, value); !posted) return std::unexpected(posted.error());
+  }
   runtime.log.info(fmt::format("Posting '{}'", as_log_text(*pairs)));
   return Value();
 }

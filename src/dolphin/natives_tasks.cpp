@@ -41,7 +41,8 @@ std::string no_plan(Runtime const& runtime, std::string const& name, base::Error
 Checked<Value> named_task(Runtime& runtime, Fiber& fiber, Arguments arguments) {
   auto const name = to_text(arguments[0]);
   if (auto const own = runtime.plans.find(name); own != runtime.plans.end()) {
-    return task_value(runtime.heap, tasks::performed(own->second, origin(fiber)));
+    auto const& plan = std::get<tasks::Performed>(own->second->value->kind);
+    return task_value(runtime.heap, tasks::performed(plan.task, origin(fiber)));
   }
   auto task = runtime.platform.named_task(name);
   if (!task) return fault(no_plan(runtime, name, task.error()), "IllegalArgumentException");

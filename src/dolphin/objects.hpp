@@ -30,10 +30,16 @@ struct List final : Object {
     charge(items.capacity() * sizeof(Value));
   }
   void push(Value value) {
-    charge(sizeof(Value));
     items.push_back(std::move(value));
+    charge(items.capacity() * sizeof(Value));
   }
-  void drop_references() override { items.clear(); }
+  /// Empties the list. Values may refer to it: let them go after.
+  [[nodiscard]] std::vector<Value> take_all() {
+    auto taken = std::exchange(items, {});
+    charge(0);
+    return taken;
+  }
+  void drop_references() override { auto const gone = take_all(); }
   std::vector<Value> items;
 };
 
@@ -126,7 +132,12 @@ using Vehicle = Boxed<vehicle::VehicleId, ValueKind::vehicle>;
 using Position = Boxed<geo::Wgs84, ValueKind::position>;
 using Displacement = Boxed<geo::Ned, ValueKind::displacement>;
 using Area = Boxed<geo::Disc, ValueKind::area>;
-using TaskValue = Boxed<tasks::TaskTree, ValueKind::task>;
+
+struct TaskValue final : Object {
+  static constexpr ValueKind its_kind = ValueKind::task;
+  TaskValue(Heap& heap, tasks::TaskTree tree) : Object(heap, its_kind), value(std::move(tree)) { charge(value->bytes); }
+  tasks::TaskTree const value;
+};
 
 /// What `throw` throws and `catch` catches.
 struct ErrorData {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dolphin/equality.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 #include "dolphin/text.hpp"
 
@@ -144,15 +145,25 @@ Ref<Vehicles> as_set(Heap& heap, Value const& value) {
 }
 
 Checked<Value> repeated_list(Heap& heap, List const& list, std::int64_t times) {
-  constexpr std::int64_t most = 10'000'000;
   auto const size = static_cast<std::int64_t>(list.items.size());
   if (times < 0) return fault(fmt::format("a list cannot be repeated {} times", times), "IllegalArgumentException");
-  if (size > 0 && times > most / size) return fault("the list is too long", "OutOfMemoryError");
+  if (size > 0 && times > max_copied_range / size) return fault("the list is too long", "OutOfMemoryError");
   std::vector<Value> items;
   for (std::int64_t i = 0; i < times && size > 0; ++i) {
     items.insert(items.end(), list.items.begin(), list.items.end());
   }
   return Value(heap.make<List>(std::move(items)));
+}
+
+Checked<Value> list_difference(Heap& heap, List const& list, std::span<Value const> taken) {
+  std::vector<Value> rest;
+  std::size_t compared = 0;
+  for (auto const& item : list.items) {
+    auto const found = find(taken, item, compared);
+    if (!found) return std::unexpected(found.error());
+    if (!*found) rest.push_back(item);
+  }
+  return Value(heap.make<List>(std::move(rest)));
 }
 
 Checked<Value> list_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
@@ -163,35 +174,27 @@ Checked<Value> list_operation(Heap& heap, BinaryOp op, Value const& left, Value 
     list->push(right);
     return left;
   }
+  std::span<Value const> const operand = other ? std::span<Value const>(other->items) : std::span(&right, 1);
+  if (op == BinaryOp::subtract) return list_difference(heap, *list, operand);
+  if (op != BinaryOp::add) return no_such_operation(op, left, right);
   auto items = list->items;
-  if (op == BinaryOp::add) {
-    if (other) items.insert(items.end(), other->items.begin(), other->items.end());
-    if (!other) items.push_back(right);
-  } else if (op == BinaryOp::subtract) {
-    std::erase_if(items, [&](Value const& item) {
-      if (!other) return equal(item, right);
-      return std::ranges::any_of(other->items, [&](Value const& taken) { return equal(item, taken); });
-    });
-  } else {
-    return no_such_operation(op, left, right);
-  }
+  items.insert(items.end(), operand.begin(), operand.end());
   return Value(heap.make<List>(std::move(items)));
 }
 
 /// 'ab' * 2, 'abc' - 'c'.
 Checked<Value> text_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
-  constexpr std::size_t longest = std::size_t{16} << 20U;
   auto const& text = left.as<Text>()->text;
   if (op == BinaryOp::subtract) {
     auto const part = to_text(right);
-    auto const at = text.find(part);
+    auto const at = find_text(text, part);
     if (at == std::string::npos) return left;
     return Value(heap.make<Text>(text.substr(0, at) + text.substr(at + part.size())));
   }
   if (op != BinaryOp::multiply || !right.is(ValueKind::integer)) return no_such_operation(op, left, right);
   auto const times = right.integer();
   if (times < 0) return fault(fmt::format("a text cannot be repeated {} times", times), "IllegalArgumentException");
-  if (!text.empty() && static_cast<std::size_t>(times) > longest / text.size()) {
+  if (!text.empty() && static_cast<std::size_t>(times) > max_text_size / text.size()) {
     return fault("the text is too long", "OutOfMemoryError");
   }
   std::string repeated;
@@ -201,8 +204,7 @@ Checked<Value> text_operation(Heap& heap, BinaryOp op, Value const& left, Value 
 
 /// A range as the list of its numbers, for operators; null when it is too long.
 Ref<List> as_list(Heap& heap, Range const& range) {
-  constexpr std::int64_t longest = 10'000'000;
-  if (range.size > longest) return {};
+  if (range.size > max_copied_range) return {};
   std::vector<Value> items;
   for (std::int64_t i = 0; i < range.size; ++i) items.push_back(Value::integer(range.at(i)));
   return heap.make<List>(std::move(items));
@@ -236,6 +238,9 @@ Checked<Value> task_value(Heap& heap, tasks::TaskTree tree) {
     return fault(fmt::format("the task is nested more than {} deep", tasks::max_task_depth),
                  "IllegalArgumentException");
   }
+  if (tree->size > tasks::max_task_size) {
+    return fault(fmt::format("the task has more than {} parts", tasks::max_task_size), "IllegalArgumentException");
+  }
   return Value(heap.make<TaskValue>(std::move(tree)));
 }
 
@@ -244,7 +249,7 @@ Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& ri
     return integer_operation(op, left.integer(), right.integer());
   if (left.is_number() && right.is_number()) return real_operation(op, left, right);
   if (op == BinaryOp::add && (left.is(ValueKind::text) || right.is(ValueKind::text))) {
-    return Value(heap.make<Text>(to_text(left) + to_text(right)));
+    return make_text(heap, to_text(left) + to_text(right));
   }
   auto const* task = left.as<TaskValue>();
   if (auto const* other = right.as<TaskValue>(); task && other) {

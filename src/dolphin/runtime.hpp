@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "base/loop.hpp"
 #include "dolphin/bytecode.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 #include "dolphin/output.hpp"
 #include "dolphin/signals.hpp"
@@ -22,14 +23,6 @@
 namespace lapwing::dolphin {
 
 class Fiber;
-
-/// What a script may use up. Beyond it there is an exception in the script, never a crash or a hanging program.
-struct Limits {
-  std::size_t heap_bytes = std::size_t{256} << 20U;
-  std::size_t call_depth = 10'000;
-  int slice = 20'000;            ///< instructions between two turns of the loop
-  int guard_budget = 2'000'000;  ///< instructions one test of a guard may take
-};
 
 /// Everything that the fibers of one program run share.
 struct Runtime {
@@ -45,12 +38,13 @@ struct Runtime {
   std::function<void(tasks::TaskView)> on_executed = {};
 
   Heap heap = {};
+  std::uint64_t steps = 0;  ///< instructions carried out
   std::vector<Value> globals = {};
   std::vector<bool> is_defined = {};  ///< of each global: has it got a value yet
   Signals signals = {};
   std::vector<tasks::VehicleId> picked = {};
   base::Duration connection_timeout = std::chrono::seconds(20);
-  std::map<std::string, std::shared_ptr<tasks::PlatformTask const>> plans = {};  ///< those of the script with a name
+  std::map<std::string, Ref<TaskValue>> plans = {};  ///< those of the script with a name, each one `Performed`
   std::set<tasks::VehicleId> batteries_warned_of = {};
   std::set<tasks::VehicleId> batteries_waited_for = {};
   tasks::Execution* execution = nullptr;  ///< the one that is on its way

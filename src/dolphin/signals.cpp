@@ -1,13 +1,22 @@
 #include "dolphin/signals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dolphin/equality.hpp"
+#include "dolphin/limits.hpp"
 
 namespace lapwing::dolphin {
 
-void Signals::post(std::string const& name, Value const& value) {
-  if (!contains(name, value)) posted_[name].push_back(value);
+Checked<void> Signals::post(std::string const& name, Value const& value) {
+  if (contains(name, value)) return {};
+  if (count_ >= max_signals) {
+    return fault(fmt::format("more than {} signals wait to be consumed", max_signals), "OutOfMemoryError");
+  }
+  posted_[name].push_back(value);
+  ++count_;
+  return {};
 }
 
 bool Signals::contains(std::string const& name, Value const& value) const {
@@ -19,7 +28,9 @@ bool Signals::contains(std::string const& name, Value const& value) const {
 bool Signals::consume(Wanted const& wanted) {
   if (!std::ranges::all_of(wanted, [&](auto const& pair) { return contains(pair.first, pair.second); })) return false;
   for (auto const& [name, value] : wanted) {
-    std::erase_if(posted_[name], [&](Value const& held) { return equal(held, value); });
+    auto& held = posted_[name];
+    count_ -= std::erase_if(held, [&](Value const& one) { return equal(one, value); });
+    if (held.empty()) posted_.erase(name);
   }
   return true;
 }

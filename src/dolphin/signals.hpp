@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dolphin/fault.hpp"
 #include "dolphin/value.hpp"
 
 namespace lapwing::dolphin {
@@ -14,7 +15,8 @@ class Signals {
   using Wanted = std::vector<std::pair<std::string, Value>>;
 
   /// Posting a value that is there already changes nothing. Numbers are the same by value (REC-48).
-  void post(std::string const& name, Value const& value);
+  /// A fault when too many wait to be consumed.
+  Checked<void> post(std::string const& name, Value const& value);
   /// Removes all pairs and returns true if every one is there; else changes nothing.
   bool consume(Wanted const& wanted);
   [[nodiscard]] bool contains(std::string const& name, Value const& value) const;
@@ -23,6 +25,7 @@ class Signals {
 
  private:
   std::map<std::string, std::vector<Value>> posted_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace lapwing::dolphin

@@ -5,14 +5,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 
+#include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 
 namespace lapwing::dolphin {
 namespace {
-
-constexpr int max_depth = 32;
-constexpr std::size_t max_length = 1 << 20;
 
 /// Significant digits and decimal exponent of "d.ddde+xx".
 struct Decimal {
@@ -60,7 +59,7 @@ std::string position_text(geo::Wgs84 const& p) {
 class Printer {
  public:
   void print(Value const& value, int depth) {
-    if (depth > max_depth || out_.size() > max_length) {
+    if (depth > max_printed_depth || out_.size() > max_printed_size) {
       out_ += "…";
       return;
     }
@@ -85,7 +84,7 @@ class Printer {
  private:
   void print_list(List const& list, int depth) {
     out_ += "[";
-    for (std::size_t i = 0; i < list.items.size() && out_.size() <= max_length; ++i) {
+    for (std::size_t i = 0; i < list.items.size() && out_.size() <= max_printed_size; ++i) {
       if (i > 0) out_ += ", ";
       print(list.items[i], depth + 1);
     }
@@ -99,7 +98,7 @@ class Printer {
     out_ += "[";
     bool first = true;
     for (auto const& [key, value] : map.items()) {
-      if (out_.size() > max_length) break;
+      if (out_.size() > max_printed_size) break;
       if (!first) out_ += ", ";
       first = false;
       print(key, depth + 1);
@@ -162,6 +161,20 @@ std::string to_text(Value const& value) {
   Printer printer;
   printer.print(value, 0);
   return printer.take();
+}
+
+Checked<Value> make_text(Heap& heap, std::string text) {
+  if (text.size() > max_text_size) {
+    return fault(fmt::format("a text cannot be longer than {} KiB", max_text_size >> 10U), "OutOfMemoryError");
+  }
+  return Value(heap.make<Text>(std::move(text)));
+}
+
+std::size_t find_text(std::string_view text, std::string_view wanted, std::size_t from) {
+  if (from > text.size()) return std::string_view::npos;
+  // memmem is linear, which std::string::find and std::search are not: 'aaa...' in 'aaa...' would take minutes.
+  auto const* const found = ::memmem(text.data() + from, text.size() - from, wanted.data(), wanted.size());
+  return found ? static_cast<std::size_t>(static_cast<char const*>(found) - text.data()) : std::string_view::npos;
 }
 
 std::string_view kind_name(ValueKind kind) {

@@ -6,6 +6,7 @@
 
 #include "dolphin/internal/code_points.hpp"
 #include "dolphin/internal/methods.hpp"
+#include "dolphin/limits.hpp"
 
 /// Methods of texts. Lengths and positions count code points.
 namespace lapwing::dolphin::internal {
@@ -23,9 +24,9 @@ std::string replaced(std::string_view text, std::string const& old, std::string 
   if (old.empty()) return std::string(text);
   std::string result;
   for (std::size_t at = 0;;) {
-    auto const next = text.find(old, at);
+    auto const next = find_text(text, old, at);
     result += text.substr(at, next - at);
-    if (next == std::string_view::npos) return result;
+    if (next == std::string_view::npos || result.size() > max_text_size) return result;
     result += fresh;
     at = next + old.size();
   }
@@ -35,7 +36,7 @@ std::string replaced(std::string_view text, std::string const& old, std::string 
 Value split(MethodCall const& call, std::string_view text, std::string_view by) {
   std::vector<Value> parts;
   for (std::size_t at = 0;;) {
-    auto const next = by.empty() ? std::string_view::npos : text.find(by, at);
+    auto const next = by.empty() ? std::string_view::npos : find_text(text, by, at);
     parts.push_back(call.text(std::string(text.substr(at, next == std::string_view::npos ? next : next - at))));
     if (next == std::string_view::npos) break;
     at = next + by.size();
@@ -97,13 +98,19 @@ Checked<Value> padded(MethodCall const& call, std::string const& text, bool at_l
                  "IllegalArgumentException");
   }
   std::string pad;
-  for (auto missing = *width - size; missing > 0; --missing) pad += filling;
-  return call.text(at_left ? pad + text : text + pad);
+  for (auto missing = *width - size; missing > 0 && pad.size() <= max_text_size; --missing) pad += filling;
+  return call.long_text(at_left ? pad + text : text + pad);
+}
+
+/// Linear as `find_text` is, by looking for the reverse in the reverse.
+std::size_t find_last_text(std::string const& text, std::string const& part) {
+  auto const at = find_text(std::string(text.rbegin(), text.rend()), std::string(part.rbegin(), part.rend()));
+  return at == std::string::npos ? at : text.size() - part.size() - at;
 }
 
 /// The code point at which `part` begins; -1 when it is not there.
 Value position_of(std::string const& text, std::string const& part, bool from_end) {
-  auto const at = from_end ? text.rfind(part) : text.find(part);
+  auto const at = from_end ? find_last_text(text, part) : find_text(text, part);
   if (at == std::string::npos) return Value::integer(-1);
   return Value::integer(static_cast<std::int64_t>(count_code_points(std::string_view(text).substr(0, at))));
 }
@@ -111,7 +118,7 @@ Value position_of(std::string const& text, std::string const& part, bool from_en
 std::int64_t occurrences(std::string const& text, std::string const& part) {
   std::int64_t count = 0;
   if (part.empty()) return count;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
+  for (auto at = find_text(text, part); at != std::string::npos; at = find_text(text, part, at + part.size())) ++count;
   return count;
 }
 
@@ -142,7 +149,7 @@ MethodResult question(MethodCall const& call, std::string const& text) {
     return Value::integer(static_cast<std::int64_t>(count_code_points(text)));
   }
   if (call.is("isEmpty", 0)) return Value::boolean(text.empty());
-  if (call.is("contains", 1)) return Value::boolean(text.find(call.text_argument()) != std::string::npos);
+  if (call.is("contains", 1)) return Value::boolean(find_text(text, call.text_argument()) != std::string::npos);
   if (call.is("startsWith", 1)) return Value::boolean(text.starts_with(call.text_argument()));
   if (call.is("endsWith", 1)) return Value::boolean(text.ends_with(call.text_argument()));
   if (call.is("indexOf", 1)) return position_of(text, call.text_argument(), false);
@@ -162,8 +169,8 @@ MethodResult changed_text(MethodCall const& call, std::string const& text) {
     return call.text(in_capitals(first) + text.substr(first.size()));
   }
   if (call.is("trim", 0)) return call.text(std::string(trimmed(text)));
-  if (call.is("replace", 2)) return call.text(replaced(text, call.text_argument(0), call.text_argument(1)));
-  if (call.is("concat", 1)) return call.text(text + call.text_argument());
+  if (call.is("replace", 2)) return call.long_text(replaced(text, call.text_argument(0), call.text_argument(1)));
+  if (call.is("concat", 1)) return call.long_text(text + call.text_argument());
   if (call.is("substring", 1) || call.is("substring", 2)) return substring(call, text);
   if (call.is("take", 1) || call.is("drop", 1)) return part(call, text, call.name == "take");
   if (call.is("padLeft", 1) || call.is("padLeft", 2)) return padded(call, text, true);
@@ -176,7 +183,7 @@ MethodResult changed_text(MethodCall const& call, std::string const& text) {
   if (call.name == "format") {
     auto out = formatted(text, call.arguments);
     if (!out) return std::unexpected(out.error());
-    return call.text(std::move(*out));
+    return call.long_text(std::move(*out));
   }
   return std::nullopt;
 }

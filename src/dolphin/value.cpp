@@ -5,12 +5,13 @@ namespace lapwing::dolphin {
 Object::Object(Heap& heap, ValueKind kind) : heap_(&heap), next_(heap.first_), kind_(kind) {
   if (next_) next_->previous_ = this;
   heap.first_ = this;
-  charge(64);  // roughly what the smallest object takes, the allocator's share included
+  charge(0);
 }
 
 void Object::charge(std::size_t bytes) {
-  charged_ += bytes;
-  if (heap_) heap_->bytes_ += bytes;
+  std::size_t constexpr smallest_object = 64;  // roughly, the allocator's share included
+  if (heap_) heap_->bytes_ += smallest_object + bytes - charged_;
+  charged_ = smallest_object + bytes;
 }
 
 void Object::bury() {

@@ -52,7 +52,7 @@ class Object {
   virtual void drop_references() {}
 
  protected:
-  /// Adds to the heap's estimate of memory in use; given back when the object dies.
+  /// Tells the heap's estimate of memory in use what the object holds now; given back when it dies.
   void charge(std::size_t bytes);
 
  private:

@@ -162,6 +162,9 @@ Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const
   if (tree->depth > max_task_depth) {
     return fail(ErrorKind::invalid_input, fmt::format("the task is nested deeper than {} levels", max_task_depth));
   }
+  if (tree->size > max_task_size) {
+    return fail(ErrorKind::invalid_input, fmt::format("the task has more than {} parts", max_task_size));
+  }
   Allocator allocator(available);
   Takers takers(available.size(), nobody);
   if (auto served = allocator.serve(tree, 0, takers); !served) return std::unexpected(served.error());

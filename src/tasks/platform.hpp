@@ -108,6 +108,8 @@ class PlatformTask {
   [[nodiscard]] virtual std::string kind() const { return "task"; }
   /// Why the vehicle cannot do it ("no payload Camera"), or nothing.
   [[nodiscard]] virtual std::optional<std::string> unsuited(VehicleInfo const& vehicle) const = 0;
+  /// Roughly, for the limit on what a script may hold.
+  [[nodiscard]] virtual std::size_t bytes() const { return 256; }
   /// Where it begins, so that allocation can prefer the nearest vehicle; nothing: the first suitable one.
   [[nodiscard]] virtual std::optional<geo::Wgs84> reference_position() const = 0;
 };

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace lapwing::tasks {
 namespace {
@@ -14,32 +13,59 @@ struct Overloaded : Fs... {
   using Fs::operator()...;
 };
 
+constexpr std::size_t large_bytes = 16'384;
+
+/// Sums stay countable: a task of thirty doublings has more parts than an int can say.
+int sum(int a, int b) {
+  return std::min(a, too_large - b) + b;
+}
+
 void count_child(TaskNode& node, TaskTree const& child) {
   node.depth = std::max(node.depth, child->depth + 1);
-  node.performed += child->performed;
+  node.size = sum(node.size, child->size);
+  node.performed = sum(node.performed, child->performed);
+  node.bytes += child->bytes > large_bytes ? 0 : child->bytes;
   node.is_restricted = node.is_restricted || child->is_restricted;
+}
+
+/// A survey of a thousand legs that is flown a thousand times is there once.
+void count_large(TaskNode& node, std::vector<TaskTree> const& parts) {
+  std::vector<TaskNode const*> large;
+  for (auto const& part : parts) {
+    if (part->bytes > large_bytes) large.push_back(part.get());
+  }
+  std::ranges::sort(large);
+  auto const repeated = std::ranges::unique(large);
+  large.erase(repeated.begin(), repeated.end());
+  for (auto const* part : large) node.bytes += part->bytes;
 }
 
 void count_children(TaskNode& node) {
   auto const each = [&](std::vector<TaskTree> const& parts) {
     for (auto const& part : parts) count_child(node, part);
+    count_large(node, parts);
   };
   auto const branches = [&](std::vector<Branch> const& all) {
-    for (auto const& branch : all) count_child(node, branch.then);
+    std::vector<TaskTree> parts;
+    for (auto const& branch : all) parts.push_back(branch.then);
+    each(parts);
   };
   std::visit(Overloaded{
                  [&](Sequence const& kind) { each(kind.parts); },
                  [&](Concurrent const& kind) { each(kind.parts); },
                  [&](Choice const& kind) { branches(kind.branches); },
                  [&](AllOf const& kind) { branches(kind.branches); },
-                 [&](Until const& kind) { count_child(node, kind.body); },
-                 [&](During const& kind) { count_child(node, kind.body); },
-                 [&](Watch const& kind) { count_child(node, kind.body); },
+                 [&](Until const& kind) { each({kind.body}); },
+                 [&](During const& kind) { each({kind.body}); },
+                 [&](Watch const& kind) { each({kind.body}); },
                  [&](Restricted const& kind) {
-                   count_child(node, kind.body);
+                   each({kind.body});
                    node.is_restricted = true;
                  },
-                 [&](Performed const&) { node.performed = 1; },
+                 [&](Performed const& kind) {
+                   node.performed = 1;
+                   node.bytes += kind.task->bytes();
+                 },
                  [](Action const&) {},
                  [](Condition const&) {},
                  [](Idle const&) {},
@@ -48,7 +74,8 @@ void count_children(TaskNode& node) {
 }
 
 TaskTree make(TaskKind kind, Origin origin) {
-  TaskNode node{.kind = std::move(kind), .origin = std::move(origin)};
+  std::size_t constexpr bytes_of_node = 256;  // guards and procedures included
+  TaskNode node{.kind = std::move(kind), .origin = std::move(origin), .bytes = bytes_of_node};
   count_children(node);
   return std::make_shared<TaskNode const>(std::move(node));
 }
@@ -73,9 +100,14 @@ TaskTree join(TaskTree left, TaskTree right, Origin origin) {
 }
 
 std::string joined_names(std::vector<TaskTree> const& parts, std::string_view separator) {
-  std::vector<std::string> names;
-  for (auto const& part : parts) names.push_back(name(part));
-  return fmt::format("{}", fmt::join(names, separator));
+  std::size_t constexpr enough = 1000;
+  std::string names;
+  for (auto const& part : parts) {
+    if (!names.empty()) names += separator;
+    if (names.size() > enough) return names + "…";
+    names += name(part);
+  }
+  return names;
 }
 
 }  // namespace

@@ -90,12 +90,17 @@ struct TaskNode {
   TaskKind kind;
   Origin origin;
   int depth = 1;               ///< nodes on the longest way down
-  int performed = 0;           ///< occurrences of platform tasks in it
+  int size = 1;                ///< occurrences of tasks in it, itself included; `too_large` when there are more
+  int performed = 0;           ///< those of platform tasks
+  std::size_t bytes = 0;       ///< memory that it keeps, roughly
   bool is_restricted = false;  ///< it or something in it is bound to a vehicle set
 };
 
-/// Trees deeper than this are refused by `allocate`; the language should refuse to build them.
+/// Trees deeper or larger than this are refused by `allocate`; the language refuses to build them. A tree that shares
+/// its parts grows by doubling, so its size says what an execution would take, not its memory.
 inline constexpr int max_task_depth = 1000;
+inline constexpr int max_task_size = 20'000;
+inline constexpr int too_large = 1'000'000'000;
 
 // The only ways to make a tree. Sequences of sequences and concurrents of concurrents become flat ones: the operators
 // are associative.
@@ -115,7 +120,7 @@ inline constexpr int max_task_depth = 1000;
 [[nodiscard]] TaskTree performed(std::shared_ptr<PlatformTask const> task, Origin origin = {});
 
 /// How a task prints: `survey >> home`, `<choice>`, `idle(0.500000)`. Guards and restrictions print as their inner
-/// task.
+/// task. Long sequences are cut with "…".
 [[nodiscard]] std::string name(TaskTree const& task);
 
 }  // namespace lapwing::tasks

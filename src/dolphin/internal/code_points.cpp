@@ -39,11 +39,15 @@ std::size_t count_code_points(std::string_view text) {
   return is_ascii ? text.size() : code_points(text).size();
 }
 
+std::size_t first_code_point_size(std::string_view text) {
+  return std::max<std::size_t>(decode_utf8(text).size, 1);
+}
+
 std::vector<std::string_view> code_points(std::string_view text) {
   std::vector<std::string_view> pieces;
   pieces.reserve(text.size());
   while (!text.empty()) {
-    auto const size = std::max<std::size_t>(decode_utf8(text).size, 1);
+    auto const size = first_code_point_size(text);
     pieces.push_back(text.substr(0, size));
     text.remove_prefix(size);
   }

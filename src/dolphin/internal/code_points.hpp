@@ -8,6 +8,8 @@
 namespace lapwing::dolphin {
 
 [[nodiscard]] std::size_t count_code_points(std::string_view text);
+/// Bytes of the first one, at least 1. Precondition: the text is not empty.
+[[nodiscard]] std::size_t first_code_point_size(std::string_view text);
 /// The pieces of `text`, one a code point. A byte that is no UTF-8 (it may come from `ask`) is a piece of its own.
 [[nodiscard]] std::vector<std::string_view> code_points(std::string_view text);
 

@@ -4,6 +4,7 @@
 
 #include "dolphin/internal/code_points.hpp"
 #include "dolphin/internal/methods.hpp"
+#include "dolphin/limits.hpp"
 
 namespace lapwing::dolphin::internal {
 namespace {
@@ -99,7 +100,7 @@ Checked<std::string> field_text(Field const& field, Value const& value) {
 Checked<std::string> formatted(std::string_view pattern, Native::Arguments arguments) {
   std::string out;
   std::size_t next = 0;
-  while (!pattern.empty()) {
+  while (!pattern.empty() && out.size() <= max_text_size) {
     auto const sign = std::min(pattern.find('%'), pattern.size());
     out += pattern.substr(0, sign);
     if (sign == pattern.size()) break;

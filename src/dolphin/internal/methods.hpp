@@ -24,6 +24,8 @@ struct MethodCall {
     return name == wanted && arguments.size() == count;
   }
   [[nodiscard]] Value text(std::string value) const { return Value(heap.make<Text>(std::move(value))); }
+  /// A text that may have become too long.
+  [[nodiscard]] Checked<Value> long_text(std::string value) const { return make_text(heap, std::move(value)); }
   [[nodiscard]] std::string text_argument(std::size_t index = 0) const { return to_text(arguments[index]); }
   /// The argument as an integer; a fault that names the method when it is none.
   [[nodiscard]] Checked<std::int64_t> integer_argument(std::size_t index = 0) const;
