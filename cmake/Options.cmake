@@ -28,10 +28,17 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Its optimiser also sees overlapping and overlong copies in std::string operations that are none (GCC bug 105651).
   target_compile_options(lapwing_options INTERFACE
     -Wno-maybe-uninitialized -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  # libstdc++ 12's own stable_sort calls what C++23 deprecates.
+  target_compile_options(lapwing_options INTERFACE -Wno-deprecated-declarations)
 endif()
 if(LAPWING_SANITIZE)
   add_compile_options(-fsanitize=${LAPWING_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${LAPWING_SANITIZE})
+endif()
+if(LAPWING_FUZZ)
+  # Every room tells the fuzzer where it has been; the targets alone bring the fuzzer's main().
+  add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
 find_package(Threads REQUIRED)

@@ -30,7 +30,7 @@ class Notifier {
       waiter_.join(list_);
       if (deadline_ != TimePoint::max()) waiter_.arm(deadline_);
     }
-    [[nodiscard]] bool await_resume() const noexcept { return !waiter_.timed_out(); }
+    bool await_resume() const noexcept { return !waiter_.timed_out(); }
 
    private:
     Waiter waiter_;

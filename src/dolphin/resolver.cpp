@@ -79,7 +79,7 @@ class Resolver {
     if (expr) walk(*expr);
   }
   void walk_children(auto const& node) {
-    ast::for_each_child(node, [this](auto const& child) { walk(child); });
+    ast::for_each_child(node, [&](auto const& child) { walk(child); });
   }
 
   // ---- statements
