@@ -54,6 +54,15 @@ std::optional<std::string> percent_decoded(std::string_view text) {
   return decoded;
 }
 
+std::optional<HttpRequest> request_for(std::string_view method, std::string_view target) {
+  auto const question = target.find('?');
+  auto path = percent_decoded(target.substr(0, question));
+  if (!path || !path->starts_with('/')) return std::nullopt;
+  HttpRequest request{.method = std::string(method), .path = std::move(*path)};
+  if (question != std::string_view::npos) request.query = target.substr(question + 1);
+  return request;
+}
+
 std::string_view reason_phrase(int status) {
   switch (status) {
     case 200: return "OK";

@@ -38,6 +38,9 @@ struct HttpResponse {
 /// The standard phrase of a status: 404 is "Not Found".
 [[nodiscard]] std::string_view reason_phrase(int status);
 
+/// The request without headers and body; nothing when its target ("/path?query") is badly encoded or no path.
+[[nodiscard]] std::optional<HttpRequest> request_for(std::string_view method, std::string_view target);
+
 /// `text` with every %XX replaced; nothing when an escape is cut short or is no hexadecimal number.
 [[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text);
 /// Letters of ASCII compare equal in either case, as header names and host names do.

@@ -71,18 +71,14 @@ int status_of(error_code error) {
 
 /// The plain request; nothing when its target is badly encoded.
 std::optional<HttpRequest> plain(http::request<http::string_body> request) {
-  std::string const target(request.target());
-  auto const question = target.find('?');
-  auto path = percent_decoded(std::string_view(target).substr(0, question));
-  if (!path || !path->starts_with('/')) return std::nullopt;
-  HttpRequest result;
-  result.method = std::string(request.method_string());
-  result.path = std::move(*path);
-  if (question != std::string::npos) result.query = target.substr(question + 1);
+  auto const target = request.target();
+  auto const method = request.method_string();
+  auto result = request_for({method.data(), method.size()}, {target.data(), target.size()});
+  if (!result) return std::nullopt;
   for (auto const& field : request) {
-    result.headers.push_back({std::string(field.name_string()), std::string(field.value())});
+    result->headers.push_back({std::string(field.name_string()), std::string(field.value())});
   }
-  result.body = std::move(request.body());
+  result->body = std::move(request.body());
   return result;
 }
 

@@ -1,0 +1,15 @@
+// Any bytes as a mission script: the checker with the commands of missions, on trees with and without mistakes.
+#include "dolphin/checker.hpp"
+#include "dolphin/parser.hpp"
+#include "scripts.hpp"
+
+using namespace lapwing;
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+  base::SourceFile const source("fuzz", fuzz::text_of(data, size));
+  base::Diagnostics diagnostics(source);
+  auto const program = dolphin::parse(diagnostics);
+  dolphin::check(program, fuzz::builders(), diagnostics);
+  fuzz::require_presentable(diagnostics);
+  return 0;
+}

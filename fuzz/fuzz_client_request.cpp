@@ -1,0 +1,27 @@
+// Any text that a browser may send over the WebSocket or post as a script, and the answers that quote it.
+#include <cstdint>
+#include <string>
+
+#include "require.hpp"
+#include "station/messages.hpp"
+
+using namespace lapwing;
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+  std::string const text(data, data + size);
+  auto const request = station::parse_client_request(text);
+  if (request) {
+    fuzz::require(!station::accepted_message(request->id).empty());
+  } else {
+    fuzz::require(!request.error().message.empty());
+    fuzz::require(!station::refused_message("1", {request.error(), {}}).empty());
+  }
+  auto const start = station::parse_start_script(text);
+  if (!start) {
+    fuzz::require(!station::start_failure_body(422, "wrong", {start.error(), {}}).empty());
+  } else {
+    station::ScriptStatus const status{.name = start->name, .source = start->source, .message = {}, .diagnostics = {}};
+    fuzz::require(!station::script_message(status).empty());
+  }
+  return 0;
+}

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Runs one fuzz target on seeds from the repository: fuzz/run.sh TARGET [SECONDS]. Build it first, or use ./lapwing fuzz.
+#
+# What the fuzzer finds interesting stays in build/fuzz/corpus/TARGET for the next run; an input that fails is written to
+# build/fuzz/failures. At most one CPU and 2 GiB.
+set -euo pipefail
+
+root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
+target=${1:?usage: fuzz/run.sh TARGET [SECONDS]}
+seconds=${2:-60}
+bin=$root/build/fuzz/fuzz
+corpus=$root/build/fuzz/corpus/$target
+seeds=$root/build/fuzz/seeds/$target
+failures=$root/build/fuzz/failures
+mkdir -p "$corpus" "$failures"
+rm -rf "$seeds" && mkdir -p "$seeds"
+
+# seed NAME: standard input as one seed.
+seed() { cat >"$seeds/$1"; }
+
+options=(-max_len=4096)
+case $target in
+  check | parse | run)
+    for script in "$root"/examples/*.dolphin "$root"/tests/conformance/*.dolphin "$root"/tests/golden/check/*.dolphin; do
+      cp "$script" "$seeds/$(basename "$(dirname "$script")")-$(basename "$script")"
+    done
+    options=(-max_len=8192 "-dict=$root/fuzz/dolphin.dict")
+    ;;
+  decode | fleet | frame) "$bin/frame_seeds" "$target" "$seeds" ;;
+  url)
+    i=0
+    for url in udpin://0.0.0.0:14550 udpout://127.0.0.1:14550 tcpin://0.0.0.0:5760 tcpout://host:5760 serial:///dev/ttyUSB0:57600 \
+      udp://:14550 'tcpout://[::1]:5760'; do
+      printf '%s' "$url" | seed "url$((i += 1))"
+    done
+    options=(-max_len=256)
+    ;;
+  client_request)
+    printf '{"type":"ping","id":"1"}' | seed ping
+    printf '{"type":"stop_script","id":"2"}' | seed stop
+    printf '{"type":"start_script","id":"3","name":"a.dolphin","source":"message \\"\\u00e9\\ud83d\\ude00\\""}' | seed start
+    ;;
+  http)
+    printf 'GET\n/\nHost: 127.0.0.1:8080\n' | seed page
+    printf 'GET\n/assets/%%61pp.js?v=1\nHost: localhost\nIf-None-Match: "1"\n' | seed file
+    printf 'GET\n/%%2e%%2e/secret.txt\nHost: [::1]:8080\n' | seed outside
+    printf 'GET\n/api/v1/log?after=12&token=a%%20b\nHost: station.example\nAuthorization: Bearer token\n' | seed log
+    printf 'POST\n/api/v1/script\nHost: localhost\nOrigin: http://localhost:8080\nContent-Type: application/json\n' | seed post
+    ;;
+  *)
+    echo "fuzz/run.sh: there is no target $target" >&2
+    exit 2
+    ;;
+esac
+
+# Without a limit of its own the address sanitizer asks the system for whatever a length field says.
+export ASAN_OPTIONS=allocator_may_return_null=0:max_allocation_size_mb=1024 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+symbolizer=$(command -v llvm-symbolizer-19 || command -v llvm-symbolizer || true)
+[ -z "$symbolizer" ] || export ASAN_SYMBOLIZER_PATH=$symbolizer
+exec "$bin/fuzz_$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 "${options[@]}" \
+  -artifact_prefix="$failures/$target-" "$corpus" "$seeds"
