@@ -107,6 +107,7 @@ Result<Frame> raw_message(std::string_view name, std::span<RawField const> field
   Frame frame;
   frame.source = self;
   frame.message_id = message->id;
+  frame.payload_size = find_traits(message->id)->max_size;  // the tables come from one dialect
   address(frame, *message, target);
   for (auto const& [field, value] : fields) {
     auto const known = std::ranges::find(message->fields, field, &FieldName::name);

@@ -24,7 +24,9 @@ TEST(RawMessage, IsWhatTheCodecReads) {
   auto const frame = raw("COMMAND_LONG", {{"command", 400}, {"param1", 1}, {"param2", 21196.0}});
   ASSERT_TRUE(frame) << frame.error().message;
   EXPECT_EQ(frame->source, self);
-  auto const message = decode(*frame);
+  std::optional<Message> message;
+  FrameParser parser;
+  parser.feed(serialize(*frame).bytes(), [&message](Frame const& heard) { message = decode(heard); });
   ASSERT_TRUE(message);
   auto const& command = std::get<CommandLong>(*message);
   EXPECT_EQ(command.target, vehicle);
