@@ -31,4 +31,9 @@ std::optional<std::string> MissionTask::unsuited(VehicleInfo const& vehicle) con
   return "no payload Camera";
 }
 
+bool MissionTask::never_ends() const {
+  return std::ranges::find(mission_.items, mavlink::MavCmd::nav_loiter_unlim, &mavlink::MissionItem::command) !=
+         mission_.items.end();
+}
+
 }  // namespace lapwing::tasks

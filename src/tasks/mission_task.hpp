@@ -17,6 +17,8 @@ class MissionTask final : public PlatformTask {
   [[nodiscard]] std::string name() const override { return mission_.name; }
   [[nodiscard]] std::string kind() const override { return "mission"; }
   [[nodiscard]] std::size_t bytes() const override { return 256 + mission_.items.size() * sizeof(mission_.items[0]); }
+  /// It circles somewhere until told otherwise.
+  [[nodiscard]] bool never_ends() const override;
   /// A vehicle of a type that cannot carry out one of the items is unsuited (`plan::objection`). Photos need a vehicle
   /// with the payload "Camera"; one of which no payload at all is known gets the benefit of the doubt.
   [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override;

@@ -106,6 +106,8 @@ class PlatformTask {
   [[nodiscard]] virtual std::string name() const = 0;
   /// What views call it: "mission".
   [[nodiscard]] virtual std::string kind() const { return "task"; }
+  /// It goes on until it is stopped: nothing that stands behind it in a sequence is ever reached.
+  [[nodiscard]] virtual bool never_ends() const { return false; }
   /// Why the vehicle cannot do it ("no payload Camera"), or nothing.
   [[nodiscard]] virtual std::optional<std::string> unsuited(VehicleInfo const& vehicle) const = 0;
   /// Roughly, for the limit on what a script may hold.

@@ -58,7 +58,9 @@ TaskShape TaskShapes::of(ast::Expr const& task, int depth) {
     return only_value(variable) ? of_variable(*variable, depth) : TaskShape();
   }
   if (auto const* call = std::get_if<ast::Call>(&task.node)) {
-    return builder_of(task) ? TaskShape{1, false} : of_call(*call, depth);
+    if (!builder_of(task)) return of_call(*call, depth);
+    auto const block = built(task);
+    return {1, block && block->never_ends()};
   }
   if (auto const* binary = std::get_if<ast::Binary>(&task.node)) return of_binary(*binary, depth);
   if (auto const* chain = std::get_if<ast::Chain>(&task.node)) return of_chain(*chain, depth);
