@@ -220,7 +220,7 @@ class Resolver {
   Resolution out_;
   std::unordered_map<std::string_view, Variable*> globals_;
   std::vector<Scope> scopes_;
-  std::size_t first_visible_ = 0;  ///< scopes below belong to code that a function does not see
+  std::size_t first_visible_ = 0;                  ///< scopes below belong to code that a function does not see
   std::vector<std::string_view> changed_globals_;  ///< by += or ++, perhaps before they are known
   bool in_function_ = false;
   std::size_t statement_ = 0;
