@@ -10,7 +10,7 @@
 #include "dolphin/testing.hpp"
 
 /// Every script of tests/conformance does what the file beside it says, word for word: what it prints, the events of
-/// its tasks, its exit code and when it ended. With LAPWING_REFRESH set the expectations are written anew, to be read
+/// its tasks, its exit code and when it ended. With LAPWING_REFRESH_GOLDEN set the expectations are written anew, to be read
 /// before they are kept.
 namespace lapwing::dolphin {
 namespace {
@@ -40,7 +40,7 @@ TEST_P(Conformance, DoesWhatIsWritten) {
   auto const expected = folder / (GetParam() + ".expected");
   testing::Bench bench;
   auto const actual = bench.run(content(script), script.filename().string());
-  if (std::getenv("LAPWING_REFRESH")) std::ofstream(expected, std::ios::binary) << actual;
+  if (std::getenv("LAPWING_REFRESH_GOLDEN")) std::ofstream(expected, std::ios::binary) << actual;
   EXPECT_EQ(actual, content(expected));
 }
 

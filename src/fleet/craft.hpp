@@ -57,7 +57,7 @@ struct Craft {
   base::TimePoint track_end_heard{};
   std::optional<geo::Wgs84> path_end;  ///< up to where `path_m` has been counted
   double path_m = 0.0;                 ///< like `track_m`, height differences included
-  bool has_reported_battery = false;  ///< be it that it does not know
+  bool has_reported_battery = false;   ///< be it that it does not know
   StatusTexts texts;
   std::optional<MessageRates> rates;
   bool is_asking = false;  ///< message intervals are being asked for
