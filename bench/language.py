@@ -11,7 +11,6 @@ between steps, which is left out here, in its favour).
 
 import os
 import pathlib
-import resource
 import statistics
 import subprocess
 import tempfile
@@ -68,12 +67,20 @@ def to_first_line(command) -> float:
 def stepping(command) -> tuple[float, float]:
     """Seconds, and peak resident MB of that process."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    out = process.stdout.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
+    peak = 0.0
+    while process.poll() is None:  # not getrusage(): a child's peak there begins with that of the interpreter which forked it
+        peak = max(peak, peak_resident_mb(process.pid))
+        time.sleep(0.005)
     if process.returncode != 0:
         raise SystemExit(f"language: {command} ended with {process.returncode}")
-    return float(out.split()[-1]), usage.ru_maxrss / 1024
+    return float(process.stdout.read().split()[-1]), peak
+
+
+def peak_resident_mb(pid: int) -> float:
+    for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines():
+        if line.startswith("VmHWM:"):
+            return int(line.split()[1]) / 1024
+    return 0.0  # it has just ended
 
 
 def measure(lapwing: pathlib.Path, stepper: pathlib.Path, say, repeats: int = 5) -> dict:

@@ -257,13 +257,21 @@ def machine() -> dict:
     return {"cpu": cpu, "cores": os.cpu_count(), "system": platform.platform(), "commit": commit, "load": os.getloadavg()[0]}
 
 
+def earlier(path: pathlib.Path) -> dict:
+    """What other runs found of the same commit on the same machine: parts can be run one by one."""
+    if not path.exists():
+        return {}
+    found, now = json.loads(path.read_text()), machine()
+    return found if all(found["machine"][key] == now[key] for key in ("cpu", "cores", "commit")) else {}
+
+
 def main():
     wanted = sys.argv[1:] or ["decode", "start", "scale", "language", "upload"]
-    results = {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
+    path = ROOT / "build/bench-results.json"
+    results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
         results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "language": language}[name]()
-    path = ROOT / "build/bench-results.json"
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
