@@ -2,18 +2,15 @@
 // examined.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "plan/fence_geojson.hpp"
+#include "require.hpp"
 
 namespace {
 
 using namespace lapwing::plan;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using lapwing::fuzz::require;
 
 void check_fence(Fence const& fence) {
   require(!fence.zones.empty() && fence.zones.size() <= max_fence_zones);

@@ -1,22 +1,19 @@
 // Plan files: any bytes either are refused with a reason or give a mission that can be made ready for every vehicle.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "plan/capabilities.hpp"
 #include "plan/estimate.hpp"
 #include "plan/plan_file.hpp"
+#include "require.hpp"
 
 namespace {
 
 using namespace lapwing::plan;
+using lapwing::fuzz::require;
 using lapwing::vehicle::Autopilot;
 using lapwing::vehicle::Family;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void check_mission(Mission const& mission) {
   require(!mission.items.empty() && mission.items.size() <= max_mission_items);

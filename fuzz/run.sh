@@ -47,6 +47,27 @@ case $target in
     printf 'GET\n/api/v1/log?after=12&token=a%%20b\nHost: station.example\nAuthorization: Bearer token\n' | seed log
     printf 'POST\n/api/v1/script\nHost: localhost\nOrigin: http://localhost:8080\nContent-Type: application/json\n' | seed post
     ;;
+  geojson)
+    cp "$root"/examples/*.geojson "$seeds"
+    printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"keep":"out"},"geometry":{"type":"MultiPolygon","coordinates":[[[[-8,41],[-7.9,41],[-8,41.1],[-8,41]]]]}}]}' |
+      seed collection
+    ;;
+  lsp)
+    position='"textDocument":{"uri":"u"},"position":{"line":1,"character":16}'
+    i=0
+    for method in hover completion definition rename references documentSymbol formatting signatureHelp; do
+      body='{"id":'$((i += 1))',"method":"textDocument/'$method'","params":{'$position',"newName":"x","options":{"tabSize":2}}}'
+      printf 'Content-Length: %d\r\n\r\n%s' ${#body} "$body" | seed "$method"
+    done
+    body='{"method":"textDocument/didChange","params":{"textDocument":{"uri":"u","version":2},"contentChanges":[{"range":{"start":{"line":0,"character":0},"end":{"line":1,"character":3}},"text":"w"}]}}'
+    printf 'Content-Length: %d\r\n\r\n%s' ${#body} "$body" | seed change
+    ;;
+  plan)
+    items=$(printf '{"type":"SimpleItem","autoContinue":true,"command":%d,"doJumpId":1,"frame":3,"params":[0,0,0,null,41.2,-8.6,30]},' 22 16 82 178 177 20)
+    printf '{"fileType":"Plan","version":1,"groundStation":"QGroundControl","mission":{"version":2,"plannedHomePosition":[41,-8,90],"items":[%s]},"geoFence":{"version":2},"rallyPoints":{"version":2}}' \
+      "${items%,}" | seed simple
+    printf 'QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t41\t-8\t90\t1\n1\t0\t3\t22\t15\t0\t0\t0\t41.1\t-8\t30\t1\n' | seed waypoints
+    ;;
   *)
     echo "fuzz/run.sh: there is no target $target" >&2
     exit 2
