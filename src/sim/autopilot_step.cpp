@@ -166,7 +166,7 @@ void Autopilot::watch_battery() {
 
 void Autopilot::notice_touch_down() {
   if (!body_.touch_down_m_s || airframe_.family == Family::rover) return;
-  outbox_.say(MavSeverity::alert, fmt::format("SIM Hit ground at {:.2f} m/s", *body_.touch_down_m_s));
+  outbox_.say(MavSeverity::info, fmt::format("SIM Hit ground at {:.2f} m/s", *body_.touch_down_m_s));
 }
 
 void Autopilot::disarm_when_idle() {
