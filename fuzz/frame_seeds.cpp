@@ -1,9 +1,11 @@
-// Seeds for fuzz_frame, fuzz_decode and fuzz_fleet: frame_seeds TARGET DIRECTORY writes one file for each message.
+// Seeds for fuzz_frame, fuzz_tlog, fuzz_decode and fuzz_fleet: frame_seeds TARGET DIRECTORY writes one file for each
+// message.
 #include <cstdint>
 #include <fstream>
 #include <span>
 #include <string>
 
+#include "mavlink/tlog.hpp"
 #include "messages.hpp"
 
 using namespace lapwing;
@@ -31,6 +33,10 @@ int main(int count, char** arguments) {
         frame.version = 1;
         write(file, mavlink::serialize(frame).bytes());
       }
+    } else if (target == "tlog") {
+      std::vector<std::uint8_t> entries;
+      for (int s = 0; s < 2; ++s) mavlink::append_tlog(entries, base::UtcTime(std::chrono::seconds(s)), frame);
+      write(file, entries);
     } else {
       file.put(static_cast<char>(i));
       if (target == "fleet") file.put(static_cast<char>(payload.size()));

@@ -26,7 +26,7 @@ case $target in
     done
     options=(-max_len=8192 "-dict=$root/fuzz/dolphin.dict")
     ;;
-  decode | fleet | frame) "$bin/frame_seeds" "$target" "$seeds" ;;
+  decode | fleet | frame | tlog) "$bin/frame_seeds" "$target" "$seeds" ;;
   url)
     i=0
     for url in udpin://0.0.0.0:14550 udpout://127.0.0.1:14550 tcpin://0.0.0.0:5760 tcpout://host:5760 serial:///dev/ttyUSB0:57600 \
