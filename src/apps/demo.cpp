@@ -16,6 +16,7 @@ struct DemoOptions {
   bool headless = false;
   std::string script;
   std::string report;
+  std::string record;
   std::string vehicles = "copter:2,rover:1";
   std::string on_stop = "loiter";
   WebArguments web;
@@ -51,6 +52,9 @@ int demo(DemoOptions const& options) {
   // Fast enough not to bore, slow enough to follow.
   constexpr double watchable = 4.0;
   Session session({.speedup = options.speedup.value_or(options.headless ? 0.0 : watchable), .on_stop = *on_stop});
+  if (!options.record.empty()) {
+    if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
+  }
   sim::WorldOptions world;
   world.vehicles = *vehicles;
   if (!options.headless) {
@@ -81,6 +85,7 @@ void add_demo(CLI::App& program, int& exit_code) {
   verb->add_option("--script", options->script, "Another script than examples/survey.dolphin");
   verb->add_option("--vehicles", options->vehicles, "What and how many")->capture_default_str();
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
+  verb->add_option("--record", options->record, record_help);
   add_web_options(*verb, options->web);
   verb->add_option("--speedup", options->speedup, "1 real time; default 4 with the map, as fast as possible without")
       ->check(CLI::Range(0.0, 1000.0));

@@ -46,6 +46,7 @@ int main_of(int argc, char** argv) {
   add_fmt(program, exit_code);
   add_lsp(program, exit_code);
   add_sim(program, exit_code);
+  add_replay(program, exit_code);
   add_station(program, exit_code);
   add_doctor(program, exit_code);
 

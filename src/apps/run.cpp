@@ -23,6 +23,7 @@ struct RunOptions {
   std::optional<double> speedup;
   std::optional<double> timeout_s;
   std::string report;
+  std::string record;
   std::string on_stop = "loiter";
   std::string platform = "mavlink";
   std::string events;
@@ -73,14 +74,21 @@ int run(RunOptions const& options) {
                    .on_stop = *on_stop,
                    .plans = *std::move(plans),
                    .seed = options.seed});
+  if (!options.record.empty()) {
+    if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
+    if (auto kept = write_file(session.recording->beside(".dolphin"), *source); !kept) return refuse(kept.error());
+  }
   if (auto connected = connect(session, options); !connected) return refuse(connected.error());
   auto const started = session.host.start(options.script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());
   if (!started) return exit_usage;
   session.run_to_end(options.timeout_s ? std::optional(base::from_seconds(*options.timeout_s)) : std::nullopt);
   auto const outcome = *session.host.outcome();
-  if (!options.report.empty()) {
-    if (auto written = write_file(options.report, to_json(session.report())); !written) return refuse(written.error());
+  std::vector<std::string> reports;
+  if (!options.report.empty()) reports.push_back(options.report);
+  if (session.recording) reports.push_back(session.recording->beside(".json"));
+  for (auto const& path : reports) {
+    if (auto written = write_file(path, to_json(session.report())); !written) return refuse(written.error());
   }
   return dolphin::exit_code(outcome);
 }
@@ -107,6 +115,7 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--timeout", options->timeout_s, "Halt the script after so many seconds")
       ->check(CLI::PositiveNumber);
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
+  verb->add_option("--record", options->record, record_help);
   verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
   verb->add_option("--plans", options->plans, plans_help);
   verb->add_option("--platform", options->platform, "mavlink, or test: the language's own test vehicles, no MAVLink")

@@ -20,6 +20,12 @@ base::LogHub::Sink terminal_sink(base::LogLevel lowest) {
   };
 }
 
+base::Loop::Pace pace_of(Session::Options const& options) {
+  auto pace = pace_for(options.speedup, options.seed);
+  if (options.begins_at) pace.begins_at = options.begins_at;
+  return pace;
+}
+
 }  // namespace
 
 void print_error(base::Error const& error) {
@@ -36,9 +42,9 @@ base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
 }
 
 Session::Session(Options const& options)
-    : loop(pace_for(options.speedup, options.seed)),
+    : loop(pace_of(options)),
       log(hub, "lapwing"),
-      ground(loop, options.on_stop, log, {}, options.plans.library),
+      ground(loop, options.on_stop, log, {.asks_for_messages = !options.listens_only}, options.plans.library),
       console(make_console(loop, log)),
       host(
           loop, ground.platform, *console, log,
@@ -55,6 +61,14 @@ base::Result<> Session::simulate(sim::WorldOptions options) {
   auto started = start_simulation(ground, std::move(options), log);
   if (!started) return std::unexpected(started.error());
   world = std::move(*started);
+  return {};
+}
+
+base::Result<> Session::record(std::string const& folder) {
+  auto begun = Recording::begin(folder, ground.connection, log.named("recording"));
+  if (!begun) return std::unexpected(begun.error());
+  recording = std::move(*begun);
+  log.info(fmt::format("recording to {}", recording->file().string()));
   return {};
 }
 

@@ -6,6 +6,7 @@
 
 #include "apps/ground.hpp"
 #include "apps/plans.hpp"
+#include "apps/recording.hpp"
 #include "apps/script_host.hpp"
 #include "apps/station_config.hpp"
 #include "apps/web_access.hpp"
@@ -26,11 +27,15 @@ class Session {
     base::LogLevel log_level = base::LogLevel::info;
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
     std::optional<std::uint64_t> seed = std::nullopt;
+    std::optional<base::UtcTime> begins_at = std::nullopt;  ///< what the calendar shows at the start; empty: the wall's
+    bool listens_only = false;                              ///< asks vehicles for nothing
   };
   explicit Session(Options const& options);
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls) { return ground.open(urls); }
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
+  /// Keeps everything that goes over the links in a new file of this folder, from now on.
+  [[nodiscard]] base::Result<> record(std::string const& folder);
   /// Serves the map and tells its addresses on standard error; the token is in them, and nowhere else.
   [[nodiscard]] base::Result<> open_map(WebAccess const& access, MapContent const& content);
 
@@ -43,6 +48,7 @@ class Session {
   base::Loop loop;
   base::Logger log;
   Ground ground;
+  std::unique_ptr<Recording> recording;
   std::unique_ptr<dolphin::Output> console;
   ScriptHost host;
   std::unique_ptr<sim::World> world;

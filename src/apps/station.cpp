@@ -21,6 +21,7 @@ struct StationArguments {
   std::string plans;
   std::optional<std::string> on_stop;
   std::optional<std::string> scripts;
+  std::optional<std::string> record;
   std::optional<std::string> tiles;
   WebArguments web;
 };
@@ -60,6 +61,7 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
     config->map.tiles = *arguments.tiles;
   }
   if (arguments.scripts) config->map.scripts = *arguments.scripts;
+  if (arguments.record) config->record = *arguments.record;
   apply(arguments.web, config->web);
   return config;
 }
@@ -70,6 +72,9 @@ int serve(StationArguments const& arguments) {
   auto plans = load_plans(arguments.plans);
   if (!plans) return refuse(plans.error());
   Session session({.on_stop = config->on_stop, .plans = *std::move(plans)});
+  if (!config->record.empty()) {
+    if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
+  }
   if (auto opened = session.open_links(config->links); !opened) return refuse(opened.error());
   if (auto opened = session.open_map(config->web, config->map); !opened) return refuse(opened.error());
   fmt::print(stderr, "listening for vehicles on {}; Ctrl-C ends\n", fmt::join(config->links, ", "));
@@ -95,6 +100,7 @@ void add_station(CLI::App& program, int& exit_code) {
   add_web_options(*verb, arguments->web);
   verb->add_option("--scripts", arguments->scripts, "Folder whose scripts the map offers")
       ->check(CLI::ExistingDirectory);
+  verb->add_option("--record", arguments->record, record_help);
   verb->add_option("--plans", arguments->plans, plans_help);
   verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");
   verb->add_option("--on-stop", arguments->on_stop,
