@@ -29,6 +29,29 @@ int refuse(base::Error const& error) {
   return error.kind == base::ErrorKind::io ? exit_halted : exit_usage;
 }
 
+/// The script that flew when the recording was made, where it was kept; to be read, not to be started.
+class RecordedScript final : public station::ScriptControl {
+ public:
+  explicit RecordedScript(std::filesystem::path path) {
+    path.replace_extension(".dolphin");
+    if (auto source = read_script(path.string())) {
+      status_.name = path.filename().string();
+      status_.source = *std::move(source);
+    }
+  }
+  [[nodiscard]] station::ScriptStatus status() const override { return status_; }
+  [[nodiscard]] std::vector<tasks::TaskView> task_trees() const override { return {}; }
+  [[nodiscard]] std::expected<void, station::StartFailure> start(std::string, std::string) override {
+    return std::unexpected(station::StartFailure{
+        {base::ErrorKind::refused, "a recording is played: no vehicle is there to fly a script", "use run or station"},
+        {}});
+  }
+  void stop() override {}
+
+ private:
+  station::ScriptStatus status_;
+};
+
 std::optional<base::UtcTime> begin_of(std::filesystem::path const& file) {
   std::ifstream in(file, std::ios::binary);
   mavlink::TlogReader reader(in);
@@ -83,6 +106,7 @@ int replay(ReplayOptions const& options) {
     return refuse({base::ErrorKind::invalid_input, fmt::format("{}: there is no telemetry in it", file->string()),
                    "a .tlog holds MAVLink packets, each with its time"});
   }
+  RecordedScript script(*file);
   Session session({.speedup = options.speedup.value_or(options.headless ? 0.0 : 1.0),
                    .log_level = options.headless ? base::LogLevel::warn : base::LogLevel::info,
                    .begins_at = began,
@@ -94,7 +118,7 @@ int replay(ReplayOptions const& options) {
   if (!options.headless) {
     WebAccess access;
     apply(options.web, access);
-    if (auto opened = session.open_map(access, {}); !opened) return refuse(opened.error());
+    if (auto opened = session.open_map(access, {}, &script); !opened) return refuse(opened.error());
   }
   bool was_interrupted = false;
   Played played;

@@ -72,7 +72,7 @@ base::Result<> Session::record(std::string const& folder) {
   return {};
 }
 
-base::Result<> Session::open_map(WebAccess const& access, MapContent const& content) {
+base::Result<> Session::open_map(WebAccess const& access, MapContent const& content, station::ScriptControl* script) {
   auto token = token_for(access);
   if (!token) return std::unexpected(token.error());
   station::Station::Options options;
@@ -84,7 +84,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.program_version = LAPWING_VERSION;
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
-  auto opened = station::Station::open(loop, ground.registry, host, hub, std::move(options));
+  auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
   fmt::print(stderr, "\n");

@@ -37,7 +37,9 @@ class Session {
   /// Keeps everything that goes over the links in a new file of this folder, from now on.
   [[nodiscard]] base::Result<> record(std::string const& folder);
   /// Serves the map and tells its addresses on standard error; the token is in them, and nowhere else.
-  [[nodiscard]] base::Result<> open_map(WebAccess const& access, MapContent const& content);
+  /// `script`: what the map shows and starts; null: the host's.
+  [[nodiscard]] base::Result<> open_map(WebAccess const& access, MapContent const& content,
+                                        station::ScriptControl* script = nullptr);
 
   /// Runs the script that the host was given to its end; `timeout` (loop time) halts it. Ctrl-C stops it. Then every
   /// vehicle that still runs a mission of ours is made safe.
