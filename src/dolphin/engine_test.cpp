@@ -214,6 +214,42 @@ TEST(Battery, KeepsNeitherGuardsNorOtherTasksWaiting) {
   EXPECT_EQ(bench.run(script), "other 0.5exit 0 at 3.1\n");
 }
 
+/// Says where it is when the loop's time is `seconds`.
+struct LatePosition {
+  explicit LatePosition(Bench& bench, double seconds) : scope(bench.loop) {
+    auto lost = copter("z9");
+    lost.position.reset();
+    lost.connection_timeout = std::chrono::seconds(20);
+    bench.platform.set_vehicle(lost);
+    scope.spawn(at(bench.loop, seconds, [&bench] { bench.platform.set_vehicle(copter("z9")); }));
+  }
+  base::Scope scope;
+};
+
+TEST(Position, IsWaitedForUntilItsFirstReport) {
+  Bench bench;
+  LatePosition const report(bench, 3.0);
+  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint position(v).lat"), "41.0exit 0 at 3.0\n");
+}
+
+TEST(Position, ThatNeverComesIsAnExceptionAfterTheConnectionTimeout) {
+  Bench bench;
+  LatePosition const report(bench, 100.0);
+  EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint position(v)"),
+            "exit 1 at 20.0: IllegalStateException : the position of vehicle z9 is not known\n");
+}
+
+TEST(Position, UnknownInAGuardIsNearNothingAndInNoArea) {
+  Bench bench;
+  LatePosition const report(bench, 3.0);
+  auto const script =
+      "v = pick { id 'z9' }\n"
+      "here = location(41, -8)\n"
+      "execute condition { position(v).near(here, 5) } | condition { position(v) in here ^ 5 }\n"
+      "print 'here'";
+  EXPECT_EQ(bench.run(script), "hereexit 0 at 3.1\n");
+}
+
 TEST(VehicleInstructions, TellModeAndRelativeHeight) {
   Bench bench;
   auto flying = copter("z9");

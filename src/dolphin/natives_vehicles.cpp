@@ -144,12 +144,26 @@ Checked<VehicleInfo> single_vehicle(Runtime& runtime, Value const& value, std::s
   return *info;
 }
 
+/// At once, which is what guards get: an unknown place is near no other and in no area.
 Checked<Value> position(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const info = single_vehicle(runtime, arguments[0], "position");
   if (!info) return std::unexpected(info.error());
-  if (!info->position)
-    return fault(fmt::format("the position of vehicle {} is not known yet", info->id.text), "IllegalStateException");
-  return Value(runtime.heap.make<Position>(*info->position));
+  constexpr auto unknown = std::numeric_limits<double>::quiet_NaN();
+  return Value(runtime.heap.make<Position>(info->position.value_or(geo::Wgs84{unknown, unknown, unknown})));
+}
+
+/// The same once the vehicle has had its connection timeout to report where it is.
+base::Task<Checked<Value>> position_when_reported(Runtime& runtime, Fiber& fiber, std::vector<Value> arguments) {
+  auto info = single_vehicle(runtime, arguments[0], "position");
+  if (!info) co_return std::unexpected(info.error());
+  auto const deadline = runtime.loop.now() + info->connection_timeout;
+  while (info && !info->position && runtime.loop.now() < deadline) {
+    co_await runtime.loop.sleep(runtime.tick);
+    info = single_vehicle(runtime, arguments[0], "position");
+  }
+  if (info && !info->position)
+    co_return fault(fmt::format("the position of vehicle {} is not known", info->id.text), "IllegalStateException");
+  co_return position(runtime, fiber, arguments);
 }
 
 /// Not known is NaN, with which every comparison is false (REC-21). At once: what guards get.
@@ -305,7 +319,7 @@ std::span<Native const> vehicle_natives() {
   static std::array const table = {
       Native{.name = "pick", .least = 1, .most = 1, .start = pick},
       Native{.name = "release", .least = 1, .most = 1, .call = release},
-      Native{.name = "position", .least = 1, .most = 1, .call = position},
+      Native{.name = "position", .least = 1, .most = 1, .call = position, .start = position_when_reported},
       Native{.name = "battery", .least = 1, .most = 1, .call = battery, .start = battery_when_reported},
       Native{.name = "relativeHeight", .least = 1, .most = 1, .call = relative_height},
       Native{.name = "mode", .least = 1, .most = 1, .call = mode},

@@ -89,6 +89,7 @@ struct InstructionSpec {
   NamedArguments named = NamedArguments::none;
   BlockKind block = BlockKind::none;      ///< what is known inside its closure
   Dimension dimension = Dimension::none;  ///< of a number it gives
+  std::string_view example = {};          ///< a script that checks
 };
 
 struct UnitSpec {
@@ -104,6 +105,8 @@ struct MethodSpec {
   bool is_property;  ///< written without parentheses
   Kinds result;
   std::string_view doc;
+  std::string_view arguments = {};  ///< what stands in its parentheses, for people: "closure", "from, to?"
+  std::string_view example = {};    ///< an expression whose value shows what it does
 };
 
 struct NameSpec {

@@ -47,7 +47,7 @@ void Recorder::sample(Duration now, std::span<Sample const> samples) {
     if (!last_.empty()) {
       auto const& before = last_[i];
       double const mean_v = 0.5 * (before.voltage_v + sample.voltage_v);
-      double const drawn_mah = sample.used_mah - before.used_mah;
+      double const drawn_mah = std::max(0.0, sample.used_mah - before.used_mah);  // less: its pack was changed
       used_wh = vehicle.charge.back().used_wh + static_cast<float>(drawn_mah * 1e-3 * mean_v);
       bool const on_its_way = sample.in_the_air || sample.moves;
       if (on_its_way) vehicle.under_way += now - vehicle.track.back().time;

@@ -13,6 +13,9 @@ namespace {
 constexpr float force_arm = 2989.0F;
 constexpr float force_disarm = 21196.0F;
 
+// MAV_CMD_BATTERY_RESET of common.xml; no mission has it.
+constexpr auto battery_reset_command = static_cast<MavCmd>(42651);
+
 MessageId message_id(float parameter) {
   return static_cast<MessageId>(static_cast<std::uint32_t>(parameter));
 }
@@ -21,6 +24,7 @@ MessageId message_id(float parameter) {
 
 MavResult FlightController::perform(CommandInt const& command, Address from) {
   auto const& p = command.params;
+  if (command.command == battery_reset_command) return battery_reset(command);
   switch (command.command) {
     case MavCmd::do_set_mode: return set_mode(command);
     case MavCmd::component_arm_disarm: return arm_disarm(command);
@@ -86,6 +90,15 @@ MavResult FlightController::arm_disarm(CommandInt const& command) {
   if (p[0] == 1.0F) return autopilot_.arm(p[1] == force_arm);
   if (p[0] == 0.0F) return autopilot_.disarm(p[1] == force_disarm);
   return MavResult::unsupported;
+}
+
+/// What a crew sends that has changed the pack of a vehicle which was kept on: p1 a mask of batteries, p2 percent.
+MavResult FlightController::battery_reset(CommandInt const& command) {
+  auto const& p = command.params;
+  bool const is_mask = p[0] >= 0.0F && p[0] < 65536.0F;
+  if (!is_mask || (static_cast<unsigned>(p[0]) & 1U) == 0 || !(p[1] >= 0.0F && p[1] <= 100.0F)) return MavResult::failed;
+  autopilot_.battery().set_remaining(static_cast<double>(p[1]) / 100.0);
+  return MavResult::accepted;
 }
 
 MavResult FlightController::reposition(CommandInt const& command) {

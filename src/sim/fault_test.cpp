@@ -131,6 +131,17 @@ TEST(Battery, EmptyMeansFalling) {
   EXPECT_EQ(ground.said("SIM Hit ground at 1"), 1);
 }
 
+TEST(Battery, IsWhatTheCrewSaysAfterAChangeOfThePack) {
+  constexpr auto battery_reset = static_cast<MavCmd>(42651);
+  TestGround ground("copter@30%");
+  ground.boot();
+  EXPECT_EQ(ground.command(battery_reset, {2, 100}), MavResult::failed);  // there is no second battery
+  EXPECT_EQ(ground.command(battery_reset, {1, 101}), MavResult::failed);
+  EXPECT_LT(ground.pilot().battery().remaining(), 0.31);
+  EXPECT_EQ(ground.command(battery_reset, {1, 100}), MavResult::accepted);
+  EXPECT_GT(ground.pilot().battery().remaining(), 0.99);
+}
+
 TEST(GroundStationFailsafe, IsOffByDefault) {
   TestGround ground("copter", {}, false);
   ground.boot();

@@ -72,6 +72,7 @@ class FlightController {
   Result perform_request(mavlink::CommandInt const& command, mavlink::Address from);
   Result set_mode(mavlink::CommandInt const& command);
   Result arm_disarm(mavlink::CommandInt const& command);
+  Result battery_reset(mavlink::CommandInt const& command);
   Result reposition(mavlink::CommandInt const& command);
   Result set_home(mavlink::CommandInt const& command);
   Result set_interval(mavlink::CommandInt const& command);

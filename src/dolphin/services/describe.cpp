@@ -153,6 +153,7 @@ std::string describe_word(InstructionSpec const& spec, BlockWords const* block) 
   if (spec.block == BlockKind::none && !parameters.empty()) out += fmt::format("\n\n{}", fmt::join(parameters, "\n"));
   if (!spec.result.is_none()) out += fmt::format("\n\nGives {}.", kind_text({spec.result, spec.dimension}));
   if (block) out += fmt::format("\n\nInside `{} {{ ... }}`.", block->name);
+  if (!spec.example.empty()) out += fmt::format("\n\nFor example:\n{}", code_block(spec.example));
   return out;
 }
 
@@ -175,9 +176,10 @@ std::string describe_word(UnitSpec const& unit) {
 }
 
 std::string describe_word(MethodSpec const& method) {
-  auto const call = fmt::format(".{}{}", method.name, method.is_property ? "" : "(...)");
-  return fmt::format("{}\n{}\n\nOf {}; gives {}.", code_block(call), method.doc, describe(method.receiver),
-                     describe(method.result));
+  auto const call = fmt::format(".{}{}", method.name, method.is_property ? "" : fmt::format("({})", method.arguments));
+  auto const example = method.example.empty() ? "" : fmt::format("\n\nFor example `{}`.", method.example);
+  return fmt::format("{}\n{}\n\nOf {}; gives {}.{}", code_block(call), method.doc, describe(method.receiver),
+                     describe(method.result), example);
 }
 
 std::string describe_word(Variable const& variable, Document const& document) {

@@ -45,7 +45,7 @@ TEST(Hover, ShowsUnitsMembersConstantsAndTypes) {
   EXPECT_TRUE(says("x = 10.min|utes", {"n.minutes", "60 seconds"}));
   EXPECT_TRUE(says("x = 10.per|cent", {"0.01 of the whole"}));
   EXPECT_TRUE(says("v = pick { }\nx = v.batt|ery", {".battery", "a set of vehicles"}));
-  EXPECT_TRUE(says("x = [1].coll|ect { it }", {".collect(...)", "a list"}));
+  EXPECT_TRUE(says("x = [1].coll|ect { it }", {".collect(closure)", "a list"}));
   EXPECT_TRUE(says("x = P|I", {"3.14159"}));
   EXPECT_TRUE(says("try { a() } catch (Task|Error e) { }", {"failed"}));
 }
