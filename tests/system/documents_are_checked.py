@@ -41,7 +41,7 @@ def run(script: pathlib.Path, block: documents.Block) -> list[str]:
     expected = int(block.words.get("exit", 0))
     assert done.returncode == expected, f"{block.place}: run ends with {done.returncode}\n{done.stdout}{done.stderr}"
     log = [STAMP.sub("", line) for line in lines_of(done.stderr) if STAMP.match(line)]
-    return lines_of(done.stdout) + [line for line in log if line.startswith(("warn ", "error "))]
+    return lines_of(done.stdout) + [line for line in log if line.startswith(("warning ", "error "))]
 
 
 def printed(block: documents.Block, folder: pathlib.Path) -> list[str]:
