@@ -236,7 +236,7 @@ TEST(Position, ThatNeverComesIsAnExceptionAfterTheConnectionTimeout) {
   Bench bench;
   LatePosition const report(bench, 100.0);
   EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint position(v)"),
-            "exit 1 at 20.0: IllegalStateException : the position of vehicle z9 is not known\n");
+            "exit 1 at 20.0: test.dolphin:2: IllegalStateException: the position of vehicle z9 is not known\n");
 }
 
 TEST(Position, UnknownInAGuardIsNearNothingAndInNoArea) {
@@ -245,7 +245,7 @@ TEST(Position, UnknownInAGuardIsNearNothingAndInNoArea) {
   auto const script =
       "v = pick { id 'z9' }\n"
       "here = location(41, -8)\n"
-      "execute condition { position(v).near(here, 5) } | condition { position(v) in here ^ 5 }\n"
+      "execute condition { position(v).near(here, 5) } | condition { position(v) in (here ^ 5) }\n"
       "print 'here'";
   EXPECT_EQ(bench.run(script), "hereexit 0 at 3.1\n");
 }

@@ -62,9 +62,10 @@ std::string cell(std::string_view text) {
 // ---- operators
 // -----------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 25> infix{
-    "**", "*",  "/",          "%",  "+",  "-",  ">>",  "<<", "..", "..<", "<",  "<=", ">",
-    ">=", "in", "instanceof", "as", "==", "!=", "<=>", "&",  "^",  "|",   "&&", "||"};
+/// All but `as` and `instanceof`, behind which stands a type.
+constexpr std::array<std::string_view, 23> infix{"**", "*",   "/", "%",  "+", "-",  ">>", "<<",
+                                                 "..", "..<", "<", "<=", ">", ">=", "in", "==",
+                                                 "!=", "<=>", "&", "^",  "|", "&&", "||"};
 
 std::string tree_of(std::string const& script) {
   base::SourceFile const source("x", script);
@@ -82,7 +83,8 @@ bool binds_tighter(std::string_view inner, std::string_view outer) {
 std::map<std::size_t, std::vector<std::string_view>> levels() {
   std::map<std::size_t, std::vector<std::string_view>> out;
   for (auto const one : infix) {
-    auto const tighter = std::ranges::count_if(infix, [&](auto other) { return binds_tighter(other, one); });
+    auto const tighter =
+        std::ranges::count_if(infix, [&](auto other) { return other != one && binds_tighter(other, one); });
     out[static_cast<std::size_t>(tighter)].push_back(one);
   }
   return out;
@@ -92,7 +94,8 @@ std::string precedence() {
   std::string out = "1. `.` `?.` `()` `[ ]` `{ }` `++` `--` behind a value\n";
   int level = 1;
   for (auto const& [tighter, operators] : levels()) {
-    out += fmt::format("{}. `{}`\n", ++level, fmt::join(operators, "` `"));
+    bool const with_types = operators.front() == "<";
+    out += fmt::format("{}. `{}`{}\n", ++level, fmt::join(operators, "` `"), with_types ? " `as` `instanceof`" : "");
     if (level == 2) out += fmt::format("{}. `!` `-` `+` in front of a value\n", ++level);
   }
   return out + fmt::format("{}. `?:`, `condition ? a : b`\n{}. `=` `+=` `-=` `*=` `/=`\n", level + 1, level + 2);
@@ -103,18 +106,19 @@ constexpr std::array<std::string_view, 13> joined{"+", "-", "*", "/",  "%",  "**
 using Row = std::pair<std::string, std::vector<std::string>>;  ///< what it gives, and for which right operands
 
 constexpr std::string_view samples = R"([
-  number: 1, text: 'ab', truth: true, null: null, list: [1, 2], map: [a: 1], range: (0..1), closure: { true },
+  number: 1, text: 'ab', truth: true, nothing: null, list: [1, 2], map: [a: 1], range: (0..1), closure: { true },
   position: location(41, -8), displacement: moveDistance { north 5 }, area: location(41, -8) ^ 50, set: pick {},
   task: idle(1)])";
 
 /// For each left operand what the operator gives with which right one, found by trying.
 std::map<std::string, std::vector<Row>> tried(std::string_view op) {
   auto const both = op == "[ ]" ? std::string("l[r]") : fmt::format("l {} r", op);
-  auto const out = testing::printed(
-      fmt::format("samples = {}\ndef apply(l, r) {{ {} }}\n"
-                  "samples.each {{ ln, l -> samples.each {{ rn, r ->\n"
-                  "  try {{ println \"$ln $rn ${{apply(l, r).class.simpleName}}\" }} catch (Exception e) {{ }} }} }}\n",
-                  samples, both));
+  auto const out =
+      testing::printed(fmt::format("samples = {}\ndef apply(l, r) {{ {} }}\n"
+                                   "samples.each {{ ln, l -> samples.each {{ rn, r ->\n"
+                                   "  try {{ x = apply(l, r); println \"$ln $rn ${{x instanceof Map ? 'Map' : "
+                                   "x.class.simpleName}}\" }} catch (Exception e) {{ }} }} }}\n",
+                                   samples, both));
   std::map<std::string, std::vector<Row>> rows;
   std::istringstream lines(out);
   for (std::string left, right, gives; lines >> left >> right >> gives;) {
@@ -130,7 +134,7 @@ std::string word_of_type(std::string const& type) {
   static std::map<std::string, std::string> const words{
       {"Integer", "a number"},      {"Double", "a number"}, {"String", "text"},
       {"Boolean", "true or false"}, {"List", "a list"},     {"Map", "a map"},
-      {"Position", "a place"},      {"Area", "an area"},    {"VehicleSet", "a set of vehicles"},
+      {"Position", "a position"},   {"Area", "an area"},    {"VehicleSet", "a set of vehicles"},
       {"Task", "a task"},           {"Null", "the value"}};
   auto const found = words.find(type);
   return found == words.end() ? "?" + type : found->second;
@@ -166,7 +170,8 @@ std::string operator_table() {
     std::vector<decltype(merged)::key_type> order;
     for (auto const& [left, rows] : tried(op)) {
       for (auto const& [gives, rights] : rows) {
-        auto const key = std::pair(word_of_type(gives), rights);
+        bool const is_element = op == "[ ]" && gives == "Integer";
+        auto const key = std::pair(is_element ? "an element" : word_of_type(gives), rights);
         if (!merged.contains(key)) order.push_back(key);
         merged[key].push_back(left);
       }
@@ -288,11 +293,11 @@ std::string mission_commands(Vocabulary const& vocabulary) {
 std::string owners(Kinds kinds) {
   if (kinds.is_any()) return "every value";
   static constexpr std::pair<Kinds, std::string_view> words[] = {
-      {Kinds::number(), "number"}, {Kind::text, "text"},
-      {Kind::list, "list"},        {Kind::map, "map"},
-      {Kind::other, "range"},      {Kind::vehicles, "set of vehicles"},
-      {Kind::position, "place"},   {Kind::displacement, "displacement"},
-      {Kind::area, "area"},        {Kind::task, "task"},
+      {Kinds::number(), "number"},  {Kind::text, "text"},
+      {Kind::list, "list"},         {Kind::map, "map"},
+      {Kind::other, "range"},       {Kind::vehicles, "set of vehicles"},
+      {Kind::position, "position"}, {Kind::displacement, "displacement"},
+      {Kind::area, "area"},         {Kind::task, "task"},
       {Kind::closure, "closure"}};
   std::vector<std::string_view> out;
   for (auto const& [kind, word] : words) {
@@ -372,6 +377,12 @@ std::string reference_text() {
          by_hand("operators") + "\n" + operator_table() + unit_table() + all_instructions(vocabulary) + chains() +
          mission_commands(vocabulary) + all_methods() + names("Constants", constants()) +
          names("Types and exceptions", types()) + limits();
+}
+
+TEST(LanguageReference, HasTypesAmongComparisons) {
+  EXPECT_EQ(tree_of("x = a >> b as c"), tree_of("x = (a >> b) as c"));
+  EXPECT_EQ(tree_of("x = a == b as c"), tree_of("x = a == (b as c)"));
+  EXPECT_EQ(tree_of("x = a < b instanceof c"), tree_of("x = (a < b) instanceof c"));
 }
 
 TEST(LanguageReference, IsMadeOfTheTablesAndOfWhatRunsShow) {

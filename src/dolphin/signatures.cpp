@@ -115,7 +115,7 @@ std::vector<InstructionSpec> geometry_instructions() {
   return {
       {.name = "location",
        .signatures = {takes({degrees("lat", "north is positive"), degrees("lon", "east is positive"),
-                             maybe(metres("height", "above mean sea level; 0 if left out"))})},
+                             maybe(metres("height", "above mean sea level, 0 if it is left out"))})},
        .result = place,
        .doc = "A place: latitude and longitude in degrees, height in metres above mean sea level.",
        .example = "base = location(41.1780, -8.5980, 90)"},

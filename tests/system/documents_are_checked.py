@@ -1,4 +1,4 @@
-"""Every script in the guides is checked, those that can are run, and what they are said to print is compared.
+"""Every script in the guides is checked and run, what it is said to print is compared, and links lead somewhere.
 
 To accept new texts: LAPWING_REFRESH_GOLDEN=1 in front, and read the diff.
 """
@@ -62,16 +62,28 @@ def printed(block: documents.Block, folder: pathlib.Path) -> list[str]:
     return out[len(earlier):]
 
 
+def anchors(page: pathlib.Path) -> set[str]:
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
 def broken_links(page: pathlib.Path) -> list[str]:
-    targets = (link.split("#")[0] for link in LINK.findall(page.read_text()) if "://" not in link)
-    return [target for target in targets if target and not (page.parent / target).exists()]
+    broken = []
+    for link in LINK.findall(page.read_text()):
+        path, _, anchor = link.partition("#")
+        target = page.parent / path if path else page
+        if "://" not in link and (not target.exists() or (anchor and anchor not in anchors(target))):
+            broken.append(f"{page.relative_to(harness.ROOT)}: there is no {link}")
+    return broken
 
 
 refreshes = os.environ.get("LAPWING_REFRESH_GOLDEN") == "1"
 wrong, broken, count = [], [], 0
 with tempfile.TemporaryDirectory() as name:
+    for page in {*PAGES, *(harness.ROOT / "docs").rglob("*.md"), harness.ROOT / "CONTRIBUTING.md"}:
+        broken += broken_links(page)
     for page in PAGES:
-        broken += [f"{page.name}: there is no {target}" for target in broken_links(page)]
         fresh = {}
         for block in documents.blocks_of(page):
             count += 1

@@ -30,13 +30,13 @@ Parameter turn_count() {
   return {.name = "turns", .type = Type::integer, .fallback = Argument{std::int64_t{10}}, .doc = "full circles"};
 }
 Parameter loiter_time() {
-  return {.name = "secs", .type = Type::integer, .dimension = Dimension::time, .doc = "how long to circle, in seconds"};
+  return {.name = "secs", .type = Type::integer, .dimension = Dimension::time, .doc = "how long to stay"};
 }
 Parameter radius() {
-  return length("r", "radius of the circle in metres; negative: counterclockwise", Argument{15.0});
+  return length("r", "radius of the circle; negative: counterclockwise", Argument{15.0});
 }
 Parameter yaw() {
-  return angle("yaw", "heading in degrees clockwise from north; NaN leaves it to the vehicle",
+  return angle("yaw", "heading, clockwise from north; NaN leaves it to the vehicle",
                Argument{MissionBuilder::free_yaw});
 }
 Parameter precision_mode() {
@@ -52,11 +52,12 @@ Parameters operator+(Parameters left, Parameters const& right) {
   return left;
 }
 Parameters coordinates(std::optional<Argument> height = std::nullopt) {
-  return {angle("lat", "latitude in degrees"), angle("lon", "longitude in degrees"),
-          length("height", "metres above mean sea level", std::move(height))};
+  return {angle("lat", "north is positive"), angle("lon", "east is positive"),
+          length("height", "above mean sea level", std::move(height))};
 }
 Parameters offset(std::optional<Argument> up = std::nullopt) {
-  return {length("north", "metres"), length("east", "metres"), length("up", "metres", std::move(up))};
+  return {length("north", "negative: south"), length("east", "negative: west"),
+          length("up", "negative: down", std::move(up))};
 }
 
 // ---- arguments
@@ -156,9 +157,9 @@ Parameters survey_parameters() {
                       .fallback = Argument{std::string(directions[0].first)},
                       .doc = "where the area lies as seen from its base"};
   for (auto const& [word, value] : directions) direction.choices.push_back(word);
-  return {length("len", "metres north to south"), length("width", "metres east to west"),
-          length("spacing", "metres between legs", Argument{50.0}), direction,
-          length("overshoot", "metres to turn in, beyond the area at both ends", Argument{25.0})};
+  return {length("len", "north to south"), length("width", "east to west"),
+          length("spacing", "between the legs", Argument{50.0}), direction,
+          length("overshoot", "room to turn, beyond the area at both ends", Argument{25.0})};
 }
 
 Result<plan::SurveyDirection> direction_of(std::string const& word) {
@@ -198,7 +199,8 @@ std::vector<MissionCommand> loiter_commands() {
   return {
       {{"moveAndLoiterPos",
         {{offset() + Parameters{radius()}}},
-        "Goes there from the last position and circles until told otherwise. MAV_CMD_NAV_LOITER_UNLIM (17)."},
+        "Goes there from the last position and stays until told otherwise; planes circle. MAV_CMD_NAV_LOITER_UNLIM "
+        "(17)."},
        move_and_loiter<last, unlimited>},
       {{"moveAndLoiterTurns",
         {{offset() + turning}},
@@ -206,11 +208,11 @@ std::vector<MissionCommand> loiter_commands() {
        move_and_loiter<last, turns>},
       {{"moveAndLoiterTime",
         {{offset() + timed}},
-        "Goes there from the last position and circles for a time. MAV_CMD_NAV_LOITER_TIME (19)."},
+        "Goes there from the last position and stays for a time; planes circle. MAV_CMD_NAV_LOITER_TIME (19)."},
        move_and_loiter<last, time>},
       {{"moveAndLoiterFromHome",
         {{offset() + Parameters{radius()}}},
-        "Goes there from home and circles until told otherwise. MAV_CMD_NAV_LOITER_UNLIM (17)."},
+        "Goes there from home and stays until told otherwise; planes circle. MAV_CMD_NAV_LOITER_UNLIM (17)."},
        move_and_loiter<from_home, unlimited>},
       {{"moveAndLoiterTurnsFromHome",
         {{offset() + turning}},
@@ -218,14 +220,16 @@ std::vector<MissionCommand> loiter_commands() {
        move_and_loiter<from_home, turns>},
       {{"moveAndLoiterTimeFromHome",
         {{offset() + timed}},
-        "Goes there from home and circles for a time. MAV_CMD_NAV_LOITER_TIME (19)."},
+        "Goes there from home and stays for a time; planes circle. MAV_CMD_NAV_LOITER_TIME (19)."},
        move_and_loiter<from_home, time>},
       {{"loiterPos", by_coordinates_or_position({radius()}),
-        "Circles there until told otherwise. MAV_CMD_NAV_LOITER_UNLIM (17)."},
+        "Goes there and stays until told otherwise; planes circle. MAV_CMD_NAV_LOITER_UNLIM (17)."},
        loiter_at<unlimited>},
-      {{"loiterTurns", by_coordinates_or_position(turning), "Flies circles there. MAV_CMD_NAV_LOITER_TURNS (18)."},
+      {{"loiterTurns", by_coordinates_or_position(turning),
+        "Goes there and flies circles. MAV_CMD_NAV_LOITER_TURNS (18)."},
        loiter_at<turns>},
-      {{"loiterTime", by_coordinates_or_position(timed), "Circles there for a time. MAV_CMD_NAV_LOITER_TIME (19)."},
+      {{"loiterTime", by_coordinates_or_position(timed),
+        "Goes there and stays for a time; planes circle. MAV_CMD_NAV_LOITER_TIME (19)."},
        loiter_at<time>},
   };
 }
@@ -236,7 +240,7 @@ std::vector<MissionCommand> movement_commands() {
   Argument const zero{0.0};
   Parameters const ending{yaw(), precision_mode()};
   auto pitch = [](std::optional<Argument> fallback) {
-    return angle("pitch", "least climb angle of a plane in degrees", std::move(fallback));
+    return angle("pitch", "least climb angle of a plane", std::move(fallback));
   };
   std::vector<std::string_view> const fliers{"UAV"};
   std::vector<std::string_view> const landers{"UAV", "UUV"};
@@ -266,7 +270,7 @@ std::vector<MissionCommand> movement_commands() {
       {{"returnHome", {{}}, "Goes back to home. MAV_CMD_NAV_WAYPOINT (16)."}, return_home},
       {{"returnHomeAndLoiter",
         {{{radius()}}},
-        "Goes back to home and circles until told otherwise. MAV_CMD_NAV_LOITER_UNLIM (17)."},
+        "Goes back to home and stays until told otherwise; planes circle. MAV_CMD_NAV_LOITER_UNLIM (17)."},
        return_home_and_loiter},
       {{"returnHomeAndLand", {{ending}}, "Goes back to home and lands. MAV_CMD_NAV_LAND (21).", landers},
        return_home_and_land},

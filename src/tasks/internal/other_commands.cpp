@@ -49,25 +49,25 @@ Argument whole_number(std::int64_t value) {
 }  // namespace
 
 std::vector<MissionCommand> other_commands() {
-  auto const interval = whole("t", "seconds between photos", whole_number(2), Dimension::time);
+  auto const interval = whole("t", "from one photo to the next", whole_number(2), Dimension::time);
   return {
       {{"name",
         {{{{.name = "s", .type = Type::text, .doc = "what views and plans call the mission"}}}},
         "Names the mission."},
        name},
       {{"speed",
-        {{{{.name = "v", .type = Type::number, .dimension = Dimension::speed, .doc = "metres a second"},
+        {{{{.name = "v", .type = Type::number, .dimension = Dimension::speed, .doc = "how fast"},
            whole("type", "0 air speed, 1 ground speed, 2 climb, 3 descent", whole_number(0))}}},
         "Flies at this speed from here on. MAV_CMD_DO_CHANGE_SPEED (178)."},
        speed},
       {{"altitude",
-        {{{{.name = "a", .type = Type::number, .dimension = Dimension::length, .doc = "metres above mean sea level"}}}},
-        "Climbs or descends to this altitude. MAV_CMD_DO_CHANGE_ALTITUDE (186), on ArduPilot "
-        "MAV_CMD_NAV_CONTINUE_AND_CHANGE_ALT (30).",
+        {{{{.name = "a", .type = Type::number, .dimension = Dimension::length, .doc = "above mean sea level"}}}},
+        "Climbs or descends to this altitude. ArduPilot's planes: MAV_CMD_NAV_CONTINUE_AND_CHANGE_ALT (30); others: "
+        "a way point at that altitude.",
         {"UAV", "UUV"}},
        altitude},
       {{"delay",
-        {{{whole("secs", "seconds", std::nullopt, Dimension::time)}}},
+        {{{whole("secs", "how long", std::nullopt, Dimension::time)}}},
         "Waits before the next command. MAV_CMD_NAV_DELAY (93)."},
        delay},
       {{"capturePhoto", {{}}, "Takes one photo. MAV_CMD_IMAGE_START_CAPTURE (2000)."}, capture_photo},
