@@ -10,8 +10,8 @@
 #include "dolphin/testing.hpp"
 
 /// Every script of tests/conformance does what the file beside it says, word for word: what it prints, the events of
-/// its tasks, its exit code and when it ended. With LAPWING_REFRESH_GOLDEN set the expectations are written anew, to be read
-/// before they are kept.
+/// its tasks, its exit code and when it ended. With LAPWING_REFRESH_GOLDEN set the expectations are written anew, to be
+/// read before they are kept.
 namespace lapwing::dolphin {
 namespace {
 

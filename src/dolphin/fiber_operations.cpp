@@ -80,10 +80,9 @@ void Fiber::filter_vehicles() {
 }
 
 void Fiber::compare(int op) {
-  // A closure as a case is asked; the jump that follows takes its answer by its truth.
-  if (op == matches_case && top().is(ValueKind::closure)) {
-    std::swap(top(1), top());
-    return execute_call({.op = Op::call_value, .b = 1});
+  if (op == matches_case && top().is(ValueKind::closure)) {  // case { it > 5 }
+    Value const test = pop();
+    return call_closure(Ref<Closure>(test.as<Closure>()), 1);
   }
   auto result = comparison(op, top(1), top());
   replace(2, std::move(result));

@@ -96,7 +96,8 @@ MavResult FlightController::arm_disarm(CommandInt const& command) {
 MavResult FlightController::battery_reset(CommandInt const& command) {
   auto const& p = command.params;
   bool const is_mask = p[0] >= 0.0F && p[0] < 65536.0F;
-  if (!is_mask || (static_cast<unsigned>(p[0]) & 1U) == 0 || !(p[1] >= 0.0F && p[1] <= 100.0F)) return MavResult::failed;
+  if (!is_mask || (static_cast<unsigned>(p[0]) & 1U) == 0 || !(p[1] >= 0.0F && p[1] <= 100.0F))
+    return MavResult::failed;
   autopilot_.battery().set_remaining(static_cast<double>(p[1]) / 100.0);
   return MavResult::accepted;
 }

@@ -23,7 +23,7 @@ def example(name: str, vehicles: str, *messages: str, exit_code: int = 0, flies:
         expect_lines(out, *(f"Program message: {message}" for message in messages))
 
 
-TURNS = [f"turn {n}: copter {n % 2 + 1} is on station" for n in range(4)]
+TURNS = [f"turn {n + 1}: copter {n % 2 + 1} is on station" for n in range(4)]
 
 for name in ("survey", "relay", "patrol", "rover_and_drone", "error_handling"):
     script = str(EXAMPLES / f"{name}.dolphin")
