@@ -5,7 +5,7 @@ Words behind `dolphin` say what a block shows:
     mistake     it must not check; the text is what `lapwing check` says
     warns       it checks, with warnings; the text is what `lapwing check` says
     continues   it goes on where the block before ended, and is read together with it
-    events      the text has the events of its tasks too (`--events -`)
+    events      the text has the events of its tasks too (`--events -`), but for who was chosen (ALLOC)
     checked     it is checked and not run
     exit=N      how a run of it ends, 0 if left out
     input=A|B   the answers to its questions

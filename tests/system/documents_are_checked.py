@@ -41,7 +41,8 @@ def run(script: pathlib.Path, block: documents.Block) -> list[str]:
     expected = int(block.words.get("exit", 0))
     assert done.returncode == expected, f"{block.place}: run ends with {done.returncode}\n{done.stdout}{done.stderr}"
     log = [STAMP.sub("", line) for line in lines_of(done.stderr) if STAMP.match(line)]
-    return lines_of(done.stdout) + [line for line in log if line.startswith(("warning ", "error "))]
+    out = [line for line in lines_of(done.stdout) if '"event":"ALLOC"' not in line]
+    return out + [line for line in log if line.startswith(("warning ", "error "))]
 
 
 def printed(block: documents.Block, folder: pathlib.Path) -> list[str]:
@@ -51,6 +52,8 @@ def printed(block: documents.Block, folder: pathlib.Path) -> list[str]:
     said = checked(script, block)
     if "mistake" in block.words or "warns" in block.words:
         return said
+    if "picture" in block.words:
+        harness.expect_exit(0, "plan", str(script))
     if "checked" in block.words:
         return []
     out = run(script, block)
