@@ -237,7 +237,8 @@ std::string entry_of(InstructionSpec const& spec, Vocabulary const& vocabulary) 
   auto const parameters = parameters_of(spec, nullptr, true);
   if (!is_block && !parameters.empty()) out += fmt::format("\n{}", fmt::join(parameters, ""));
   if (auto const* block = vocabulary.block(spec.name)) out += fields_of(*block);
-  if (!spec.result.is_none()) out += fmt::format("\nGives {}.\n", kind_text({spec.result, spec.dimension}));
+  bool const is_told = spec.result.is_none() || spec.result == Kinds(Kind::other);
+  if (!is_told) out += fmt::format("\nGives {}.\n", kind_text({spec.result, spec.dimension}));
   if (spec.example.empty()) return out;
   expect_to_check(spec);
   return out + fmt::format("\n```dolphin\n{}\n```\n", spec.example);
@@ -276,7 +277,7 @@ std::string chains() {
 std::string mission_commands(Vocabulary const& vocabulary) {
   auto const& block = *vocabulary.block("mission");
   std::string out =
-      fmt::format("\n## Missions\n\n`mission {{ ... }}`: {}\n{}", block.builder->doc, by_hand("missions"));
+      fmt::format("\n## Missions\n\n`mission {{ ... }}`. {}\n\n{}", block.builder->doc, by_hand("missions"));
   for (auto const& word : block.words) {
     out += fmt::format("\n### {} (mission)\n\n{}. {}\n", word.name, calls_of(word, &block), word.doc);
     auto const parameters = parameters_of(word, &block, true);

@@ -1,6 +1,8 @@
 #include "tasks/internal/mission_commands.hpp"
 
+#include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <utility>
 
 namespace lapwing::tasks::internal {
@@ -33,7 +35,7 @@ Parameter loiter_time() {
   return {.name = "secs", .type = Type::integer, .dimension = Dimension::time, .doc = "how long to stay"};
 }
 Parameter radius() {
-  return length("r", "radius of the circle; negative: counterclockwise", Argument{15.0});
+  return length("r", "radius of the circle; counterclockwise when negative", Argument{15.0});
 }
 Parameter yaw() {
   return angle("yaw", "heading, clockwise from north; NaN leaves it to the vehicle",
@@ -56,8 +58,7 @@ Parameters coordinates(std::optional<Argument> height = std::nullopt) {
           length("height", "above mean sea level", std::move(height))};
 }
 Parameters offset(std::optional<Argument> up = std::nullopt) {
-  return {length("north", "negative: south"), length("east", "negative: west"),
-          length("up", "negative: down", std::move(up))};
+  return {length("north", "northwards"), length("east", "eastwards"), length("up", "upwards", std::move(up))};
 }
 
 // ---- arguments
@@ -244,8 +245,7 @@ std::vector<MissionCommand> movement_commands() {
   };
   std::vector<std::string_view> const fliers{"UAV"};
   std::vector<std::string_view> const landers{"UAV", "UUV"};
-  auto commands = loiter_commands();
-  std::vector<MissionCommand> const others{
+  std::vector<MissionCommand> commands{
       {{"home", by_coordinates_or_position({}, zero),
         "Where the vehicle starts and returns to. MAV_CMD_DO_SET_HOME (179), or item 0 of the mission when it comes "
         "first."},
@@ -279,7 +279,7 @@ std::vector<MissionCommand> movement_commands() {
         "Sweeps a rectangle in parallel legs, from one corner and back to it. MAV_CMD_NAV_WAYPOINT (16)."},
        survey_area},
   };
-  commands.insert(commands.end(), others.begin(), others.end());
+  std::ranges::move(loiter_commands(), std::back_inserter(commands));
   return commands;
 }
 
