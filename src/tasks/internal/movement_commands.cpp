@@ -267,10 +267,15 @@ std::vector<MissionCommand> movement_commands() {
        take_off},
       {{"landingPoint", by_coordinates_or_position(ending, zero), "Lands there. MAV_CMD_NAV_LAND (21).", landers},
        landing_point},
-      {{"returnHome", {{}}, "Goes back to home. MAV_CMD_NAV_WAYPOINT (16)."}, return_home},
+      {{"returnHome",
+        {{}},
+        "Goes back to home, at the height of home, which is mostly the ground. MAV_CMD_NAV_WAYPOINT (16)."},
+       return_home},
       {{"returnHomeAndLoiter",
         {{{radius()}}},
-        "Goes back to home and stays until told otherwise; planes circle. MAV_CMD_NAV_LOITER_UNLIM (17)."},
+        "Goes back to home and stays there, at the height of home, which is mostly the ground. "
+        "MAV_CMD_NAV_LOITER_UNLIM "
+        "(17)."},
        return_home_and_loiter},
       {{"returnHomeAndLand", {{ending}}, "Goes back to home and lands. MAV_CMD_NAV_LAND (21).", landers},
        return_home_and_land},
