@@ -58,6 +58,19 @@ TEST(Recorder, CountsEnergyAndTimeInTheAir) {
   EXPECT_EQ(copter.modes.front().mode, "AUTO");
 }
 
+TEST(Recorder, CountsOnWhenAPackWasChanged) {
+  Recorder recorder(crew(1), {});
+  recorder.sample(0s, std::vector{sample(0, 5, 100)});
+  recorder.sample(1s, std::vector{sample(0, 5, 350)});
+  recorder.sample(2s, std::vector{sample(0, 0, 0)});
+  recorder.sample(3s, std::vector{sample(0, 5, 250)});
+  auto const record = recorder.finish(3s);
+  auto const& charge = record.vehicles.front().charge;
+  EXPECT_NEAR(charge[2].used_wh, 3.0, 1e-5);
+  EXPECT_NEAR(charge.back().used_wh, 6.0, 1e-5);
+  EXPECT_NEAR(charge.back().remaining, 0.95, 1e-5);
+}
+
 TEST(Recorder, KeepsMemoryBoundedAndTheEnds) {
   Recorder recorder(crew(2), {.max_points = 200});
   Duration now{};

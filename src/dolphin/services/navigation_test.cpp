@@ -33,7 +33,7 @@ std::string hover_text(std::string const& script) {
 
 TEST(Hover, ShowsSignaturesWithUnitsAndDefaults) {
   EXPECT_TRUE(says("pau|se 3", {"pause time", "`time`: a number in seconds", "Waits"}));
-  EXPECT_TRUE(says("x = batt|ery(v)", {"battery vehicle", "Gives a number (0 to 1)"}));
+  EXPECT_TRUE(says("x = batt|ery(v)", {"battery vehicle", "Gives a number (0 to 1)", "For example", "90.percent"}));
   EXPECT_TRUE(says("m = mission { take|Off p }", {"takeOff pos, pitch = 15", "degrees", "15 if left out",
                                                   "MAV_CMD_NAV_TAKEOFF (22)", "Inside `mission { ... }`"}));
   EXPECT_TRUE(says("v = pick { time|out 3 }", {"timeout time", "seconds", "Inside `pick { ... }`"}));
@@ -45,7 +45,7 @@ TEST(Hover, ShowsUnitsMembersConstantsAndTypes) {
   EXPECT_TRUE(says("x = 10.min|utes", {"n.minutes", "60 seconds"}));
   EXPECT_TRUE(says("x = 10.per|cent", {"0.01 of the whole"}));
   EXPECT_TRUE(says("v = pick { }\nx = v.batt|ery", {".battery", "a set of vehicles"}));
-  EXPECT_TRUE(says("x = [1].coll|ect { it }", {".collect(closure)", "a list"}));
+  EXPECT_TRUE(says("x = [1].coll|ect { it }", {".collect(closure)", "a list", "`[1, 2].collect { it * 10 }`"}));
   EXPECT_TRUE(says("x = P|I", {"3.14159"}));
   EXPECT_TRUE(says("try { a() } catch (Task|Error e) { }", {"failed"}));
 }
