@@ -22,6 +22,7 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
       log_(std::move(log)),
       routes_(std::make_unique<internal::Routes>()),
       scope_(loop) {
+  if (options_.signing_key) guard_.emplace(*options_.signing_key);
   if (options_.heartbeat) scope_.spawn(beat());
 }
 
@@ -52,6 +53,7 @@ void Connection::receive(PeerRef from, link::Bytes bytes) {
 
 void Connection::accept(PeerRef from, Frame const& frame) {
   if (frame.source == options_.self) return;  // our own, come back over a broadcast address or another link
+  if (guard_ && !may_be_heard(from, frame)) return;
   auto const now = loop_.now();
   auto& peer = routes_->speak_to(from);
   if (frame.version == 2) peer.spoke_v2 = true;
@@ -70,6 +72,16 @@ void Connection::accept(PeerRef from, Frame const& frame) {
   if (frame_hook_) frame_hook_(Direction::received, frame, now);
   if (listeners_.empty()) return;
   if (auto const message = decode(frame)) dispatch({*message, frame.source, from, now});
+}
+
+bool Connection::may_be_heard(PeerRef from, Frame const& frame) {
+  if (guard_->accepts(frame, loop_.utc_now())) return true;
+  if (!std::exchange(has_told_of_strangers_, true)) {
+    log_.warn(fmt::format(
+        "system {} on {} {}; nothing of the kind is listened to", frame.source.system, describe(from),
+        frame.is_signed() ? "signs with another key or plays back what is past" : "does not sign its packets"));
+  }
+  return false;
 }
 
 void Connection::dispatch(Received const& received) {
@@ -147,6 +159,7 @@ bool Connection::send_frame(PeerRef to, Frame& frame) {
   frame.version = peer.spoke && !peer.spoke_v2 ? 1 : 2;
   if (frame.version == 1 && frame.message_id > 255) return false;
   frame.seq = peer.next_seq;
+  if (guard_) guard_->sign(frame, static_cast<std::uint8_t>(to.link), loop_.utc_now());
   auto const out = serialize(frame);
   if (!links_[to.link]->send(to.peer, out.bytes())) return false;
   ++peer.next_seq;
@@ -180,6 +193,10 @@ bool Connection::is_contested(std::uint8_t system_id) const {
 
 SourceCounters Connection::counters(Address source) const {
   return routes_->counters(source);
+}
+
+SigningCounters Connection::signing_counters() const {
+  return guard_ ? guard_->counters() : SigningCounters{};
 }
 
 ParserCounters Connection::parser_counters(std::size_t link) const {

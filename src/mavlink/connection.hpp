@@ -13,6 +13,7 @@
 #include "base/scope.hpp"
 #include "link/byte_link.hpp"
 #include "mavlink/codec.hpp"
+#include "mavlink/signing.hpp"
 
 namespace lapwing::mavlink {
 
@@ -74,6 +75,8 @@ class Connection {
     /// What the heartbeat says, asked each time. Empty: no heartbeats.
     std::function<Heartbeat()> heartbeat = ground_station_heartbeat;
     base::Duration heartbeat_period = std::chrono::seconds(1);
+    /// Sign everything that is sent, and listen to nobody who does not.
+    std::optional<SigningKey> signing_key = std::nullopt;
   };
   [[nodiscard]] static Heartbeat ground_station_heartbeat();
 
@@ -113,6 +116,8 @@ class Connection {
   [[nodiscard]] SourceCounters counters(Address source) const;
   /// Summed over the peers of one link.
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
+  /// All zero without a key.
+  [[nodiscard]] SigningCounters signing_counters() const;
   [[nodiscard]] std::vector<std::unique_ptr<link::ByteLink>> const& links() const { return links_; }
 
   [[nodiscard]] base::Loop& loop() const { return loop_; }
@@ -129,6 +134,7 @@ class Connection {
   void accept(PeerRef from, Frame const& frame);
   void dispatch(Received const& received);
   bool send_frame(PeerRef to, Frame& frame);
+  [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
   base::Task<void> beat();
   [[nodiscard]] std::string describe(PeerRef peer) const;
 
@@ -140,6 +146,8 @@ class Connection {
   std::vector<Listener> listeners_;
   int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
   FrameHook frame_hook_;
+  std::optional<SigningGuard> guard_;
+  bool has_told_of_strangers_ = false;
   base::Scope scope_;
 };
 

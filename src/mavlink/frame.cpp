@@ -50,9 +50,20 @@ std::uint8_t travelling_size(Frame const& frame, MessageTraits const* traits) {
 
 FrameBytes serialize(Frame const& frame) {
   FrameBytes out;
-  auto* p = out.data_.data();
+  out.write(frame, travelling_size(frame, find_traits(frame.message_id)));
+  return out;
+}
+
+FrameBytes serialize_as_received(Frame const& frame) {
+  FrameBytes out;
+  out.write(frame, frame.payload_size);
+  return out;
+}
+
+void FrameBytes::write(Frame const& frame, std::size_t payload_size) {
+  auto const size = static_cast<std::uint8_t>(payload_size);
+  auto* p = data_.data();
   auto const* traits = find_traits(frame.message_id);
-  auto const size = travelling_size(frame, traits);
   if (frame.version == 1) {
     std::uint8_t const header[] = {
         magic_v1, size, frame.seq, frame.source.system, frame.source.component, low(frame.message_id)};
@@ -73,14 +84,13 @@ FrameBytes serialize(Frame const& frame) {
   p = std::copy_n(frame.payload.data(), size, p);
   auto checksum = frame.checksum;  // of a message that is not in the dialect only its sender knows the seed
   if (traits) {
-    checksum = crc_accumulate({out.data_.data() + 1, p});
+    checksum = crc_accumulate({data_.data() + 1, p});
     checksum = crc_accumulate({&traits->crc_extra, 1}, checksum);
   }
   *p++ = low(checksum);
   *p++ = low(static_cast<std::uint32_t>(checksum >> 8U));
   if (frame.version == 2 && frame.is_signed()) p = std::ranges::copy(frame.signature, p).out;
-  out.size_ = static_cast<std::size_t>(p - out.data_.data());
-  return out;
+  size_ = static_cast<std::size_t>(p - data_.data());
 }
 
 /// What an earlier call left is an unfinished frame, or junk that looks like the start of one. If the new bytes begin

@@ -50,10 +50,14 @@ class FrameBytes {
 
  private:
   friend FrameBytes serialize(Frame const& frame);
+  friend FrameBytes serialize_as_received(Frame const& frame);
+  void write(Frame const& frame, std::size_t payload_size);
   std::array<std::uint8_t, max_frame_size> data_;
   std::size_t size_ = 0;
 };
 [[nodiscard]] FrameBytes serialize(Frame const& frame);
+/// The bytes in which a received packet came, whether or not its sender trimmed it.
+[[nodiscard]] FrameBytes serialize_as_received(Frame const& frame);
 
 struct ParserCounters {
   std::uint64_t frames = 0;
