@@ -19,9 +19,9 @@ fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop, tasks::Pla
 }  // namespace
 
 Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options,
-               tasks::PlanLibrary plans)
+               tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> signing_key)
     : loop(on),
-      connection(on, {}, log.named("link")),
+      connection(on, {.signing_key = signing_key}, log.named("link")),
       registry(on),
       fleet(connection, registry, std::move(fleet_options), log.named("fleet")),
       platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")) {}

@@ -18,7 +18,7 @@ inline constexpr auto default_link = "udpin://127.0.0.1:14550";
 /// The ground side of one program: links, the vehicles on them, and the platform that flies missions on those.
 struct Ground {
   Ground(base::Loop& loop, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options = {},
-         tasks::PlanLibrary plans = {});
+         tasks::PlanLibrary plans = {}, std::optional<mavlink::SigningKey> signing_key = std::nullopt);
 
   /// Opens every link or none. Errors: invalid_input for a wrong URL, io for a port in use.
   [[nodiscard]] base::Result<> open(std::vector<std::string> const& urls);

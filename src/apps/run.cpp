@@ -4,6 +4,7 @@
 
 #include "apps/files.hpp"
 #include "apps/harness_run.hpp"
+#include "apps/secret_file.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
@@ -29,10 +30,11 @@ struct RunOptions {
   std::string events;
   std::optional<std::uint64_t> seed;
   std::string plans;
+  std::string signing_key;
 };
 
 /// Simulated vehicles, or the links, or the default link.
-base::Result<> connect(Session& session, RunOptions const& options) {
+base::Result<> connect(Session& session, RunOptions const& options, std::optional<mavlink::SigningKey> const& key) {
   if (options.simulated.empty()) {
     return session.open_links(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
   }
@@ -41,6 +43,7 @@ base::Result<> connect(Session& session, RunOptions const& options) {
   sim::WorldOptions world;
   world.vehicles = *vehicles;
   world.seed = options.seed.value_or(world.seed);
+  world.signing_key = key;
   world.impairment.loss = options.loss;
   world.impairment.delay = base::from_seconds(options.delay_s);
   if (!options.home.empty()) {
@@ -70,15 +73,18 @@ int run(RunOptions const& options) {
   auto const on_stop = parse_on_stop(options.on_stop);
   if (!on_stop) return refuse(on_stop.error());
 
+  auto const key = read_signing_key(options.signing_key);
+  if (!key) return refuse(key.error());
   Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
                    .on_stop = *on_stop,
                    .plans = *std::move(plans),
-                   .seed = options.seed});
+                   .seed = options.seed,
+                   .signing_key = *key});
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
     if (auto kept = write_file(session.recording->beside(".dolphin"), *source); !kept) return refuse(kept.error());
   }
-  if (auto connected = connect(session, options); !connected) return refuse(connected.error());
+  if (auto connected = connect(session, options, *key); !connected) return refuse(connected.error());
   auto const started = session.host.start(options.script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());
   if (!started) return exit_usage;
@@ -115,6 +121,7 @@ void add_run(CLI::App& program, int& exit_code) {
   verb->add_option("--timeout", options->timeout_s, "Halt the script after so many seconds")
       ->check(CLI::PositiveNumber);
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
+  verb->add_option("--signing-key", options->signing_key, signing_key_help);
   verb->add_option("--record", options->record, record_help);
   verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
   verb->add_option("--plans", options->plans, plans_help);

@@ -44,7 +44,8 @@ base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
 Session::Session(Options const& options)
     : loop(pace_of(options)),
       log(hub, "lapwing"),
-      ground(loop, options.on_stop, log, {.asks_for_messages = !options.listens_only}, options.plans.library),
+      ground(loop, options.on_stop, log, {.asks_for_messages = !options.listens_only}, options.plans.library,
+             options.signing_key),
       console(make_console(loop, log)),
       host(
           loop, ground.platform, *console, log,

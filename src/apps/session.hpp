@@ -28,7 +28,8 @@ class Session {
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
     std::optional<std::uint64_t> seed = std::nullopt;
     std::optional<base::UtcTime> begins_at = std::nullopt;  ///< what the calendar shows at the start; empty: the wall's
-    bool listens_only = false;                              ///< asks vehicles for nothing
+    std::optional<mavlink::SigningKey> signing_key = std::nullopt;
+    bool listens_only = false;  ///< asks vehicles for nothing
   };
   explicit Session(Options const& options);
 

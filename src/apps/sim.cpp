@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/secret_file.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
@@ -28,6 +29,7 @@ struct SimOptions {
   int first_id = 1;
   bool realistic_boot = false;
   std::vector<std::string> parameters;
+  std::string signing_key;
 };
 
 base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
@@ -52,6 +54,9 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
     if (!parameter) return std::unexpected(parameter.error());
     world.parameters.push_back(*parameter);
   }
+  auto const key = read_signing_key(options.signing_key);
+  if (!key) return std::unexpected(key.error());
+  world.signing_key = *key;
   world.boot = options.realistic_boot ? sim::BootStyle::realistic : sim::BootStyle::quick;
   return world;
 }
@@ -100,6 +105,7 @@ void add_sim(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(1, 250))
       ->capture_default_str();
   verb->add_option("--param", options->parameters, "NAME=VALUE: a parameter of every vehicle; may come several times");
+  verb->add_option("--signing-key", options->signing_key, signing_key_help);
   verb->add_flag("--realistic-boot", options->realistic_boot, "Take 41 s to start up, as ArduPilot does, instead of 3");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/files.hpp"
+#include "apps/secret_file.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
 #include "apps/station_config.hpp"
@@ -22,6 +23,7 @@ struct StationArguments {
   std::optional<std::string> on_stop;
   std::optional<std::string> scripts;
   std::optional<std::string> record;
+  std::optional<std::string> signing_key;
   std::optional<std::string> tiles;
   WebArguments web;
 };
@@ -61,6 +63,7 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
     config->map.tiles = *arguments.tiles;
   }
   if (arguments.scripts) config->map.scripts = *arguments.scripts;
+  if (arguments.signing_key) config->signing_key = *arguments.signing_key;
   if (arguments.record) config->record = *arguments.record;
   apply(arguments.web, config->web);
   return config;
@@ -71,7 +74,9 @@ int serve(StationArguments const& arguments) {
   if (!config) return refuse(config.error());
   auto plans = load_plans(arguments.plans);
   if (!plans) return refuse(plans.error());
-  Session session({.on_stop = config->on_stop, .plans = *std::move(plans)});
+  auto const key = read_signing_key(config->signing_key);
+  if (!key) return refuse(key.error());
+  Session session({.on_stop = config->on_stop, .plans = *std::move(plans), .signing_key = *key});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
   }
@@ -100,6 +105,7 @@ void add_station(CLI::App& program, int& exit_code) {
   add_web_options(*verb, arguments->web);
   verb->add_option("--scripts", arguments->scripts, "Folder whose scripts the map offers")
       ->check(CLI::ExistingDirectory);
+  verb->add_option("--signing-key", arguments->signing_key, signing_key_help);
   verb->add_option("--record", arguments->record, record_help);
   verb->add_option("--plans", arguments->plans, plans_help);
   verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");

@@ -117,6 +117,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   ConfigReader root(entries, diagnostics);
   read_links(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
+  if (auto const file = root.text("signing_key")) config.signing_key = beside(source, file->value).string();
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);
   if (auto map = root.table("map")) read_map(std::move(*map), source, diagnostics, config.map);

@@ -24,7 +24,8 @@ struct MapContent {
 struct StationConfig {
   std::vector<std::string> links;  ///< empty: the default link
   fleet::OnStop on_stop = fleet::OnStop::loiter;
-  std::string record = {};  ///< folder for recordings; empty: none are made
+  std::string signing_key = {};  ///< file; empty: nothing is signed
+  std::string record = {};       ///< folder for recordings; empty: none are made
   WebAccess web;
   MapContent map;
 };

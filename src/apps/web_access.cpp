@@ -1,16 +1,13 @@
 #include "apps/web_access.hpp"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netinet/in.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -18,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/secret_file.hpp"
 #include "station/access.hpp"
 
 namespace lapwing::apps {
@@ -50,33 +48,6 @@ std::vector<std::string> own_addresses() {
     if (::inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size())) addresses.emplace_back(text.data());
   }
   return addresses;
-}
-
-/// Reads from one open file, so that what was looked at is what is read.
-base::Result<std::string> read_private(std::string const& path) {
-  int const file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    auto const kind = errno == ENOENT ? base::ErrorKind::not_found : base::ErrorKind::io;
-    return base::fail(kind, fmt::format("token file {}: {}", path, std::strerror(errno)),
-                      fmt::format("make one: (umask 077; openssl rand -hex 24 > {})", path));
-  }
-  struct Closer {
-    int file;
-    ~Closer() { ::close(file); }
-  } const closer{file};
-  struct stat about{};
-  if (::fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) {
-    return base::fail(base::ErrorKind::invalid_input, fmt::format("token file {}: not a file", path));
-  }
-  if ((about.st_mode & 077u) != 0) {
-    return base::fail(base::ErrorKind::invalid_input,
-                      fmt::format("token file {}: others can read it (mode {:04o})", path, about.st_mode & 07777u),
-                      fmt::format("chmod 600 {}", path));
-  }
-  std::array<char, longest_token + 64> bytes{};
-  auto const size = ::read(file, bytes.data(), bytes.size());
-  if (size < 0) return base::fail(base::ErrorKind::io, fmt::format("token file {}: {}", path, std::strerror(errno)));
-  return std::string(bytes.data(), static_cast<std::size_t>(size));
 }
 
 }  // namespace
@@ -115,13 +86,10 @@ base::Result<std::string> token_for(WebAccess const& access) {
 }
 
 base::Result<std::string> read_token(std::string const& path) {
-  auto text = read_private(path);
-  if (!text) return text;
-  auto const first = text->find_first_not_of(" \t\r\n");
-  auto const token =
-      first == std::string::npos ? std::string() : text->substr(first, text->find_last_not_of(" \t\r\n") + 1 - first);
-  if (token.size() < shortest_token || token.size() > longest_token ||
-      !std::ranges::all_of(token, is_token_character)) {
+  auto token = read_secret({path, "token file", fmt::format("make one: (umask 077; openssl rand -hex 24 > {})", path)});
+  if (!token) return token;
+  if (token->size() < shortest_token || token->size() > longest_token ||
+      !std::ranges::all_of(*token, is_token_character)) {
     return base::fail(base::ErrorKind::invalid_input,
                       fmt::format("token file {}: a token is one word of {} to {} letters, digits, - _ . or ~", path,
                                   shortest_token, longest_token),

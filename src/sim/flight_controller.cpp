@@ -27,9 +27,9 @@ constexpr std::array stream_rates{
     StreamRate{"SR0_EXTRA3", 12},
 };
 
-Connection::Options connection_options(std::uint8_t system_id) {
+Connection::Options connection_options(FlightController::Setup const& setup) {
   // The vehicle's heartbeat is telemetry like any other here: its rate can be changed.
-  return {.self = {system_id, autopilot_component}, .heartbeat = {}};
+  return {.self = {setup.system_id, autopilot_component}, .heartbeat = {}, .signing_key = setup.signing_key};
 }
 
 /// COMMAND_LONG says the same as COMMAND_INT with the place in floats and altitudes above home.
@@ -56,7 +56,7 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       autopilot_(setup.autopilot, site, memory.parameters, memory.plans.mission),
       telemetry_(setup.autopilot.boot.first_heartbeat),
       missions_(memory.plans, mission_ports(), autopilot_.airframe().family),
-      connection_(loop, connection_options(setup.system_id), std::move(log)),
+      connection_(loop, connection_options(setup), std::move(log)),
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
   connection_.add_link(std::move(link));
   for (auto const& [name, stream] : stream_rates) follow_stream_rate(name, stream);

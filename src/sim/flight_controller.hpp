@@ -31,6 +31,7 @@ class FlightController {
     std::uint8_t system_id = 1;
     Autopilot::Setup autopilot;
     base::TimePoint powered_on;
+    std::optional<mavlink::SigningKey> signing_key = std::nullopt;
   };
   FlightController(base::Loop& loop, Setup const& setup, Site const& site, Memory& memory,
                    std::unique_ptr<link::ByteLink> link, base::Logger log);

@@ -48,6 +48,7 @@ base::Result<> Vehicle::switch_on() {
                     .boot = options_.boot,
                     .battery = battery_},
       .powered_on = loop_.now(),
+      .signing_key = options_.signing_key,
   };
   controller_ = std::make_unique<FlightController>(loop_, setup, site_, memory_, std::move(*link), log_);
   controller_->autopilot().set_arming_fault(arming_fault_);

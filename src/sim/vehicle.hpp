@@ -29,6 +29,7 @@ class Vehicle {
     geo::Ned wind_m_s;
     double gust_m_s = 0.0;
     std::uint64_t seed = 1;
+    std::optional<mavlink::SigningKey> signing_key = std::nullopt;
   };
   /// Makes the link of one power-on: a new one each time, as a real vehicle has a new source port each time.
   using OpenLink = std::function<base::Result<std::unique_ptr<link::ByteLink>>()>;

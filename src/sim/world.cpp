@@ -45,6 +45,7 @@ void World::park(VehicleGroup const& group, int system_id) {
       .wind_m_s = options_.wind_m_s,
       .gust_m_s = options_.gust_m_s,
       .seed = seed,
+      .signing_key = options_.signing_key,
   };
   auto impairment = options_.impairment;
   impairment.seed = seed;
