@@ -7,7 +7,7 @@
 namespace lapwing::apps {
 
 base::Result<std::vector<sim::VehicleGroup>> crew_for(dolphin::Needs const& needs, base::SourceFile const& source) {
-  auto const at = [&](base::Span span) { return fmt::format("{}:{}", source.name(), source.place(span.begin).line); };
+  auto const at = [&](base::Span span) { return fmt::format("{}:{}", source.name(), source.line(span.begin)); };
   if (!needs.unclear.empty()) {
     return base::fail(
         base::ErrorKind::invalid_input,

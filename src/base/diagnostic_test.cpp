@@ -21,6 +21,9 @@ TEST(SourceFile, FindsLinesWithAnyLineEnd) {
   EXPECT_EQ(source.place(4), (LineColumn{2, 1}));
   EXPECT_EQ(source.place(15), (LineColumn{4, 1}));
   EXPECT_EQ(source.place(1000), (LineColumn{4, 5}));
+  EXPECT_EQ(source.line(0), 1U);
+  EXPECT_EQ(source.line(4), 2U);
+  EXPECT_EQ(source.line(1000), 4U);
 }
 
 TEST(SourceFile, CountsCharactersNotBytes) {

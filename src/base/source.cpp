@@ -26,13 +26,17 @@ std::string_view SourceFile::text(Span span) const {
   return std::string_view(text_).substr(begin, end - begin);
 }
 
-LineColumn SourceFile::place(std::uint32_t offset) const {
+std::uint32_t SourceFile::line(std::uint32_t offset) const {
   offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
   auto const after = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
-  auto const start = *std::prev(after);
-  auto const before = text({start, offset});
+  return static_cast<std::uint32_t>(after - line_starts_.begin());
+}
+
+LineColumn SourceFile::place(std::uint32_t offset) const {
+  auto const line_number = line(offset);
+  auto const before = text({line_starts_[line_number - 1], offset});
   auto const characters = std::count_if(before.begin(), before.end(), [](char c) { return !continues_character(c); });
-  return {static_cast<std::uint32_t>(after - line_starts_.begin()), static_cast<std::uint32_t>(characters) + 1};
+  return {line_number, static_cast<std::uint32_t>(characters) + 1};
 }
 
 Span SourceFile::line_span(std::uint32_t line) const {

@@ -41,7 +41,9 @@ class SourceFile {
   [[nodiscard]] std::string_view text(Span span) const;
 
   [[nodiscard]] std::size_t line_count() const { return line_starts_.size(); }
-  /// The place of a byte offset; offsets beyond the end count as the end. Logarithmic in the number of lines.
+  /// The line of a byte offset, from 1; offsets beyond the end count as the end. Logarithmic in the number of lines.
+  [[nodiscard]] std::uint32_t line(std::uint32_t offset) const;
+  /// The place of a byte offset. Counts the characters of its line: for messages, not for every node of a tree.
   [[nodiscard]] LineColumn place(std::uint32_t offset) const;
   /// The bytes of line `line` (from 1) without its line end; an empty span at the end of the text for lines it does not
   /// have.

@@ -77,7 +77,7 @@ enum class Op : std::uint8_t {
 
 struct Instruction {
   Op op;
-  std::uint16_t b = 0;
+  std::int32_t b = 0;  ///< a local, or a number of arguments
   std::int32_t a = 0;
 };
 

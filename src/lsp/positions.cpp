@@ -24,7 +24,7 @@ std::uint32_t units_of(std::string_view text) {
 Position Positions::of(std::uint32_t offset) {
   offset = std::min(offset, static_cast<std::uint32_t>(source_.text().size()));
   if (line_number_ == 0 || offset < last_offset_ || offset > line_.end) {
-    line_number_ = source_.place(offset).line;
+    line_number_ = source_.line(offset);
     line_ = source_.line_span(line_number_);
     last_offset_ = line_.begin;
     last_character_ = 0;

@@ -81,8 +81,8 @@ class TokenEncoder {
   explicit TokenEncoder(base::SourceFile const& source) : source_(source), positions_(source) {}
 
   void add(dolphin::SemanticToken const& token) {
-    auto const first = source_.place(token.span.begin).line;
-    auto const last = source_.place(token.span.end).line;
+    auto const first = source_.line(token.span.begin);
+    auto const last = source_.line(token.span.end);
     for (auto line = first; line <= last; ++line) {
       auto const whole = source_.line_span(line);
       add(token, {std::max(whole.begin, token.span.begin), std::min(whole.end, token.span.end)});

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numbers>
 #include <variant>
 
 #include "dolphin/internal/compilation.hpp"
 #include "dolphin/objects.hpp"
+#include "dolphin/signatures.hpp"
 
 namespace lapwing::dolphin::internal {
 namespace {
@@ -35,18 +35,7 @@ bool is_comparison(ast::BinaryOp op) {
 }  // namespace
 
 bool is_type_name(std::string_view name) {
-  static constexpr std::array names = {"Math",
-                                       "System",
-                                       "Float",
-                                       "Double",
-                                       "Integer",
-                                       "Long",
-                                       "Boolean",
-                                       "String",
-                                       "Object",
-                                       "Position",
-                                       "PRECISION_LAND_MODE"};
-  return std::ranges::find(names, name) != names.end();
+  return std::ranges::find(types(), name, &NameSpec::name) != types().end();
 }
 
 int Compilation::global(std::string const& name) {
@@ -95,7 +84,7 @@ void Compilation::name(std::string const& name, base::Span /*span*/) {
 
 void Compilation::expression(ast::Expr const& expr) {
   auto const outer_line = function_->line();
-  function_->at_line(diagnostics_.source().place(expr.span.begin).line);
+  function_->at_line(diagnostics_.source().line(expr.span.begin));
   expression_node(expr);
   function_->at_line(outer_line);
 }
@@ -203,7 +192,7 @@ void Compilation::binary(ast::Binary const& node) {
     default: break;
   }
   expression(*node.right);
-  f.at_line(diagnostics_.source().place(node.op_span.begin).line);
+  f.at_line(diagnostics_.source().line(node.op_span.begin));
   f.emit(is_comparison(node.op) ? Op::compare : Op::binary, static_cast<int>(node.op));
 }
 
@@ -279,7 +268,7 @@ std::shared_ptr<Function const> Compilation::function(std::string name, std::vec
   auto* const outer = std::exchange(function_, &f);
   auto const outer_surroundings = std::exchange(surroundings_, {});
   auto const outer_blocks = enclosing ? blocks_ : std::exchange(blocks_, {});
-  f.at_line(diagnostics_.source().place(its_body.span.begin).line);
+  f.at_line(diagnostics_.source().line(its_body.span.begin));
   f.function().is_library = is_library_;
   for (auto const& parameter : parameters) f.declare(parameter.name.text);
   if (has_it) f.declare("it");

@@ -66,7 +66,7 @@ void Compilation::block(ast::Block const& block, int sink) {
 
 /// A statement whose value goes into a local: the last one of a block that gives a value.
 void Compilation::value_statement(ast::Stmt const& stmt, int sink) {
-  function_->at_line(diagnostics_.source().place(stmt.span.begin).line);
+  function_->at_line(diagnostics_.source().line(stmt.span.begin));
   if (auto const* node = std::get_if<ast::ExprStmt>(&stmt.node)) {
     expression(*node->expr);
     function_->emit(Op::store_local, sink);
@@ -96,7 +96,7 @@ void Compilation::body(ast::Block const& block) {
 }
 
 void Compilation::last_statement(ast::Stmt const& stmt) {
-  function_->at_line(diagnostics_.source().place(stmt.span.begin).line);
+  function_->at_line(diagnostics_.source().line(stmt.span.begin));
   if (auto const* node = std::get_if<ast::ExprStmt>(&stmt.node)) {
     expression(*node->expr);
   } else if (auto const* assignment = std::get_if<ast::Assign>(&stmt.node)) {
@@ -119,7 +119,7 @@ void Compilation::last_statement(ast::Stmt const& stmt) {
 }
 
 void Compilation::statement(ast::Stmt const& stmt) {
-  function_->at_line(diagnostics_.source().place(stmt.span.begin).line);
+  function_->at_line(diagnostics_.source().line(stmt.span.begin));
   struct Visitor {
     Compilation& self;
     base::Span span;

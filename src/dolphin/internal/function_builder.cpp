@@ -5,7 +5,7 @@
 namespace lapwing::dolphin::internal {
 
 int FunctionBuilder::emit(Op op, int a, int b) {
-  function_.code.push_back({op, static_cast<std::uint16_t>(b), a});
+  function_.code.push_back({op, b, a});
   function_.lines.push_back(line_);
   return here() - 1;
 }

@@ -25,7 +25,7 @@ bool asks_for_more(TokenKind kind) {
          (kind >= range && kind <= bit_xor && kind != plus_plus && kind != minus_minus);
 }
 bool begins_value(TokenKind kind) {
-  return kind == assign || (kind >= plus_assign && kind <= divide_assign) || kind == kw_return || kind == colon ||
+  return kind == assign || (kind >= plus_assign && kind <= bit_or_assign) || kind == kw_return || kind == colon ||
          kind == arrow;
 }
 

@@ -61,7 +61,7 @@ std::string code_block(std::string_view code) {
 
 std::string doc_above(Span place, Document const& document) {
   auto const& source = document.source();
-  auto line = source.place(place.begin).line;
+  auto line = source.line(place.begin);
   std::vector<std::string_view> lines;
   while (line > 1) {
     auto const text = source.text(source.line_span(--line));
@@ -186,8 +186,8 @@ std::string describe_word(Variable const& variable, Document const& document) {
   auto out =
       fmt::format("{}\n", code_block(fmt::format("{}  // {}", variable.name, kind_text(document.facts(variable)))));
   if (variable.defined.size() == 0) return out + "The parameter of this closure.";
-  out += fmt::format("{}, defined in line {}", scope_text(variable.kind),
-                     document.source().place(variable.defined.begin).line);
+  out +=
+      fmt::format("{}, defined in line {}", scope_text(variable.kind), document.source().line(variable.defined.begin));
   auto const doc = doc_above(variable.defined, document);
   return doc.empty() ? out : fmt::format("{}\n\n{}", out, doc);
 }
@@ -199,7 +199,7 @@ std::string describe_word(std::vector<ast::FunctionDecl const*> const& functions
   auto const doc = doc_above(place, document);
   auto const out =
       fmt::format("{}\nfunction, defined in line {}", code_block(fmt::format("{}", fmt::join(calls, "\n"))),
-                  document.source().place(place.begin).line);
+                  document.source().line(place.begin));
   return doc.empty() ? out : fmt::format("{}\n\n{}", out, doc);
 }
 

@@ -109,7 +109,7 @@ class Layout {
   }
 
   [[nodiscard]] std::size_t column_of(std::uint32_t offset) const {
-    auto const line = source_.line_span(source_.place(offset).line);
+    auto const line = source_.line_span(source_.line(offset));
     return width_of_last_line(source_.text({line.begin, offset}));
   }
 

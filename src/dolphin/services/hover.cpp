@@ -27,7 +27,7 @@ std::string text_of(Occurrence const& one, Document const& document) {
   auto const places = definition(document, one.span.begin);
   if (places.empty()) return fmt::format("The plan `{}`, made elsewhere.", document.text(one.span));
   return fmt::format("The mission `{}`, defined in line {}.", document.text(one.span),
-                     document.source().place(places.front().begin).line);
+                     document.source().line(places.front().begin));
 }
 
 }  // namespace
