@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -12,7 +13,22 @@ namespace lapwing::apps {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+base::Result<std::string> read_standard_input() {
+  std::string text;
+  for (char c = 0; std::cin.get(c);) {
+    text += c;
+    if (text.size() > max_script_bytes)
+      return base::fail(base::ErrorKind::invalid_input, "standard input: too large for a script");
+  }
+  return text;
+}
+
+}  // namespace
+
 base::Result<std::string> read_script(std::string const& path) {
+  if (path == "-") return read_standard_input();
   std::error_code error;
   auto const status = fs::status(path, error);
   if (!fs::exists(status)) return base::fail(base::ErrorKind::not_found, fmt::format("{}: no such file", path));

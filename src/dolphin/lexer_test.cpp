@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "dolphin/internal/characters.hpp"
+
 namespace lapwing::dolphin {
 namespace {
 
@@ -173,6 +175,11 @@ TEST(Lexer, GivesTheSourceBackFromRandomPieces) {
 TEST(Lexer, RefusesTextsThatAreTooLong) {
   EXPECT_EQ(lexed(std::string(max_source_size + 1, ' ')).errors, 1U);
   EXPECT_EQ(lexed(std::string(max_token_count + 10, ',')).errors, 1U);
+}
+
+TEST(Characters, AreMadeUtf8) {
+  EXPECT_EQ(as_utf8("a\xFF\xC3z\xC3\xA4"), "a\uFFFD\uFFFDzä");
+  EXPECT_EQ(as_utf8(""), "");
 }
 
 }  // namespace

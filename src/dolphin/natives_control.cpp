@@ -4,6 +4,7 @@
 
 #include "dolphin/compiler.hpp"
 #include "dolphin/fiber.hpp"
+#include "dolphin/internal/characters.hpp"
 #include "dolphin/internal/natives.hpp"
 #include "dolphin/runtime.hpp"
 #include "dolphin/text.hpp"
@@ -68,7 +69,8 @@ base::Task<Checked<Value>> ask(Runtime& runtime, Fiber& /*fiber*/, std::vector<V
   auto asking = runtime.output.ask(prompt);
   auto const typed = co_await asking;
   if (!typed) co_return fault(fmt::format("ask: {}", typed.error().message), "IOException");
-  co_return answer_value(runtime, *typed);
+  auto const answer = as_utf8(*typed);
+  co_return answer_value(runtime, answer);
 }
 
 Checked<Signals::Wanted> wanted(Value const& value, std::string_view what) {

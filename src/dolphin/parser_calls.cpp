@@ -68,13 +68,20 @@ ast::ExprPtr Parser::command() {
   return misplaced_chain_word(callee > 0 ? command_call(callee) : expression(), begin);
 }
 
-/// The number of tokens of the callee when a command call begins here, else 0.
-std::size_t Parser::command_callee_size() const {
+/// The number of tokens of the name or dotted path that begins here, else 0.
+std::size_t Parser::path_size() const {
   if (!at(identifier) || chain_head()) return 0;
   std::size_t size = 1;
   while (kind(size) == dot && (kind(size + 1) == identifier || is_reserved_word(kind(size + 1))) &&
          on_same_line(size + 1))
     size += 2;
+  return size;
+}
+
+/// The number of tokens of the callee when a command call begins here, else 0.
+std::size_t Parser::command_callee_size() const {
+  auto const size = path_size();
+  if (size == 0) return 0;
   if (starts_argument(size) || at_bracketed_first_argument(size)) return size;
   bool const takes_names_below = size == 1 && (at_word("execute") || at_word("setConnectionTimeout"));
   return takes_names_below && token(1).newline_before && at_argument_name(1) ? 1 : 0;  // REC-7f
@@ -228,7 +235,9 @@ ast::ExprPtr Parser::postfix_of(ast::ExprPtr object, std::uint32_t begin) {
     bool const callable = std::holds_alternative<ast::Name>(object->node) ||
                           std::holds_alternative<ast::Member>(object->node) ||
                           std::holds_alternative<ast::Call>(object->node);
-    if ((at(dot) || at(safe_dot)) && operator_continues()) {
+    if (at(star) && kind(1) == dot && on_same_line()) {
+      object = spread_member(std::move(object), begin);
+    } else if ((at(dot) || at(safe_dot)) && operator_continues()) {
       if (quiet_) return object;
       object = member(std::move(object), begin);
     } else if (at(left_paren) && adjacent) {
@@ -257,6 +266,16 @@ ast::ExprPtr Parser::member(ast::ExprPtr object, std::uint32_t begin) {
   return make(ast::Member{std::move(object), std::move(name), safe}, since(begin));
 }
 
+/// `list*.size()`, as Groovy spells the member of all.
+ast::ExprPtr Parser::spread_member(ast::ExprPtr object, std::uint32_t begin) {
+  auto const star = advance().span;
+  auto const name = kind(1) == identifier ? text(token(1)) : std::string_view("name");
+  auto const call = kind(2) == left_paren ? "(...)" : "";
+  error(code("syntax"), cover(star, token().span), "*. is not part of the language",
+        fmt::format("write .collect {{ it.{}{} }}", name, call));
+  return member(std::move(object), begin);
+}
+
 std::vector<ast::Argument> Parser::arguments_in_parentheses() {
   std::vector<ast::Argument> out;
   auto const opener = next_;
@@ -264,7 +283,10 @@ std::vector<ast::Argument> Parser::arguments_in_parentheses() {
   Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed && newlines_matter_);
   while (!at(right_paren) && !at_statement_end()) {
     auto const begin = token().span.begin;
-    auto made = argument();
+    // `message (poll 'x')`: a command call may stand directly inside parentheses (REC-8), and takes what follows.
+    auto const path = at_argument_name() ? 0 : path_size();
+    bool const is_command = path > 0 && starts_argument(path);
+    auto made = is_command ? ast::Argument{std::nullopt, command_call(path)} : argument();
     made.value = misplaced_chain_word(std::move(made.value), begin);
     out.push_back(std::move(made));
     if (!accept(comma)) break;
@@ -290,9 +312,11 @@ ast::ExprPtr Parser::call(ast::ExprPtr callee, std::uint32_t begin) {
 ast::ExprPtr Parser::trailing_closure(ast::ExprPtr callee, std::uint32_t begin) {
   ast::Argument last{std::nullopt, closure()};
   if (auto* call = std::get_if<ast::Call>(&callee->node); call && !callee->in_parentheses) {
-    auto extended = std::move(*call);
-    extended.arguments.push_back(std::move(last));
-    return make(std::move(extended), since(begin));
+    // In place: `f {} {} {} ...` is one call, however long.
+    callee->height = std::max<std::uint16_t>(callee->height, last.value->height + 1);
+    call->arguments.push_back(std::move(last));
+    callee->span = since(begin);
+    return callee;
   }
   ast::Call made;
   made.callee = std::move(callee);

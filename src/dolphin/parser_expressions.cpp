@@ -205,6 +205,8 @@ ast::ExprPtr Parser::literal() {
     case kw_false: return make(ast::BoolLiteral{false}, word.span);
     case string: {
       auto const whole = text(word);
+      bool const is_typographic = whole[0] != '\'' && whole[0] != '"';  // the lexer has complained
+      if (is_typographic) return make(ast::StringLiteral{}, word.span);
       std::uint32_t const quotes = whole.size() >= 6 && whole[1] == whole[0] && whole[2] == whole[0] ? 3 : 1;
       auto const closed = whole.size() >= 2 * quotes && whole.back() == whole[0];
       auto const end = closed ? word.span.end - quotes : word.span.end;
@@ -342,12 +344,13 @@ ast::ExprPtr Parser::new_object() {
 
 // ---- closures -----------------------------------------------------------------------------------
 
-/// Looks ahead for the -> behind parameters, outside nested brackets and within one line but for breaks after commas.
+/// Looks ahead for the -> behind parameters, outside nested brackets and within one line but for breaks after commas
+/// and before the -> itself.
 bool Parser::has_arrow() const {
   for (auto at = next_; at < tokens_.size(); ++at) {
     auto const& token = tokens_[at];
-    if (token.newline_before && at > next_ && tokens_[at - 1].kind != comma) return false;
     if (token.kind == arrow) return true;
+    if (token.newline_before && at > next_ && tokens_[at - 1].kind != comma) return false;
     bool const opens = token.kind == left_paren || token.kind == left_bracket || token.kind == left_brace;
     if (opens && token.partner == Token::unclosed) return false;
     if (opens) {

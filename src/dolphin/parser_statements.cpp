@@ -27,6 +27,13 @@ std::optional<ast::BinaryOp> compound(TokenKind kind) {
     case minus_assign: return ast::BinaryOp::subtract;
     case times_assign: return ast::BinaryOp::multiply;
     case divide_assign: return ast::BinaryOp::divide;
+    case remainder_assign: return ast::BinaryOp::remainder;
+    case power_assign: return ast::BinaryOp::power;
+    case shift_left_assign: return ast::BinaryOp::shift_left;
+    case shift_right_assign: return ast::BinaryOp::shift_right;
+    case bit_and_assign: return ast::BinaryOp::bit_and;
+    case bit_xor_assign: return ast::BinaryOp::bit_xor;
+    case bit_or_assign: return ast::BinaryOp::bit_or;
     default: return std::nullopt;
   }
 }
@@ -101,7 +108,11 @@ void Parser::unexpected_in_statement() {
     return expected("the end of the statement",
                     fmt::format("a call inside an expression needs parentheses: {}(...)", text(*before)));
   }
-  expected("the end of the statement");
+  if (before && before->kind == identifier && (at(logical_not) || at(plus_plus) || at(minus_minus))) {
+    if (!quiet_) unread_.push_back(before->span);
+    return expected("the end of the statement", fmt::format("write {}({}...)", text(*before), text(token())));
+  }
+  expected("the end of the statement", at(colon) ? "a name before a colon is one word, such as a variable's" : "");
 }
 
 ast::StmtPtr Parser::statement() {
@@ -226,6 +237,12 @@ ast::StmtPtr Parser::declaration() {
   }
   auto name = identifier_of(advance());
   if (at(left_paren) && on_same_line()) return function(std::move(name), begin);
+  if (at(left_brace) && on_same_line()) {
+    expected("'(' and the parameters",
+             fmt::format("write def {}() {{ ... }}, or def {} = {{ ... }}", name.text, name.text));
+    unread_.push_back(name.span);
+    return nullptr;
+  }
   ast::VarDecl made{.type = std::move(type), .names = {}, .value = nullptr};
   made.names.push_back(std::move(name));
   while (at(comma) && kind(1) == identifier && kind(2) != assign) {

@@ -138,8 +138,27 @@ y''')"),
             "(+ 'ä\\n' 'x\\ny')");
 }
 
+TEST(Commands, StandDirectlyInsideParentheses) {
+  EXPECT_EQ(tree("message (poll 'x')"), "(call message (call poll 'x'))");
+  EXPECT_EQ(tree("f(a, g 1, 2)"), "(call f a (call g 1 2))");
+  EXPECT_EQ(tree("f(a.b 1)"), "(call f (call a.b 1))");
+  EXPECT_EQ(tree("f(consume x: 1)"), "(call f (call consume x: 1))");
+  EXPECT_EQ(tree("max(abs (x), 3)"), "(call max (call abs x) 3)");
+  EXPECT_EQ(tree("f(a ? b : c)"), "(call f (? a b c))");
+}
+
+TEST(Statements, AssignWithEveryOperator) {
+  EXPECT_EQ(tree("a %= 1; b **= 2; c <<= 3; d >>= 4; e &= 5; f ^= 6; g |= 7"),
+            "(%= a 1)\n(**= b 2)\n(<<= c 3)\n(>>= d 4)\n(&= e 5)\n(^= f 6)\n(|= g 7)");
+  EXPECT_EQ(tree("a || b; a | b; a >> b; a ** b"), "(|| a b)\n(| a b)\n(>> a b)\n(** a b)");
+}
+
+TEST(Closures, TakeTheirArrowOnTheNextLine) {
+  EXPECT_EQ(tree("{ x\n -> x }\n{ a,\n b -> a }"), "{x -> x}\n{a, b -> a}");
+}
+
 TEST(Recovery, ReportsEachMistakeOnceAndReadsOn) {
-  auto const out = read("a = = 1\nb = (1 + ) * 2\nf(c d)\ng {\n h i j\n k = \n}\nl = 1\n");
+  auto const out = read("a = = 1\nb = (1 + ) * 2\nf(c + )\ng {\n h i j\n k = \n}\nl = 1\n");
   EXPECT_EQ(out.errors, 5U) << out.complaints;
   EXPECT_NE(out.tree.find("(= l 1)"), std::string::npos);
 }

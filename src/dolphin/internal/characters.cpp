@@ -103,6 +103,17 @@ void append_utf8(std::string& out, char32_t c) {
   put(0x80u | (c & 0x3Fu));
 }
 
+std::string as_utf8(std::string_view bytes) {
+  std::string out;
+  while (!bytes.empty()) {
+    auto const size = decode_utf8(bytes).size;
+    if (size > 0) out += bytes.substr(0, size);
+    if (size == 0) append_utf8(out, U'\uFFFD');
+    bytes.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return out;
+}
+
 std::size_t identifier_start(std::string_view text) {
   if (text.empty()) return 0;
   if (is_ascii(text[0])) return is_ascii_letter(text[0]) ? 1 : 0;

@@ -19,6 +19,8 @@ struct CodePoint {
 };
 [[nodiscard]] CodePoint decode_utf8(std::string_view text);
 void append_utf8(std::string& out, char32_t code_point);
+/// The text with U+FFFD in the place of every byte that is not UTF-8.
+[[nodiscard]] std::string as_utf8(std::string_view bytes);
 
 /// Letters of any script, and `_`.
 [[nodiscard]] std::size_t identifier_start(std::string_view text);

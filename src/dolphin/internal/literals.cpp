@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "dolphin/codes.hpp"
 #include "dolphin/internal/characters.hpp"
@@ -43,13 +44,34 @@ class StringDecoder {
         skip_line_end();
         out_ += '\n';
       } else {
-        out_ += text_[at_++];
+        copy_character();
       }
     }
     return std::move(out_);
   }
 
  private:
+  /// Texts go into JSON and onto terminals: what is no character stops here.
+  void copy_character() {
+    auto const c = text_[at_];
+    auto const size = c > 0 ? 1 : decode_utf8(text_.substr(at_)).size;
+    bool const is_control = (c >= 0 && c < ' ' && c != '\n' && c != '\t') || c == '\x7F';
+    if (size > 0 && !is_control) {
+      out_ += text_.substr(at_, size);
+      at_ += size;
+      return;
+    }
+    auto const mistake = unreadable_character(text_.substr(at_));
+    auto const begin = at_++;
+    if (std::exchange(has_unreadable_, true)) return;  // once a text
+    diagnostics_.report(code("invalid-character"), span_since(begin), std::string(mistake.message),
+                        std::string(mistake.hint));
+  }
+
+  [[nodiscard]] base::Span span_since(std::size_t begin) const {
+    return {static_cast<std::uint32_t>(begin_ + begin), static_cast<std::uint32_t>(begin_ + at_)};
+  }
+
   void skip_line_end() { at_ += text_.substr(at_).starts_with("\r\n") ? 2 : 1; }
 
   void read_escape() {
@@ -95,15 +117,14 @@ class StringDecoder {
   }
 
   void error(std::size_t begin, std::string message, std::string hint) {
-    diagnostics_.report(code("invalid-escape"),
-                        {static_cast<std::uint32_t>(begin_ + begin), static_cast<std::uint32_t>(begin_ + at_)},
-                        std::move(message), std::move(hint));
+    diagnostics_.report(code("invalid-escape"), span_since(begin), std::move(message), std::move(hint));
   }
 
   std::uint32_t begin_;
   std::string_view text_;
   base::Diagnostics& diagnostics_;
   std::size_t at_ = 0;
+  bool has_unreadable_ = false;
   std::string out_;
 };
 

@@ -117,6 +117,7 @@ class Parser {
   ast::ExprPtr command_call(std::size_t callee_size);
   ast::ExprPtr wrapped_argument();
   ast::ExprPtr callee_path(std::size_t size);
+  [[nodiscard]] std::size_t path_size() const;
   [[nodiscard]] std::size_t command_callee_size() const;
   [[nodiscard]] bool starts_argument(std::size_t ahead) const;
   [[nodiscard]] bool at_bracketed_first_argument(std::size_t ahead) const;
@@ -128,6 +129,7 @@ class Parser {
   ast::ExprPtr postfix();
   ast::ExprPtr postfix_of(ast::ExprPtr object, std::uint32_t begin);
   ast::ExprPtr member(ast::ExprPtr object, std::uint32_t begin);
+  ast::ExprPtr spread_member(ast::ExprPtr object, std::uint32_t begin);
   ast::ExprPtr call(ast::ExprPtr callee, std::uint32_t begin);
   ast::ExprPtr trailing_closure(ast::ExprPtr callee, std::uint32_t begin);
   ast::ExprPtr index(ast::ExprPtr object, std::uint32_t begin);
