@@ -18,6 +18,7 @@ void Fiber::begin(Function const& function) {
 
 void Fiber::begin(Ref<Closure> const& closure, std::vector<Value> arguments) {
   state_ = State::ready;
+  busy_steps_ = 0;
   ignores_failure = false;
   auto const count = static_cast<int>(arguments.size());
   for (auto& argument : arguments) push(std::move(argument));
@@ -31,15 +32,21 @@ Fiber::State Fiber::run(int& budget) {
     auto& frame = frames_.back();
     execute(frame.function->code[frame.pc++]);
   }
-  runtime_.steps += static_cast<std::uint64_t>(given - budget);
-  if (state_ != State::failed && runtime_.steps > runtime_.limits.steps) end_early();
+  auto const taken = static_cast<std::uint64_t>(given - budget);
+  runtime_.steps += taken;
+  busy_steps_ += taken;
+  auto const& limits = runtime_.limits;
+  if (state_ != State::failed && runtime_.steps > limits.steps)
+    end_early(fmt::format("the script took more than {} steps", limits.steps), Ending::halts);
+  if (state_ == State::ready && busy_steps_ > limits.busy_steps)
+    end_early(fmt::format("{} steps without waiting for anything: this loop never ends", limits.busy_steps),
+              Ending::error);
   return state_;
 }
 
-/// The run has taken its steps. Nothing catches it, `finally` does not run.
-void Fiber::end_early() {
-  auto message = fmt::format("the script took more than {} steps", runtime_.limits.steps);
-  ErrorData data{"TimeoutException", std::move(message), static_cast<int>(line()), Ending::halts};
+/// The fiber has taken its steps. Nothing catches it, `finally` does not run.
+void Fiber::end_early(std::string message, Ending ending) {
+  ErrorData data{"TimeoutException", std::move(message), static_cast<int>(line()), ending};
   abandon();
   state_ = State::failed;
   result_ = Value(runtime_.heap.make<Error>(std::move(data)));
@@ -70,6 +77,7 @@ Fault Fiber::stopped() {
 }
 
 void Fiber::resume(Checked<Value> result) {
+  busy_steps_ = 0;
   state_ = State::ready;
   give(std::move(result));
 }
@@ -272,7 +280,6 @@ void Fiber::execute_variable(Instruction i) {
   }
 }
 
-/// `set | { test }` is the method findAll, whose arguments lie as it needs them.
 void Fiber::execute_flow(Instruction i) {
   auto const target = static_cast<std::size_t>(i.a);
   switch (i.op) {
@@ -326,7 +333,5 @@ void Fiber::execute_flow(Instruction i) {
     default: return;
   }
 }
-
-/// `pairs.each { a, b -> ... }`: one list or map entry for several parameters is taken apart.
 
 }  // namespace lapwing::dolphin

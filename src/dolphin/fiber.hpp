@@ -102,7 +102,7 @@ class Fiber {
   [[nodiscard]] static Fault stopped();
   void raise(Value error);
   [[nodiscard]] bool is_heap_full();
-  void end_early();
+  void end_early(std::string message, Ending ending);
 
   void push(Value value) { stack_.push_back(std::move(value)); }
   Value pop();
@@ -117,6 +117,7 @@ class Fiber {
   Role role_;
   State state_ = State::returned;
   bool is_unwinding_ = false;
+  std::uint64_t busy_steps_ = 0;  ///< since it waited last
   std::vector<Value> stack_;
   std::vector<Frame> frames_;
   std::vector<std::unique_ptr<Block>> blocks_;

@@ -10,6 +10,7 @@
 #include "dolphin/members.hpp"
 #include "dolphin/operators.hpp"
 #include "dolphin/runtime.hpp"
+#include "dolphin/signatures.hpp"
 #include "dolphin/text.hpp"
 
 /// The instructions of a fiber that work on values: operators, members, calls, blocks. Frames and control flow are in
@@ -74,6 +75,7 @@ void Fiber::binary(int op) {
   replace(2, std::move(result));
 }
 
+/// `set | { test }` is the method findAll, whose arguments lie as it needs them.
 void Fiber::filter_vehicles() {
   auto const& program = *runtime_.program;
   enter(*program.functions[static_cast<std::size_t>(program.method_index.at("findAll"))], {}, 2);
@@ -110,7 +112,10 @@ Checked<Value> Fiber::comparison(int op, Value const& left, Value const& right) 
 }
 
 Checked<bool> Fiber::matches(Value const& subject, Value const& label) {
-  if (label.is(ValueKind::list) || label.is(ValueKind::range)) return contains(label, subject);
+  bool const holds_it = label.is(ValueKind::list) || label.is(ValueKind::range) ||
+                        (label.is(ValueKind::vehicles) && subject.is(ValueKind::vehicle)) ||
+                        (label.is(ValueKind::area) && subject.is(ValueKind::position));
+  if (holds_it) return contains(label, subject);
   if (auto const* type = label.as<TypeValue>()) return is_instance(subject, type->value.name);
   return equal(subject, label);
 }
@@ -231,6 +236,7 @@ void Fiber::call_closure(Ref<Closure> closure, int count) {
   enter(function, std::move(closure), count);
 }
 
+/// `pairs.each { a, b -> ... }`: one list or map entry for several parameters is taken apart.
 void Fiber::spread_list(Function const& function, int& count) {
   Value const packed = top();
   if (auto const* entry = packed.as<Entry>()) {
@@ -267,7 +273,9 @@ void Fiber::call_method(std::string const& method, int count) {
       return call_value(count);
     }
   }
-  raise({"MissingMethodException", fmt::format("{} has no method {}", kind_name(object), method)});
+  bool const is_a_word = std::ranges::find(methods(), method, &MethodSpec::name) != methods().end();
+  auto const with = is_a_word ? fmt::format(" with {} argument{}", count, count == 1 ? "" : "s") : std::string();
+  raise({"MissingMethodException", fmt::format("{} has no method {}{}", kind_name(object), method, with)});
 }
 
 void Fiber::execute_block(Instruction i) {

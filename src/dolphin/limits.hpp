@@ -35,6 +35,8 @@ struct Limits {
   std::size_t stack_values = 1'000'000;  ///< variables and operands of all calls under way
   int slice = 20'000;                    ///< instructions between two turns of the loop
   int guard_budget = 2'000'000;          ///< instructions one test of a guard may take
+  /// Instructions without waiting for anything, some ten seconds: then a loop has no end.
+  std::uint64_t busy_steps = 2'000'000'000;
   /// Instructions of the whole run, then it ends as if halted. None: a patrol goes on for days.
   std::uint64_t steps = UINT64_MAX;
 };

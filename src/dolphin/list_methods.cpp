@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dolphin/equality.hpp"
+#include "dolphin/internal/membership.hpp"
 #include "dolphin/internal/methods.hpp"
 #include "dolphin/limits.hpp"
 #include "dolphin/operators.hpp"
@@ -33,27 +34,6 @@ Checked<Value> joined(MethodCall const& call, auto const& items) {
   }
   return call.long_text(std::move(text));
 }
-
-/// Looks for items in lists during one operation, until that has become too much.
-class Search {
- public:
-  bool holds(std::span<Value const> items, Value const& wanted) {
-    if (error_) return false;
-    auto const found = find(items, wanted, compared_);
-    if (!found) error_ = found.error();
-    return found && found->has_value();
-  }
-  /// What the operation gives, or the fault that it took too much.
-  [[nodiscard]] Checked<Value> result(Value value) const {
-    if (error_) return std::unexpected(*error_);
-    return value;
-  }
-  [[nodiscard]] bool gave_up() const { return error_.has_value(); }
-
- private:
-  std::size_t compared_ = 0;
-  std::optional<Fault> error_;
-};
 
 /// False when there are too many: lists may share parts, and hold themselves.
 bool flatten(List const& list, int depth, std::size_t& looked_at, std::vector<Value>& out) {
@@ -138,11 +118,13 @@ MethodResult adding_method(MethodCall const& call, List& list) {
 MethodResult removing_method(MethodCall const& call, List& list) {
   auto& items = list.items;
   if (call.is("unique", 0)) {
-    Search search;
+    Membership seen;
     std::vector<Value> kept;
     for (auto const& item : items) {
-      if (!search.holds(kept, item)) kept.push_back(item);
-      if (search.gave_up()) return search.result({});
+      if (seen.holds(item)) continue;
+      if (seen.gave_up()) return seen.result({});
+      seen.add(item);
+      kept.push_back(item);
     }
     std::swap(items, kept);
     return Value(&list);
@@ -170,13 +152,12 @@ MethodResult removing_method(MethodCall const& call, List& list) {
   }
   bool const removes = call.is("removeAll", 1);
   if ((removes || call.is("retainAll", 1)) && call.arguments[0].is(ValueKind::list)) {
-    auto const others = call.arguments[0].as<List>()->items;
+    Membership others(call.arguments[0].as<List>()->items);
     auto const before = items;
-    Search search;
     std::vector<Value> rest;
     for (auto const& item : before) {
-      if (search.holds(others, item) != removes) rest.push_back(item);
-      if (search.gave_up()) return search.result({});
+      if (others.holds(item) != removes) rest.push_back(item);
+      if (others.gave_up()) return others.result({});
     }
     items = std::move(rest);
     return Value::boolean(items.size() != before.size());
@@ -222,23 +203,17 @@ MethodResult list_part(MethodCall const& call, std::vector<Value> const& items) 
 /// What two lists make together.
 MethodResult list_with_list(MethodCall const& call, std::vector<Value> const& items) {
   if (call.arguments.size() != 1 || !call.arguments[0].is(ValueKind::list)) return std::nullopt;
-  auto const& others = call.arguments[0].as<List>()->items;
-  Search search;
-  auto const in_others = [&](Value const& item) { return search.holds(others, item); };
+  auto const& other_items = call.arguments[0].as<List>()->items;
   if (call.name == "containsAll") {
-    bool const all = std::ranges::all_of(others, [&](Value const& other) { return search.holds(items, other); });
-    return search.result(Value::boolean(all));
+    Membership own(items);
+    bool const all = std::ranges::all_of(other_items, [&](Value const& other) { return own.holds(other); });
+    return own.result(Value::boolean(all));
   }
-  if (call.name == "disjoint") {
-    bool const none = std::ranges::none_of(items, in_others);
-    return search.result(Value::boolean(none));
-  }
-  if (call.name == "intersect") {
-    std::vector<Value> both;
-    std::ranges::copy_if(items, std::back_inserter(both), in_others);
-    return search.result(call.list(std::move(both)));
-  }
-  return std::nullopt;
+  if (call.name != "disjoint" && call.name != "intersect") return std::nullopt;
+  Membership others(other_items);
+  std::vector<Value> both;
+  std::ranges::copy_if(items, std::back_inserter(both), [&](Value const& item) { return others.holds(item); });
+  return others.result(call.name == "disjoint" ? Value::boolean(both.empty()) : call.list(std::move(both)));
 }
 
 MethodResult list_element(MethodCall const& call, List& list) {
@@ -246,6 +221,12 @@ MethodResult list_element(MethodCall const& call, List& list) {
   if (call.is("first", 0) || call.is("last", 0) || call.is("head", 0)) {
     if (items.empty()) return fault("the list is empty", "NoSuchElementException");
     return call.name == "last" ? items.back() : items.front();
+  }
+  if (call.is("getAt", 1)) return element(call.heap, Value(&list), call.arguments[0], {});
+  if (call.is("set", 2) || call.is("putAt", 2)) {
+    auto old = element(call.heap, Value(&list), call.arguments[0], {});
+    auto const done = set_element(Value(&list), call.arguments[0], call.arguments[1]);
+    return done ? old : done;
   }
   if (call.is("get", 1)) {
     auto const at = call.integer_argument();
@@ -337,6 +318,7 @@ MethodResult map_method(MethodCall const& call, Map& map) {
     return Value(list);
   }
   if (call.is("emptyLike", 0)) return Value(heap.make<Map>());
+  if (call.is("getAt", 1)) return map.at(call.arguments[0]);
   if (call.is("with", 1) && call.arguments[0].is(ValueKind::entry)) {
     map.set(call.arguments[0].as<Entry>()->key, call.arguments[0].as<Entry>()->value);
     return Value(&map);

@@ -299,13 +299,13 @@ Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type)
       type == "int" || type == "long" || type == "Integer" || type == "Long" || type == "short" || type == "byte";
   bool const to_real =
       type == "double" || type == "float" || type == "Double" || type == "Float" || type == "BigDecimal";
+  if (type == "boolean" || type == "Boolean") return Value::boolean(is_true(value));
   if (value.is_null()) return value;
   if (type == "String") return Value(heap.make<Text>(to_text(value)));
-  if (type == "boolean" || type == "Boolean") return Value::boolean(is_true(value));
+  if (type == "List" && value.is(ValueKind::list)) return value;
   if (type == "List" || type == "Set") {
-    if (value.is(ValueKind::list)) return value;
     auto const items = call_method(runtime, value, "toList", {});
-    if (items) return *items;
+    if (items && *items) return type == "Set" ? *call_method(runtime, **items, "unique", {}) : *items;
   }
   if (to_integer || to_real) {
     Value number = value;

@@ -48,7 +48,7 @@ TEST(Text, HasOperators) {
   EXPECT_EQ(value_of("'ab' * 3 + ('abcb' - 'b') + 'a' * 0"), "abababacb");
   expect_fault("'a' * -1", "a text cannot be repeated -1 times");
   expect_fault("'a' * 99999999", "OutOfMemoryError");
-  expect_fault("'a' / 2", "a text has no operator / with an integer");
+  expect_fault("['a'][0] / 2", "a text has no operator / with an integer");
 }
 
 TEST(Text, IsReadAsNumber) {
@@ -102,7 +102,7 @@ TEST(List, HasOperators) {
   EXPECT_EQ(value_of("[0] * 3"), "[0, 0, 0]");
   EXPECT_EQ(value_of("(1..3) + [4] - (2..3)"), "[1, 4]");
   EXPECT_EQ(value_of("[1, 2].intersect([2, 3]) + [[1].disjoint([2]), [1, 2].containsAll([2])]"), "[2, true, true]");
-  expect_fault("[1] / 2", "a list has no operator / with an integer");
+  expect_fault("[[1]][0] / 2", "a list has no operator / with an integer");
   expect_fault("[1] < [2]", "a list cannot be compared with a list");
 }
 

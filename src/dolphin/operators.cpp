@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dolphin/equality.hpp"
+#include "dolphin/internal/membership.hpp"
 #include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 #include "dolphin/text.hpp"
@@ -156,14 +157,10 @@ Checked<Value> repeated_list(Heap& heap, List const& list, std::int64_t times) {
 }
 
 Checked<Value> list_difference(Heap& heap, List const& list, std::span<Value const> taken) {
+  internal::Membership gone(taken);
   std::vector<Value> rest;
-  std::size_t compared = 0;
-  for (auto const& item : list.items) {
-    auto const found = find(taken, item, compared);
-    if (!found) return std::unexpected(found.error());
-    if (!*found) rest.push_back(item);
-  }
-  return Value(heap.make<List>(std::move(rest)));
+  std::ranges::copy_if(list.items, std::back_inserter(rest), [&](Value const& item) { return !gone.holds(item); });
+  return gone.result(Value(heap.make<List>(std::move(rest))));
 }
 
 Checked<Value> list_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
@@ -210,12 +207,30 @@ Ref<List> as_list(Heap& heap, Range const& range) {
   return heap.make<List>(std::move(items));
 }
 
-Checked<Value> map_sum(Heap& heap, Map const& left, Map const& right) {
-  auto sum = heap.make<Map>();
-  for (auto const* map : {&left, &right}) {
-    for (auto const& [key, value] : map->items()) sum->set(key, value);
+/// map + map, map - map, map << map, map << entry.
+Checked<Value> map_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
+  auto& map = *left.as<Map>();
+  if (auto const* entry = right.as<Entry>(); entry && op == BinaryOp::shift_left) {
+    map.set(entry->key, entry->value);
+    return left;
   }
-  return Value(sum);
+  auto const* other = right.as<Map>();
+  bool const is_known = op == BinaryOp::add || op == BinaryOp::subtract || op == BinaryOp::shift_left;
+  if (!other || !is_known) return no_such_operation(op, left, right);
+  auto result = op == BinaryOp::shift_left ? Ref<Map>(&map) : heap.make<Map>();
+  if (op == BinaryOp::subtract) {
+    for (auto const& [key, value] : map.items()) {
+      if (!other->contains(key) || !equal(other->at(key), value)) result->set(key, value);
+    }
+    return Value(result);
+  }
+  if (op == BinaryOp::add) {
+    for (auto const& [key, value] : map.items()) result->set(key, value);
+  }
+  if (other != result.get()) {
+    for (auto const& [key, value] : other->items()) result->set(key, value);
+  }
+  return Value(result);
 }
 
 Checked<Value> position_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right) {
@@ -248,7 +263,8 @@ Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& ri
   if (left.is(ValueKind::integer) && right.is(ValueKind::integer))
     return integer_operation(op, left.integer(), right.integer());
   if (left.is_number() && right.is_number()) return real_operation(op, left, right);
-  if (op == BinaryOp::add && (left.is(ValueKind::text) || right.is(ValueKind::text))) {
+  bool const takes_items = left.is(ValueKind::list) || left.is(ValueKind::range);
+  if (op == BinaryOp::add && (left.is(ValueKind::text) || (right.is(ValueKind::text) && !takes_items))) {
     return make_text(heap, to_text(left) + to_text(right));
   }
   auto const* task = left.as<TaskValue>();
@@ -272,9 +288,7 @@ Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& ri
   }
   if (left.is(ValueKind::list)) return list_operation(heap, op, left, right);
   if (left.is(ValueKind::position)) return position_operation(heap, op, left, right);
-  if (left.is(ValueKind::map) && right.is(ValueKind::map) && op == BinaryOp::add) {
-    return map_sum(heap, *left.as<Map>(), *right.as<Map>());
-  }
+  if (left.is(ValueKind::map)) return map_operation(heap, op, left, right);
   return no_such_operation(op, left, right);
 }
 

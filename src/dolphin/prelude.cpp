@@ -10,7 +10,8 @@ def each(items, f) {
 }
 def eachWithIndex(items, f) {
   def i = 0
-  for (x in items) { f(x, i++) }
+  def splits = items instanceof Map && parameters(f) > 2
+  for (x in items) { if (splits) { f(x.key, x.value, i++) } else { f(x, i++) } }
   return items
 }
 def collect(items, f) {
@@ -55,15 +56,34 @@ def inject(items, start, f = null) {
   def fold = f == null ? start : f
   def result = f == null ? null : start
   def isFirst = f == null
+  def splits = items instanceof Map && parameters(fold) > 2
   for (x in items) {
-    result = isFirst ? x : fold(result, x)
+    result = isFirst ? x : splits ? fold(result, x.key, x.value) : fold(result, x)
     isFirst = false
   }
   return result
 }
-def sum(items, f = { it }) {
-  def result = null
-  for (x in items) { result = result == null ? f(x) : result + f(x) }
+def sum(items, start = null, f = { it }) {
+  def value = start instanceof Closure ? start : f
+  def result = start instanceof Closure ? null : start
+  for (x in items) { result = result == null ? value(x) : result + value(x) }
+  return result
+}
+def takeWhile(items, f) {
+  def result = items.emptyLike()
+  for (x in items) {
+    if (!f(x)) { return result }
+    result = result.with(x)
+  }
+  return result
+}
+def dropWhile(items, f) {
+  def result = items.emptyLike()
+  def drops = true
+  for (x in items) {
+    drops = drops && f(x)
+    if (!drops) { result = result.with(x) }
+  }
   return result
 }
 def collectMany(items, f) {
@@ -98,13 +118,23 @@ def groupBy(items, f) {
   def result = [:]
   for (x in items) {
     def key = f(x)
-    if (!result.containsKey(key)) { result[key] = [] }
-    result[key] << x
+    if (!result.containsKey(key)) { result[key] = items.emptyLike() }
+    result[key] = result[key].with(x)
   }
   return result
 }
+def countBy(items, f) {
+  def result = [:]
+  for (x in items) {
+    def key = f(x)
+    result[key] = (result[key] ?: 0) + 1
+  }
+  return result
+}
+def toSet(items) { return items.toList().unique() }
+def parameters(f) { return f instanceof Closure ? f.parameterCount() : 1 }
 def smallest(items, f, sign) {
-  def precedes = f.parameterCount() > 1 ? { a, b -> f(a, b) * sign < 0 } : null
+  def precedes = parameters(f) > 1 ? { a, b -> f(a, b) * sign < 0 } : null
   def best = null
   def key = null
   def isFirst = true
@@ -120,18 +150,20 @@ def smallest(items, f, sign) {
 }
 def min(items, f = { it }) { return smallest(items, f, 1) }
 def max(items, f = { it }) { return smallest(items, f, -1) }
-def sort(items, f = null) {
+def sort(items, how = null, f = null) {
+  def changesItself = how != false && items instanceof List
+  def by = how instanceof Boolean ? f : how
   if (items instanceof Map) {
     def sorted = [:]
-    for (pair in ordered(items.toList(), f == null ? { it.key } : f)) { sorted[pair.key] = pair.value }
+    for (pair in ordered(items.toList(), by == null ? { it.key } : by)) { sorted[pair.key] = pair.value }
     return sorted
   }
-  def result = ordered(items.toList(), f == null ? { it } : f)
-  return items instanceof List ? items.become(result) : result
+  def result = ordered(items.toList(), by == null ? { it } : by)
+  return changesItself ? items.become(result) : result
 }
 def toSorted(items, f = { it }) { return ordered(items.toList(), f) }
 def ordered(items, f) {
-  def before = f.parameterCount() > 1 ? f : { a, b -> f(a) <=> f(b) }
+  def before = parameters(f) > 1 ? f : { a, b -> f(a) <=> f(b) }
   def from = items
   def n = from.size()
   def width = 1
