@@ -8,6 +8,7 @@
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/characters.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/loop_shape.hpp"
 #include "dolphin/internal/vehicle_flow.hpp"
 
 namespace lapwing::dolphin {
@@ -23,11 +24,6 @@ void add_words(std::string_view text, std::unordered_set<std::string>& words) {
   }
 }
 
-bool is_true(ast::ExprPtr const& condition) {
-  auto const* literal = std::get_if<ast::BoolLiteral>(&condition->node);
-  return literal && literal->value;
-}
-
 /// No way leads to its end. Looks at its last statement only.
 bool ends_early(ast::Block const& block) {
   if (block.statements.empty()) return false;
@@ -37,24 +33,6 @@ bool ends_early(ast::Block const& block) {
   }
   return std::holds_alternative<ast::Return>(last) || std::holds_alternative<ast::Break>(last) ||
          std::holds_alternative<ast::Continue>(last) || std::holds_alternative<ast::Throw>(last);
-}
-
-/// A break that ends the loop with this body.
-bool has_break(ast::Block const& body) {
-  return std::ranges::any_of(body.statements, [](ast::StmtPtr const& statement) {
-    if (std::holds_alternative<ast::Break>(statement->node)) return true;
-    bool const is_own =
-        std::holds_alternative<ast::While>(statement->node) || std::holds_alternative<ast::For>(statement->node) ||
-        std::holds_alternative<ast::ForIn>(statement->node) || std::holds_alternative<ast::Switch>(statement->node);
-    if (is_own) return false;
-    if (auto const* branch = std::get_if<ast::If>(&statement->node)) {
-      return has_break(branch->then) || (branch->otherwise && has_break(*branch->otherwise));
-    }
-    auto const* guarded = std::get_if<ast::Try>(&statement->node);
-    return guarded && (has_break(guarded->body) || std::ranges::any_of(guarded->catches, [](ast::Catch const& one) {
-                         return has_break(one.body);
-                       }));
-  });
 }
 
 }  // namespace
@@ -116,12 +94,7 @@ std::string_view Checker::ends_with(ast::Stmt const& statement) {
   if (std::holds_alternative<ast::Break>(statement.node)) return "break";
   if (std::holds_alternative<ast::Continue>(statement.node)) return "continue";
   if (std::holds_alternative<ast::Throw>(statement.node)) return "throw";
-  if (auto const* loop = std::get_if<ast::While>(&statement.node)) {
-    return is_true(loop->condition) && !has_break(loop->body) ? "a loop without a break" : "";
-  }
-  if (auto const* loop = std::get_if<ast::For>(&statement.node)) {
-    return !loop->condition && !has_break(loop->body) ? "a loop without a break" : "";
-  }
+  if (never_ends(statement)) return "a loop without a break";
   if (auto const* branch = std::get_if<ast::If>(&statement.node)) {
     bool const ends = branch->otherwise && ends_early(branch->then) && ends_early(*branch->otherwise);
     return ends ? "an if of which no branch goes on" : "";
@@ -173,11 +146,25 @@ void Checker::check(ast::ExprStmt const& n, ast::Stmt const&, bool is_value) {
 }
 
 void Checker::check(ast::Assign const& n, ast::Stmt const&, bool) {
-  expression(n.value);
   bool const is_name = std::holds_alternative<ast::Name>(n.target->node);
+  auto const* variable = is_name ? resolution_.find(*n.target) : nullptr;
+  bool const is_first = variable && variable->kind == VariableKind::global && variable->defined == n.target->span;
+  auto const outer = std::exchange(defining_, is_first ? variable : defining_);
+  expression(n.value);
+  defining_ = outer;
+  if (is_first && !n.op) assigned_field(*n.target);
   bool const is_place =
       std::holds_alternative<ast::Member>(n.target->node) || std::holds_alternative<ast::Index>(n.target->node);
   if (is_place || (is_name && n.op)) expression(n.target);  // of anything else the reader has complained
+}
+
+/// `pick { type = 'UAV' }` picks vehicles of any type.
+void Checker::assigned_field(ast::Expr const& target) {
+  auto const& name = std::get<ast::Name>(target.node).text;
+  if (contexts_.empty() || !block_word(name)) return;
+  diagnostics_.report(code("assigned-field"), target.span,
+                      fmt::format("this makes a variable; the {} of {} is not set", name, contexts_.back().name),
+                      fmt::format("write {} without =", name));
 }
 
 void Checker::check(ast::VarDecl const& n, ast::Stmt const&, bool) {
@@ -206,21 +193,35 @@ void Checker::loop_body(ast::Block const& body) {
   place_ = outer;
 }
 
-void Checker::check(ast::While const& n, ast::Stmt const&, bool) {
+void Checker::check(ast::While const& n, ast::Stmt const& statement, bool) {
   expression(n.condition);
   loop_body(n.body);
+  spinning(n.condition.get(), n.body, statement);
 }
 
-void Checker::check(ast::For const& n, ast::Stmt const&, bool) {
-  if (n.init) statement(*n.init, true);
+void Checker::check(ast::For const& n, ast::Stmt const& statement, bool) {
+  if (n.init) this->statement(*n.init, true);
   expression(n.condition);
-  if (n.update) statement(*n.update, true);
+  if (n.update) this->statement(*n.update, true);
   loop_body(n.body);
+  if (!n.update) spinning(n.condition.get(), n.body, statement);
 }
 
 void Checker::check(ast::ForIn const& n, ast::Stmt const&, bool) {
   expression(n.iterable);
   loop_body(n.body);
+}
+
+/// `while (battery(v) < 0.9) { }` keeps the machine busy, and in simulated time waits for ever.
+void Checker::spinning(ast::Expr const* condition, ast::Block const& body, ast::Stmt const& statement) {
+  if (diagnostics_.has_errors()) return;  // part of the loop may be unread
+  // What code of running tasks tests may be changed by other tasks.
+  bool const may_be_changed = place_.in_closure && condition && !never_ends(statement);
+  if (may_be_changed || !spins(condition, body, resolution_)) return;
+  auto const begin = statement.span.begin;
+  auto const word = std::holds_alternative<ast::While>(statement.node) ? 5u : 3u;
+  diagnostics_.report(code("endless-loop"), {begin, begin + word}, "this loop never ends, and nothing in it waits",
+                      "to wait write pause 1, or execute condition { ... }");
 }
 
 void Checker::check(ast::Switch const& n, ast::Stmt const&, bool) {

@@ -13,18 +13,6 @@ namespace lapwing::dolphin {
 
 namespace {
 
-std::string_view noun(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::none: return "a number";
-    case Dimension::length: return "a length";
-    case Dimension::angle: return "an angle";
-    case Dimension::time: return "a time";
-    case Dimension::speed: return "a speed";
-    case Dimension::ratio: return "a ratio";
-  }
-  return "a number";
-}
-
 std::size_t least_arguments(SignatureSpec const& signature) {
   auto const optional = [](ParameterSpec const& parameter) { return parameter.optional; };
   return signature.parameters.size() - static_cast<std::size_t>(std::ranges::count_if(signature.parameters, optional));
@@ -39,13 +27,14 @@ ParameterSpec const& parameter_at(SignatureSpec const& signature, std::size_t po
 }
 
 /// "takeOff position [, pitch]"
-std::string usage(std::string_view name, SignatureSpec const& signature) {
-  std::string out(name);
+std::string usage(InstructionSpec const& spec, SignatureSpec const& signature) {
+  std::string out(spec.name);
   std::string brackets;
   for (std::size_t i = 0; i < signature.parameters.size(); ++i) {
     auto const& parameter = signature.parameters[i];
     out += parameter.optional ? (i == 0 ? " [" : " [, ") : (i == 0 ? " " : ", ");
-    out += parameter.name;
+    bool const is_named = spec.named == NamedArguments::values && parameter.kinds.meets(Kind::map);
+    out += is_named ? "name: value" : parameter.name;
     if (parameter.optional) brackets += ']';
   }
   return out + brackets + (signature.repeats ? ", ..." : "") + (signature.parameters.empty() ? "()" : "");
@@ -53,7 +42,7 @@ std::string usage(std::string_view name, SignatureSpec const& signature) {
 
 std::string usages(InstructionSpec const& spec) {
   std::vector<std::string> all;
-  for (auto const& signature : spec.signatures) all.push_back(usage(spec.name, signature));
+  for (auto const& signature : spec.signatures) all.push_back(usage(spec, signature));
   return fmt::format("write {}", fmt::join(all, " or "));
 }
 
@@ -88,13 +77,15 @@ void Checker::call(ast::Expr const& expr) {
                         fmt::format("write {} without the colon", text));
   }
   if (word) return instruction_call(n, expr.span, *word);
-  if (resolution_.locals.contains(n.callee.get())) return arguments(n, std::nullopt);
+  if (auto const found = resolution_.locals.find(n.callee.get()); found != resolution_.locals.end()) {
+    return closure_call(n, expr.span, *found->second);
+  }
   if (auto const found = resolution_.functions.find(text); found != resolution_.functions.end()) {
     return function_call(n, expr.span, found->second);
   }
   if (auto const* instruction = find_instruction(text)) return instruction_call(n, expr.span, *instruction);
   if (auto const* builder = find_builder(text)) return builder_call(n, expr.span, *builder);
-  if (resolution_.find(*n.callee)) return arguments(n, std::nullopt);
+  if (auto const* variable = resolution_.find(*n.callee)) return closure_call(n, expr.span, *variable);
   undefined_call(n, n.callee->span);
 }
 
@@ -280,11 +271,11 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
   }
   auto const chosen =
       std::ranges::find_if(signature.parameters, [](ParameterSpec const& one) { return !one.choices.empty(); });
-  auto hint = usage(spec.name, signature);
+  auto hint = usage(spec, signature);
   if (text && chosen != signature.parameters.end()) {
     hint = fmt::format("{}; {} is one of {}", hint, chosen->name, fmt::join(chosen->choices, ", "));
   }
-  bool const is_number = parameter.kinds.meets(Kinds::number()) && facts.kinds.meets(Kinds::number());
+  bool const is_number = parameter.dimension != Dimension::none && facts.kinds.meets(Kinds::number());
   auto const needed =
       parameter.dimension == Dimension::none ? describe(parameter.kinds) : std::string(noun(parameter.dimension));
   auto const found = is_number && facts.dimension ? std::string(noun(*facts.dimension)) : describe(facts.kinds);
@@ -315,6 +306,26 @@ void Checker::function_call(ast::Call const& call, base::Span span,
                       fmt::format("it takes ({})", fmt::join(parameters, ", ")), {{name.span, "it is defined here"}});
 }
 
+/// `f = { a, b -> ... }; f(1)`, when the variable holds one closure all the time. A list may stand for several
+/// arguments.
+void Checker::closure_call(ast::Call const& call, base::Span span, Variable const& variable) {
+  arguments(call, std::nullopt);
+  read_.insert(&variable);
+  auto const* value = only_value(&variable);
+  auto const* made = value ? std::get_if<ast::Closure>(&value->node) : nullptr;
+  if (!made) return;
+  auto const positional = positional_count(call);
+  auto const count = positional + (positional < call.arguments.size() ? 1 : 0);
+  auto const most = made->has_arrow ? made->parameters.size() : 1;
+  auto const required = static_cast<std::size_t>(
+      std::ranges::count_if(made->parameters, [](ast::Parameter const& one) { return !one.fallback; }));
+  constexpr auto simple = Kinds::number() | Kind::text | Kind::boolean | Kind::task | Kind::position | Kind::closure;
+  bool const may_spread = count == 1 && !inference_.facts(*call.arguments.front().value).kinds.within(simple);
+  if ((count >= required && count <= most) || (count == 0 && required == 1) || may_spread) return;
+  diagnostics_.report(code("argument-count"), span, fmt::format("{} does not take {}", variable.name, counted(count)),
+                      {}, {{value->span, "it is made here"}});
+}
+
 void Checker::builder_call(ast::Call const& call, base::Span span, Builder const& builder) {
   auto const name = builder.spec->name;
   auto const before = diagnostics_.error_count();
@@ -339,7 +350,12 @@ void Checker::builder_call(ast::Call const& call, base::Span span, Builder const
 /// later.
 void Checker::rehearse(ast::Closure const& body, Builder const& builder, base::Span span) {
   if (!builder.spec->begin) return;
-  if (auto const& problem = tasks_.rehearsed(body, *builder.spec).problem) {
+  auto const& [problem, task, unreached] = tasks_.rehearsed(body, *builder.spec);
+  if (unreached) {
+    diagnostics_.report(code("unreachable-code"), *unreached, "this is never reached: what stands before it never ends",
+                        "give it a time or a number of turns, or make a mission of its own of what follows");
+  }
+  if (problem) {
     auto const place = problem->place.size() > 0 ? problem->place : span;
     diagnostics_.report(code("invalid-mission"), place, problem->error.message, problem->error.hint);
   }

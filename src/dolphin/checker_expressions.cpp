@@ -22,18 +22,6 @@ std::vector<std::string_view> names_of(auto const& table) {
   return out;
 }
 
-std::string_view word(Dimension dimension) {
-  switch (dimension) {
-    case Dimension::none: return "a plain number";
-    case Dimension::length: return "a length";
-    case Dimension::angle: return "an angle";
-    case Dimension::time: return "a time";
-    case Dimension::speed: return "a speed";
-    case Dimension::ratio: return "a ratio";
-  }
-  return "a number";
-}
-
 constexpr auto block_kinds = {BlockKind::pick, BlockKind::position, BlockKind::displacement, BlockKind::handler};
 
 }  // namespace
@@ -125,10 +113,12 @@ void Checker::name(ast::Expr const& expr) {
   undefined_name(text, expr.span);
 }
 
-/// A global that gets its first value in a later statement of the script, used where it stands.
+/// A global that gets its first value in a later statement of the script, or from what it is used in.
 bool Checker::used_too_early(ast::Expr const& expr, Variable const& variable) {
-  bool const early =
-      variable.kind == VariableKind::global && !place_.in_closure && variable.first_statement > top_statement_;
+  // In a loop the other branch of ?: may have given it one before.
+  bool const defines_itself = &variable == defining_ && !place_.in_loop;
+  bool const has_no_value = variable.first_statement > top_statement_ || defines_itself;
+  bool const early = variable.kind == VariableKind::global && !place_.in_closure && has_no_value;
   if (!early || may_be_defined_in_unread(variable.name) || !reported_.insert(variable.name).second) return false;
   diagnostics_.report(code("used-before-value"), expr.span, fmt::format("{} has no value yet", variable.name), {},
                       {{variable.defined, "it gets its first value here"}});
@@ -167,25 +157,10 @@ void Checker::expression(ast::Expr const& expr) {
   }
   auto const* binary = std::get_if<ast::Binary>(&expr.node);
   if (binary && missing_parentheses(expr, *binary)) return expression(binary->right);
-  if (binary) return operation(*binary, expr.span);
+  if (binary) return operation(*binary);
   ast::for_each_child(expr.node, [this](auto const& child) {
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(child)>, ast::Expr>) expression(child);
   });
-}
-
-/// `task / { condition }`: the guard can stop the task.
-void Checker::operation(ast::Binary const& binary, base::Span span) {
-  bool const is_guarded =
-      binary.op == ast::BinaryOp::divide && std::holds_alternative<ast::Closure>(binary.right->node);
-  auto const outer = place_;
-  place_.can_be_stopped = place_.can_be_stopped || is_guarded;
-  expression(binary.left);
-  place_.can_be_stopped = outer.can_be_stopped;
-  place_.in_task = place_.in_task || is_guarded;
-  expression(binary.right);
-  place_ = outer;
-  operands(binary, span);
-  endless_sequence(binary);
 }
 
 void Checker::closure(ast::Closure const& closure, std::optional<BlockContext> context) {
@@ -256,6 +231,11 @@ void Checker::index(ast::Expr const& expr) {
     diagnostics_.report(code("not-vehicles"), n.index->span,
                         fmt::format("a task is limited to a set of vehicles, not to {}", describe(inside.kinds)));
   }
+  if (facts.kinds == Kinds(Kind::vehicles) && inside.kinds == Kinds(Kind::task)) {
+    auto const& source = diagnostics_.source();
+    diagnostics_.report(code("not-a-task"), expr.span, "a task is limited to vehicles, not vehicles to a task",
+                        fmt::format("write {}[{}]", source.text(n.index->span), source.text(n.object->span)));
+  }
 }
 
 void Checker::chain(ast::Expr const& expr) {
@@ -296,88 +276,7 @@ void Checker::chain(ast::Expr const& expr) {
                                *limit.dimension != Dimension::none && *limit.dimension != Dimension::time;
   if (wrong_dimension) {
     diagnostics_.report(code("argument-dimension"), n.subject->span,
-                        fmt::format("during takes a time, this is {}", word(*limit.dimension)));
-  }
-}
-
-// ---- operators ----------------------------------------------------------------------------------
-
-/// `lon -8.64`: a subtraction from something that is not a variable.
-bool Checker::missing_parentheses(ast::Expr const& expr, ast::Binary const& binary) {
-  if (binary.op != ast::BinaryOp::subtract && binary.op != ast::BinaryOp::add) return false;
-  auto const* callee = std::get_if<ast::Name>(&binary.left->node);
-  if (!callee || resolution_.find(*binary.left) || !is_callable(callee->text)) return false;
-  auto const sign = binary.op == ast::BinaryOp::subtract ? "-" : "+";
-  auto const argument = diagnostics_.source().text({binary.right->span.begin, expr.span.end});
-  diagnostics_.report(code("missing-parentheses"), expr.span,
-                      fmt::format("this calculates with {}, which is an instruction", callee->text),
-                      fmt::format("write {} ({}{})", callee->text, sign, argument));
-  return true;
-}
-
-/// Operators on values whose kinds are known (language specification 2).
-void Checker::operands(ast::Binary const& binary, base::Span) {
-  using enum ast::BinaryOp;
-  dimensions(binary);
-  battery_comparison(binary);
-  auto const left = inference_.facts(*binary.left).kinds;
-  auto const right = inference_.facts(*binary.right).kinds;
-  auto const needs = [&](Kinds wanted, std::string_view what) {
-    if (right.meets(wanted)) return;
-    diagnostics_.report(code("operand-type"), binary.right->span, fmt::format("{}, not {}", what, describe(right)));
-  };
-  if (left == Kinds(Kind::task)) {
-    if (binary.op == divide) needs(Kind::closure, "a task is ended by a closure: task / { condition }");
-    if (binary.op == shift_right) needs(Kind::task, "a task is followed by a task");
-    if (binary.op == bit_or) needs(Kind::task, "a task runs beside a task");
-  } else if (left == Kinds(Kind::vehicles)) {
-    if (binary.op == bit_or) needs(Kind::closure, "vehicles are filtered by a closure: vehicles | { condition }");
-    if (binary.op == add) needs(Kinds(Kind::vehicles) | Kind::text, "vehicles are joined with vehicles");
-    if (binary.op == subtract || binary.op == bit_and) needs(Kind::vehicles, "vehicles are compared with vehicles");
-  } else if (left == Kinds(Kind::position) && binary.op == bit_xor) {
-    needs(Kinds::number(), "an area is a position ^ a radius in metres");
-  }
-}
-
-void Checker::dimensions(ast::Binary const& binary) {
-  using enum ast::BinaryOp;
-  bool const compares = binary.op >= less && binary.op <= not_equal && binary.op != in;
-  if (binary.op != add && binary.op != subtract && !compares) return;
-  auto const left = inference_.facts(*binary.left).dimension;
-  auto const right = inference_.facts(*binary.right).dimension;
-  if (!left || !right || *left == Dimension::none || *right == Dimension::none || left == right) return;
-  if (compares) {
-    diagnostics_.report(code("compared-dimensions"), binary.op_span,
-                        fmt::format("this compares {} with {}", word(*left), word(*right)));
-  } else {
-    diagnostics_.report(
-        code("mixed-dimensions"), binary.op_span,
-        fmt::format("{} and {} have no {}", word(*left), word(*right), binary.op == add ? "sum" : "difference"));
-  }
-}
-
-/// A battery's charge runs from 0 to 1: `battery(v) < 30` is always true.
-void Checker::battery_comparison(ast::Binary const& binary) {
-  using enum ast::BinaryOp;
-  if (binary.op < less || binary.op > greater_equal) return;
-  auto const is_battery = [&](ast::Expr const& expr) {
-    if (auto const* member = std::get_if<ast::Member>(&expr.node); member && member->name.text == "battery") {
-      return inference_.facts(*member->object).kinds == Kinds(Kind::vehicles);
-    }
-    auto const* called = std::get_if<ast::Call>(&expr.node);
-    auto const* callee = called ? std::get_if<ast::Name>(&called->callee->node) : nullptr;
-    return callee && callee->text == "battery" && !resolution_.functions.contains(callee->text);
-  };
-  auto const& limit = is_battery(*binary.left) ? binary.right : binary.left;
-  if (!is_battery(*binary.left) && !is_battery(*binary.right)) return;
-  auto const value = inference_.constant(*limit);
-  double number = 0.0;
-  if (value && std::holds_alternative<double>(*value)) number = std::get<double>(*value);
-  if (value && std::holds_alternative<std::int64_t>(*value))
-    number = static_cast<double>(std::get<std::int64_t>(*value));
-  if (number > 1.0) {
-    diagnostics_.report(code("battery-ratio"), limit->span, "battery gives 0 to 1",
-                        fmt::format("write {}.percent", diagnostics_.source().text(limit->span)));
+                        fmt::format("during takes a time, this is {}", noun(*limit.dimension)));
   }
 }
 

@@ -145,12 +145,15 @@ void Checker::endless_sequence(ast::Binary const& binary) {
                       "this is never reached: what stands before >> never ends", "end it: task / { condition }");
 }
 
-/// Variables that hold tasks and that nothing reads. Says nothing where a misspelt name may have been meant for one.
+/// Variables that hold tasks and that nothing reads. Says nothing where a misspelt name may have been meant for one,
+/// nor of missions that may be executed by their name.
 void Checker::unused_tasks() {
-  if (names_plans_ || !program_.unread.empty() || !reported_.empty()) return;
+  if (!program_.unread.empty() || !reported_.empty()) return;
+  auto const may_have_name = [&](ast::Expr const* value) { return !tasks_.blocks(*value).empty(); };
   for (auto const& variable : resolution_.variables) {
     bool const is_task = inference_.facts(variable).kinds == Kinds(Kind::task);
     if (!is_task || read_.contains(&variable)) continue;
+    if (names_plans_ && std::ranges::any_of(variable.values, may_have_name)) continue;
     diagnostics_.report(code("never-executed"), variable.defined, fmt::format("{} is never executed", variable.name),
                         fmt::format("write execute {}", variable.name));
   }

@@ -53,6 +53,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"duplicate-key", codes_detail::error, "A key stands twice in one call or map."},
     {"instruction-as-value", codes_detail::error, "An instruction is used as if it were a variable."},
     {"label", codes_detail::error, "`name:` where it does nothing."},
+    {"assigned-field", codes_detail::warning, "`type = 'UAV'` inside a block makes a variable and sets no field."},
     // ---- calls and values
     {"argument-count", codes_detail::error, "Too many or too few arguments."},
     {"argument-type", codes_detail::error, "An argument of a kind that the instruction does not take."},
@@ -63,6 +64,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"operand-type", codes_detail::error, "An operator that does not join values of these kinds."},
     {"mixed-dimensions", codes_detail::error, "A sum of a length and a time, and the like."},
     {"compared-dimensions", codes_detail::warning, "A length is compared with a time, and the like."},
+    {"never-equal", codes_detail::warning, "Values of different kinds are compared with == or !=."},
     {"battery-ratio", codes_detail::warning, "A battery is compared with more than 1; full is 1, or 100.percent."},
     {"radians", codes_detail::warning, "`new Position` takes radians."},
     {"not-a-task", codes_detail::error, "Something that is no task where one is needed."},
@@ -75,6 +77,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"misplaced-when", codes_detail::error, "`when` outside `oneOf`, `choose` and `allOf`."},
     {"unreachable-code", codes_detail::warning, "Code that nothing reaches."},
     {"never-executed", codes_detail::warning, "A task is made and thrown away."},
+    {"endless-loop", codes_detail::warning, "A loop without an end, in which nothing waits."},
     {"no-branches", codes_detail::warning, "A choice without `when`: it halts the script."},
     {"nested-execute", codes_detail::warning, "`execute` in code that a running task calls; it fails there."},
     {"consume-in-guard", codes_detail::warning, "A guard takes a signal that is lost when the task round it is stopped."},

@@ -226,10 +226,10 @@ Facts Inference::facts_of_binary(ast::Binary const& binary, int depth) {
       return is_exactly(left, Kind::vehicles) && is_exactly(right, Kind::vehicles) ? left : Facts{};
     case multiply: return numbers ? product(left, right, false) : Facts{};
     case divide:
-      if (is_exactly(left, Kind::task)) return left;
+      if (is_exactly(left, Kind::task)) return right.kinds.meets(Kind::closure) ? left : Facts{};
       return numbers ? product(left, right, true) : Facts{};
     case bit_xor: return is_exactly(left, Kind::position) ? Facts{Kind::area, {}} : Facts{};
-    case shift_right: return is_exactly(left, Kind::task) ? left : Facts{};
+    case shift_right: return is_exactly(left, Kind::task) && right.kinds.meets(Kind::task) ? left : Facts{};
     case bit_or:
     case bit_and: return is_exactly(left, Kind::task) || is_exactly(left, Kind::vehicles) ? left : Facts{};
     case shift_left: return {};

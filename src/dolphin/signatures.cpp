@@ -350,6 +350,7 @@ Kinds kinds_of(tasks::Type type) {
 
 constexpr auto kind_words = std::to_array<std::pair<Kind, std::string_view>>({
     {Kind::boolean, "true or false"},
+    {Kind::integer, "a whole number"},
     {Kind::decimal, "a number"},
     {Kind::text, "text"},
     {Kind::position, "a position"},
@@ -369,10 +370,22 @@ std::string describe(Kinds kinds) {
   if (kinds.is_none()) return "nothing";
   std::vector<std::string_view> words;
   for (auto const& [kind, word] : kind_words) {
-    if (kinds.meets(kind) || (kind == Kind::decimal && kinds.meets(Kind::integer))) words.push_back(word);
+    bool const is_said = kind == Kind::integer && kinds.meets(Kind::decimal);  // a number, whole or not
+    if (kinds.meets(kind) && !is_said) words.push_back(word);
   }
-  if (kinds == Kinds(Kind::integer)) return "a whole number";
   return words.empty() ? "another value" : fmt::format("{}", fmt::join(words, " or "));
+}
+
+std::string_view noun(Dimension dimension) {
+  switch (dimension) {
+    case Dimension::none: return "a plain number";
+    case Dimension::length: return "a length";
+    case Dimension::angle: return "an angle";
+    case Dimension::time: return "a time";
+    case Dimension::speed: return "a speed";
+    case Dimension::ratio: return "a ratio";
+  }
+  return "a number";
 }
 
 std::span<InstructionSpec const> instructions() {

@@ -55,6 +55,8 @@ class Kinds {
 
 /// "a number", "text or a closure".
 [[nodiscard]] std::string describe(Kinds kinds);
+/// "a length", "a time"; "a plain number" for none.
+[[nodiscard]] std::string_view noun(Dimension dimension);
 
 struct ParameterSpec {
   std::string_view name;

@@ -66,6 +66,8 @@ class Checker {
   void check(ast::Assert const& n, ast::Stmt const& statement, bool is_value);
   void check(ast::Import const& n, ast::Stmt const& statement, bool is_value);
   void loop_body(ast::Block const& body);
+  void spinning(ast::Expr const* condition, ast::Block const& body, ast::Stmt const& statement);
+  void assigned_field(ast::Expr const& target);
   void function_overloads();
   [[nodiscard]] std::string_view ends_with(ast::Stmt const& statement);
   [[nodiscard]] std::string_view ends_with(ast::Call const& call);
@@ -76,22 +78,26 @@ class Checker {
   void name(ast::Expr const& expr);
   void undefined_name(std::string const& name, base::Span span);
   bool used_too_early(ast::Expr const& expr, Variable const& variable);
-  void operation(ast::Binary const& binary, base::Span span);
   void closure(ast::Closure const& closure, std::optional<BlockContext> context);
   void member(ast::Expr const& expr);
   void index(ast::Expr const& expr);
   void map(ast::MapLiteral const& map);
   void chain(ast::Expr const& expr);
   void type_name(ast::Identifier const& type);
-  void operands(ast::Binary const& binary, base::Span span);
+
+  // ---- operators (checker_operators.cpp)
+  void operation(ast::Binary const& binary);
+  void operands(ast::Binary const& binary);
   void dimensions(ast::Binary const& binary);
   bool missing_parentheses(ast::Expr const& expr, ast::Binary const& binary);
   void battery_comparison(ast::Binary const& binary);
+  [[nodiscard]] std::string of_one_vehicle(ast::Expr const& expr);
 
   // ---- calls (checker_calls.cpp)
   void call(ast::Expr const& expr);
   void instruction_call(ast::Call const& call, base::Span span, InstructionSpec const& spec);
   void function_call(ast::Call const& call, base::Span span, std::vector<ast::FunctionDecl const*> const& functions);
+  void closure_call(ast::Call const& call, base::Span span, Variable const& variable);
   void builder_call(ast::Call const& call, base::Span span, Builder const& builder);
   void undefined_call(ast::Call const& call, base::Span span);
   void method_call(ast::Call const& call);
@@ -138,6 +144,7 @@ class Checker {
   TaskShapes tasks_;
   Place place_;
   std::size_t top_statement_ = 0;
+  Variable const* defining_ = nullptr;  ///< the global that the value being checked is the first one of
 };
 
 }  // namespace lapwing::dolphin

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -107,6 +108,28 @@ std::optional<Chosen> choose(ast::Call const& call, tasks::BuilderSpec const& bu
   return Chosen{static_cast<std::size_t>(command - builder.commands.begin()), *std::move(out)};
 }
 
+using Commands = std::span<std::pair<Chosen, base::Span> const>;
+
+bool never_ends(Commands commands, tasks::BuilderSpec const& builder) {
+  auto const session = builder.begin();
+  for (auto const& [command, place] : commands) {
+    if (!session->add(command.command, command.prepared.overload, command.prepared.arguments)) return false;
+  }
+  auto const task = session->finish();
+  return task && (*task)->never_ends();
+}
+
+/// Precondition: with all its commands the block never ends.
+std::optional<base::Span> first_unreached(Commands commands, tasks::BuilderSpec const& builder) {
+  std::size_t ends = 0;
+  std::size_t never = commands.size();
+  while (never - ends > 1) {
+    auto const middle = (ends + never) / 2;
+    (never_ends(commands.first(middle), builder) ? never : ends) = middle;
+  }
+  return never < commands.size() ? std::optional(commands[never].second) : std::nullopt;
+}
+
 }  // namespace
 
 Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder, Inference& inference) {
@@ -122,13 +145,16 @@ Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder,
   bool all_certain = true;
   for (auto const& [command, place] : commands) {
     auto const added = session->add(command.command, command.prepared.overload, command.prepared.arguments);
-    if (!added && command.prepared.is_certain) return {RehearsalProblem{place, added.error()}, nullptr};
+    if (!added && command.prepared.is_certain) return {RehearsalProblem{place, added.error()}, nullptr, {}};
     all_certain = all_certain && command.prepared.is_certain;
     if (!added) return {};  // what follows may depend on what a stand-in could not do
   }
   auto finished = session->finish();
-  if (finished) return {std::nullopt, *std::move(finished)};
-  return all_certain ? Rehearsal{RehearsalProblem{{}, finished.error()}, nullptr} : Rehearsal();
+  if (finished) {
+    auto const unreached = (*finished)->never_ends() ? first_unreached(commands, builder) : std::nullopt;
+    return {std::nullopt, *std::move(finished), unreached};
+  }
+  return all_certain ? Rehearsal{RehearsalProblem{{}, finished.error()}, nullptr, {}} : Rehearsal();
 }
 
 }  // namespace lapwing::dolphin

@@ -18,6 +18,7 @@ struct RehearsalProblem {
 struct Rehearsal {
   std::optional<RehearsalProblem> problem;
   std::shared_ptr<tasks::PlatformTask const> task;  ///< where its numbers are not known before, with others
+  std::optional<base::Span> unreached = {};         ///< the first command behind one that never ends
 };
 
 /// Builds a block whose statements are all commands of the platform, with those arguments that are the same in every
