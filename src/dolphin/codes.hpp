@@ -69,7 +69,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"radians", codes_detail::warning, "`new Position` takes radians."},
     {"not-a-task", codes_detail::error, "Something that is no task where one is needed."},
     {"not-vehicles", codes_detail::error, "Something that is no set of vehicles where one is needed."},
-    {"halting-value", codes_detail::warning, "A number with which the instruction halts the script."},
+    {"halting-value", codes_detail::warning, "A value with which the instruction halts the script."},
     {"imc-plan", codes_detail::error, "Plans in the form of IMC are not supported."},
     {"invalid-mission", codes_detail::error, "A mission that cannot be flown, for example a relative move without `home`."},
     // ---- flow

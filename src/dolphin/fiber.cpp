@@ -11,6 +11,17 @@
 
 namespace lapwing::dolphin {
 
+namespace {
+
+/// "survey() takes 1 to 2 arguments"
+std::string usage(Function const& function) {
+  auto const name = function.name.empty() ? "the closure" : function.name + "()";
+  auto const least = function.required < function.parameters ? fmt::format("{} to ", function.required) : "";
+  return fmt::format("{} takes {}{} argument{}", name, least, function.parameters, function.parameters == 1 ? "" : "s");
+}
+
+}  // namespace
+
 void Fiber::begin(Function const& function) {
   state_ = State::ready;
   enter(function, {}, 0);
@@ -95,20 +106,20 @@ std::uint32_t Fiber::line() const {
 void Fiber::enter(Function const& function, Ref<Closure> closure, int passed) {
   std::size_t const base = stack_.size() - static_cast<std::size_t>(passed);
   bool const lacks_it = closure && function.required == 1 && passed == 0;
-  if (passed > function.parameters || (passed < function.required && !lacks_it)) {
-    drop(static_cast<std::size_t>(passed));
-    auto const subject = function.name.empty() ? "the closure" : function.name + "()";
-    return raise(
-        {"MissingMethodException", fmt::format("{} takes {} arguments, not {}", subject, function.parameters, passed)});
-  }
-  if (frames_.size() >= runtime_.limits.call_depth) {
-    drop(static_cast<std::size_t>(passed));
-    return raise({"StackOverflowError", fmt::format("calls are nested more than {} deep", runtime_.limits.call_depth)});
-  }
   auto const& limits = runtime_.limits;
-  if (base + static_cast<std::size_t>(function.locals) > limits.stack_values) {
+  auto const refuse = [&](std::string type, std::string message) {
     drop(static_cast<std::size_t>(passed));
-    return raise({"StackOverflowError", fmt::format("calls under way hold more than {} values", limits.stack_values)});
+    // A closure that a task calls has no caller: its own line tells where it is.
+    auto const place = frames_.empty() && !function.lines.empty() ? function.lines.front() : line();
+    raise(Value(runtime_.heap.make<Error>(
+        ErrorData{std::move(type), std::move(message), static_cast<int>(place), Ending::error})));
+  };
+  if (passed > function.parameters || (passed < function.required && !lacks_it))
+    return refuse("MissingMethodException", fmt::format("{}, not {}", usage(function), passed));
+  if (frames_.size() >= limits.call_depth)
+    return refuse("StackOverflowError", fmt::format("calls are nested more than {} deep", limits.call_depth));
+  if (base + static_cast<std::size_t>(function.locals) > limits.stack_values) {
+    return refuse("StackOverflowError", fmt::format("calls under way hold more than {} values", limits.stack_values));
   }
   stack_.resize(base + static_cast<std::size_t>(function.locals));
   frames_.push_back({&function, std::move(closure), 0, base, passed, blocks_.size()});

@@ -301,6 +301,10 @@ std::vector<ast::Parameter> Parser::parameters(TokenKind end) {
     }
     made.name = identifier_of(advance());
     if (accept(assign)) made.fallback = expression();
+    if (!made.fallback && !out.empty() && out.back().fallback) {
+      error(code("syntax"), made.name.span, "a parameter without a default cannot follow one that has a default",
+            "put those with defaults last");
+    }
     out.push_back(std::move(made));
     if (!accept(comma)) break;
   }
