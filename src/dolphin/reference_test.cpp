@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -98,7 +99,8 @@ std::string precedence() {
     out += fmt::format("{}. `{}`{}\n", ++level, fmt::join(operators, "` `"), with_types ? " `as` `instanceof`" : "");
     if (level == 2) out += fmt::format("{}. `!` `-` `+` in front of a value\n", ++level);
   }
-  return out + fmt::format("{}. `?:`, `condition ? a : b`\n{}. `=` `+=` `-=` `*=` `/=`\n", level + 1, level + 2);
+  return out +
+         fmt::format("{}. `?:`, `condition ? a : b`\n{}. `=` and `+=`, `-=`, `<<=` and so on\n", level + 1, level + 2);
 }
 
 constexpr std::array<std::string_view, 13> joined{"+", "-", "*", "/",  "%",  "**", ">>",
@@ -140,10 +142,15 @@ std::string word_of_type(std::string const& type) {
   return found == words.end() ? "?" + type : found->second;
 }
 
-/// "number, text", or "anything" for all and all but one.
+/// "number, text"; "anything", or "anything but text" when it is shorter.
 std::string kinds_text(std::vector<std::string> const& kinds) {
-  constexpr std::size_t all = 13;
-  if (kinds.size() >= all - 1) return kinds.size() == all ? "anything" : "anything else";
+  static std::vector<std::string> const all{"area",     "closure", "displacement", "list", "map",  "nothing", "number",
+                                            "position", "range",   "set",          "task", "text", "truth"};
+  std::vector<std::string> missing;
+  std::ranges::copy_if(all, std::back_inserter(missing),
+                       [&](auto const& one) { return std::ranges::find(kinds, one) == kinds.end(); });
+  if (missing.empty()) return "anything";
+  if (missing.size() < kinds.size()) return fmt::format("anything but {}", fmt::join(missing, ", "));
   return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
@@ -366,7 +373,9 @@ std::string limits() {
       "and "
       "{} words. Its values take up to {} MB in all; a text up to {} MB; {} signals wait to be consumed; calls nest up "
       "to "
-      "{} deep. A guard that has taken {} steps of the interpreter in one test is an error.\n",
+      "{} deep. A guard that has taken {} steps of the interpreter in one test is an error, and so is a script that "
+      "computes "
+      "for some ten seconds without ever waiting.\n",
       max_source_size >> 20U, max_token_count, running.heap_bytes >> 20U, max_text_size >> 20U, max_signals,
       running.call_depth, running.guard_budget);
 }
