@@ -187,8 +187,11 @@ void Fiber::raise(Value error) {
     stack_.resize(f.base + static_cast<std::size_t>(f.function->locals));
     blocks_.resize(f.blocks);
     f.pc = static_cast<std::size_t>(handler->target);
-    if (handler->finally_local >= 0) local(handler->finally_local) = std::move(error);
-    if (handler->finally_local < 0) push(std::move(error));
+    if (handler->finally_local >= 0) {
+      local(handler->finally_local) = std::move(error);
+    } else {
+      push(std::move(error));
+    }
     return;
   }
   stack_.clear();

@@ -1,5 +1,6 @@
 #include "link/url.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -34,10 +35,32 @@ std::unexpected<base::Error> wrong(std::string_view text, std::string_view what,
                     fmt::format("write it like {}", example));
 }
 
-/// What people write who know other tools' spellings.
+constexpr std::string_view usual_baud = "57600";  ///< of telemetry radios, and what pymavlink and MAVSDK take
+
+/// What other tools write, in our words; anything else as it is. pymavlink and MAVProxy: `udp:0.0.0.0:14550`,
+/// `tcp:127.0.0.1:5760`, `/dev/ttyACM0,115200`; MAVSDK: `udp://:14540`, `tcp://127.0.0.1:5760`.
+std::string in_our_words(std::string_view text) {
+  if (text.starts_with("/dev/")) {
+    auto const comma = text.find(',');
+    bool const has_baud = comma != std::string_view::npos;
+    return fmt::format("serial://{}:{}", text.substr(0, comma), has_baud ? text.substr(comma + 1) : usual_baud);
+  }
+  auto const colon = text.find(':');
+  if (colon == std::string_view::npos) return std::string(text);
+  auto const kind = text.substr(0, colon);
+  auto const rest = text.substr(colon + 1);
+  bool const has_slashes = rest.starts_with("//");
+  auto const place = has_slashes ? rest.substr(2) : rest;
+  if (kind == "tcp") return fmt::format("tcpout://{}", place);
+  if (kind == "udp" && !has_slashes) return fmt::format("udpin://{}", place);
+  if (kind == "udp" && place.starts_with(':')) return fmt::format("udpin://0.0.0.0{}", place);
+  bool const is_ours = std::ranges::find(schemes, kind, &Scheme::name) != schemes.end();
+  return is_ours && !has_slashes ? fmt::format("{}://{}", kind, place) : std::string(text);
+}
+
+/// What people mean who write something else.
 std::string_view meant_by(std::string_view scheme) {
   if (scheme == "udp") return "udpin://0.0.0.0:14550 to listen or udpout://127.0.0.1:14550 to send";
-  if (scheme == "tcp") return "tcpout://127.0.0.1:5760 to connect or tcpin://0.0.0.0:5760 to listen";
   return "udpin://0.0.0.0:14550, udpout://, tcpin://, tcpout:// or serial:///dev/ttyUSB0:57600";
 }
 
@@ -59,7 +82,9 @@ std::string to_string(Url const& url) {
   return fmt::format("{}://{}:{}", to_string(url.transport), url.host, url.port_or_baud);
 }
 
-base::Result<Url> parse_url(std::string_view text) {
+base::Result<Url> parse_url(std::string_view written) {
+  auto const ours = in_our_words(written);
+  std::string_view const text = ours;
   auto const slashes = text.find("://");
   auto const name = text.substr(0, slashes);
   Scheme const* scheme = nullptr;

@@ -22,7 +22,8 @@ struct Url {
   friend bool operator==(Url const&, Url const&) = default;
 };
 
-/// Error: invalid_input, saying what is wrong and giving a right example.
+/// Takes the spellings of pymavlink, MAVProxy (`tcp:127.0.0.1:5760`, `/dev/ttyACM0,115200`) and MAVSDK
+/// (`udp://:14540`), too. Error: invalid_input, saying what is wrong and giving a right example.
 [[nodiscard]] base::Result<Url> parse_url(std::string_view text);
 [[nodiscard]] std::string to_string(Url const& url);
 

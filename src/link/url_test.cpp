@@ -15,6 +15,25 @@ TEST(Url, ReadsEveryKindAndPrintsItAgain) {
   EXPECT_EQ(*parse_url("serial:///dev/ttyACM0:115200"), (Url{Transport::serial, "/dev/ttyACM0", 115200}));
 }
 
+TEST(Url, ReadsWhatOtherToolsWrite) {
+  struct Written {
+    char const* theirs;
+    char const* ours;
+  };
+  Written const cases[] = {
+      {"udp:0.0.0.0:14550", "udpin://0.0.0.0:14550"},          {"udpin:127.0.0.1:14550", "udpin://127.0.0.1:14550"},
+      {"udpout:10.0.0.7:14550", "udpout://10.0.0.7:14550"},    {"tcp:127.0.0.1:5760", "tcpout://127.0.0.1:5760"},
+      {"tcpin:0.0.0.0:5760", "tcpin://0.0.0.0:5760"},          {"/dev/ttyACM0,115200", "serial:///dev/ttyACM0:115200"},
+      {"/dev/ttyUSB0", "serial:///dev/ttyUSB0:57600"},         {"udp://:14540", "udpin://0.0.0.0:14540"},
+      {"tcp://drone.local:5760", "tcpout://drone.local:5760"},
+  };
+  for (auto const& [theirs, ours] : cases) {
+    auto const url = parse_url(theirs);
+    ASSERT_TRUE(url) << theirs << ": " << url.error().message;
+    EXPECT_EQ(to_string(*url), ours);
+  }
+}
+
 struct Wrong {
   char const* text;
   char const* message;
@@ -32,7 +51,8 @@ TEST(Url, SaysWhatIsWrongAndShowsARightOne) {
       {"serial:///dev/ttyUSB0", "baud rate is missing", "serial:///dev/ttyUSB0:57600"},
       {"serial://:57600", "device is missing", "serial:///dev/ttyUSB0:57600"},
       {"serial:///dev/ttyUSB0:fast", "'fast' is no baud rate", "serial:///dev/ttyUSB0:57600"},
-      {"udp://:14540", "'udp' is no kind of link", "udpin://0.0.0.0:14550 to listen"},
+      {"udp://10.0.0.7:14540", "'udp' is no kind of link", "udpin://0.0.0.0:14550 to listen"},
+      {"/dev/ttyUSB0,fast", "'fast' is no baud rate", "serial:///dev/ttyUSB0:57600"},
       {"http://x:80", "'http' is no kind of link", "udpin://"},
       {"14550", "no '://'", "udpin://"},
       {"", "no '://'", "udpin://"},
