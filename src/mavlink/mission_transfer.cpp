@@ -61,8 +61,9 @@ class Patience {
     }
     repeats_ = 0;
   }
-  /// Waits longer the next time, up to a limit; until something is measured again.
-  void repeated() { repeats_ = std::min(repeats_ + 1, 4); }
+  /// Waits longer the next time, until something is measured again. Not much longer once the round trip is known: one
+  /// small message at a time congests nothing, so silence then mostly means that it was lost.
+  void repeated() { repeats_ = std::min(repeats_ + 1, is_measured_ ? 2 : 4); }
   /// The other side has moved on after a repetition: what was repeated was lost, or the round trip has become longer.
   void moved_on() { repeats_ = std::max(repeats_ - (is_measured_ ? 1 : 0), 0); }
 
