@@ -7,6 +7,7 @@
 #include "dolphin/equality.hpp"
 #include "dolphin/fiber.hpp"
 #include "dolphin/internal/code_points.hpp"
+#include "dolphin/limits.hpp"
 #include "dolphin/members.hpp"
 #include "dolphin/operators.hpp"
 #include "dolphin/runtime.hpp"
@@ -204,6 +205,7 @@ void Fiber::execute_call(Instruction i) {
 void Fiber::call_native(int index, int count) {
   auto const& native = natives()[static_cast<std::size_t>(index)];
   auto const given = arguments(count);
+  busy_steps_ += steps_of_native;
   bool const must_not_wait = role_ == Role::guard || is_unwinding_;
   if (native.call && (must_not_wait || !native.start)) {
     auto result = native.call(runtime_, *this, given);

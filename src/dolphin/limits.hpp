@@ -25,6 +25,8 @@ inline constexpr std::size_t max_comparisons = 50'000'000;
 inline constexpr std::size_t max_spread_values = 1'000'000;
 /// Numbers of a range that is made a list.
 inline constexpr std::int64_t max_copied_range = 10'000'000;
+/// What a call of a built-in instruction, such as `println`, counts among the steps without waiting.
+inline constexpr std::uint64_t steps_of_native = 100;
 /// Signals that are posted and not consumed.
 inline constexpr std::size_t max_signals = 10'000;
 
@@ -35,8 +37,9 @@ struct Limits {
   std::size_t stack_values = 1'000'000;  ///< variables and operands of all calls under way
   int slice = 20'000;                    ///< instructions between two turns of the loop
   int guard_budget = 2'000'000;          ///< instructions one test of a guard may take
-  /// Instructions without waiting for anything, some ten seconds: then a loop has no end.
-  std::uint64_t busy_steps = 2'000'000'000;
+  /// Instructions without waiting for anything, some ten seconds: then a loop has no end. A call of a built-in
+  /// instruction counts as many.
+  std::uint64_t busy_steps = 1'000'000'000;
   /// Instructions of the whole run, then it ends as if halted. None: a patrol goes on for days.
   std::uint64_t steps = UINT64_MAX;
 };

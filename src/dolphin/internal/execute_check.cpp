@@ -45,6 +45,7 @@ class ExecuteCheck {
     }
     for (auto const& demand : demands_) {
       if (demand.from && (is_released(demand) || is_too_few(demand) || is_unsuited(demand))) return;
+      if (demand.name.empty() && suits_none(demand)) return;
     }
     bool const is_clear =
         std::ranges::none_of(demands_, [](Demand const& one) { return !one.from && !one.name.empty(); });
@@ -126,6 +127,36 @@ class ExecuteCheck {
     return false;
   }
 
+  /// Of all picks, when they are known: no other vehicle can be meant.
+  template <class Test>
+  [[nodiscard]] bool all_picked(Test test) const {
+    if (state_.most_picked().value_or(0) == 0) return false;
+    for (PickIndex pick = 0; pick < state_.pick_count(); ++pick) {
+      if (!test(pick)) return false;
+    }
+    return true;
+  }
+
+  /// Whether no vehicle that the script has picked can do what a block of the task says.
+  bool suits_none(Demand const& demand) {
+    for (auto const* block : tasks_.blocks(*demand.task)) {
+      auto const built = tasks_.built(*block);
+      std::optional<std::string> reason;
+      auto const is_refused = [&](PickIndex index) {
+        tasks::VehicleInfo vehicle;
+        vehicle.type = state_.pick(index).type;
+        reason = vehicle.type.empty() ? std::nullopt : built->unsuited(vehicle);
+        return reason.has_value();
+      };
+      if (!built || !all_picked(is_refused)) continue;
+      diagnostics_.report(code("unsuited-vehicle"), demand.task->span,
+                          fmt::format("no vehicle that is picked suits this {}: {}", built->kind(), *reason),
+                          "pick another type, or leave out what it cannot do", {{state_.pick(0).place, "picked here"}});
+      return true;
+    }
+    return false;
+  }
+
   bool is_unsuited(Demand const& demand, ast::Expr const& block, tasks::PlatformTask const& task, Pick const& pick) {
     tasks::VehicleInfo vehicle;
     vehicle.type = pick.type;
@@ -189,6 +220,14 @@ class ExecuteCheck {
     std::size_t needed = 0;
     for (auto const& demand : demands_) needed += demand.vehicles;
     auto const there = state_.most_picked();
+    auto const is_released = [&](PickIndex pick) { return state_.release_of(pick).is == Released::yes; };
+    if (needed > 0 && all_picked(is_released)) {
+      auto const& task = tasks_.taker(*demands_.front().task, 0);
+      diagnostics_.report(code("no-vehicle"), task.span,
+                          fmt::format("{} needs a vehicle, and all are released", text(task)), "pick one again",
+                          {{state_.release_of(0).place, "released here"}});
+      return;
+    }
     if (!there || needed <= *there) return;
     std::size_t others = *there;
     auto const short_of = std::ranges::find_if(demands_, [&](Demand const& demand) {

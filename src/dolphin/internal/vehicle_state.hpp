@@ -46,6 +46,7 @@ class VehicleState {
 
   [[nodiscard]] PickIndex add(Pick pick);
   [[nodiscard]] Pick const& pick(PickIndex index) const { return picks_[index]; }
+  [[nodiscard]] std::size_t pick_count() const { return picks_.size(); }
   /// `yes` only while nothing has been picked since: a later pick may have taken the same vehicles again.
   [[nodiscard]] ReleaseFact release_of(PickIndex index) const;
   void release(PickIndex index, Released is, base::Span place);
