@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
-#include <string_view>
 
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/checker.hpp"
@@ -132,25 +130,11 @@ void Checker::values(ast::Call const& call, InstructionSpec const& spec) {
   bool const in_pick = !contexts_.empty() && contexts_.back().kind == BlockKind::pick;
   if (in_pick && spec.name == "count") check(0, code("halting-value"), 1.0, any, "the count of pick");
   if (in_pick && spec.name == "timeout") check(0, code("halting-value"), 0.0, any, "the timeout of pick");
-  if (in_pick && spec.name == "type") vehicle_type(*call.arguments.front().value);
   if (spec.name == "idle" || spec.name == "pause") check(0, code("argument-value"), 0.0, any, "this time");
   if (spec.name == "area") check(1, code("argument-value"), 0.0, any, "the radius");
   if (spec.name != "location") return;
   check(0, code("argument-value"), -90.0, 90.0, "the latitude");
   check(1, code("argument-value"), -180.0, 360.0, "the longitude");
-}
-
-/// `pick { type 'uav' }`: types are compared letter by letter.
-void Checker::vehicle_type(ast::Expr const& expr) {
-  auto const constant = inference_.constant(expr);
-  auto const* type = constant ? std::get_if<std::string>(&*constant) : nullptr;
-  if (!type) return;
-  for (std::string_view const known : {"UAV", "UGV", "USV", "UUV"}) {
-    bool const is_meant = std::ranges::equal(*type, known, {}, [](unsigned char c) { return std::toupper(c); });
-    if (!is_meant || *type == known) continue;
-    diagnostics_.report(code("halting-value"), expr.span, fmt::format("no vehicle has the type {}", *type),
-                        fmt::format("write '{}'", known));
-  }
 }
 
 // ---- tasks that never run -----------------------------------------------------------------------

@@ -13,11 +13,14 @@ namespace lapwing::dolphin {
 
 namespace {
 
-/// "survey() takes 1 to 2 arguments"
-std::string usage(Function const& function) {
+/// "survey() takes 1 to 2 arguments, not 3". Methods of the prelude have what they are called on as first parameter.
+std::string wrong_count(Function const& function, int passed) {
+  int const receiver = function.is_library ? 1 : 0;
   auto const name = function.name.empty() ? "the closure" : function.name + "()";
-  auto const least = function.required < function.parameters ? fmt::format("{} to ", function.required) : "";
-  return fmt::format("{} takes {}{} argument{}", name, least, function.parameters, function.parameters == 1 ? "" : "s");
+  int const most = function.parameters - receiver;
+  int const least = function.required - receiver;
+  auto const from = least < most ? fmt::format("{} to ", least) : "";
+  return fmt::format("{} takes {}{} argument{}, not {}", name, from, most, most == 1 ? "" : "s", passed - receiver);
 }
 
 }  // namespace
@@ -115,7 +118,7 @@ void Fiber::enter(Function const& function, Ref<Closure> closure, int passed) {
         ErrorData{std::move(type), std::move(message), static_cast<int>(place), Ending::error})));
   };
   if (passed > function.parameters || (passed < function.required && !lacks_it))
-    return refuse("MissingMethodException", fmt::format("{}, not {}", usage(function), passed));
+    return refuse("MissingMethodException", wrong_count(function, passed));
   if (frames_.size() >= limits.call_depth)
     return refuse("StackOverflowError", fmt::format("calls are nested more than {} deep", limits.call_depth));
   if (base + static_cast<std::size_t>(function.locals) > limits.stack_values) {

@@ -25,14 +25,12 @@ Facts sum(Facts const& a, Facts const& b) {
   return number_facts(std::nullopt);
 }
 
+/// A plain number may be a speed: what it makes of a length or a time is not known. Percents change nothing.
 Facts product(Facts const& a, Facts const& b, bool divides) {
   if (!a.dimension || !b.dimension) return number_facts(std::nullopt);
-  auto const is_plain = [](Dimension dimension) {
-    return dimension == Dimension::none || dimension == Dimension::ratio;
-  };
   if (*a.dimension == Dimension::none && *b.dimension == Dimension::none) return number_facts(Dimension::none);
-  if (is_plain(*b.dimension)) return number_facts(a.dimension);
-  if (is_plain(*a.dimension) && !divides) return number_facts(b.dimension);
+  if (*b.dimension == Dimension::ratio) return number_facts(a.dimension);
+  if (*a.dimension == Dimension::ratio && !divides) return number_facts(b.dimension);
   return number_facts(std::nullopt);
 }
 

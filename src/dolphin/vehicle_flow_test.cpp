@@ -51,17 +51,6 @@ TEST(VehicleFlow, RefusesTasksThatThePickedTypeCannotDo) {
             "      |     ^~~~\n");
 }
 
-TEST(VehicleFlow, RefusesTasksThatNoPickedVehicleCanDo) {
-  auto const text = complaints("v = pick { type 'UGV' }\nw = pick { type 'UAV' }\nexecute dive { } / { true }");
-  EXPECT_NE(text.find("no vehicle that is picked suits this dive: a UAV cannot dive [unsuited-vehicle]"),
-            std::string::npos)
-      << text;
-  EXPECT_EQ(complaints("v = pick { type 'UGV' }\nw = pick { type 'UUV' }\nexecute dive { }"), "");
-  EXPECT_EQ(complaints("v = pick { type 'UGV' }\nw = pick { }\nexecute dive { }"), "");
-  EXPECT_EQ(complaints("v = pick { type 'UGV' }\nif (PI > 3) { w = pick { type 'UUV' } }\nexecute dive { }"), "");
-  EXPECT_EQ(complaints("v = pick { type 'UGV' }\ndef f() { execute dive { } }\nf()"), "");
-}
-
 TEST(VehicleFlow, SaysNothingOfTypesThatItDoesNotKnow) {
   EXPECT_EQ(complaints("v = pick { type 'UUV' }\nexecute v: dive { }"), "");
   EXPECT_EQ(complaints("v = pick { }\nexecute v: dive { }"), "");

@@ -118,7 +118,6 @@ class Checker {
   [[nodiscard]] std::size_t least_vehicles(ast::Expr const& set, int depth);
   void values(ast::Call const& call, InstructionSpec const& spec);
   void value(ast::Expr const& expr, base::DiagnosticKind const& kind, double least, double most, std::string_view what);
-  void vehicle_type(ast::Expr const& expr);
   void endless_sequence(ast::Binary const& binary);
   void unused_tasks();
 

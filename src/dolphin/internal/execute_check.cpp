@@ -45,7 +45,6 @@ class ExecuteCheck {
     }
     for (auto const& demand : demands_) {
       if (demand.from && (is_released(demand) || is_too_few(demand) || is_unsuited(demand))) return;
-      if (demand.name.empty() && suits_none(demand)) return;
     }
     bool const is_clear =
         std::ranges::none_of(demands_, [](Demand const& one) { return !one.from && !one.name.empty(); });
@@ -135,26 +134,6 @@ class ExecuteCheck {
       if (!test(pick)) return false;
     }
     return true;
-  }
-
-  /// Whether no vehicle that the script has picked can do what a block of the task says.
-  bool suits_none(Demand const& demand) {
-    for (auto const* block : tasks_.blocks(*demand.task)) {
-      auto const built = tasks_.built(*block);
-      std::optional<std::string> reason;
-      auto const is_refused = [&](PickIndex index) {
-        tasks::VehicleInfo vehicle;
-        vehicle.type = state_.pick(index).type;
-        reason = vehicle.type.empty() ? std::nullopt : built->unsuited(vehicle);
-        return reason.has_value();
-      };
-      if (!built || !all_picked(is_refused)) continue;
-      diagnostics_.report(code("unsuited-vehicle"), demand.task->span,
-                          fmt::format("no vehicle that is picked suits this {}: {}", built->kind(), *reason),
-                          "pick another type, or leave out what it cannot do", {{state_.pick(0).place, "picked here"}});
-      return true;
-    }
-    return false;
   }
 
   bool is_unsuited(Demand const& demand, ast::Expr const& block, tasks::PlatformTask const& task, Pick const& pick) {
