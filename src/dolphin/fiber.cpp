@@ -51,16 +51,16 @@ Fiber::State Fiber::run(int& budget) {
   busy_steps_ += taken;
   auto const& limits = runtime_.limits;
   if (state_ != State::failed && runtime_.steps > limits.steps)
-    end_early(fmt::format("the script took more than {} steps", limits.steps), Ending::halts);
+    end_early(fmt::format("the script took more than {} steps", limits.steps));
   if (state_ == State::ready && busy_steps_ > limits.busy_steps)
-    end_early(fmt::format("{} steps without waiting for anything: this loop never ends", limits.busy_steps),
-              Ending::error);
+    end_early(fmt::format("the script let no time pass for {} steps: it waits for nothing and never ends",
+                          limits.busy_steps));
   return state_;
 }
 
 /// The fiber has taken its steps. Nothing catches it, `finally` does not run.
-void Fiber::end_early(std::string message, Ending ending) {
-  ErrorData data{"TimeoutException", std::move(message), static_cast<int>(line()), ending};
+void Fiber::end_early(std::string message) {
+  ErrorData data{"TimeoutException", std::move(message), static_cast<int>(line()), Ending::halts};
   abandon();
   state_ = State::failed;
   result_ = Value(runtime_.heap.make<Error>(std::move(data)));

@@ -102,7 +102,7 @@ class Fiber {
   [[nodiscard]] static Fault stopped();
   void raise(Value error);
   [[nodiscard]] bool is_heap_full();
-  void end_early(std::string message, Ending ending);
+  void end_early(std::string message);
 
   void push(Value value) { stack_.push_back(std::move(value)); }
   Value pop();
