@@ -77,9 +77,8 @@ void Checker::call(ast::Expr const& expr) {
                         fmt::format("write {} without the colon", text));
   }
   if (word) return instruction_call(n, expr.span, *word);
-  if (auto const found = resolution_.locals.find(n.callee.get()); found != resolution_.locals.end()) {
-    return closure_call(n, expr.span, *found->second);
-  }
+  auto const local = resolution_.locals.find(n.callee.get());
+  if (local != resolution_.locals.end() && !is_callable(text)) return closure_call(n, expr.span, *local->second);
   if (auto const found = resolution_.functions.find(text); found != resolution_.functions.end()) {
     return function_call(n, expr.span, found->second);
   }
@@ -306,11 +305,23 @@ void Checker::function_call(ast::Call const& call, base::Span span,
                       fmt::format("it takes ({})", fmt::join(parameters, ", ")), {{name.span, "it is defined here"}});
 }
 
+/// False, with a complaint, when no value of the variable can be called: `v pick { }` lacks its =.
+bool Checker::is_closure(ast::Call const& call, Variable const& variable) {
+  auto const kinds = inference_.facts(variable).kinds;
+  if (kinds.is_none() || kinds.meets(Kinds(Kind::closure) | Kind::other)) return true;
+  auto const is_command = call.style == ast::CallStyle::command;
+  diagnostics_.report(code("unknown-instruction"), call.callee->span,
+                      fmt::format("{} is {}, which cannot be called", variable.name, describe(kinds)),
+                      is_command ? fmt::format("to change its value write {} = ...", variable.name) : "");
+  return false;
+}
+
 /// `f = { a, b -> ... }; f(1)`, when the variable holds one closure all the time. A list may stand for several
 /// arguments.
 void Checker::closure_call(ast::Call const& call, base::Span span, Variable const& variable) {
   arguments(call, std::nullopt);
   read_.insert(&variable);
+  if (used_too_early(*call.callee, variable) || !is_closure(call, variable)) return;
   auto const* value = only_value(&variable);
   auto const* made = value ? std::get_if<ast::Closure>(&value->node) : nullptr;
   if (!made) return;

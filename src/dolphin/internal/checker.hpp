@@ -97,6 +97,7 @@ class Checker {
   void call(ast::Expr const& expr);
   void instruction_call(ast::Call const& call, base::Span span, InstructionSpec const& spec);
   void function_call(ast::Call const& call, base::Span span, std::vector<ast::FunctionDecl const*> const& functions);
+  [[nodiscard]] bool is_closure(ast::Call const& call, Variable const& variable);
   void closure_call(ast::Call const& call, base::Span span, Variable const& variable);
   void builder_call(ast::Call const& call, base::Span span, Builder const& builder);
   void undefined_call(ast::Call const& call, base::Span span);
