@@ -1,5 +1,7 @@
 #include "fleet/flight_plan.hpp"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 namespace lapwing::fleet {
@@ -24,7 +26,16 @@ MissionEnding ending_of(MavCmd command) {
   }
 }
 
-MissionShape shape_of(std::vector<mavlink::MissionItem> const& items) {
+/// Without what is never reached: ArduPilot's planes leave the mission for good where it says "return to launch".
+std::span<mavlink::MissionItem const> reachable(std::vector<mavlink::MissionItem> const& items,
+                                                vehicle::VehicleState const& vehicle) {
+  bool const is_wing = vehicle.family == vehicle::Family::plane || vehicle.family == vehicle::Family::vtol;
+  if (!is_wing || vehicle.autopilot != vehicle::Autopilot::ardupilot) return items;
+  auto const end = std::ranges::find(items, MavCmd::nav_return_to_launch, &mavlink::MissionItem::command);
+  return {items.begin(), end == items.end() ? end : end + 1};
+}
+
+MissionShape shape_of(std::span<mavlink::MissionItem const> items) {
   MissionShape shape{.last_nav_seq = static_cast<int>(items.size()) - 1, .ending = MissionEnding::never};
   for (auto item = items.rbegin(); item != items.rend(); ++item) {
     if (item->command == MavCmd::do_jump) return shape;  // the last place is reached more than once
@@ -42,7 +53,7 @@ FlightPlan flight_plan(plan::Mission const& mission, vehicle::VehicleState const
   FlightPlan flight;
   flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.home.value, vehicle.family);
   flight.first_seq = static_cast<std::uint16_t>(flight.items.size() - mission.items.size());
-  flight.shape = shape_of(flight.items);
+  flight.shape = shape_of(reachable(flight.items, vehicle));
   auto const home = mission.home ? mission.home : vehicle.home.value;
   for (auto const& item : mission.items) {
     if (!plan::has_position(item) || !is_nav(item.command)) continue;

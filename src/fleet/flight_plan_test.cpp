@@ -16,9 +16,11 @@ mavlink::MissionItem item(MavCmd command, float param1 = 0.0F) {
 }
 
 FlightPlan planned(std::vector<mavlink::MissionItem> items,
-                   vehicle::Autopilot autopilot = vehicle::Autopilot::ardupilot) {
+                   vehicle::Autopilot autopilot = vehicle::Autopilot::ardupilot,
+                   vehicle::Family family = vehicle::Family::unknown) {
   vehicle::VehicleState vehicle;
   vehicle.autopilot = autopilot;
+  vehicle.family = family;
   return flight_plan(plan::Mission{.name = "m", .home = std::nullopt, .items = std::move(items)}, vehicle);
 }
 
@@ -42,6 +44,13 @@ TEST(FlightPlan, KnowsHowTheLastItemEnds) {
   EXPECT_EQ(planned({item(MavCmd::nav_return_to_launch)}).shape.ending, MissionEnding::on_ground);
   EXPECT_EQ(planned({item(MavCmd::nav_loiter_unlim)}).shape.ending, MissionEnding::never);
   EXPECT_EQ(planned({item(MavCmd::nav_delay)}).shape.ending, MissionEnding::at_place);
+}
+
+TEST(FlightPlan, EndsOnAPlaneWhereItSaysReturn) {
+  auto const items = {item(MavCmd::nav_waypoint), item(MavCmd::nav_return_to_launch), item(MavCmd::nav_waypoint)};
+  EXPECT_EQ(planned(items, vehicle::Autopilot::ardupilot, vehicle::Family::plane).shape.last_nav_seq, 2);
+  EXPECT_EQ(planned(items, vehicle::Autopilot::ardupilot, vehicle::Family::copter).shape.last_nav_seq, 3);
+  EXPECT_EQ(planned(items, vehicle::Autopilot::px4, vehicle::Family::plane).shape.last_nav_seq, 2);  // counted from 0
 }
 
 TEST(FlightPlan, LeavesTheEndOfALoopToTheAutopilot) {

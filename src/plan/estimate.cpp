@@ -196,10 +196,8 @@ class PaperFlight {
 
   void return_home() {
     if (!performance_.is_detailed() || !home_) return;
-    if (circles()) {
-      auto const above = geo::Wgs84{home_->lat_rad, home_->lon_rad, home_->alt_m + performance_.return_height_m};
-      curve_to(above, performance_.circle_radius_m);
-      is_endless_ = true;
+    if (circles()) {  // here a wing leaves its mission for the mode RTL, in which it would circle for ever
+      next_ = mission_.items.size();
       return;
     }
     double const alt_m = std::max(at_->alt_m, home_->alt_m + performance_.return_height_m);

@@ -41,6 +41,17 @@ constexpr Performance rover{.cruise_m_s = 5.0,
                             .circle_accel_m_s2 = 3.0,
                             .flies = false};
 
+constexpr Performance underwater{.cruise_m_s = 1.5,
+                                 .climb_m_s = 0.5,
+                                 .descent_m_s = 0.5,
+                                 .accel_m_s2 = 0.5,
+                                 .brake_m_s2 = 0.35,
+                                 .vertical_accel_m_s2 = 0.4,
+                                 .pass_share = 0.5,
+                                 .waypoint_radius_m = 2.0,
+                                 .circle_accel_m_s2 = 0.3,
+                                 .landing_m_s = 0.5};
+
 }  // namespace
 
 Performance performance_of(vehicle::Family family) {
@@ -48,6 +59,7 @@ Performance performance_of(vehicle::Family family) {
     case vehicle::Family::plane: return plane;
     case vehicle::Family::rover:
     case vehicle::Family::boat: return rover;
+    case vehicle::Family::sub: return underwater;
     default: return copter;
   }
 }

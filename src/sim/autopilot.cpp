@@ -129,7 +129,9 @@ Autopilot::Logic Autopilot::logic_for(FlightMode const& mode) const {
   auto const rest = stopping_point(body_, airframe_, pace_);
   switch (mode.behaviour) {
     case Behaviour::guided: return Guided(rest);
-    case Behaviour::land: return Landing(rest);
+    case Behaviour::land:
+      if (airframe_.family == Family::sub) return HoldAt{{rest.north, rest.east, 0.0}};
+      return Landing(rest);
     case Behaviour::return_home: return ReturnHome();
     case Behaviour::circle: return Circle{rest, airframe_.family == Family::plane ? pace_.loiter_radius_m : 10.0};
     case Behaviour::hold: return HoldAt{rest};

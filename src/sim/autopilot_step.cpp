@@ -83,16 +83,18 @@ Goal Autopilot::fly_mission(FlightContext const& flight) {
   if (auto const home = mission_.take_home()) set_home(*home);
   if (auto const yaw = mission_.yaw_rad()) pace_.yaw_rad = yaw;
   if (mission_.complete() && !was_complete) end_mission(flight);
+  if (mission_.take_return()) set_mode(mode_for(Family::plane, Behaviour::return_home).number);
   return armed_ ? goal : Goal{StandStill{}};
 }
 
 /// What each family does after its last item: a copter holds, or disarms when it stands on the ground; a plane flies
-/// home and circles; a rover stops.
+/// home and circles; a rover stops; an underwater vehicle holds.
 void Autopilot::end_mission(FlightContext const& flight) {
   if (flight.family() == Family::copter) {
     if (body_.on_ground) do_disarm();
     return;
   }
+  if (flight.family() == Family::sub) return;
   if (flight.family() == Family::plane) {
     outbox_.say(MavSeverity::notice, "Mission complete, changing mode to RTL");
     set_mode(mode_for(Family::plane, Behaviour::return_home).number);

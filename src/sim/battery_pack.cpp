@@ -36,6 +36,7 @@ double current_drawn_a(Body const& body, Airframe const& airframe, bool motors_r
   double const climb = std::max(0.0, up);
   using enum vehicle::Family;
   if (airframe.family == rover) return avionics_a + 0.5 + 1.2 * body.ground_speed_m_s();
+  if (airframe.family == sub) return avionics_a + 1.0 + 2.0 * std::hypot(body.ground_speed_m_s(), up);
   if (airframe.family == plane) {
     double const air = body.airspeed_m_s / 20.0;
     return avionics_a + 1.0 + 6.0 * air * air * air + 3.0 * climb;

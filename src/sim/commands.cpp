@@ -30,12 +30,14 @@ MavResult FlightController::perform(CommandInt const& command, Address from) {
     case MavCmd::component_arm_disarm: return arm_disarm(command);
     case MavCmd::nav_takeoff: return autopilot_.take_off(command.place.z_m);
     case MavCmd::nav_return_to_launch:
+      if (autopilot_.airframe().family == vehicle::Family::sub) return MavResult::unsupported;
       return autopilot_.set_mode(sim::mode_for(autopilot_.airframe().family, Behaviour::return_home).number);
     case MavCmd::nav_land:
       if (autopilot_.airframe().family != vehicle::Family::copter) return MavResult::unsupported;
       return autopilot_.set_mode(sim::mode_for(vehicle::Family::copter, Behaviour::land).number);
     case MavCmd::nav_loiter_unlim: {
-      auto const loiter = autopilot_.airframe().family == vehicle::Family::plane ? 12U : 5U;
+      auto const family = autopilot_.airframe().family;
+      auto const loiter = family == vehicle::Family::plane ? 12U : family == vehicle::Family::sub ? 16U : 5U;
       return autopilot_.set_mode(loiter);
     }
     case MavCmd::mission_start: return autopilot_.start_mission();

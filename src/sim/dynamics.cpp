@@ -76,8 +76,8 @@ Body lean(Body body, geo::Ned wind) {
   return body;
 }
 
-Body step_rotor(Body body, RotorDemand const& demand, Airframe const& airframe, geo::Ned wind, double dt) {
-  if (body.on_ground && demand.velocity_m_s.down >= 0.0) return stand(body);
+/// What holds in air and water: the velocity follows what is asked, within the bounds of the airframe.
+Body thrust(Body body, RotorDemand const& demand, Airframe const& airframe, double dt) {
   auto const wanted = limit_horizontal(demand.velocity_m_s, airframe.max_speed_m_s);
   geo::Ned const& v = body.velocity_m_s;
   geo::Ned ask{(wanted.north - v.north) * velocity_gain_per_s, (wanted.east - v.east) * velocity_gain_per_s, 0.0};
@@ -90,8 +90,27 @@ Body step_rotor(Body body, RotorDemand const& demand, Airframe const& airframe, 
   body.accel_m_s2 = body.accel_m_s2 * (1.0 - follow) + ask * follow;
   body.velocity_m_s = body.velocity_m_s + body.accel_m_s2 * dt;
   body.position_m = body.position_m + body.velocity_m_s * dt;
-  body = turn_towards(body, demand.yaw_rad.value_or(body.attitude.yaw_rad), airframe.max_turn_rate_rad_s, dt);
-  return meet_ground(lean(body, wind), false);
+  return turn_towards(body, demand.yaw_rad.value_or(body.attitude.yaw_rad), airframe.max_turn_rate_rad_s, dt);
+}
+
+Body step_rotor(Body const& body, RotorDemand const& demand, Airframe const& airframe, geo::Ned wind, double dt) {
+  if (body.on_ground && demand.velocity_m_s.down >= 0.0) return stand(body);
+  return meet_ground(lean(thrust(body, demand, airframe, dt), wind), false);
+}
+
+/// No wind and no current under water. It is a little lighter than water: without thrust it comes up.
+Body step_hull(Body body, std::optional<RotorDemand> const& demand, Airframe const& airframe, double dt) {
+  constexpr double buoyant_climb_m_s = 0.2;
+  body = thrust(body, demand.value_or(RotorDemand{.velocity_m_s = {0.0, 0.0, -buoyant_climb_m_s}, .yaw_rad = {}}),
+                airframe, dt);
+  if (body.position_m.down < 0.0) {
+    body.position_m.down = 0.0;
+    body.velocity_m_s.down = std::max(body.velocity_m_s.down, 0.0);
+  }
+  constexpr double afloat_m = 0.05;
+  body.on_ground = body.position_m.down < afloat_m;
+  body.airspeed_m_s = body.ground_speed_m_s();
+  return body;
 }
 
 Body fall(Body body, geo::Ned wind, double dt) {
@@ -188,8 +207,23 @@ Airframe airframe_of(vehicle::Family family) {
             .max_vertical_accel_m_s2 = 4.0,
             .max_turn_rate_rad_s = 1.0};
   }
-  if (family == rover) {
-    return {.family = rover, .max_speed_m_s = 6.0, .max_climb_m_s = 0.0, .max_sink_m_s = 0.0, .max_accel_m_s2 = 2.0};
+  if (family == rover || family == boat) {
+    return {.family = rover,
+            .floats = family == boat,
+            .max_speed_m_s = 6.0,
+            .max_climb_m_s = 0.0,
+            .max_sink_m_s = 0.0,
+            .max_accel_m_s2 = 2.0};
+  }
+  if (family == sub) {
+    return {.family = sub,
+            .floats = true,
+            .max_speed_m_s = 2.0,
+            .max_climb_m_s = 0.8,
+            .max_sink_m_s = 0.8,
+            .max_accel_m_s2 = 0.6,
+            .max_vertical_accel_m_s2 = 0.4,
+            .max_turn_rate_rad_s = 0.8};
   }
   return {};
 }
@@ -197,6 +231,10 @@ Airframe airframe_of(vehicle::Family family) {
 Body step(Body const& body, Demand const& demand, Airframe const& airframe, geo::Ned wind_m_s, double dt_s) {
   Body start = body;
   start.touch_down_m_s.reset();
+  if (airframe.family == vehicle::Family::sub) {
+    auto const* thrusters = std::get_if<RotorDemand>(&demand);
+    return step_hull(start, thrusters ? std::optional(*thrusters) : std::nullopt, airframe, dt_s);
+  }
   if (auto const* rotor = std::get_if<RotorDemand>(&demand)) {
     start = step_rotor(start, *rotor, airframe, wind_m_s, dt_s);
   } else if (auto const* wing = std::get_if<WingDemand>(&demand)) {

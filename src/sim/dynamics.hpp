@@ -10,7 +10,8 @@ namespace lapwing::sim {
 
 /// What a body of this kind can do. Speeds in m/s, accelerations in m/s², angles in radians.
 struct Airframe {
-  vehicle::Family family = vehicle::Family::copter;
+  vehicle::Family family = vehicle::Family::copter;  ///< a boat's is `rover`: it runs that program and steers as one
+  bool floats = false;
   double max_speed_m_s = 18.0;    ///< through the air for wings and rotors, over ground for wheels
   double min_airspeed_m_s = 0.0;  ///< a wing below it sinks; also the speed of lift-off
   double max_climb_m_s = 6.0;
@@ -22,11 +23,13 @@ struct Airframe {
   double max_bank_rate_rad_s = 1.2;
 };
 
-/// A quadrotor, a conventional aeroplane, a four-wheeled rover. Precondition: one of these three families.
+/// A quadrotor, a conventional aeroplane, a four-wheeled rover, a boat (steered like a rover), an underwater vehicle
+/// with thrusters. Precondition: one of these five families.
 [[nodiscard]] Airframe airframe_of(vehicle::Family family);
 
 /// Where a body is and how it moves. Position and velocity in the world's local frame (north, east, down about its
-/// anchor, velocity over ground); the ground is the plane down = 0.
+/// anchor, velocity over ground); the ground, or the surface of the water, is the plane down = 0. Only an underwater
+/// vehicle is below it.
 struct Body {
   geo::Ned position_m;
   geo::Ned velocity_m_s;
@@ -34,7 +37,7 @@ struct Body {
   vehicle::Attitude attitude;
   double yaw_rate_rad_s = 0.0;
   double airspeed_m_s = 0.0;
-  bool on_ground = true;
+  bool on_ground = true;  ///< afloat, of an underwater vehicle
   /// Vertical speed of the touch-down in this very step, if there was one.
   std::optional<double> touch_down_m_s;
 
@@ -44,7 +47,7 @@ struct Body {
 
 /// No thrust: stands on the ground, falls or glides in the air.
 struct MotorsOff {};
-/// A rotorcraft asked for a velocity over ground and, if given, a heading.
+/// A rotorcraft or an underwater vehicle asked for a velocity over ground and, if given, a heading.
 struct RotorDemand {
   geo::Ned velocity_m_s;
   std::optional<double> yaw_rad;

@@ -60,11 +60,21 @@ constexpr std::array plane_modes{
     FlightMode{24, "THERMAL", hold, true, true, 0x59},
 };
 
+// ArduSub's numbers; its base modes are the copter's.
+constexpr std::array sub_modes{
+    FlightMode{19, "MANUAL", manual, true, false, 0x51}, FlightMode{0, "STABILIZE", manual, true, false, 0x51},
+    FlightMode{1, "ACRO", manual, true, false, 0x51},    FlightMode{2, "ALT_HOLD", hold, true, false, 0x51},
+    FlightMode{3, "AUTO", mission, true, true, 0x59},    FlightMode{4, "GUIDED", guided, true, true, 0x59},
+    FlightMode{7, "CIRCLE", circle, true, true, 0x59},   FlightMode{9, "SURFACE", land, true, false, 0x51},
+    FlightMode{16, "POSHOLD", hold, true, true, 0x59},
+};
+
 }  // namespace
 
 std::span<FlightMode const> flight_modes(vehicle::Family family) {
   if (family == vehicle::Family::plane) return plane_modes;
-  if (family == vehicle::Family::rover) return rover_modes;
+  if (family == vehicle::Family::rover || family == vehicle::Family::boat) return rover_modes;
+  if (family == vehicle::Family::sub) return sub_modes;
   return copter_modes;
 }
 
@@ -76,7 +86,10 @@ FlightMode const* find_mode(vehicle::Family family, std::uint32_t number) {
 
 FlightMode const& mode_for(vehicle::Family family, Behaviour behaviour) {
   // The rover's HOLD and the plane's LOITER are the first rows that hold; the copter's is BRAKE.
-  return *std::ranges::find(flight_modes(family), behaviour, &FlightMode::behaviour);
+  auto const modes = flight_modes(family);
+  auto const found = std::ranges::find(modes, behaviour, &FlightMode::behaviour);
+  if (found == modes.end() && behaviour == return_home) return mode_for(family, land);
+  return *found;
 }
 
 FlightMode const& initial_mode(vehicle::Family family) {

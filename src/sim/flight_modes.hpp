@@ -31,11 +31,12 @@ struct FlightMode {
   std::uint8_t base_mode;  ///< HEARTBEAT.base_mode while disarmed
 };
 
-/// The modes of a copter, plane or rover that this build of the autopilot knows.
+/// The modes of a copter, plane, rover, boat or underwater vehicle that this build of the autopilot knows.
 [[nodiscard]] std::span<FlightMode const> flight_modes(vehicle::Family family);
 /// Null when there is no such mode.
 [[nodiscard]] FlightMode const* find_mode(vehicle::Family family, std::uint32_t number);
-/// The first mode with that behaviour. Precondition: the family has one.
+/// The first mode with that behaviour; for a return home where there is none, the one that lands or surfaces.
+/// Precondition: the family has one.
 [[nodiscard]] FlightMode const& mode_for(vehicle::Family family, Behaviour behaviour);
 /// The mode after power-on.
 [[nodiscard]] FlightMode const& initial_mode(vehicle::Family family);

@@ -324,6 +324,22 @@ TEST(PlaneFlight, FliesAMissionThenReturnsAndCircles) {
   EXPECT_NEAR(ground.from_start(), 60.0, 25.0);
 }
 
+TEST(PlaneFlight, LeavesTheMissionForRtlWhereItSaysReturn) {
+  TestGround ground("plane");
+  ground.boot();
+  auto const make = maker(ground);
+  EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(400, 0, 60),
+                           ItemMaker::plain(MavCmd::nav_return_to_launch), make.waypoint(900, 0, 60)}),
+            MavMissionResult::accepted);
+  EXPECT_EQ(ground.set_mode(plane_auto), MavResult::accepted);
+  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mode().name == "RTL"; }, 120s));
+  ground.run_for(90s);
+  EXPECT_EQ(ground.said("Mission: 3 RTL"), 1);
+  EXPECT_EQ(ground.said("Mission: 4"), 0);
+  EXPECT_NEAR(ground.from_start(), 60.0, 25.0);
+}
+
 TEST(PlaneFlight, LandsAndDisarmsTwentySecondsLater) {
   TestGround ground("plane");
   ground.boot();

@@ -185,11 +185,16 @@ void MissionRunner::begin(int index, FlightContext const& context, Outbox& out) 
   run_.emplace(Run{
       .item = item, .from = here, .point = point_of(item, context.site, context.home, here), .started = context.now});
   run_->passing = item.params[0] <= 0.0F && goes_on_after(index);
-  if (item.command == nav_land) {
+  bool const dives = context.family() == vehicle::Family::sub;
+  if (dives) run_->point.down = std::max(run_->point.down, 0.0);
+  if (item.command == nav_land && dives) {
+    run_->point.down = 0.0;  // it surfaces
+  } else if (item.command == nav_land) {
     run_->descent = Landing({run_->point.north, run_->point.east, 0.0});
     run_->point.down = here.down;  // travels at its height, then sinks
   } else if (item.command == nav_return_to_launch) {
     run_->descent = ReturnHome();
+    wants_return_ = context.family() == vehicle::Family::plane;
   }
 }
 
@@ -285,8 +290,9 @@ Goal MissionRunner::fly_to_point(FlightContext const& context, Outbox& out, bool
     done = landing->finished() && !wing;
     return goal;
   }
-  bool const level = context.family() != vehicle::Family::copter ||
-                     std::abs(context.body.position_m.down - run.point.down) < context.tuning.waypoint_radius_m;
+  bool const climbs = context.family() == vehicle::Family::copter || context.family() == vehicle::Family::sub;
+  bool const level =
+      !climbs || std::abs(context.body.position_m.down - run.point.down) < context.tuning.waypoint_radius_m;
   if (!run.arrived && level && at_point(context, context.tuning.waypoint_radius_m)) {
     run.arrived = context.now;
   }

@@ -111,9 +111,16 @@ constexpr Default rover[] = {
     {"CIRC_RADIUS", 20},
 };
 
+constexpr Default underwater[] = {
+    {"FS_GCS_ENABLE", 0, int8}, {"FS_GCS_TIMEOUT", 5},  {"GUID_TIMEOUT", 3},
+    {"WPNAV_ACCEL", 50},        {"WPNAV_ACCEL_Z", 50},  {"WPNAV_RADIUS", 200},
+    {"WPNAV_SPEED", 150},       {"WPNAV_SPEED_DN", 50}, {"WPNAV_SPEED_UP", 50},
+};
+
 std::span<Default const> own_defaults(vehicle::Family family) {
   if (family == vehicle::Family::plane) return plane;
-  if (family == vehicle::Family::rover) return rover;
+  if (family == vehicle::Family::rover || family == vehicle::Family::boat) return rover;
+  if (family == vehicle::Family::sub) return underwater;
   return copter;
 }
 

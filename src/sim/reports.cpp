@@ -25,12 +25,19 @@ std::optional<geo::Ned> target_of(Goal const& goal) {
   return std::nullopt;
 }
 
+MavType type_of(Airframe const& airframe) {
+  switch (airframe.family) {
+    case vehicle::Family::rover: return airframe.floats ? MavType::surface_boat : MavType::ground_rover;
+    case vehicle::Family::plane: return MavType::fixed_wing;
+    case vehicle::Family::sub: return MavType::submarine;
+    default: return MavType::quadrotor;
+  }
+}
+
 Heartbeat heartbeat(Autopilot const& autopilot) {
-  auto const family = autopilot.airframe().family;
-  bool const initialising = family == vehicle::Family::rover && autopilot.now() < autopilot.boot().standby;
-  return {.type = family == vehicle::Family::rover   ? MavType::ground_rover
-                  : family == vehicle::Family::plane ? MavType::fixed_wing
-                                                     : MavType::quadrotor,
+  bool const is_rover = autopilot.airframe().family == vehicle::Family::rover;
+  bool const initialising = is_rover && autopilot.now() < autopilot.boot().standby;
+  return {.type = type_of(autopilot.airframe()),
           .autopilot = MavAutopilot::ardupilotmega,
           .base_mode = autopilot.base_mode(),
           .custom_mode = initialising ? 16U : autopilot.mode().number,

@@ -24,11 +24,20 @@ Goal ReturnHome::update(FlightContext const& context) {
   return fly(context);
 }
 
+namespace {
+
+/// Its way home has no climb before and no landing after.
+bool stays_level(vehicle::Family family) {
+  return family == vehicle::Family::rover || family == vehicle::Family::sub;
+}
+
+}  // namespace
+
 Goal ReturnHome::begin(FlightContext const& context) {
   start_ = context.body.position_m;
   above_home_ = context.home;
   using enum vehicle::Family;
-  if (context.family() == rover) {
+  if (stays_level(context.family())) {
     phase_ = Phase::travel;
   } else if (context.body.on_ground) {
     phase_ = Phase::land;
@@ -53,7 +62,7 @@ Goal ReturnHome::fly(FlightContext const& context) {
     if (context.family() == vehicle::Family::plane) return HoldAt{above_home_};
     bool const arrived = has_reached(body, above_home_, above_home_, context.tuning.waypoint_radius_m);
     if (!arrived) return FlyTo{above_home_, start_, false};
-    phase_ = context.family() == vehicle::Family::rover ? Phase::done : Phase::wait;
+    phase_ = stays_level(context.family()) ? Phase::done : Phase::wait;
     waiting_since_ = context.now;
   }
   if (phase_ == Phase::wait) {
@@ -67,7 +76,7 @@ Goal ReturnHome::fly(FlightContext const& context) {
     if (landing_->finished()) phase_ = Phase::done;
     return goal;
   }
-  return context.family() == vehicle::Family::rover ? Goal{HoldAt{above_home_}} : Goal{Idle{}};
+  return stays_level(context.family()) ? Goal{HoldAt{above_home_}} : Goal{Idle{}};
 }
 
 }  // namespace lapwing::sim

@@ -86,7 +86,17 @@ void Vehicle::keep_up() {
     body_ = controller_->autopilot().body();
     battery_ = controller_->autopilot().battery();
   }
+  swap_battery_when_due();
   controller_->send_due();
+}
+
+void Vehicle::swap_battery_when_due() {
+  if (!options_.battery_swap_after) return;
+  constexpr double full = 0.99;
+  if (controller_->autopilot().armed() || battery_.remaining() >= full) busy_until_ = loop_.now();
+  if (loop_.now() - busy_until_ < *options_.battery_swap_after) return;
+  log_.info(fmt::format("gets a full battery; {:.0f} % were left", 100.0 * battery_.remaining()));
+  set_battery(1.0);
 }
 
 void Vehicle::refuse_arming(std::string reason) {

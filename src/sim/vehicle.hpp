@@ -26,6 +26,8 @@ class Vehicle {
     BootTimeline boot = quick_boot();
     double battery_capacity_mah = 5000.0;
     double battery_remaining = 1.0;
+    /// Somebody puts a full battery into a vehicle that has stood disarmed for so long; nothing: nobody does.
+    std::optional<base::Duration> battery_swap_after = std::nullopt;
     geo::Ned wind_m_s;
     double gust_m_s = 0.0;
     std::uint64_t seed = 1;
@@ -69,6 +71,7 @@ class Vehicle {
   base::Result<> switch_on();
   void switch_off();
   void keep_up();
+  void swap_battery_when_due();
 
   base::Loop& loop_;
   Options options_;
@@ -83,6 +86,7 @@ class Vehicle {
   std::unique_ptr<FlightController> controller_;
   base::TimePoint next_step_{};
   base::TimePoint silent_until_{};
+  base::TimePoint busy_until_{};  ///< when it was last seen armed or with a full battery
   bool reboot_wanted_ = false;
   base::Scope scope_;
 };

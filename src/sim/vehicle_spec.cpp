@@ -19,6 +19,8 @@ std::optional<Family> family_named(std::string_view name) {
   if (name == "copter" || name == "quad") return Family::copter;
   if (name == "plane") return Family::plane;
   if (name == "rover") return Family::rover;
+  if (name == "boat") return Family::boat;
+  if (name == "sub") return Family::sub;
   return std::nullopt;
 }
 
@@ -44,7 +46,7 @@ base::Result<VehicleGroup> parse_group(std::string_view text) {
   auto const family = family_named(name);
   if (!family) {
     return fail(ErrorKind::invalid_input, fmt::format("'{}' is no kind of vehicle that can be simulated", name),
-                "kinds are copter, plane and rover");
+                "kinds are copter, plane, rover, boat and sub");
   }
   group.family = *family;
   if (colon != std::string_view::npos) {

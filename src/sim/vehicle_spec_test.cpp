@@ -26,7 +26,7 @@ std::string problem(std::string_view text) {
 }
 
 TEST(VehicleSpec, NamesWhatIsWrong) {
-  EXPECT_EQ(problem("boat:1"), "'boat' is no kind of vehicle that can be simulated");
+  EXPECT_EQ(problem("zeppelin:1"), "'zeppelin' is no kind of vehicle that can be simulated");
   EXPECT_EQ(problem("copter:many"), "'many' is no number of vehicles from 1 to 250");
   EXPECT_EQ(problem("copter:0"), "'0' is no number of vehicles from 1 to 250");
   EXPECT_EQ(problem(""), "no vehicle is named in ''");

@@ -418,5 +418,24 @@ TEST(VehicleParameters, KnowTheirSystemId) {
   EXPECT_EQ(ground.vehicle(3).parameters().value("SYSID_THISMAV"), 3.0);
 }
 
+TEST(Battery, IsSwappedWhenTheVehicleHasStoodLongEnough) {
+  WorldOptions options;
+  options.battery_swap_after = 20s;
+  TestGround ground("copter:1@40%", options);
+  ground.boot();
+  EXPECT_LT(ground.pilot().battery().remaining(), 0.41);
+  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
+  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 10}), MavResult::accepted);
+  ground.run_for(60s);
+  EXPECT_LT(ground.pilot().battery().remaining(), 0.4);
+  EXPECT_EQ(ground.set_mode(9), MavResult::accepted);
+  ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 60s));
+  ground.run_for(18s);
+  EXPECT_LT(ground.pilot().battery().remaining(), 0.4);
+  ground.run_for(3s);
+  EXPECT_GT(ground.pilot().battery().remaining(), 0.99);
+}
+
 }  // namespace
 }  // namespace lapwing::sim

@@ -42,6 +42,7 @@ void World::park(VehicleGroup const& group, int system_id) {
       .boot = options_.boot == BootStyle::quick ? quick_boot() : realistic_boot(),
       .battery_capacity_mah = options_.battery_capacity_mah,
       .battery_remaining = group.battery_remaining,
+      .battery_swap_after = options_.battery_swap_after,
       .wind_m_s = options_.wind_m_s,
       .gust_m_s = options_.gust_m_s,
       .seed = seed,

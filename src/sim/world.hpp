@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,9 @@ struct WorldOptions {
   link::Impairment impairment = {};  ///< of every vehicle's link, in each direction; its seed is set from `seed`
   BootStyle boot = BootStyle::quick;
   double battery_capacity_mah = 5000.0;
-  std::optional<mavlink::SigningKey> signing_key = std::nullopt;  ///< of every vehicle
-  std::vector<ParameterSetting> parameters = {};                  ///< for every vehicle that has them
+  std::optional<base::Duration> battery_swap_after = std::nullopt;  ///< see `Vehicle::Options`
+  std::optional<mavlink::SigningKey> signing_key = std::nullopt;    ///< of every vehicle
+  std::vector<ParameterSetting> parameters = {};                    ///< for every vehicle that has them
 };
 
 /// The simulated vehicles of one site, numbered from `first_system_id`, parked in rows a few metres apart.
