@@ -25,16 +25,38 @@ Result<> check_place(geo::Wgs84 place) {
   if (std::abs(place.lon_rad) > std::numbers::pi) {
     return fail(ErrorKind::invalid_input, fmt::format("longitude {} is beyond 180 degrees", place.lon_deg()));
   }
+  double constexpr highest_m = 83000.0;  // ArduPilot's LOCATION_ALT_MAX_M
+  if (std::abs(place.alt_m) >= highest_m) {
+    return fail(ErrorKind::invalid_input, fmt::format("an altitude of {} m is beyond 83 km", place.alt_m));
+  }
   return {};
 }
 
-Result<> check_not_negative(std::string_view what, double value) {
-  if (value >= 0.0 && std::isfinite(value)) return {};
-  return fail(ErrorKind::invalid_input, fmt::format("{} must be 0 or more, not {}", what, value));
+// What ArduPilot keeps of an item's numbers (AP_Mission::mavlink_int_to_mission_cmd); more would wrap round or be cut.
+double constexpr max_turns = 255.0;
+double constexpr max_circles_radius_m = 2550.0;
+double constexpr max_radius_m = 65535.0;
+double constexpr max_loiter_s = 65535.0;
+double constexpr max_photos = 65535.0;
+double constexpr max_jumps = 32767.0;
+/// A way longer than this is a slip of the pen, and bends the level frame it is measured in.
+double constexpr max_offset_m = 1e6;
+
+Result<> check_between(std::string_view what, double value, double least, double most) {
+  if (value >= least && value <= most) return {};
+  if (std::isnan(value)) return fail(ErrorKind::invalid_input, fmt::format("{} must be a number", what));
+  auto const bound = value > most ? fmt::format("at most {}", most) : fmt::format("{} or more", least);
+  return fail(ErrorKind::invalid_input, fmt::format("{} must be {}, not {}", what, bound, value));
 }
 
 Result<geo::Wgs84> displaced_from(std::optional<geo::Wgs84> base, Offset offset, char const* without_base) {
   if (!base) return fail(ErrorKind::invalid_input, without_base, "give the mission a `home` first");
+  if (std::hypot(offset.north_m, offset.east_m) > max_offset_m) {
+    return fail(
+        ErrorKind::invalid_input,
+        fmt::format("{} m north and {} m east are too far away for a relative move", offset.north_m, offset.east_m),
+        "at most 1000 km; goPos goes to coordinates");
+  }
   // Exactly the base, not a rounding away from it: returning home lands at home.
   if (offset.north_m == 0.0 && offset.east_m == 0.0) {
     return geo::Wgs84{base->lat_rad, base->lon_rad, base->alt_m + offset.up_m};
@@ -87,13 +109,17 @@ Result<> MissionBuilder::waypoint(geo::Wgs84 place, double acceptance_radius_m) 
 }
 
 Result<> MissionBuilder::take_off(geo::Wgs84 place, double pitch_deg, double yaw_deg) {
+  if (auto checked = check_between("the pitch of a take-off", pitch_deg, 0.0, 90.0); !checked) return checked;
   return add(MavCmd::nav_takeoff, {pitch_deg, 0.0, 0.0, yaw_deg}, place);
 }
 
 Result<> MissionBuilder::loiter(geo::Wgs84 place, Loiter loiter) {
   using enum Loiter::Kind;
   auto const what = loiter.kind == turns ? "the number of turns" : "the loiter time";
-  if (auto checked = check_not_negative(what, loiter.amount); !checked) return checked;
+  double const most = loiter.kind == turns ? max_turns : max_loiter_s;
+  if (auto checked = check_between(what, loiter.amount, 0.0, most); !checked) return checked;
+  double const widest_m = loiter.kind == turns ? max_circles_radius_m : max_radius_m;
+  if (auto checked = check_between("the radius", std::abs(loiter.radius_m), 0.0, widest_m); !checked) return checked;
   auto const command = loiter.kind == unlimited ? MavCmd::nav_loiter_unlim
                        : loiter.kind == turns   ? MavCmd::nav_loiter_turns
                                                 : MavCmd::nav_loiter_time;
@@ -135,13 +161,15 @@ Result<> MissionBuilder::change_speed(double speed_m_s, int type) {
 
 Result<> MissionBuilder::change_altitude(double alt_m) {
   if (!std::isfinite(alt_m)) return fail(ErrorKind::invalid_input, "an altitude must be a number");
+  if (auto checked = check_place({.alt_m = alt_m}); !checked) return checked;
   auto added = add(MavCmd::do_change_altitude, {alt_m, 0.0, 0.0, 0.0});
   if (added && last_) last_->alt_m = alt_m;
   return added;
 }
 
 Result<> MissionBuilder::delay(double seconds) {
-  if (auto checked = check_not_negative("a delay", seconds); !checked) return checked;
+  double constexpr longest_s = 1e6;
+  if (auto checked = check_between("a delay", seconds, 0.0, longest_s); !checked) return checked;
   double constexpr no_time_of_day = -1.0;
   return add(MavCmd::nav_delay, {seconds, no_time_of_day, no_time_of_day, no_time_of_day});
 }
@@ -154,7 +182,7 @@ Result<> MissionBuilder::capture_photo() {
 }
 
 Result<> MissionBuilder::capture_photos(int count, double interval_s) {
-  if (count < 0) return fail(ErrorKind::invalid_input, fmt::format("cannot take {} photos", count));
+  if (auto checked = check_between("the number of photos", count, 0.0, max_photos); !checked) return checked;
   if (!(interval_s > 0.0) || !std::isfinite(interval_s)) {
     return fail(ErrorKind::invalid_input, fmt::format("the time between photos must be above 0, not {} s", interval_s));
   }
@@ -172,6 +200,7 @@ Result<> MissionBuilder::jump(int item, int repetitions) {
   if (repetitions < -1) {
     return fail(ErrorKind::invalid_input, fmt::format("cannot jump {} times", repetitions), "-1 means for ever");
   }
+  if (auto checked = check_between("the number of jumps", repetitions, -1.0, max_jumps); !checked) return checked;
   return add(MavCmd::do_jump, {static_cast<double>(item), static_cast<double>(repetitions), 0.0, 0.0});
 }
 

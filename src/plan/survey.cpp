@@ -28,6 +28,11 @@ base::Result<> check(SurveyArea const& area) {
         ErrorKind::invalid_input,
         fmt::format("a survey area needs a length and a width above 0, not {} m by {} m", area.length_m, area.width_m));
   }
+  double constexpr largest_m = 1e6;
+  if (std::max({area.length_m, area.width_m, area.overshoot_m}) > largest_m) {
+    return fail(ErrorKind::invalid_input,
+                fmt::format("a survey of {} m by {} m is larger than 1000 km", area.length_m, area.width_m));
+  }
   if (!is_positive(area.spacing_m)) {
     return fail(ErrorKind::invalid_input,
                 fmt::format("legs of a survey need a spacing above 0, not {} m", area.spacing_m));
