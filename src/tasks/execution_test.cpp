@@ -1,5 +1,8 @@
 #include "tasks/execution.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "tasks/test_script.hpp"
 
 namespace lapwing::tasks {
@@ -32,6 +35,40 @@ TEST_F(ExecutionTest, ConcurrentRunsBothAtOnce) {  // case 35
   EXPECT_TRUE(execute(concurrent(task("A:0.3"), task("B:0.5"))).is_done());
   EXPECT_EQ(trace(), (Trace{"0.0 START A@a1", "0.0 START B@a2", "0.3 DONE A@a1", "0.5 DONE B@a2"}));
   EXPECT_DOUBLE_EQ(stage_.now_s(), 0.6);
+}
+
+TEST_F(ExecutionTest, AThousandRunAtOnceEachInItsTurn) {
+  std::vector<int> order;
+  int tests = 0;
+  auto all = idle(seconds(0.0));
+  for (int i = 0; i < 1000; ++i) {
+    auto const waits = wait_for(when([&tests, &order] { return ++tests > 0 && order.size() < 2000; }),
+                                doing([&order, i] { order.push_back(i); }));
+    all = concurrent(all, sequence(idle(seconds(0.1 * (i % 10))), waits));
+  }
+  EXPECT_TRUE(execute(all).is_done());
+  ASSERT_EQ(order.size(), 1000u);
+  EXPECT_EQ(tests, 1000);
+  // Tick by tick, within one from the left to the right.
+  auto expected = std::vector<int>(1000);
+  std::iota(expected.begin(), expected.end(), 0);
+  std::ranges::stable_sort(expected, {}, [](int i) { return i % 10; });
+  EXPECT_EQ(order, expected);
+  EXPECT_DOUBLE_EQ(stage_.now_s(), 1.0);
+}
+
+TEST_F(ExecutionTest, OneErrorStopsAThousand) {
+  int cancelled = 0;
+  auto all = task("fail:0.3");
+  for (int i = 0; i < 1000; ++i) {
+    all = concurrent(all, action(procedure({.run = [](auto const&) { return std::expected<Verdict, Failure>(); },
+                                            .returns_in_step = 1'000'000,
+                                            .cancelled = &cancelled})));
+  }
+  auto const outcome = execute(all);
+  ASSERT_TRUE(outcome.failure);
+  EXPECT_EQ(outcome.failure->message, "boom");
+  EXPECT_EQ(cancelled, 1000);
 }
 
 TEST_F(ExecutionTest, ErrorStopsTheSiblingAndComesOut) {  // case 37

@@ -119,7 +119,8 @@ std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask con
     return std::make_unique<TimedRun>(loop_, timed->length(), timed->fails() ? "boom" : "");
   }
   if (auto const* const flown = dynamic_cast<MissionTask const*>(task.get())) {
-    auto const estimate = plan::estimate(flown->mission());
+    auto const& mission = flown->mission();
+    auto const estimate = plan::estimate(mission, mission.home ? mission.home : vehicle->position);
     auto const length = estimate.is_endless ? std::nullopt : std::optional(estimate.duration);
     return std::make_unique<TimedRun>(loop_, length, "");
   }

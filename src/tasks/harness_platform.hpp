@@ -23,7 +23,8 @@ namespace lapwing::tasks {
 /// | u2 | UUV | | 42 N, 8 W |
 ///
 /// The named task `X:d` is done after d seconds, `fail:d` fails with "boom" after d seconds. A mission takes as long as
-/// it is estimated to. Any number of tasks may run on one vehicle; keeping them apart is what allocation is tested for.
+/// it is estimated to, from its home or, without one, from where the vehicle is. Any number of tasks may run on one
+/// vehicle; keeping them apart is what allocation is tested for.
 class HarnessPlatform final : public Platform {
  public:
   /// `plans`: what named tasks are looked up in first.
