@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "base/spelling.hpp"
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/vehicle_types.hpp"
 
 /// What the checker knows of tasks and of the numbers that instructions refuse.
 namespace lapwing::dolphin {
@@ -119,6 +121,19 @@ void Checker::value(ast::Expr const& expr, base::DiagnosticKind const& kind, dou
   diagnostics_.report(kind, expr.span, fmt::format("{} {}, this is {}", what, wanted, *known));
 }
 
+/// Types are compared letter by letter: `pick { type 'uav' }` would wait for a vehicle that never comes.
+void Checker::vehicle_type(ast::Call const& call) {
+  if (call.arguments.empty()) return;
+  auto const& wanted = *call.arguments.front().value;
+  auto const constant = inference_.constant(wanted);
+  auto const* type = constant ? std::get_if<std::string>(&*constant) : nullptr;
+  if (!type || std::ranges::find(vehicle_types, *type) != vehicle_types.end()) return;
+  auto hint = base::did_you_mean(*type, vehicle_types);
+  if (hint.empty()) return;
+  diagnostics_.report(code("misspelt-type"), wanted.span, fmt::format("no vehicle is of type {}", *type),
+                      std::move(hint));
+}
+
 /// Numbers that the instruction refuses at run time.
 void Checker::values(ast::Call const& call, InstructionSpec const& spec) {
   auto const check = [&](std::size_t position, base::DiagnosticKind const& kind, double least, double most,
@@ -130,6 +145,7 @@ void Checker::values(ast::Call const& call, InstructionSpec const& spec) {
   bool const in_pick = !contexts_.empty() && contexts_.back().kind == BlockKind::pick;
   if (in_pick && spec.name == "count") check(0, code("halting-value"), 1.0, any, "the count of pick");
   if (in_pick && spec.name == "timeout") check(0, code("halting-value"), 0.0, any, "the timeout of pick");
+  if (in_pick && spec.name == "type") vehicle_type(call);
   if (spec.name == "idle" || spec.name == "pause") check(0, code("argument-value"), 0.0, any, "this time");
   if (spec.name == "area") check(1, code("argument-value"), 0.0, any, "the radius");
   if (spec.name != "location") return;

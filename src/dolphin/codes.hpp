@@ -70,6 +70,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"not-a-task", codes_detail::error, "Something that is no task where one is needed."},
     {"not-vehicles", codes_detail::error, "Something that is no set of vehicles where one is needed."},
     {"halting-value", codes_detail::warning, "A value with which the instruction halts the script."},
+    {"misspelt-type", codes_detail::warning, "A type that no vehicle has, and that is nearly one."},
     {"imc-plan", codes_detail::error, "Plans in the form of IMC are not supported."},
     {"invalid-mission", codes_detail::error, "A mission that cannot be flown, for example a relative move without `home`."},
     // ---- flow

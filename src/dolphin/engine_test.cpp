@@ -197,6 +197,22 @@ TEST(Battery, IsWaitedForUntilItsFirstReport) {
   EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint battery(v)"), "0.5exit 0 at 3.0\n");
 }
 
+TEST(Position, IsWaitedForNoLongerThanTheConnectionTimeout) {
+  Bench bench;
+  auto lost_in_space = copter("z9");
+  lost_in_space.position.reset();
+  lost_in_space.connection_timeout = std::chrono::seconds(20);
+  bench.platform.set_vehicle(lost_in_space);
+  base::Scope scope(bench.loop);
+  scope.spawn(at(bench.loop, 15.0, [&bench, lost_in_space]() mutable {
+    lost_in_space.position = geo::Wgs84::from_degrees(41.0, -8.0, 5.0);
+    bench.platform.set_vehicle(lost_in_space);
+  }));
+  EXPECT_EQ(bench.run("setConnectionTimeout 10.seconds\nv = pick { id 'z9' }\n"
+                      "try { print position(v) } catch (e) { print e.message }\nprint position(v)"),
+            "the position of vehicle z9 is not known yet(41.000000,-8.000000,5.000)exit 0 at 15.0\n");
+}
+
 TEST(Battery, IsWaitedForOnceAndNoLongerThanTheConnectionTimeout) {
   Bench bench;
   LateReport const report(bench, 100.0);

@@ -45,7 +45,11 @@ class Bench {
     base::Diagnostics diagnostics(*source);
     auto const program = load(source, platform.builders(), diagnostics);
     if (!program) return base::render(diagnostics) + "exit 2\n";
-    options.on_event = [this](tasks::TaskEvent const& event) { transcript.text += tasks::to_json_line(event) + "\n"; };
+    options.on_event = [this](tasks::TaskEvent const& event) {
+      auto const vehicle = event.vehicle ? platform.find(*event.vehicle) : std::nullopt;
+      auto const home = vehicle ? vehicle->position : std::nullopt;
+      transcript.text += tasks::to_json_line(event, {.home = home}) + "\n";
+    };
     Engine engine(loop, platform, transcript, {}, options);
     base::Scope scope(loop);
     scope.spawn(stop_later(engine));

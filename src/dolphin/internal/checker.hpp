@@ -118,6 +118,7 @@ class Checker {
   void single_vehicle(ast::Call const& call, InstructionSpec const& spec);
   [[nodiscard]] std::size_t least_vehicles(ast::Expr const& set, int depth);
   void values(ast::Call const& call, InstructionSpec const& spec);
+  void vehicle_type(ast::Call const& call);
   void value(ast::Expr const& expr, base::DiagnosticKind const& kind, double least, double most, std::string_view what);
   void endless_sequence(ast::Binary const& binary);
   void unused_tasks();

@@ -45,6 +45,7 @@ class ExecuteCheck {
     }
     for (auto const& demand : demands_) {
       if (demand.from && (is_released(demand) || is_too_few(demand) || is_unsuited(demand))) return;
+      if (!demand.from && demand.name.empty() && suits_nobody(demand)) return;
     }
     bool const is_clear =
         std::ranges::none_of(demands_, [](Demand const& one) { return !one.from && !one.name.empty(); });
@@ -150,6 +151,31 @@ class ExecuteCheck {
                         is_certain ? "pick another type, or leave out what it cannot do" : "ask for it in pick",
                         {{pick.place, "picked here"}, {callee->span, "made here"}});
     return true;
+  }
+
+  /// Any vehicle would do, but every one that the script picks is of a type that cannot do what one of the blocks says.
+  bool suits_nobody(Demand const& demand) {
+    auto const picks = state_.picks();
+    if (!state_.most_picked() || picks.empty()) return false;
+    for (auto const* block : tasks_.blocks(*demand.task)) {
+      auto const built = tasks_.built(*block);
+      if (!built) continue;
+      std::optional<std::string> reason;
+      for (auto const& pick : picks) {
+        tasks::VehicleInfo vehicle;
+        vehicle.type = pick.type;
+        reason = pick.type.empty() ? std::nullopt : built->unsuited(vehicle);
+        if (!reason) break;
+      }
+      if (!reason) continue;
+      diagnostics_.report(
+          code("unsuited-vehicle"), demand.task->span,
+          fmt::format("no vehicle that is picked suits this {}: {}", built->kind(), *reason),
+          "pick another type, or leave out what it cannot do",
+          {{picks.back().place, "picked here"}, {std::get<ast::Call>(block->node).callee->span, "made here"}});
+      return true;
+    }
+    return false;
   }
 
   /// Two parts that have the same vehicles, and not enough of them.

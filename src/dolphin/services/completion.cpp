@@ -9,6 +9,7 @@
 #include "dolphin/services/cursor.hpp"
 #include "dolphin/services/describe.hpp"
 #include "dolphin/services/values.hpp"
+#include "dolphin/vehicle_types.hpp"
 
 namespace lapwing::dolphin {
 
@@ -19,7 +20,6 @@ using enum TokenKind;
 constexpr auto statement_words = std::to_array<std::string_view>(
     {"assert", "break", "continue", "def", "for", "if", "return", "switch", "throw", "try", "while"});
 constexpr auto value_words = std::to_array<std::string_view>({"false", "new", "null", "true"});
-constexpr auto vehicle_types = std::to_array<std::string_view>({"UAV", "UGV", "USV", "UUV"});
 
 std::string snippet_of(ast::ChainKind kind) {
   switch (kind) {
