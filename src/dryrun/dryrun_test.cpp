@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "dryrun/analysis.hpp"
+#include "dryrun/missions.hpp"
 #include "dryrun/recorder.hpp"
 #include "dryrun/text.hpp"
 #include "dryrun/words.hpp"
+#include "tasks/mission_task.hpp"
 
 namespace lapwing::dryrun {
 namespace {
@@ -174,6 +176,43 @@ TEST(Text, TellsWhatMatters) {
                             "inside 'field', up to 120.0 m above home", "30.0 m outside", "still in the air"}) {
     EXPECT_NE(text.find(words), std::string::npos) << words << " is not in\n" << text;
   }
+}
+
+TEST(Missions, ReadHeightsInTheFrameOfEachItem) {
+  plan::Mission mission{.name = "m", .home = std::nullopt, .planned_home = std::nullopt, .items = {}};
+  auto const add = [&](mavlink::MavFrame frame, double lat_deg, double z_m) {
+    auto const place = geo::Wgs84::from_degrees(lat_deg, lat_deg == 0.0 ? 0.0 : -8.0, z_m);
+    mavlink::MissionItem item;
+    item.command = mavlink::MavCmd::nav_waypoint;
+    item.frame = frame;
+    item.place = {.lat_rad = place.lat_rad, .lon_rad = place.lon_rad, .z_m = z_m};
+    mission.items.push_back(item);
+  };
+  add(mavlink::MavFrame::global, 41.0, 120.0);
+  add(mavlink::MavFrame::global_relative_alt, 41.001, 20.0);
+  add(mavlink::MavFrame::global_relative_alt, 0.0, 30.0);  // above where it is
+  FlightRecord record;
+  record.home = geo::Wgs84::from_degrees(41.0, -8.0, 90.0);
+  TaskSpan span;
+  span.name = "m";
+  span.task = std::make_shared<tasks::MissionTask const>(mission);
+  record.vehicles.emplace_back().tasks.push_back(span);
+  auto const tables = missions_of(record);
+  ASSERT_EQ(tables.size(), 1U);
+  auto const& rows = tables.front().items;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_NEAR(rows[0].place->alt_m, 120.0, 1e-9);
+  EXPECT_NEAR(rows[1].place->alt_m, 110.0, 1e-9);
+  EXPECT_NEAR(rows[1].place_m->down, -20.0, 1e-9);
+  EXPECT_NEAR(rows[2].place->alt_m, 120.0, 1e-9);
+  EXPECT_NEAR(rows[2].place_m->north, rows[1].place_m->north, 1e-6);
+}
+
+TEST(Recorder, AFreshBatteryTakesNothingBack) {
+  Recorder recorder(crew(1), {});
+  for (int i = 0; i <= 10; ++i) recorder.sample(i * 1s, std::vector{sample(i, 1, i <= 5 ? 10 * i : 10 * (i - 5))});
+  auto const record = recorder.finish(10s);
+  EXPECT_NEAR(figures(record.vehicles[0], 0s, 10s).energy_wh, (50.0 + 40.0) * 12.0 * 1e-3, 0.01);
 }
 
 TEST(Words, ReadWell) {

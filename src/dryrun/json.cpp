@@ -90,13 +90,13 @@ Json item_table(FlightRecord const& record) {
   for (auto const& mission : missions_of(record)) {
     Json json{{"name", mission.name}, {"allocation", mission.allocation}};
     auto& items = json["items"] = Json::array();
-    for (auto const& item : mission.mission->items) {
-      auto const place = plan::position_of(item);
-      Json row{{"command", mavlink::to_string(item.command)}, {"params", item.params}};
-      if (plan::has_position(item)) {
-        row["lat_deg"] = rounded(place.lat_deg(), 7);
-        row["lon_deg"] = rounded(place.lon_deg(), 7);
-        row["alt_m"] = rounded(place.alt_m, 2);
+    for (std::size_t i = 0; i < mission.items.size(); ++i) {
+      auto const& item = mission.items[i];
+      Json row{{"command", item.command}, {"params", mission.mission->items[i].params}};
+      if (item.place) {
+        row["lat_deg"] = rounded(item.place->lat_deg(), 7);
+        row["lon_deg"] = rounded(item.place->lon_deg(), 7);
+        row["alt_m"] = rounded(item.place->alt_m, 2);
       }
       items.push_back(std::move(row));
     }

@@ -37,17 +37,19 @@ std::vector<ItemRow> rows_of(plan::Mission const& mission, geo::Wgs84 home) {
   geo::LocalFrame const frame(home);
   std::vector<ItemRow> rows;
   double highest = 0.0;
+  std::optional<geo::Wgs84> here = mission.home.value_or(home);
   for (auto const& item : mission.items) {
     ItemRow row{.number = static_cast<int>(rows.size()) + 1,
                 .command = mavlink::to_string(item.command),
                 .place_m = std::nullopt,
+                .place = std::nullopt,
                 .bar = {},
                 .note = note_of(item)};
     if (plan::has_position(item)) {
-      auto const place = plan::position_of(item);
+      auto const place = plan::place_of(item, here, home.alt_m);
+      row.place = here = place;
       row.place_m = frame.ned_from({place.lat_rad, place.lon_rad, home.alt_m});
       row.place_m->down = home.alt_m - place.alt_m;
-      row.alt_m = place.alt_m;
       highest = std::max(highest, -row.place_m->down);
     }
     rows.push_back(std::move(row));

@@ -14,7 +14,7 @@ struct ItemRow {
   int number = 0;                   ///< as `do_jump` counts: from 1
   std::string command;              ///< "NAV_WAYPOINT"
   std::optional<geo::Ned> place_m;  ///< from home; nothing for items without a place
-  double alt_m = 0.0;               ///< above mean sea level
+  std::optional<geo::Wgs84> place;  ///< the same on the earth, its altitude above mean sea level
   std::string bar;                  ///< the height as a block beside those of the other items
   std::string note;                 ///< "8 m/s", "stays 10 s"
 };

@@ -41,7 +41,7 @@ double lane_height(Subject const& subject) {
 }
 
 bool rolls(VehicleRecord const& vehicle) {
-  return vehicle.family == vehicle::Family::rover || vehicle.family == vehicle::Family::boat;
+  return !plan::flies(vehicle.family);
 }
 
 /// The curve of a vehicle: height in m, of wheels speed in m/s.

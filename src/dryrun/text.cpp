@@ -75,7 +75,7 @@ void write_tasks(Out out, VehicleRecord const& vehicle) {
 }
 
 void write_vehicle(Out out, FlightRecord const& record, VehicleRecord const& vehicle, Figures const& sums) {
-  bool const flies = vehicle.family != vehicle::Family::rover && vehicle.family != vehicle::Family::boat;
+  bool const flies = plan::flies(vehicle.family);
   fmt::format_to(out, "\n{}: {} of path, {} {}", vehicle.name, length_text(sums.path_m), clock_text(vehicle.under_way),
                  flies ? "in the air" : "in motion");
   if (flies) fmt::format_to(out, ", up to {:.0f} m", sums.highest_m);
@@ -113,7 +113,7 @@ void write_missions(Out out, FlightRecord const& record) {
         continue;
       }
       fmt::format_to(out, " {:>7} m {:>7} m {:>7} m  {} {} m{}{}\n", number_text(item.place_m->north, 1),
-                     number_text(item.place_m->east, 1), number_text(item.alt_m, 1), item.bar,
+                     number_text(item.place_m->east, 1), number_text(item.place->alt_m, 1), item.bar,
                      number_text(-item.place_m->down, 0), item.note.empty() ? "" : ", ", item.note);
     }
   }
