@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "base/diagnostic.hpp"
+#include "dolphin/parser.hpp"
+#include "plan/capabilities.hpp"
+
 namespace lapwing::apps {
 
 base::Result<std::vector<sim::VehicleGroup>> crew_for(dolphin::Needs const& needs, base::SourceFile const& source) {
@@ -16,18 +20,18 @@ base::Result<std::vector<sim::VehicleGroup>> crew_for(dolphin::Needs const& need
   }
   std::vector<sim::VehicleGroup> groups;
   for (auto const& need : needs.vehicles) {
-    bool const rolls = need.type == "UGV";
-    if (!rolls && !need.type.empty() && need.type != "UAV") {
+    // Of the families behind a type the first is the usual one: a copter where a "UAV" will do.
+    auto const families = plan::families_of(need.type.empty() ? "UAV" : need.type);
+    if (families.empty()) {
       return base::fail(base::ErrorKind::invalid_input,
                         fmt::format("{}: a vehicle of type '{}' cannot be simulated", at(need.span), need.type),
-                        "the simulator has copters and planes (UAV) and rovers (UGV)");
+                        "the simulator has copters and planes (UAV), rovers (UGV), boats (USV) and subs (UUV)");
     }
-    auto const family = rolls ? vehicle::Family::rover : vehicle::Family::copter;
-    auto const group = std::ranges::find(groups, family, &sim::VehicleGroup::family);
+    auto const group = std::ranges::find(groups, families.front(), &sim::VehicleGroup::family);
     if (group != groups.end()) {
       group->count += need.count;
     } else {
-      groups.push_back({.family = family, .count = need.count});
+      groups.push_back({.family = families.front(), .count = need.count});
     }
   }
   return groups;
@@ -39,6 +43,21 @@ std::vector<std::string> payload_for(dolphin::Needs const& needs) {
     for (auto const& name : need.payload)
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   return names;
+}
+
+std::map<int, std::vector<std::string>> equipped(sim::WorldOptions const& world,
+                                                 std::vector<std::string> const& payload) {
+  std::map<int, std::vector<std::string>> equipment;
+  int system_id = world.first_system_id;
+  for (auto const& group : world.vehicles)
+    for (int i = 0; i < group.count; ++i) equipment[system_id++] = payload;
+  return equipment;
+}
+
+dolphin::Needs needs_of_text(std::string const& name, std::string const& text) {
+  base::SourceFile const source(name, text);
+  base::Diagnostics ignored(source);
+  return dolphin::needs_of(dolphin::parse(ignored));
 }
 
 std::string to_text(std::vector<sim::VehicleGroup> const& groups) {

@@ -1,21 +1,28 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/source.hpp"
 #include "dolphin/needs.hpp"
-#include "sim/vehicle_spec.hpp"
+#include "sim/world.hpp"
 
 namespace lapwing::apps {
 
 /// Simulated vehicles for everything that the script picks: a copter where it wants a UAV or anything, a rover for a
-/// UGV. Errors: invalid_input when a pick cannot be read or asks for what cannot be simulated.
+/// UGV, a boat for a USV, a sub for a UUV. Errors: invalid_input when a pick cannot be read or asks for what cannot be
+/// simulated.
 [[nodiscard]] base::Result<std::vector<sim::VehicleGroup>> crew_for(dolphin::Needs const& needs,
                                                                     base::SourceFile const& source);
 /// The equipment that any of the picks asks for, each once.
 [[nodiscard]] std::vector<std::string> payload_for(dolphin::Needs const& needs);
+/// The same equipment for every vehicle, by system id.
+[[nodiscard]] std::map<int, std::vector<std::string>> equipped(sim::WorldOptions const& world,
+                                                               std::vector<std::string> const& payload);
+/// What a script needs, as far as its text says it; a text that cannot be read needs nothing.
+[[nodiscard]] dolphin::Needs needs_of_text(std::string const& name, std::string const& text);
 /// "copter:2,rover:1"
 [[nodiscard]] std::string to_text(std::vector<sim::VehicleGroup> const& groups);
 

@@ -7,41 +7,34 @@
 
 #include <fmt/format.h>
 
+#include "apps/crew.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
-#include "apps/stall_watch.hpp"
 
 namespace lapwing::apps {
 
 namespace {
 
-/// A script may compute for some seconds between two moments; one that never lets time pass ends here.
-constexpr std::chrono::seconds longest_standstill{10};
-
-/// What still ran, innermost first: the leaves of the tree.
-void add_running(tasks::TaskView const& view, std::vector<std::string>& lines) {
+/// What still ran: the leaves of the tree, in the words of the script.
+void add_running(tasks::TaskView const& view, base::SourceFile const& source, std::vector<std::string>& lines) {
   bool const runs = view.state == tasks::TaskState::running;
   if (!runs) return;
   bool const has_running_child =
       std::ranges::any_of(view.children, [](auto const& child) { return child.state == tasks::TaskState::running; });
   if (has_running_child) {
-    for (auto const& child : view.children) add_running(child, lines);
+    for (auto const& child : view.children) add_running(child, source, lines);
     return;
   }
   auto line = view.kind;
-  if (!view.label.empty()) line += " " + view.label;
-  if (view.line > 0) line += fmt::format(" (line {})", view.line);
-  if (view.vehicle) line += fmt::format(" on vehicle {}", view.vehicle->text);
+  if (view.vehicle) {
+    line += fmt::format(" {} (line {}) on vehicle {}", view.label, view.line, view.vehicle->text);
+  } else if (view.line > 0) {
+    auto const words = source.text(source.line_span(static_cast<std::uint32_t>(view.line)));
+    auto const begin = std::min(words.find_first_not_of(" \t"), words.size());
+    line += fmt::format(" (line {}: {})", view.line, words.substr(begin));
+  }
   if (!view.detail.empty()) line += ": " + view.detail;
   lines.push_back(std::move(line));
-}
-
-fleet::Fleet::Options equipped(DryRun::Options const& options) {
-  fleet::Fleet::Options fleet;
-  int system_id = options.world.first_system_id;
-  for (auto const& group : options.world.vehicles)
-    for (int i = 0; i < group.count; ++i) fleet.payload[system_id++] = options.payload;
-  return fleet;
 }
 
 }  // namespace
@@ -74,7 +67,8 @@ DryRun::DryRun(Options options)
       loop_(pace_for(0.0)),
       log_(hub_, "lapwing"),
       air_(loop_),
-      ground_(loop_, fleet::OnStop::loiter, log_, equipped(options_), options_.plans),
+      ground_(loop_, fleet::OnStop::loiter, log_, {.payload = equipped(options_.world, options_.payload)},
+              options_.plans),
       world_(
           loop_, options_.world, [this] { return base::Result<std::unique_ptr<link::ByteLink>>(air_.connect()); },
           log_.named("sim")),
@@ -91,10 +85,7 @@ base::Result<> DryRun::power_on() {
 std::expected<void, station::StartFailure> DryRun::fly(std::string name, std::string source) {
   if (auto started = host_.start(std::move(name), std::move(source)); !started) return started;
   StopSignals const signals(loop_, [this] { host_.stop(); });
-  StallWatch const stall(loop_, longest_standstill, [this] {
-    host_.halt(fmt::format("the script let no time pass for {} s: it waits for nothing and never ends",
-                           longest_standstill.count()));
-  });
+  auto const stall = host_.halt_when_time_stands_still(std::chrono::seconds(10));
   loop_.run_until_done(finish());
   return {};
 }
@@ -119,8 +110,25 @@ base::Task<> DryRun::cut_off() {
   co_await loop_.sleep(options_.timeout);
   is_cut_off_ = true;
   auto const trees = host_.task_trees();
-  if (!trees.empty()) add_running(trees.back(), waiting_for_);
+  auto const status = host_.status();
+  if (!trees.empty()) add_running(trees.back(), base::SourceFile(status.name, status.source), waiting_for_);
+  add_standstill();
   host_.halt("still running when --timeout came");
+}
+
+/// Why nothing moves any more, when nothing does: a script that waits for charged batteries waits for ever.
+void DryRun::add_standstill() {
+  std::string batteries;
+  for (auto const& vehicle : world_.vehicles()) {
+    if (!vehicle->running() || vehicle->autopilot().armed()) return;
+    auto const& options = vehicle->options();
+    batteries += fmt::format("{}{} {} at {:.0f} %", batteries.empty() ? "" : ", ", vehicle::to_string(options.family),
+                             options.system_id, 100.0 * vehicle->autopilot().battery().remaining());
+  }
+  if (batteries.empty()) return;
+  auto line = fmt::format("every vehicle stands disarmed; batteries: {}", batteries);
+  if (!options_.world.battery_swap_after) line += ", and nobody changes them: see --swap-batteries";
+  waiting_for_.push_back(std::move(line));
 }
 
 std::vector<dryrun::VehicleRecord> DryRun::crew() const {
@@ -144,7 +152,7 @@ std::vector<dryrun::Sample> DryRun::look() const {
     sample.place_m = world_.site().ned_from(vehicle->place());
     if (vehicle->running()) {
       auto const& autopilot = vehicle->autopilot();
-      bool const flies = vehicle->options().family != vehicle::Family::rover;
+      bool const flies = plan::flies(vehicle->options().family);
       sample.mode = autopilot.mode().name;
       sample.remaining = autopilot.battery().remaining();
       sample.used_mah = autopilot.battery().used_mah();

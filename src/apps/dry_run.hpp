@@ -43,6 +43,7 @@ class DryRun {
   [[nodiscard]] std::vector<dryrun::Sample> look() const;
   base::Task<> sample();
   base::Task<> cut_off();
+  void add_standstill();
   base::Task<> finish();
 
   Options options_;

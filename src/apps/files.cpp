@@ -43,6 +43,16 @@ base::Result<std::string> read_script(std::string const& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
+base::Result<std::vector<ScriptText>> read_scripts(std::vector<std::string> const& paths) {
+  std::vector<ScriptText> scripts;
+  for (auto const& path : paths) {
+    auto text = read_script(path);
+    if (!text) return std::unexpected(text.error());
+    scripts.push_back({path, *std::move(text)});
+  }
+  return scripts;
+}
+
 base::Result<> write_file(std::string const& path, std::string_view content) {
   auto const fresh = path + ".part";
   auto const failure = [&] {

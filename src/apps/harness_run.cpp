@@ -1,51 +1,82 @@
 #include "apps/harness_run.hpp"
 
-#include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "apps/console.hpp"
 #include "apps/script_host.hpp"
-#include "apps/session.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
-#include "tasks/event_json.hpp"
+#include "base/scope.hpp"
 #include "tasks/harness_platform.hpp"
 
 namespace lapwing::apps {
 
-int run_on_harness(std::string const& name, std::string const& source, std::string const& events,
-                   std::optional<std::uint64_t> seed, LoadedPlans plans) {
-  using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  File opened(events.empty() || events == "-" ? nullptr : std::fopen(events.c_str(), "w"), &std::fclose);
-  std::FILE* const sink = events == "-" ? stdout : opened.get();
-  if (!events.empty() && !sink) {
-    print_error({base::ErrorKind::io, fmt::format("{}: cannot write", events), {}});
-    return exit_usage;
+namespace {
+
+/// Vehicles, console and engine for scripts that fly nowhere.
+class HarnessRun {
+ public:
+  explicit HarnessRun(HarnessOptions options)
+      : timeout_(options.timeout),
+        events_(std::move(options.events)),
+        loop_(pace_for(0.0, options.seed)),
+        log_(hub_, "lapwing"),
+        platform_(loop_, std::move(options.plans.library)),
+        console_(make_console(loop_, log_)),
+        host_(
+            loop_, platform_, *console_, log_, [this](tasks::TaskEvent const& event) { note(event); },
+            options.seed.value_or(1)) {
+    hub_.add_sink([to_terminal = base::standard_error_sink(base::LogLevel::info)](base::LogRecord const& record) {
+      if (record.source != script_source) to_terminal(record);
+    });
+    for (auto const& mistake : options.plans.mistakes) log_.warn(mistake.message);
   }
 
-  base::Loop loop(pace_for(0.0, seed));
-  base::LogHub hub;
-  hub.add_sink([to_terminal = base::standard_error_sink(base::LogLevel::info)](base::LogRecord const& record) {
-    if (record.source != script_source) to_terminal(record);
-  });
-  base::Logger const log(hub, "lapwing");
-  for (auto const& mistake : plans.mistakes) log.warn(mistake.message);
-  tasks::HarnessPlatform platform(loop, std::move(plans.library));
-  auto const console = make_console(loop, log);
-  auto const note = [sink, task_log = log.named("task")](tasks::TaskEvent const& event) {
-    if (sink) fmt::print(sink, "{}\n", tasks::to_json_line(event));
-    task_log.info(to_log_text(event));
-  };
-  ScriptHost host(loop, platform, *console, log, note, seed.value_or(1));
-  auto const started = host.start(name, source);
-  fmt::print(stderr, "{}", host.rendered_diagnostics());
-  if (!started) return exit_usage;
-  StopSignals const signals(loop, [&host] { host.stop(); });
-  loop.run_until_done(host.ended());
-  return dolphin::exit_code(*host.outcome());
+  /// Returns the exit code.
+  int run(ScriptText const& script) {
+    auto const started = host_.start(script.name, script.text);
+    fmt::print(stderr, "{}", host_.rendered_diagnostics());
+    if (!started) return exit_usage;
+    StopSignals const signals(loop_, [this] { host_.stop(); });
+    auto const stall = host_.halt_when_time_stands_still();
+    loop_.run_until_done(finish());
+    return dolphin::exit_code(*host_.outcome());
+  }
+
+ private:
+  base::Task<> finish() {
+    base::Scope scope(loop_);
+    if (timeout_) scope.spawn(host_.halt_after(*timeout_));
+    co_await host_.ended();
+  }
+
+  void note(tasks::TaskEvent const& event) {
+    auto const vehicle = event.vehicle ? platform_.find(*event.vehicle) : std::nullopt;
+    events_.write(event, {.home = vehicle ? vehicle->position : std::nullopt});
+    log_.named("task").info(to_log_text(event));
+  }
+
+  std::optional<base::Duration> timeout_;
+  EventFile events_;
+  base::Loop loop_;
+  base::LogHub hub_;
+  base::Logger log_;
+  tasks::HarnessPlatform platform_;
+  std::unique_ptr<dolphin::Output> console_;
+  ScriptHost host_;
+};
+
+}  // namespace
+
+int run_on_harness(std::vector<ScriptText> const& scripts, HarnessOptions options) {
+  HarnessRun harness(std::move(options));
+  for (auto const& script : scripts) {
+    if (int const code = harness.run(script); code != exit_done) return code;
+  }
+  return exit_done;
 }
 
 }  // namespace lapwing::apps

@@ -15,7 +15,6 @@
 #include "base/diagnostic.hpp"
 #include "dolphin/engine.hpp"
 #include "dolphin/needs.hpp"
-#include "dolphin/parser.hpp"
 #include "dryrun/json.hpp"
 #include "dryrun/svg.hpp"
 #include "dryrun/text.hpp"
@@ -38,6 +37,7 @@ struct PlanOptions {
   std::string answers;
   std::uint64_t seed = 1;
   double timeout_s = 7200.0;
+  std::optional<double> swap_batteries_s;
 };
 
 /// Prints what is wrong with the script; nothing when it can be flown.
@@ -48,8 +48,7 @@ base::Result<dolphin::Needs> read_needs(std::string const& name, std::string con
   auto const program = dolphin::load(source, builders, diagnostics);
   fmt::print(stderr, "{}", base::render(diagnostics));
   if (!program) return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not check", name));
-  base::Diagnostics known(*source);
-  return dolphin::needs_of(dolphin::parse(known));
+  return needs_of_text(name, text);
 }
 
 base::Result<geo::Ned> parse_wind(std::string const& text) {
@@ -93,6 +92,7 @@ base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::s
   result.payload = payload_for(*needs);
   auto& world = result.world;
   world.seed = options.seed;
+  if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
   auto const vehicles = options.vehicles.empty() ? crew_for(*needs, base::SourceFile(options.script, text))
                                                  : sim::parse_vehicles(options.vehicles);
   if (!vehicles) return std::unexpected(vehicles.error());
@@ -166,8 +166,11 @@ void add_plan(CLI::App& program, int& exit_code) {
   verb->add_option("--wind", options->wind, "How the air moves: NORTH,EAST in m/s");
   verb->add_option("--svg", options->svg, "Draw the flight, map and time lines, to this file");
   verb->add_option("--json", options->json, "Write everything, tracks included, to this file");
+  verb->add_option("--swap-batteries", options->swap_batteries_s, swap_help)->check(CLI::Range(1.0, 1e6));
   verb->add_option("--answers", options->answers, "File with the answers to the script's questions, one a line");
-  verb->add_option("--seed", options->seed, "Of everything that is left to chance")->capture_default_str();
+  verb->add_option("--seed", options->seed, "Of everything that is left to chance")
+      ->check(not_negative())
+      ->capture_default_str();
   verb->add_option("--timeout", options->timeout_s, "Cut the flight off after so many simulated seconds")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();

@@ -1,21 +1,29 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "apps/crew.hpp"
 #include "apps/files.hpp"
 #include "apps/harness_run.hpp"
 #include "apps/secret_file.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
+#include "base/diagnostic.hpp"
 #include "sim/vehicle_spec.hpp"
+#include "tasks/mission_builder.hpp"
 
 namespace lapwing::apps {
 
 namespace {
 
+using Equipment = std::map<int, std::vector<std::string>>;
+
 struct RunOptions {
-  std::string script;
+  std::vector<std::string> scripts;
   std::vector<std::string> links;
   std::string simulated;
   std::string home;
@@ -31,29 +39,70 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;
   std::string plans;
   std::string signing_key;
+  std::vector<std::string> payload;
+  std::optional<double> swap_batteries_s;
+
+  [[nodiscard]] std::optional<base::Duration> timeout() const {
+    return timeout_s ? std::optional(base::from_seconds(*timeout_s)) : std::nullopt;
+  }
 };
 
-/// Simulated vehicles, or the links, or the default link.
-base::Result<> connect(Session& session, RunOptions const& options, std::optional<mavlink::SigningKey> const& key) {
-  if (options.simulated.empty()) {
-    return session.open_links(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
-  }
+/// The simulated vehicles, where the script is at home unless the user says otherwise.
+base::Result<sim::WorldOptions> world_for(RunOptions const& options, dolphin::Needs const& needs) {
+  sim::WorldOptions world;
   auto const vehicles = sim::parse_vehicles(options.simulated);
   if (!vehicles) return std::unexpected(vehicles.error());
-  sim::WorldOptions world;
   world.vehicles = *vehicles;
   world.seed = options.seed.value_or(world.seed);
-  world.signing_key = key;
   world.impairment.loss = options.loss;
   world.impairment.delay = base::from_seconds(options.delay_s);
+  if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
   if (!options.home.empty()) {
     auto const home = parse_home(options.home);
     if (!home) return std::unexpected(home.error());
     world.home = home->place;
     world.heading_rad = home->heading_rad;
+  } else if (needs.home) {
+    world.home = *needs.home;
   }
+  return world;
+}
+
+/// "3=Sidescan,Multibeam"
+base::Result<> add_payload(std::string const& text, Equipment& equipment) {
+  auto const equals = text.find('=');
+  int system_id = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + std::min(equals, text.size()), system_id);
+  bool const is_id = error == std::errc() && equals != std::string::npos && end == text.data() + equals;
+  if (!is_id || system_id < 1 || system_id > 255 || equals + 1 == text.size()) {
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no payload of a vehicle", text),
+                      "write ID=NAME,NAME with the vehicle's system id, for example --payload 3=Sidescan,Multibeam");
+  }
+  auto& names = equipment[system_id];
+  for (auto at = equals + 1; at <= text.size();) {
+    auto const comma = std::min(text.find(',', at), text.size());
+    if (comma > at) names.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return {};
+}
+
+/// What the user says; simulated vehicles carry what the script asks for as well.
+base::Result<Equipment> equipment_for(RunOptions const& options, std::optional<sim::WorldOptions> const& world,
+                                      dolphin::Needs const& needs) {
+  Equipment equipment;
+  if (world) equipment = equipped(*world, payload_for(needs));
+  for (auto const& text : options.payload) {
+    if (auto added = add_payload(text, equipment); !added) return std::unexpected(added.error());
+  }
+  return equipment;
+}
+
+/// Simulated vehicles, or the links, or the default link.
+base::Result<> connect(Session& session, RunOptions const& options, std::optional<sim::WorldOptions> world) {
+  if (!world) return session.open_links(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
   if (auto opened = session.open_links(options.links); !opened) return opened;
-  return session.simulate(std::move(world));
+  return session.simulate(*std::move(world));
 }
 
 int refuse(base::Error const& error) {
@@ -62,41 +111,134 @@ int refuse(base::Error const& error) {
                                                                                                   : exit_halted;
 }
 
-int run(RunOptions const& options) {
-  auto const source = read_script(options.script);
-  if (!source) return refuse(source.error());
-  auto plans = load_plans(options.plans);
-  if (!plans) return refuse(plans.error());
-  if (options.platform == "test") {
-    return run_on_harness(options.script, *source, options.events, options.seed, *std::move(plans));
+/// To the user's file and beside the recording, if there is one.
+base::Result<> write_reports(Session const& session, RunOptions const& options) {
+  std::vector<std::string> paths;
+  if (!options.report.empty()) paths.push_back(options.report);
+  if (session.recording) paths.push_back(session.recording->beside(".json"));
+  for (auto const& path : paths) {
+    if (auto written = write_file(path, to_json(session.report())); !written) return written;
   }
+  return {};
+}
+
+int run_script(Session& session, RunOptions const& options, ScriptText const& script) {
+  if (session.recording) {
+    if (auto kept = write_file(session.recording->beside(".dolphin"), script.text); !kept) return refuse(kept.error());
+  }
+  auto const started = session.host.start(script.name, script.text);
+  fmt::print(stderr, "{}", session.host.rendered_diagnostics());
+  if (!started) return exit_usage;
+  session.run_to_end(options.timeout());
+  if (auto written = write_reports(session, options); !written) return refuse(written.error());
+  return dolphin::exit_code(*session.host.outcome());
+}
+
+int run_on_vehicles(RunOptions const& options, std::vector<ScriptText> const& scripts, LoadedPlans plans,
+                    EventFile const& events) {
   auto const on_stop = parse_on_stop(options.on_stop);
   if (!on_stop) return refuse(on_stop.error());
+  auto const needs = needs_of_text(scripts.front().name, scripts.front().text);
+  std::optional<sim::WorldOptions> world;
+  if (!options.simulated.empty()) {
+    auto made = world_for(options, needs);
+    if (!made) return refuse(made.error());
+    world = *std::move(made);
+  }
+  auto equipment = equipment_for(options, world, needs);
+  if (!equipment) return refuse(equipment.error());
 
   auto const key = read_signing_key(options.signing_key);
   if (!key) return refuse(key.error());
+  if (world) world->signing_key = *key;
   Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
                    .on_stop = *on_stop,
-                   .plans = *std::move(plans),
+                   .plans = std::move(plans),
+                   .payload = *std::move(equipment),
+                   .events = &events,
                    .seed = options.seed,
                    .signing_key = *key});
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
-    if (auto kept = write_file(session.recording->beside(".dolphin"), *source); !kept) return refuse(kept.error());
   }
-  if (auto connected = connect(session, options, *key); !connected) return refuse(connected.error());
-  auto const started = session.host.start(options.script, *source);
-  fmt::print(stderr, "{}", session.host.rendered_diagnostics());
-  if (!started) return exit_usage;
-  session.run_to_end(options.timeout_s ? std::optional(base::from_seconds(*options.timeout_s)) : std::nullopt);
-  auto const outcome = *session.host.outcome();
-  std::vector<std::string> reports;
-  if (!options.report.empty()) reports.push_back(options.report);
-  if (session.recording) reports.push_back(session.recording->beside(".json"));
-  for (auto const& path : reports) {
-    if (auto written = write_file(path, to_json(session.report())); !written) return refuse(written.error());
+  if (auto connected = connect(session, options, std::move(world)); !connected) return refuse(connected.error());
+  for (auto const& script : scripts) {
+    if (int const code = run_script(session, options, script); code != exit_done) return code;
   }
-  return dolphin::exit_code(outcome);
+  return exit_done;
+}
+
+/// Before the first script moves anything, those after it are looked at too. Prints what is wrong with them.
+bool rest_checks(std::vector<ScriptText> const& scripts) {
+  std::array const builders{tasks::mission_builder()};
+  bool is_good = true;
+  for (std::size_t i = 1; i < scripts.size(); ++i) {
+    auto const source = std::make_shared<base::SourceFile const>(scripts[i].name, scripts[i].text);
+    base::Diagnostics diagnostics(*source);
+    if (dolphin::load(source, builders, diagnostics)) continue;
+    fmt::print(stderr, "{}", base::render(diagnostics));
+    is_good = false;
+  }
+  return is_good;
+}
+
+/// What means nothing to the test platform, and so is a mistake beside it.
+base::Result<> check_combination(RunOptions const& options) {
+  if (options.platform != "test") return {};
+  std::array<std::pair<std::string_view, bool>, 9> const given{{{"--link", !options.links.empty()},
+                                                                {"--sim", !options.simulated.empty()},
+                                                                {"--home", !options.home.empty()},
+                                                                {"--loss", options.loss > 0.0},
+                                                                {"--delay", options.delay_s > 0.0},
+                                                                {"--payload", !options.payload.empty()},
+                                                                {"--report", !options.report.empty()},
+                                                                {"--signing-key", !options.signing_key.empty()},
+                                                                {"--record", !options.record.empty()}}};
+  auto const found = std::ranges::find(given, true, &std::pair<std::string_view, bool>::second);
+  if (found == given.end()) return {};
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not go with --platform test", found->first),
+                    "its vehicles are a1 a2 u1 u2, without links");
+}
+
+int run(RunOptions const& options) {
+  if (auto fits = check_combination(options); !fits) return refuse(fits.error());
+  auto const scripts = read_scripts(options.scripts);
+  if (!scripts) return refuse(scripts.error());
+  auto plans = load_plans(options.plans);
+  if (!plans) return refuse(plans.error());
+  auto events = EventFile::open(options.events);
+  if (!events) {
+    print_error(events.error());
+    return exit_usage;
+  }
+  if (!rest_checks(*scripts)) return exit_usage;
+  if (options.platform != "test") return run_on_vehicles(options, *scripts, *std::move(plans), *events);
+  return run_on_harness(
+      *scripts,
+      {.events = *std::move(events), .seed = options.seed, .timeout = options.timeout(), .plans = *std::move(plans)});
+}
+
+void add_vehicle_options(CLI::App& verb, RunOptions& options) {
+  verb.add_option(
+          "--link", options.links,
+          "Where vehicles are, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link))
+      ->allow_extra_args(false);
+  verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
+  verb.add_option("--home", options.home,
+                  "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the "
+                  "script's first home");
+  verb.add_option("--loss", options.loss, "With --sim: share of packets lost, each way")->check(CLI::Range(0.0, 0.99));
+  verb.add_option("--delay", options.delay_s, "With --sim: seconds that each packet is late, each way")
+      ->check(CLI::Range(0.0, 60.0));
+  verb.add_option("--swap-batteries", options.swap_batteries_s, swap_help)->check(CLI::Range(1.0, 1e6));
+  verb.add_option(
+          "--payload", options.payload,
+          "What the vehicle of a system id carries, by the names that scripts use: 3=Sidescan,Multibeam (may be "
+          "repeated); simulated vehicles carry what the script asks for")
+      ->allow_extra_args(false);
+  verb.add_option("--on-stop", options.on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
+  verb.add_option("--platform", options.platform, "mavlink, or test: the language's own test vehicles, no MAVLink")
+      ->check(CLI::IsMember({"mavlink", "test"}));
 }
 
 }  // namespace
@@ -104,34 +246,24 @@ int run(RunOptions const& options) {
 void add_run(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
   auto* verb = program.add_subcommand("run", "Run a script on vehicles");
-  verb->add_option("script", options->script, "Dolphin script")->required();
-  verb->add_option(
-      "--link", options->links,
-      "Where vehicles are, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link));
-  verb->add_option("--sim", options->simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
-  verb->add_option("--home", options->home,
-                   "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres");
-  verb->add_option("--loss", options->loss, "With --sim: share of packets lost, each way")
-      ->check(CLI::Range(0.0, 0.99));
-  verb->add_option("--delay", options->delay_s, "With --sim: seconds that each packet is late, each way")
-      ->check(CLI::Range(0.0, 60.0));
+  verb->add_option("script", options->scripts, "Dolphin script; of several each begins when the one before is done")
+      ->required();
+  add_vehicle_options(*verb, *options);
   verb->add_option("--speedup", options->speedup,
                    "1 real time, 10 ten times faster, 0 as fast as possible (default with --sim)")
       ->check(CLI::Range(0.0, 1000.0));
   verb->add_option("--timeout", options->timeout_s, "Halt the script after so many seconds")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-3, 1e9));
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
   verb->add_option("--signing-key", options->signing_key, signing_key_help);
   verb->add_option("--record", options->record, record_help);
-  verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
   verb->add_option("--plans", options->plans, plans_help);
-  verb->add_option("--platform", options->platform, "mavlink, or test: the language's own test vehicles, no MAVLink")
-      ->check(CLI::IsMember({"mavlink", "test"}));
   verb->add_option("--seed", options->seed,
                    "Of all chance: simulated vehicles and what the script draws by lot; sets a fixed calendar too, so "
-                   "that a run repeats");
+                   "that a run repeats")
+      ->check(not_negative());
   verb->add_option("--events", options->events,
-                   "With --platform test: write task events to this file as JSON lines (- for standard output)");
+                   "Write what happens to tasks to this file as JSON lines (- for standard output)");
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

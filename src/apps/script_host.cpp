@@ -101,6 +101,17 @@ void ScriptHost::halt(std::string reason) {
   stop();
 }
 
+base::Task<> ScriptHost::halt_after(base::Duration timeout) {
+  co_await loop_.sleep(timeout);
+  halt(fmt::format("time-out: the script still ran after {:g} s", base::to_seconds(timeout)));
+}
+
+StallWatch ScriptHost::halt_when_time_stands_still(std::chrono::seconds patience) {
+  return StallWatch(loop_, patience, [this, patience] {
+    halt(fmt::format("the script let no time pass for {} s: it waits for nothing and never ends", patience.count()));
+  });
+}
+
 base::Task<> ScriptHost::ended() {
   while (engine_.is_running() || status_.state == station::ScriptState::running) co_await ended_.wait();
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/report.hpp"
+#include "apps/stall_watch.hpp"
 #include "base/scope.hpp"
 #include "dolphin/engine.hpp"
 #include "station/script_control.hpp"
@@ -28,6 +29,11 @@ class ScriptHost final : public station::ScriptControl {
 
   /// Like `stop`, for another reason than the operator's wish; the outcome then is halted, with that reason.
   void halt(std::string reason);
+  /// Halts the script when it still runs after so much of the loop's time. Cancelling this calls it off.
+  [[nodiscard]] base::Task<> halt_after(base::Duration timeout);
+  /// As long as it lives, a script that is busy without letting any time pass is halted after `patience` of the wall's
+  /// clock: on a loop without pace it would never end.
+  [[nodiscard]] StallWatch halt_when_time_stands_still(std::chrono::seconds patience = std::chrono::seconds(30));
   /// Ends when no script runs.
   [[nodiscard]] base::Task<> ended();
 

@@ -44,14 +44,14 @@ base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
 Session::Session(Options const& options)
     : loop(pace_of(options)),
       log(hub, "lapwing"),
-      ground(loop, options.on_stop, log, {.asks_for_messages = !options.listens_only}, options.plans.library,
-             options.signing_key),
+      ground(loop, options.on_stop, log, {.payload = options.payload, .asks_for_messages = !options.listens_only},
+             options.plans.library, options.signing_key),
       console(make_console(loop, log)),
       host(
-          loop, ground.platform, *console, log,
-          [this](tasks::TaskEvent const& event) { log.named("task").info(to_log_text(event)); },
+          loop, ground.platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
-      on_stop_(options.on_stop) {
+      on_stop_(options.on_stop),
+      events_(options.events) {
   hub.add_sink(terminal_sink(options.log_level));
   auto const plans = log.named("plans");
   for (auto const& note : options.plans.notes) plans.info(note);
@@ -100,19 +100,23 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
 
 void Session::run_to_end(std::optional<base::Duration> timeout) {
   StopSignals const signals(loop, [this] { host.stop(); });
+  auto const stall = host.halt_when_time_stands_still();
   loop.run_until_done(finish(timeout));
 }
 
 base::Task<> Session::finish(std::optional<base::Duration> timeout) {
   base::Scope scope(loop);
-  if (timeout) scope.spawn(halt_after(*timeout));
+  if (timeout) scope.spawn(host.halt_after(*timeout));
   co_await host.ended();
   co_await ground.platform.make_safe(on_stop_);
 }
 
-base::Task<> Session::halt_after(base::Duration timeout) {
-  co_await loop.sleep(timeout);
-  host.halt(fmt::format("time-out: the script still ran after {:g} s", base::to_seconds(timeout)));
+void Session::note(tasks::TaskEvent const& event) {
+  log.named("task").info(to_log_text(event));
+  tasks::Carrier carrier;
+  if (auto const* vehicle = event.vehicle ? ground.registry.find(*event.vehicle) : nullptr)
+    carrier = {.home = vehicle->home.value, .autopilot = vehicle->autopilot, .family = vehicle->family};
+  if (events_) events_->write(event, carrier);
 }
 
 RunReport Session::report() const {

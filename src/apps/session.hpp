@@ -1,9 +1,12 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "apps/event_file.hpp"
 #include "apps/ground.hpp"
 #include "apps/plans.hpp"
 #include "apps/recording.hpp"
@@ -24,6 +27,8 @@ class Session {
     double speedup = 1.0;  ///< 0: as fast as the machine computes
     fleet::OnStop on_stop = fleet::OnStop::loiter;
     LoadedPlans plans = {};
+    std::map<int, std::vector<std::string>> payload = {};  ///< system id -> equipment, as scripts ask for it
+    EventFile const* events = nullptr;                     ///< outlives the session
     base::LogLevel log_level = base::LogLevel::info;
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
     std::optional<std::uint64_t> seed = std::nullopt;
@@ -59,9 +64,10 @@ class Session {
 
  private:
   base::Task<> finish(std::optional<base::Duration> timeout);
-  base::Task<> halt_after(base::Duration timeout);
+  void note(tasks::TaskEvent const& event);
 
   fleet::OnStop on_stop_;
+  EventFile const* events_;
 };
 
 /// Prints an error the way every verb does: what went wrong, then what to do.

@@ -28,6 +28,7 @@ struct SimOptions {
   std::uint64_t seed = 1;
   int first_id = 1;
   bool realistic_boot = false;
+  std::optional<double> swap_batteries_s;
   std::vector<std::string> parameters;
   std::string signing_key;
 };
@@ -57,6 +58,7 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   auto const key = read_signing_key(options.signing_key);
   if (!key) return std::unexpected(key.error());
   world.signing_key = *key;
+  if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
   world.boot = options.realistic_boot ? sim::BootStyle::realistic : sim::BootStyle::quick;
   return world;
 }
@@ -88,7 +90,7 @@ int simulate(SimOptions const& options) {
 void add_sim(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<SimOptions>();
   auto* verb = program.add_subcommand("sim", "Simulated vehicles that speak MAVLink, for any ground station");
-  verb->add_option("--vehicles", options->vehicles, "What and how many: copter:2,rover:1,plane:1")
+  verb->add_option("--vehicles", options->vehicles, "What and how many: copter:2,plane:1,rover:1,boat:1,sub:1")
       ->capture_default_str();
   verb->add_option("--home", options->home, "LAT,LON,ALT[,HEADING] in degrees and metres")->capture_default_str();
   verb->add_option("--out", options->out, "Where the vehicles send")->capture_default_str();
@@ -100,12 +102,15 @@ void add_sim(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0.0, 60.0));
   verb->add_option("--duplicate", options->duplication, "Share of packets that arrive twice")
       ->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--seed", options->seed, "The same seed gives the same noise and losses")->capture_default_str();
+  verb->add_option("--seed", options->seed, "The same seed gives the same noise and losses")
+      ->check(not_negative())
+      ->capture_default_str();
   verb->add_option("--first-id", options->first_id, "System id of the first vehicle")
       ->check(CLI::Range(1, 250))
       ->capture_default_str();
   verb->add_option("--param", options->parameters, "NAME=VALUE: a parameter of every vehicle; may come several times");
   verb->add_option("--signing-key", options->signing_key, signing_key_help);
+  verb->add_option("--swap-batteries", options->swap_batteries_s, swap_help)->check(CLI::Range(1.0, 1e6));
   verb->add_flag("--realistic-boot", options->realistic_boot, "Take 41 s to start up, as ArduPilot does, instead of 3");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }

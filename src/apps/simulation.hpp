@@ -15,6 +15,10 @@ struct HomePlace {
 };
 [[nodiscard]] base::Result<HomePlace> parse_home(std::string const& text);
 
+/// For --swap-batteries of every verb that simulates.
+inline constexpr auto swap_help =
+    "A simulated vehicle that has stood disarmed for so many seconds gets a full battery; default: none ever does";
+
 /// Simulated vehicles beside their ground station in one process, over MAVLink/UDP on loopback like any others. Listens
 /// on the first free port from 14550 up.
 [[nodiscard]] base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::WorldOptions options,

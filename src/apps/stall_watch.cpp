@@ -2,6 +2,8 @@
 
 #include "apps/stall_watch.hpp"
 
+#include <ctime>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -18,8 +20,13 @@ struct StallWatch::Waiting : std::enable_shared_from_this<Waiting> {
     });
   }
   void look() {
-    left = loop.now() == seen ? left - std::chrono::seconds(1) : whole;
+    // Time also stands still while a question waits for its answer, but then nothing is busy.
+    constexpr auto least_work = CLOCKS_PER_SEC / 10;
+    bool const is_busy = std::clock() - worked > least_work;
+    if (loop.now() != seen) left = whole;
+    if (loop.now() == seen && is_busy) left -= std::chrono::seconds(1);
     seen = loop.now();
+    worked = std::clock();
     if (left > std::chrono::seconds(0)) return wait();
     on_stall();
   }
@@ -30,6 +37,7 @@ struct StallWatch::Waiting : std::enable_shared_from_this<Waiting> {
   boost::asio::steady_timer timer;
   std::function<void()> on_stall;
   base::TimePoint seen{};
+  std::clock_t worked = std::clock();
 };
 
 StallWatch::StallWatch(base::Loop& loop, std::chrono::seconds patience, std::function<void()> on_stall)

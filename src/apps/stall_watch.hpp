@@ -11,7 +11,8 @@ namespace lapwing::apps {
 /// Notices, by the wall's clock, that time on an unpaced loop does not go on: somebody is busy without end.
 class StallWatch {
  public:
-  /// Calls `on_stall` on the loop, once, when its time has stood still for about `patience`.
+  /// Calls `on_stall` on the loop, once, when the program has been busy for about `patience` while its time stood
+  /// still.
   StallWatch(base::Loop& loop, std::chrono::seconds patience, std::function<void()> on_stall);
   ~StallWatch();
   StallWatch(StallWatch const&) = delete;

@@ -15,6 +15,11 @@ enum ExitCode : int {
   exit_interrupted = 130  ///< interrupted, vehicles made safe
 };
 
+/// For options that count from 0: "-1" would become the largest number there is.
+inline CLI::Validator not_negative() {
+  return {[](std::string const& text) { return text.starts_with('-') ? "must be 0 or more, not " + text : ""; }, ""};
+}
+
 // Each adds its subcommand to `program`; the chosen one writes `exit_code`.
 void add_run(CLI::App& program, int& exit_code);
 void add_demo(CLI::App& program, int& exit_code);
