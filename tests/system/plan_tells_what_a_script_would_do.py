@@ -83,7 +83,7 @@ with tempfile.TemporaryDirectory() as name:
     expect(err, "message")
     _, err = harness.expect_exit(2, "plan", script("v = pick { id '7' }"))
     expect(err, "script.dolphin:1", "--vehicles")
-    _, err = harness.expect_exit(2, "plan", script("v = pick { type 'UUV' }"))
+    _, err = harness.expect_exit(2, "plan", script("v = pick { type 'Balloon' }"))
     expect(err, "UUV", "copters")
     for wrong in (["--wind", "5"], ["--wind", "1,99"], ["--home", "1"], ["--vehicles", "ship"], ["--timeout", "0"]):
         _, err = harness.expect_exit(2, "plan", script(SQUARE), *wrong)
