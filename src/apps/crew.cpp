@@ -45,9 +45,8 @@ std::vector<std::string> payload_for(dolphin::Needs const& needs) {
   return names;
 }
 
-std::map<int, std::vector<std::string>> equipped(sim::WorldOptions const& world,
-                                                 std::vector<std::string> const& payload) {
-  std::map<int, std::vector<std::string>> equipment;
+Equipment equipped(sim::WorldOptions const& world, std::vector<std::string> const& payload) {
+  Equipment equipment;
   int system_id = world.first_system_id;
   for (auto const& group : world.vehicles)
     for (int i = 0; i < group.count; ++i) equipment[system_id++] = payload;

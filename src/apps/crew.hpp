@@ -1,9 +1,9 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
+#include "apps/equipment.hpp"
 #include "base/error.hpp"
 #include "base/source.hpp"
 #include "dolphin/needs.hpp"
@@ -19,8 +19,7 @@ namespace lapwing::apps {
 /// The equipment that any of the picks asks for, each once.
 [[nodiscard]] std::vector<std::string> payload_for(dolphin::Needs const& needs);
 /// The same equipment for every vehicle, by system id.
-[[nodiscard]] std::map<int, std::vector<std::string>> equipped(sim::WorldOptions const& world,
-                                                               std::vector<std::string> const& payload);
+[[nodiscard]] Equipment equipped(sim::WorldOptions const& world, std::vector<std::string> const& payload);
 /// What a script needs, as far as its text says it; a text that cannot be read needs nothing.
 [[nodiscard]] dolphin::Needs needs_of_text(std::string const& name, std::string const& text);
 /// "copter:2,rover:1"

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "apps/crew.hpp"
+#include "apps/equipment.hpp"
 #include "apps/files.hpp"
 #include "apps/harness_run.hpp"
 #include "apps/secret_file.hpp"
@@ -19,8 +19,6 @@
 namespace lapwing::apps {
 
 namespace {
-
-using Equipment = std::map<int, std::vector<std::string>>;
 
 struct RunOptions {
   std::vector<std::string> scripts;
@@ -66,25 +64,6 @@ base::Result<sim::WorldOptions> world_for(RunOptions const& options, dolphin::Ne
     world.home = *needs.home;
   }
   return world;
-}
-
-/// "3=Sidescan,Multibeam"
-base::Result<> add_payload(std::string const& text, Equipment& equipment) {
-  auto const equals = text.find('=');
-  int system_id = 0;
-  auto const [end, error] = std::from_chars(text.data(), text.data() + std::min(equals, text.size()), system_id);
-  bool const is_id = error == std::errc() && equals != std::string::npos && end == text.data() + equals;
-  if (!is_id || system_id < 1 || system_id > 255 || equals + 1 == text.size()) {
-    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no payload of a vehicle", text),
-                      "write ID=NAME,NAME with the vehicle's system id, for example --payload 3=Sidescan,Multibeam");
-  }
-  auto& names = equipment[system_id];
-  for (auto at = equals + 1; at <= text.size();) {
-    auto const comma = std::min(text.find(',', at), text.size());
-    if (comma > at) names.push_back(text.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return {};
 }
 
 /// What the user says; simulated vehicles carry what the script asks for as well.
@@ -231,10 +210,8 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--delay", options.delay_s, "With --sim: seconds that each packet is late, each way")
       ->check(CLI::Range(0.0, 60.0));
   verb.add_option("--swap-batteries", options.swap_batteries_s, swap_help)->check(CLI::Range(1.0, 1e6));
-  verb.add_option(
-          "--payload", options.payload,
-          "What the vehicle of a system id carries, by the names that scripts use: 3=Sidescan,Multibeam (may be "
-          "repeated); simulated vehicles carry what the script asks for")
+  verb.add_option("--payload", options.payload,
+                  std::string(payload_help) + "; simulated ones carry what the script asks for too")
       ->allow_extra_args(false);
   verb.add_option("--on-stop", options.on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
   verb.add_option("--platform", options.platform, "mavlink, or test: the language's own test vehicles, no MAVLink")

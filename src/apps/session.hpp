@@ -1,11 +1,11 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/equipment.hpp"
 #include "apps/event_file.hpp"
 #include "apps/ground.hpp"
 #include "apps/plans.hpp"
@@ -27,8 +27,8 @@ class Session {
     double speedup = 1.0;  ///< 0: as fast as the machine computes
     fleet::OnStop on_stop = fleet::OnStop::loiter;
     LoadedPlans plans = {};
-    std::map<int, std::vector<std::string>> payload = {};  ///< system id -> equipment, as scripts ask for it
-    EventFile const* events = nullptr;                     ///< outlives the session
+    Equipment payload = {};
+    EventFile const* events = nullptr;  ///< outlives the session
     base::LogLevel log_level = base::LogLevel::info;
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
     std::optional<std::uint64_t> seed = std::nullopt;

@@ -19,6 +19,7 @@ namespace {
 struct StationArguments {
   std::string config;
   std::vector<std::string> links;
+  std::vector<std::string> payload;
   std::string plans;
   std::optional<std::string> on_stop;
   std::optional<std::string> scripts;
@@ -53,6 +54,9 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
   if (!config) return config;
   if (!arguments.links.empty()) config->links = arguments.links;
   if (config->links.empty()) config->links = {default_link};
+  for (auto const& text : arguments.payload) {
+    if (auto added = add_payload(text, config->payload); !added) return std::unexpected(added.error());
+  }
   if (arguments.on_stop) {
     auto const on_stop = parse_on_stop(*arguments.on_stop);
     if (!on_stop) return std::unexpected(on_stop.error());
@@ -76,7 +80,10 @@ int serve(StationArguments const& arguments) {
   if (!plans) return refuse(plans.error());
   auto const key = read_signing_key(config->signing_key);
   if (!key) return refuse(key.error());
-  Session session({.on_stop = config->on_stop, .plans = *std::move(plans), .signing_key = *key});
+  Session session({.on_stop = config->on_stop,
+                   .plans = *std::move(plans),
+                   .payload = config->payload,
+                   .signing_key = *key});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
   }
@@ -102,6 +109,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--config", arguments->config, "TOML file with the settings; options given here go before it");
   verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(default_link));
+  verb->add_option("--payload", arguments->payload, payload_help);
   add_web_options(*verb, arguments->web);
   verb->add_option("--scripts", arguments->scripts, "Folder whose scripts the map offers")
       ->check(CLI::ExistingDirectory);

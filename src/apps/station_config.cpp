@@ -40,6 +40,15 @@ void read_links(ConfigReader& root, Diagnostics& diagnostics, StationConfig& con
   }
 }
 
+void read_payload(ConfigReader& root, Diagnostics& diagnostics, StationConfig& config) {
+  auto const payload = root.texts("payload");
+  if (!payload) return;
+  for (auto const& [text, span] : *payload) {
+    if (auto const added = add_payload(text, config.payload); !added)
+      diagnostics.report(base::config_kinds::invalid_value, span, added.error().message, added.error().hint);
+  }
+}
+
 void read_on_stop(ConfigReader& root, Diagnostics& diagnostics, StationConfig& config) {
   auto const text = root.text("on_stop");
   if (!text) return;
@@ -116,6 +125,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   if (diagnostics.has_errors()) return config;
   ConfigReader root(entries, diagnostics);
   read_links(root, diagnostics, config);
+  read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
   if (auto const file = root.text("signing_key")) config.signing_key = beside(source, file->value).string();
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/equipment.hpp"
 #include "apps/web_access.hpp"
 #include "base/diagnostic.hpp"
 #include "fleet/vehicle_actions.hpp"
@@ -23,6 +24,7 @@ struct MapContent {
 /// A ground station as its file describes it: docs/reference/station-config.md.
 struct StationConfig {
   std::vector<std::string> links;  ///< empty: the default link
+  Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   std::string signing_key = {};  ///< file; empty: nothing is signed
   std::string record = {};       ///< folder for recordings; empty: none are made

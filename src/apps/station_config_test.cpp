@@ -66,6 +66,16 @@ scripts = "."
   EXPECT_EQ(read.config.map.scripts, LAPWING_SOURCE_DIR "/examples/.");
 }
 
+TEST(StationConfig, ReadsWhatVehiclesCarry) {
+  Read const read("payload = [\"3=Sidescan,Multibeam\", \"4=Camera\", \"3=Lamp\"]");
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_EQ(read.config.payload, (Equipment{{3, {"Sidescan", "Multibeam", "Lamp"}}, {4, {"Camera"}}}));
+  for (auto const* wrong : {"Camera", "=Camera", "0=Camera", "256=Camera", "3=", "x3=Camera"}) {
+    auto const complaint = first_complaint("payload = [\"" + std::string(wrong) + "\"]");
+    EXPECT_NE(complaint.find("is no payload of a vehicle"), std::string::npos) << wrong << ": " << complaint;
+  }
+}
+
 TEST(StationConfig, TakesTheExample) {
   std::string const path = LAPWING_SOURCE_DIR "/examples/station.toml";
   Read const read(read_script(path).value(), path);
