@@ -11,7 +11,9 @@ HEAD = "base = location(41.1780, -8.5980, 90)\nm = mission {\n  name 'm'\n  home
 UP = "  takeOff location(41.1780, -8.5980, 130)\n"
 TAIL = "}\nv = pick { type '%s'; timeout 30.seconds }\nexecute v: m\n"
 
-# name: (vehicle, commands); those of planes do not end on the ground, where they circle for ever.
+TYPES = {"copter": "UAV", "plane": "UAV", "rover": "UGV", "boat": "USV", "sub": "UUV"}
+
+# name: (vehicle, commands)
 MISSIONS = {
     "hop": ("copter", UP + "  move 60, 0\n  returnHomeAndLand()\n"),
     "far": ("copter", UP + "  move 800, 0\n  move 0, 500\n  move (-800), 100\n  returnHomeAndLand()\n"),
@@ -22,9 +24,13 @@ MISSIONS = {
     "round": ("rover", "  move 0, 60\n  move 80, 0\n  move 0, (-120)\n  move (-80), 0\n  returnHome()\n"),
     "slow round": ("rover", "  speed 2\n  move 0, 40\n  move 40, 0\n  move 0, (-40)\n  returnHome()\n"),
     "rover survey": ("rover", "  surveyArea 80, 60, 10, 'NORTH_EAST'\n  returnHome()\n"),
+    "boat round": ("boat", "  move 0, 60\n  move 80, 0\n  moveAndLoiterTime 0, (-60), 0, 20\n  returnHome()\n"),
+    "dive": ("sub", "  move 30, 0, (-5)\n  move 0, 40, (-3)\n  move (-30), 0, 6\n  returnHome()\n"),
+    "sub survey": ("sub", "  moveFromHome 5, 5, (-4)\n  surveyArea 60, 40, 10, 'NORTH_EAST'\n  returnHomeAndLand()\n"),
     "plane square": ("plane", UP + "  move 1000, 0\n  move 0, 1000\n  move (-1000), 0\n  move 0, (-1000)\n"),
     "plane survey": ("plane", UP + "  surveyArea 1500, 800, 200, 'NORTH_EAST'\n"),
     "plane climb": ("plane", UP + "  move 1500, 0, 150\n  move 1000, 500, (-100)\n"),
+    "plane landing": ("plane", UP + "  move 1000, 0\n  move 0, 600\n  move (-1600), 0\n  returnHomeAndLand()\n"),
 }
 
 wrong = []
@@ -32,7 +38,7 @@ with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     for title, (kind, commands) in MISSIONS.items():
         script, report = folder / "m.dolphin", folder / "m.json"
-        script.write_text(HEAD + commands + TAIL % ("UGV" if kind == "rover" else "UAV"))
+        script.write_text(HEAD + commands + TAIL % TYPES[kind])
         out, err = harness.expect_exit(0, "plan", str(script), "--vehicles", kind, "--json", str(report))
         mission = json.loads(report.read_text())["vehicles"][0]["missions"][0]
         line = f"{title:14}"
