@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/crew.hpp"
 #include "apps/files.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
@@ -49,14 +50,19 @@ int demo(DemoOptions const& options) {
   auto const vehicles = sim::parse_vehicles(options.vehicles);
   if (!vehicles) return refuse(vehicles.error());
 
+  auto const needs = needs_of_text(script, *source);
+  sim::WorldOptions world;
+  world.vehicles = *vehicles;
+  world.home = needs.home.value_or(world.home);
+
   // Fast enough not to bore, slow enough to follow.
   constexpr double watchable = 4.0;
-  Session session({.speedup = options.speedup.value_or(options.headless ? 0.0 : watchable), .on_stop = *on_stop});
+  Session session({.speedup = options.speedup.value_or(options.headless ? 0.0 : watchable),
+                   .on_stop = *on_stop,
+                   .payload = equipped(world, payload_for(needs))});
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
   }
-  sim::WorldOptions world;
-  world.vehicles = *vehicles;
   if (!options.headless) {
     WebAccess access;
     apply(options.web, access);
