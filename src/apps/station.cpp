@@ -80,10 +80,8 @@ int serve(StationArguments const& arguments) {
   if (!plans) return refuse(plans.error());
   auto const key = read_signing_key(config->signing_key);
   if (!key) return refuse(key.error());
-  Session session({.on_stop = config->on_stop,
-                   .plans = *std::move(plans),
-                   .payload = config->payload,
-                   .signing_key = *key});
+  Session session(
+      {.on_stop = config->on_stop, .plans = *std::move(plans), .payload = config->payload, .signing_key = *key});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
   }

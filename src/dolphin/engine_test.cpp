@@ -210,7 +210,7 @@ TEST(Position, IsWaitedForNoLongerThanTheConnectionTimeout) {
   }));
   EXPECT_EQ(bench.run("setConnectionTimeout 10.seconds\nv = pick { id 'z9' }\n"
                       "try { print position(v) } catch (e) { print e.message }\nprint position(v)"),
-            "the position of vehicle z9 is not known yet(41.000000,-8.000000,5.000)exit 0 at 15.0\n");
+            "the position of vehicle z9 is not known(41.000000,-8.000000,5.000)exit 0 at 15.0\n");
 }
 
 TEST(Battery, IsWaitedForOnceAndNoLongerThanTheConnectionTimeout) {

@@ -131,7 +131,7 @@ class ExecuteCheck {
   template <class Test>
   [[nodiscard]] bool all_picked(Test test) const {
     if (state_.most_picked().value_or(0) == 0) return false;
-    for (PickIndex pick = 0; pick < state_.pick_count(); ++pick) {
+    for (PickIndex pick = 0; pick < state_.picks().size(); ++pick) {
       if (!test(pick)) return false;
     }
     return true;

@@ -47,7 +47,6 @@ class VehicleState {
 
   [[nodiscard]] PickIndex add(Pick pick);
   [[nodiscard]] Pick const& pick(PickIndex index) const { return picks_[index]; }
-  [[nodiscard]] std::size_t pick_count() const { return picks_.size(); }
   /// Every one that was followed so far, of all branches.
   [[nodiscard]] std::span<Pick const> picks() const { return picks_; }
   /// `yes` only while nothing has been picked since: a later pick may have taken the same vehicles again.
