@@ -263,7 +263,8 @@ base::Task<base::Result<>> Upload::run() {
       }
       ended = repeat();
     } else {
-      heard = party_.now();
+      // Only its requests show that the vehicle is still at it: one that gave up refuses every item that comes late.
+      if (!std::holds_alternative<MissionAck>(*got)) heard = party_.now();
       if (auto const* ack = std::get_if<MissionAck>(&*got))
         ended = take_ack(ack->result);
       else if (auto const* request = std::get_if<MissionRequest>(&*got))

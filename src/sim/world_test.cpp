@@ -95,6 +95,24 @@ TEST(World, AnUploadSurvivesThirtyPercentLossAndDelay) {
   EXPECT_EQ(ground.vehicle().mission().size(), 20u);
 }
 
+// A vehicle that gave the upload up refuses every late item; taken for signs of life, its refusals once kept an upload
+// going for 15 hours.
+TEST(World, AnUploadOverALinkThatLosesHalfComesToAnEnd) {
+  WorldOptions options;
+  options.seed = 4;
+  options.impairment = {.loss = 0.5};
+  TestGround ground("copter", options);
+  ground.run_for(6s);
+  ItemMaker const make{ground.world.options().home};
+  std::vector<MissionItem> items;
+  for (int i = 0; i < 500; ++i) items.push_back(make.waypoint(10.0 * (i % 50), 0, 20));
+  auto const began = ground.loop.now();
+  auto const uploaded =
+      ground.loop.run_until_done(upload_mission(ground.gcs, {1, 1}, items, MissionType::mission, {.restarts = 3}));
+  EXPECT_TRUE(uploaded.has_value()) << (uploaded ? "" : uploaded.error().message);
+  EXPECT_LT(ground.loop.now() - began, 20min);
+}
+
 TEST(World, ParksVehiclesApartAndNumbersThem) {
   TestGround ground("copter:11,rover:2");
   ground.boot();
