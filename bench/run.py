@@ -94,7 +94,7 @@ def upload(repeats: int = 3) -> list:
                     with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{port}", "--loss", str(loss),
                                    "--seed", str(repeat + 1)):
                         try:
-                            done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=130)
+                            done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=400)
                             if done.returncode == 0:
                                 seconds.append(float(done.stdout))
                             else:
