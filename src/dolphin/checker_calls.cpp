@@ -55,6 +55,29 @@ std::size_t positional_count(ast::Call const& call) {
   return static_cast<std::size_t>(std::ranges::count_if(call.arguments, positional));
 }
 
+/// For words that other languages have for what an instruction does; empty for any other.
+std::string in_our_words(std::string_view word) {
+  struct Word {
+    std::string_view theirs;
+    std::string_view hint;
+  };
+  static constexpr Word words[] = {
+      {"wait", "pause 5 waits 5 seconds"},
+      {"sleep", "pause 5 waits 5 seconds"},
+      {"echo", "message 'text' prints for the operator"},
+      {"printf", "message \"text with ${values}\" prints for the operator"},
+      {"input", "ask 'question' waits for a line"},
+      {"exit", "halt 'reason' ends the script"},
+      {"quit", "halt 'reason' ends the script"},
+      {"abort", "halt 'reason' ends the script"},
+      {"run", "execute task runs a task"},
+      {"start", "execute task runs a task"},
+      {"fly", "execute task runs a task"},
+  };
+  auto const* found = std::ranges::find(words, word, &Word::theirs);
+  return found == std::end(words) ? std::string() : std::string(found->hint);
+}
+
 }  // namespace
 
 void Checker::call(ast::Expr const& expr) {
@@ -93,6 +116,7 @@ void Checker::undefined_call(ast::Call const& call, base::Span span) {
   if (!may_be_defined_in_unread(text) && reported_.insert(text).second) {
     auto hint = suggestion(text);
     if (hint.empty()) hint = block_of(text);
+    if (hint.empty()) hint = in_our_words(text);
     auto const where = contexts_.empty() ? "" : fmt::format(" inside {}", contexts_.back().name);
     diagnostics_.report(code("unknown-instruction"), span, fmt::format("there is no instruction {}{}", text, where),
                         std::move(hint));
