@@ -77,8 +77,9 @@ def is_guarded(port, token):
     assert status_of(port, Host="evil.example", **bearer)[0] == 403, "DNS rebinding"
 
 
-for verb in ("station", "demo"):
-    out, err = harness.expect_exit(2, verb, "--bind", "0.0.0.0", "--port", "0", seconds=30)
+link = ("--link", f"udpin://127.0.0.1:{harness.free_udp_port()}")  # the default port may be another test's
+for verb in (("station", *link), ("demo",)):
+    out, err = harness.expect_exit(2, *verb, "--bind", "0.0.0.0", "--port", "0", seconds=30)
     assert "--generate-token" in err and "--token-file" in err, err
 
 with station("--bind", "0.0.0.0", "--generate-token") as (port, token):
@@ -89,7 +90,7 @@ with tempfile.TemporaryDirectory() as folder:
     file = pathlib.Path(folder, "station.token")
     file.write_text("a-token-of-our-own-choice\n")
     file.chmod(0o644)
-    out, err = harness.expect_exit(2, "station", "--bind", "0.0.0.0", "--token-file", str(file), seconds=30)
+    out, err = harness.expect_exit(2, "station", *link, "--bind", "0.0.0.0", "--token-file", str(file), seconds=30)
     assert f"chmod 600 {file}" in err and "a-token-of-our-own-choice" not in err, err
     file.chmod(0o600)
 
