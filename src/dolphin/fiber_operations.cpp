@@ -192,11 +192,11 @@ void Fiber::execute_call(Instruction i) {
     case Op::call_method: return call_method(name(i.a), i.b);
     case Op::call_static: {
       auto result = call_static(runtime_, *this, name(i.a), arguments(i.b));
-      return replace(i.b, std::move(result));
+      return replace(static_cast<std::size_t>(i.b), std::move(result));
     }
     case Op::construct: {
       auto result = construct(runtime_, name(i.a), arguments(i.b), static_cast<int>(line()));
-      return replace(i.b, std::move(result));
+      return replace(static_cast<std::size_t>(i.b), std::move(result));
     }
     default: return;
   }
@@ -300,7 +300,7 @@ void Fiber::execute_block(Instruction i) {
                   fmt::format("{} is used after its {} block has ended", wanted.command, wanted.block)});
   }
   auto const done = (*found)->command(wanted.command, arguments(i.b));
-  drop(i.b);
+  drop(static_cast<std::size_t>(i.b));
   if (!done) return raise(done.error());
   push(Value());
 }
