@@ -20,18 +20,13 @@ std::uint64_t big_endian_64(std::uint8_t const* bytes) {
   return value;
 }
 
-/// Bytes of the packet as it travelled.
-std::size_t size_of(Frame const& frame) {
-  return (frame.version == 2 ? 10U : 6U) + frame.payload_size + 2U + (frame.is_signed() ? frame.signature.size() : 0U);
-}
-
 /// Of the packet that `bytes` begin with; 0 when they begin with none.
 std::size_t packet_size(std::span<std::uint8_t const> bytes) {
   std::size_t size = 0;
   FrameParser parser;
   parser.feed(bytes.first(std::min(bytes.size(), max_frame_size)), [&](Frame const& frame) {
     bool const is_first = parser.counters().frames == 1 && parser.counters().junk_bytes == 0;
-    if (is_first) size = size_of(frame);
+    if (is_first) size = serialize_as_received(frame).bytes().size();
   });
   return size;
 }
