@@ -195,10 +195,6 @@ SourceCounters Connection::counters(Address source) const {
   return routes_->counters(source);
 }
 
-SigningCounters Connection::signing_counters() const {
-  return guard_ ? guard_->counters() : SigningCounters{};
-}
-
 ParserCounters Connection::parser_counters(std::size_t link) const {
   return routes_->parser_counters(link);
 }

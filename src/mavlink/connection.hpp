@@ -116,8 +116,6 @@ class Connection {
   [[nodiscard]] SourceCounters counters(Address source) const;
   /// Summed over the peers of one link.
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
-  /// All zero without a key.
-  [[nodiscard]] SigningCounters signing_counters() const;
   [[nodiscard]] std::vector<std::unique_ptr<link::ByteLink>> const& links() const { return links_; }
 
   [[nodiscard]] base::Loop& loop() const { return loop_; }
