@@ -197,17 +197,24 @@ TEST(Battery, IsWaitedForUntilItsFirstReport) {
   EXPECT_EQ(bench.run("v = pick { id 'z9' }\nprint battery(v)"), "0.5exit 0 at 3.0\n");
 }
 
+/// Says where it is when the loop's time is `seconds`.
+struct LatePosition {
+  explicit LatePosition(Bench& bench, double seconds) : scope(bench.loop) {
+    auto lost = copter("z9");
+    lost.position.reset();
+    lost.connection_timeout = std::chrono::seconds(20);
+    bench.platform.set_vehicle(lost);
+    scope.spawn(at(bench.loop, seconds, [&bench, found = lost]() mutable {
+      found.position = geo::Wgs84::from_degrees(41.0, -8.0, 5.0);
+      bench.platform.set_vehicle(found);
+    }));
+  }
+  base::Scope scope;
+};
+
 TEST(Position, IsWaitedForNoLongerThanTheConnectionTimeout) {
   Bench bench;
-  auto lost_in_space = copter("z9");
-  lost_in_space.position.reset();
-  lost_in_space.connection_timeout = std::chrono::seconds(20);
-  bench.platform.set_vehicle(lost_in_space);
-  base::Scope scope(bench.loop);
-  scope.spawn(at(bench.loop, 15.0, [&bench, lost_in_space]() mutable {
-    lost_in_space.position = geo::Wgs84::from_degrees(41.0, -8.0, 5.0);
-    bench.platform.set_vehicle(lost_in_space);
-  }));
+  LatePosition const report(bench, 15.0);
   EXPECT_EQ(bench.run("setConnectionTimeout 10.seconds\nv = pick { id 'z9' }\n"
                       "try { print position(v) } catch (e) { print e.message }\nprint position(v)"),
             "the position of vehicle z9 is not known(41.000000,-8.000000,5.000)exit 0 at 15.0\n");
@@ -229,18 +236,6 @@ TEST(Battery, KeepsNeitherGuardsNorOtherTasksWaiting) {
       "      | (idle(1) >> action { print 'other ' }) | (condition { !(battery(v) >= 0) })";
   EXPECT_EQ(bench.run(script), "other 0.5exit 0 at 3.1\n");
 }
-
-/// Says where it is when the loop's time is `seconds`.
-struct LatePosition {
-  explicit LatePosition(Bench& bench, double seconds) : scope(bench.loop) {
-    auto lost = copter("z9");
-    lost.position.reset();
-    lost.connection_timeout = std::chrono::seconds(20);
-    bench.platform.set_vehicle(lost);
-    scope.spawn(at(bench.loop, seconds, [&bench] { bench.platform.set_vehicle(copter("z9")); }));
-  }
-  base::Scope scope;
-};
 
 TEST(Position, IsWaitedForUntilItsFirstReport) {
   Bench bench;
