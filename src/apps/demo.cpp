@@ -24,11 +24,6 @@ struct DemoOptions {
   std::optional<double> speedup;
 };
 
-int refuse(base::Error const& error) {
-  print_error(error);
-  return error.kind == base::ErrorKind::io ? exit_halted : exit_usage;
-}
-
 /// The map stays open after the script has ended, until Ctrl-C.
 void keep_map(Session& session) {
   fmt::print(stderr, "the map stays open at {}; Ctrl-C ends\n", session.map->url());

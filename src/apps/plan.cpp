@@ -116,11 +116,6 @@ base::Result<plan::Fence> read_fence_file(std::string const& path, geo::Wgs84 ho
   return fence;
 }
 
-int refuse(base::Error const& error) {
-  print_error(error);
-  return exit_usage;
-}
-
 base::Result<> write_files(PlanOptions const& options, dryrun::FlightRecord const& record,
                            dryrun::Analysis const& analysis, plan::Fence const& fence) {
   if (!options.svg.empty()) {

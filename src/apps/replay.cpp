@@ -24,11 +24,6 @@ struct ReplayOptions {
   std::optional<double> speedup;
 };
 
-int refuse(base::Error const& error) {
-  print_error(error);
-  return error.kind == base::ErrorKind::io ? exit_halted : exit_usage;
-}
-
 /// The script that flew when the recording was made, where it was kept; to be read, not to be started.
 class RecordedScript final : public station::ScriptControl {
  public:

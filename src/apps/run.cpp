@@ -84,12 +84,6 @@ base::Result<> connect(Session& session, RunOptions const& options, std::optiona
   return session.simulate(*std::move(world));
 }
 
-int refuse(base::Error const& error) {
-  print_error(error);
-  return error.kind == base::ErrorKind::invalid_input || error.kind == base::ErrorKind::not_found ? exit_usage
-                                                                                                  : exit_halted;
-}
-
 /// To the user's file and beside the recording, if there is one.
 base::Result<> write_reports(Session const& session, RunOptions const& options) {
   std::vector<std::string> paths;

@@ -28,11 +28,6 @@ base::Loop::Pace pace_of(Session::Options const& options) {
 
 }  // namespace
 
-void print_error(base::Error const& error) {
-  fmt::print(stderr, "lapwing: {}\n", error.message);
-  if (!error.hint.empty()) fmt::print(stderr, "         {}\n", error.hint);
-}
-
 base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
   if (text == "loiter") return fleet::OnStop::loiter;
   if (text == "rtl") return fleet::OnStop::rtl;

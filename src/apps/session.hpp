@@ -70,9 +70,6 @@ class Session {
   EventFile const* events_;
 };
 
-/// Prints an error the way every verb does: what went wrong, then what to do.
-void print_error(base::Error const& error);
-
 /// Values of --on-stop.
 [[nodiscard]] base::Result<fleet::OnStop> parse_on_stop(std::string const& text);
 

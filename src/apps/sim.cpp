@@ -65,19 +65,13 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
 
 int simulate(SimOptions const& options) {
   auto world_of = world_options(options);
-  if (!world_of) {
-    print_error(world_of.error());
-    return exit_usage;
-  }
+  if (!world_of) return refuse(world_of.error());
   base::Loop loop(pace_for(options.speedup));
   base::LogHub hub;
   hub.add_sink(base::standard_error_sink(base::LogLevel::info));
   base::Logger const log(hub, "sim");
   sim::World world(loop, std::move(*world_of), log);
-  if (auto started = world.start(); !started) {
-    print_error(started.error());
-    return started.error().kind == base::ErrorKind::invalid_input ? exit_usage : exit_halted;
-  }
+  if (auto started = world.start(); !started) return refuse(started.error());
   fmt::print(stderr, "{} simulated vehicle{} to {}; Ctrl-C ends\n", world.vehicles().size(),
              world.vehicles().size() == 1 ? "" : "s", options.out);
   StopSignals const signals(loop, [&loop] { loop.stop(); });

@@ -29,11 +29,6 @@ struct StationArguments {
   WebArguments web;
 };
 
-int refuse(base::Error const& error) {
-  print_error(error);
-  return error.kind == base::ErrorKind::io ? exit_halted : exit_usage;
-}
-
 /// The file's settings, or nothing when it has mistakes, which have been shown.
 base::Result<StationConfig> load(std::string const& path) {
   auto text = read_script(path);

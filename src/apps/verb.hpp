@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/error.hpp"
+
 namespace lapwing::apps {
 
 /// Exit codes of every verb (docs/reference/command-line.md).
@@ -19,6 +21,11 @@ enum ExitCode : int {
 inline CLI::Validator not_negative() {
   return {[](std::string const& text) { return text.starts_with('-') ? "must be 0 or more, not " + text : ""; }, ""};
 }
+
+/// Prints an error the way every verb does: what went wrong, then what to do.
+void print_error(base::Error const& error);
+/// The same; returns the exit code that goes with it: bad usage when the request itself is wrong, halted otherwise.
+[[nodiscard]] int refuse(base::Error const& error);
 
 // Each adds its subcommand to `program`; the chosen one writes `exit_code`.
 void add_run(CLI::App& program, int& exit_code);
