@@ -65,14 +65,7 @@ base::Result<geo::Ned> parse_wind(std::string const& text) {
 }
 
 base::Result<> place_world(PlanOptions const& options, dolphin::Needs const& needs, sim::WorldOptions& world) {
-  if (!options.home.empty()) {
-    auto const home = parse_home(options.home);
-    if (!home) return std::unexpected(home.error());
-    world.home = home->place;
-    world.heading_rad = home->heading_rad;
-  } else if (needs.home) {
-    world.home = *needs.home;
-  }
+  if (auto placed = place(world, options.home, needs.home); !placed) return std::unexpected(placed.error());
   if (!options.wind.empty()) {
     auto const wind = parse_wind(options.wind);
     if (!wind) return std::unexpected(wind.error());

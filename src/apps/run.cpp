@@ -55,14 +55,7 @@ base::Result<sim::WorldOptions> world_for(RunOptions const& options, dolphin::Ne
   world.impairment.loss = options.loss;
   world.impairment.delay = base::from_seconds(options.delay_s);
   if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
-  if (!options.home.empty()) {
-    auto const home = parse_home(options.home);
-    if (!home) return std::unexpected(home.error());
-    world.home = home->place;
-    world.heading_rad = home->heading_rad;
-  } else if (needs.home) {
-    world.home = *needs.home;
-  }
+  if (auto placed = place(world, options.home, needs.home); !placed) return std::unexpected(placed.error());
   return world;
 }
 

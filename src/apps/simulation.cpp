@@ -50,6 +50,19 @@ base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::
   return world;
 }
 
+base::Result<> place(sim::WorldOptions& world, std::string const& said,
+                     std::optional<geo::Wgs84> const& home_of_script) {
+  if (said.empty()) {
+    world.home = home_of_script.value_or(world.home);
+    return {};
+  }
+  auto const home = parse_home(said);
+  if (!home) return std::unexpected(home.error());
+  world.home = home->place;
+  world.heading_rad = home->heading_rad;
+  return {};
+}
+
 base::Loop::Pace pace_for(double speedup, std::optional<std::uint64_t> seed) {
   constexpr std::chrono::sys_days start = std::chrono::year{2000} / std::chrono::January / 1;
   auto const begins_at = seed ? std::optional<base::UtcTime>(start) : std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/ground.hpp"
@@ -18,6 +19,10 @@ struct HomePlace {
 /// For --swap-batteries of every verb that simulates.
 inline constexpr auto swap_help =
     "A simulated vehicle that has stood disarmed for so many seconds gets a full battery; default: none ever does";
+
+/// Puts the world where the user says (`--home`), else where the script is at home, else leaves it where it is.
+[[nodiscard]] base::Result<> place(sim::WorldOptions& world, std::string const& said,
+                                   std::optional<geo::Wgs84> const& home_of_script);
 
 /// Simulated vehicles beside their ground station in one process, over MAVLink/UDP on loopback like any others. Listens
 /// on the first free port from 14550 up.
