@@ -1,24 +1,19 @@
 #include "dryrun/json.hpp"
 
-#include <cmath>
-
-#include <nlohmann/json.hpp>
+#include <cstdlib>
 
 #include "dryrun/missions.hpp"
+#include "geo/json.hpp"
 
 namespace lapwing::dryrun {
 
 using base::to_seconds;
-using Json = nlohmann::ordered_json;
+using geo::Json;
+using geo::rounded;
 
 namespace {
 
-double rounded(double value, int decimals) {
-  double const scale = std::pow(10.0, decimals);
-  return std::round(value * scale) / scale + 0.0;  // no negative zero
-}
-
-double seconds(base::Duration time) {
+Json seconds(base::Duration time) {
   return rounded(to_seconds(time), 3);
 }
 
@@ -26,12 +21,7 @@ double seconds(base::Duration time) {
 class Places {
  public:
   explicit Places(geo::Wgs84 home) : home_(home) {}
-  [[nodiscard]] Json at(geo::Ned offset) const {
-    auto const place = geo::displaced(home_, offset);
-    return {{"lat_deg", rounded(place.lat_deg(), 7)},
-            {"lon_deg", rounded(place.lon_deg(), 7)},
-            {"alt_m", rounded(place.alt_m, 2)}};
-  }
+  [[nodiscard]] Json at(geo::Ned offset) const { return geo::position_json(geo::displaced(home_, offset)); }
   [[nodiscard]] Json row(geo::Ned offset) const {
     auto const place = geo::displaced(home_, offset);
     return {rounded(place.lat_deg(), 7), rounded(place.lon_deg(), 7), rounded(place.alt_m, 2)};
