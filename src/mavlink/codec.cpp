@@ -8,6 +8,7 @@ std::optional<Message> decode(Frame const& frame) {
   // The busiest group first.
   if (auto message = internal::read_motion(frame)) return message;
   if (auto message = internal::read_state(frame)) return message;
+  if (auto message = internal::read_payload(frame)) return message;
   if (auto message = internal::read_mission(frame)) return message;
   return internal::read_command(frame);
 }

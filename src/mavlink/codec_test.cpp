@@ -123,6 +123,8 @@ TEST(Codec, KeepsTheUnknownUnknown) {
   EXPECT_FALSE(battery.temperature_c || battery.time_remaining);
   auto const gps = carried(GpsRaw{});
   EXPECT_FALSE(gps.hdop || gps.vdop || gps.ground_speed_m_s || gps.course_rad || gps.satellites);
+  EXPECT_FALSE(carried(RcChannels{}).rssi);
+  EXPECT_FALSE(carried(GimbalDeviceAttitudeStatus{}).delta_yaw_rad);
   EXPECT_FALSE(carried(MissionCurrent{.seq = 1}).total);
   EXPECT_EQ(carried(MissionCurrent{.seq = 0, .total = 0}).total, 0);
   EXPECT_FALSE(carried(CommandAck{.result = MavResult::in_progress}).progress);
@@ -190,6 +192,31 @@ TEST(Codec, CutsTextsAtTheirField) {
   EXPECT_EQ(carried(StatusText{.text = std::string(60, 'x')}).text, std::string(50, 'x'));
   EXPECT_EQ(carried(ParamSet{.name = "A_NAME_THAT_IS_TOO_LONG"}).name, "A_NAME_THAT_IS_T");
   EXPECT_EQ(carried(StatusText{.text = ""}).text, "");
+}
+
+TEST(Codec, CarriesWhatCamerasAndGimbalsSay) {
+  CameraImageCaptured image{.camera = 0, .position = geo::Wgs84::from_degrees(40.0, -8.0, 120.5)};
+  image.image = 17;
+  image.captured = true;
+  image.file_url = "mavlinkftp:/17.jpg";
+  auto const got = carried(image);
+  EXPECT_EQ(got.image, 17);
+  EXPECT_TRUE(got.captured);
+  EXPECT_EQ(got.file_url, "mavlinkftp:/17.jpg");
+  EXPECT_NEAR(got.position.lat_deg(), 40.0, 1e-9);
+  EXPECT_EQ(carried(CameraInformation{.vendor = "Maker", .model = std::string(40, 'x')}).model, std::string(32, 'x'));
+  EXPECT_NEAR(carried(MountStatus{.pitch_rad = -1.5}).pitch_rad, -1.5, 1e-4);
+  EXPECT_NEAR(*carried(RcChannels{.rssi = 0.5}).rssi, 0.5, 1e-9);
+  EXPECT_EQ(carried(AvailableModes{.custom_mode = 77, .name = "Spiral"}).name, "Spiral");
+}
+
+TEST(SensorName, NamesEveryBitThatHasAName) {
+  EXPECT_EQ(sensor_name(2), "compass");
+  EXPECT_EQ(1U << 28U, sensor_flag::prearm_check);
+  EXPECT_EQ(sensor_name(28), "arming checks");
+  EXPECT_EQ(sensor_name(16), "RC receiver");
+  EXPECT_EQ(sensor_name(30), "propulsion");
+  EXPECT_EQ(sensor_name(31), "");
 }
 
 TEST(Message, KnowsItsTarget) {

@@ -101,6 +101,7 @@ auto constexpr commands = std::to_array<CommandTraits>({
     {MavCmd::do_gimbal_manager_pitchyaw, "DO_GIMBAL_MANAGER_PITCHYAW", false},
     {MavCmd::image_start_capture, "IMAGE_START_CAPTURE", false},
     {MavCmd::image_stop_capture, "IMAGE_STOP_CAPTURE", false},
+    {MavCmd::request_camera_image_capture, "REQUEST_CAMERA_IMAGE_CAPTURE", false},
     {MavCmd::video_start_capture, "VIDEO_START_CAPTURE", false},
     {MavCmd::video_stop_capture, "VIDEO_STOP_CAPTURE", false},
     {MavCmd::do_vtol_transition, "DO_VTOL_TRANSITION", false},
@@ -135,6 +136,42 @@ bool is_listed(MavCmd command) {
 bool has_place(MavCmd command) {
   auto const* traits = find(command);
   return traits && traits->has_place;
+}
+
+std::string_view sensor_name(unsigned bit) {
+  // MAV_SYS_STATUS_SENSOR, bit by bit.
+  static constexpr auto names = std::to_array<std::string_view>({"gyro",
+                                                                 "accelerometer",
+                                                                 "compass",
+                                                                 "barometer",
+                                                                 "airspeed sensor",
+                                                                 "GPS",
+                                                                 "optical flow",
+                                                                 "vision",
+                                                                 "laser position",
+                                                                 "ground truth",
+                                                                 "rate control",
+                                                                 "attitude control",
+                                                                 "yaw control",
+                                                                 "height control",
+                                                                 "position control",
+                                                                 "motor outputs",
+                                                                 "RC receiver",
+                                                                 "second gyro",
+                                                                 "second accelerometer",
+                                                                 "second compass",
+                                                                 "fence",
+                                                                 "attitude estimate",
+                                                                 "terrain data",
+                                                                 "reversed motor",
+                                                                 "logging",
+                                                                 "battery",
+                                                                 "proximity sensor",
+                                                                 "satellite link",
+                                                                 "arming checks",
+                                                                 "obstacle avoidance",
+                                                                 "propulsion"});
+  return bit < names.size() ? names[bit] : "";
 }
 
 bool is_global(MavFrame frame) {

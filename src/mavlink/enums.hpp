@@ -110,6 +110,16 @@ inline constexpr std::uint32_t battery = 1U << 25U;
 inline constexpr std::uint32_t prearm_check = 1U << 28U;
 }  // namespace sensor_flag
 
+/// What the bit says is sick, for people: "compass". Empty for a bit that has no name.
+[[nodiscard]] std::string_view sensor_name(unsigned bit);
+
+/// Bits of GimbalDeviceAttitudeStatus::flags.
+namespace gimbal_flag {
+inline constexpr std::uint16_t yaw_lock = 1U << 4U;  ///< yaw is from north, unless one of the next two says otherwise
+inline constexpr std::uint16_t yaw_in_vehicle_frame = 1U << 5U;
+inline constexpr std::uint16_t yaw_in_earth_frame = 1U << 6U;
+}  // namespace gimbal_flag
+
 enum class MavFrame : std::uint8_t {
   global = 0,
   local_ned = 1,
@@ -212,6 +222,7 @@ enum class MavCmd : std::uint16_t {
   do_gimbal_manager_pitchyaw = 1000,
   image_start_capture = 2000,
   image_stop_capture = 2001,
+  request_camera_image_capture = 2002,
   video_start_capture = 2500,
   video_stop_capture = 2501,
   do_vtol_transition = 3000,
@@ -337,21 +348,31 @@ enum class MessageId : std::uint32_t {
   mission_current = 42,
   gps_global_origin = 49,
   nav_controller_output = 62,
+  rc_channels = 65,
   vfr_hud = 74,
+  radio_status = 109,
+  camera_trigger = 112,
   battery_status = 147,
   autopilot_version = 148,
+  mount_status = 158,
   fence_status = 162,
   wind = 168,
   camera_feedback = 180,
   ekf_status_report = 193,
   estimator_status = 230,
+  wind_cov = 231,
   home_position = 242,
   message_interval = 244,
   extended_sys_state = 245,
   statustext = 253,
+  camera_information = 259,
+  camera_image_captured = 263,
+  gimbal_manager_information = 280,
+  gimbal_device_attitude_status = 285,
   protocol_version = 300,
   available_modes = 435,
   current_mode = 436,
+  available_modes_monitor = 437,
 };
 
 }  // namespace lapwing::mavlink

@@ -4,6 +4,9 @@
 #include <cstring>
 
 #include <ardupilotmega/ardupilotmega.hpp>
+#include <development/mavlink_msg_available_modes.hpp>
+#include <development/mavlink_msg_available_modes_monitor.hpp>
+#include <development/mavlink_msg_current_mode.hpp>
 
 #include "mavlink/frame.hpp"
 
@@ -13,11 +16,24 @@ namespace {
 
 auto constexpr& entries = ::mavlink::ardupilotmega::MESSAGE_ENTRIES;
 
+template <class Wire>
+auto constexpr traits_of = MessageTraits{Wire::MSG_ID, Wire::CRC_EXTRA, Wire::MIN_LENGTH, Wire::LENGTH};
+
+/// Messages of the development dialect that ArduPilot and PX4 send already.
+namespace development = ::mavlink::development::msg;
+auto constexpr early = std::to_array<MessageTraits>({
+    traits_of<development::AVAILABLE_MODES>,
+    traits_of<development::CURRENT_MODE>,
+    traits_of<development::AVAILABLE_MODES_MONITOR>,
+});
+
 auto constexpr make_table() {
-  std::array<MessageTraits, entries.size()> table{};
-  std::ranges::transform(entries, table.begin(), [](auto const& entry) {
+  std::array<MessageTraits, entries.size() + early.size()> table{};
+  auto const rest = std::ranges::transform(entries, table.begin(), [](auto const& entry) {
     return MessageTraits{entry.msgid, entry.crc_extra, entry.min_msg_len, entry.max_msg_len};
   });
+  std::ranges::copy(early, rest.out);
+  std::ranges::sort(table, {}, &MessageTraits::id);
   return table;
 }
 

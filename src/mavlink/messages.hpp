@@ -10,6 +10,7 @@
 #include "base/time.hpp"
 #include "geo/position.hpp"
 #include "mavlink/enums.hpp"
+#include "mavlink/payload_messages.hpp"
 
 /// MAVLink messages as values in SI units and radians. What the wire marks as unknown is `nullopt` here. Angles are
 /// clockwise from true north where they are headings; altitudes named `alt_m` are above mean sea level. `target` is who
@@ -223,6 +224,12 @@ struct CameraFeedback {
   std::uint16_t completed_captures = 0;
 };
 
+/// As PX4 sends it: where the air moves to.
+struct WindCov {
+  std::chrono::microseconds time{};
+  geo::Ned wind_m_s{};  ///< NaN for what is not known
+};
+
 /// The wire's coordinates of a setpoint; the set bits of `ignore` say which fields do not count
 /// (POSITION_TARGET_TYPEMASK).
 struct GlobalSetpoint {
@@ -429,7 +436,9 @@ using Message =
                  CommandAck, SetMode, RequestDataStream, MessageInterval, ParamRequestRead, ParamRequestList, ParamSet,
                  ParamValue, MissionItem, MissionCount, MissionRequest, MissionRequestInt, MissionRequestList,
                  MissionRequestPartialList, MissionWritePartialList, MissionAck, MissionClearAll, MissionSetCurrent,
-                 MissionCurrent, MissionItemReached>;
+                 MissionCurrent, MissionItemReached, WindCov, RcChannels, CameraTrigger, CameraImageCaptured,
+                 CameraInformation, GimbalManagerInformation, GimbalDeviceAttitudeStatus, MountStatus, AvailableModes,
+                 CurrentMode, AvailableModesMonitor>;
 
 /// Who is meant, or nothing for a message that has no target.
 [[nodiscard]] std::optional<Address> target_of(Message const& message);

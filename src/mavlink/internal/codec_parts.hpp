@@ -11,6 +11,7 @@ namespace lapwing::mavlink::internal {
 
 [[nodiscard]] std::optional<Message> read_state(Frame const& frame);
 [[nodiscard]] std::optional<Message> read_motion(Frame const& frame);
+[[nodiscard]] std::optional<Message> read_payload(Frame const& frame);
 [[nodiscard]] std::optional<Message> read_command(Frame const& frame);
 [[nodiscard]] std::optional<Message> read_mission(Frame const& frame);
 
@@ -73,5 +74,17 @@ void write(MissionClearAll const& m, Frame& frame);
 void write(MissionSetCurrent const& m, Frame& frame);
 void write(MissionCurrent const& m, Frame& frame);
 void write(MissionItemReached const& m, Frame& frame);
+
+void write(WindCov const& m, Frame& frame);
+void write(RcChannels const& m, Frame& frame);
+void write(CameraTrigger const& m, Frame& frame);
+void write(CameraImageCaptured const& m, Frame& frame);
+void write(CameraInformation const& m, Frame& frame);
+void write(GimbalManagerInformation const& m, Frame& frame);
+void write(GimbalDeviceAttitudeStatus const& m, Frame& frame);
+void write(MountStatus const& m, Frame& frame);
+void write(AvailableModes const& m, Frame& frame);
+void write(CurrentMode const& m, Frame& frame);
+void write(AvailableModesMonitor const& m, Frame& frame);
 
 }  // namespace lapwing::mavlink::internal

@@ -10,6 +10,7 @@ import os
 
 os.environ["MAVLINK20"] = "1"
 from pymavlink.dialects.v20 import ardupilotmega as m  # noqa: E402
+from pymavlink.dialects.v20 import development as d  # noqa: E402
 
 NAN = float("nan")
 LAT, LON = 404451294, -73728766
@@ -78,6 +79,22 @@ FRAMES = [
     m.MAVLink_mission_current_message(5, 6, 3, 1),
     m.MAVLink_mission_current_message(0, U16, 1, 0),
     m.MAVLink_mission_item_reached_message(5),
+    m.MAVLink_wind_cov_message(123456789, 1.5, -2.5, NAN, NAN, NAN, NAN, 0, 0),
+    m.MAVLink_rc_channels_message(123456, 8, *range(1000, 1800, 100), *[U16] * 10, 200),
+    m.MAVLink_rc_channels_message(123456, 0, *[0] * 18, 255),
+    m.MAVLink_camera_trigger_message(1760000000123456, 17),
+    m.MAVLink_camera_image_captured_message(
+        123456, 1760000000123456, 0, LAT, LON, 840500, 20500, [1, 0, 0, 0], 17, 1, b"mavlinkftp:/DCIM/17.jpg"
+    ),
+    m.MAVLink_camera_information_message(
+        123456, list(b"Some maker".ljust(32, b"\0")), list(b"M1".ljust(32, b"\0")), 0x01020304, 0, 0, 0, 4000, 3000, 0, 7, 0, b"", 154, 0
+    ),
+    m.MAVLink_gimbal_manager_information_message(123456, 0x1FF, 154, -0.5, 0.5, -1.5, 0.25, -3.0, 3.0),
+    m.MAVLink_gimbal_device_attitude_status_message(0, 0, 123456, 0x4C, [1, 0, 0, 0], NAN, NAN, NAN, 0, 0.25, NAN, 1),
+    m.MAVLink_mount_status_message(255, 190, -9000, 100, 17900, 3),
+    d.MAVLink_available_modes_message(24, 3, 0, 5, 1, b"Loiter"),
+    d.MAVLink_current_mode_message(0, 5, 6),
+    d.MAVLink_available_modes_monitor_message(7),
 ]
 
 
