@@ -33,7 +33,9 @@ struct LinkCounters {
   std::uint64_t bytes_sent = 0;
   std::uint64_t chunks_received = 0;  ///< datagrams, or reads of a stream
   std::uint64_t chunks_sent = 0;
-  std::uint64_t send_failures = 0;  ///< chunks that the operating system or a full queue refused
+  std::uint64_t send_failures = 0;       ///< chunks that the operating system or a full queue refused
+  std::uint64_t perishable_dropped = 0;  ///< chunks that newer ones pushed out of a full queue (see `send_perishable`)
+  std::uint64_t bytes_queued = 0;        ///< now: accepted, not yet with the operating system
 };
 
 /// A carrier of bytes to one or many peers. Does not know what the bytes mean.
@@ -53,6 +55,10 @@ class ByteLink {
   virtual void start(Receive receive) = 0;
   /// False when the bytes were dropped (peer unknown, link not open, queue full); also counted.
   virtual bool send(Peer peer, Bytes bytes) = 0;
+  /// The same for what is worth little when it is late: telemetry, heartbeats, corrections, setpoints. Where a slow
+  /// link has a queue, `send` goes before it, and the oldest of it is dropped (and counted) when there is no room: each
+  /// call's bytes as a whole, so hand it whole packets. True when the bytes are on their way for now.
+  virtual bool send_perishable(Peer peer, Bytes bytes) { return send(peer, bytes); }
   /// Peers that may be spoken to before they spoke: the target of udp out, an open serial line, connected TCP ends.
   [[nodiscard]] virtual std::vector<Peer> standing_peers() const = 0;
   [[nodiscard]] virtual LinkState state() const = 0;

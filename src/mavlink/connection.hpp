@@ -13,6 +13,7 @@
 #include "base/scope.hpp"
 #include "link/byte_link.hpp"
 #include "mavlink/codec.hpp"
+#include "mavlink/link_report.hpp"
 #include "mavlink/signing.hpp"
 
 namespace lapwing::mavlink {
@@ -21,27 +22,12 @@ namespace internal {
 class Routes;
 }
 
-/// One far end as the connection knows it.
-struct PeerRef {
-  std::size_t link = 0;  ///< in the order of `add_link`
-  link::Peer peer;
-  friend constexpr auto operator<=>(PeerRef const&, PeerRef const&) = default;
-};
-
 /// A message as it came in. References live for the callback.
 struct Received {
   Message const& message;
   Address source;
   PeerRef from;
   base::TimePoint at;
-};
-
-/// What one source (system and component) sent over one link.
-struct SourceCounters {
-  std::uint64_t received = 0;  ///< without duplicates
-  std::uint64_t lost = 0;      ///< gaps in the sequence that nothing filled later
-  std::uint64_t duplicated = 0;
-  std::uint64_t out_of_order = 0;
 };
 
 /// Two senders use one system id: nobody can be commanded safely under it.
@@ -113,7 +99,11 @@ class Connection {
   /// The system id was heard from two addresses within seconds: two vehicles, or one that restarted and has not been
   /// told apart from that yet. Messages are still sent, to the address heard last.
   [[nodiscard]] bool is_contested(std::uint8_t system_id) const;
+  /// Summed over all paths.
   [[nodiscard]] SourceCounters counters(Address source) const;
+  /// How every link does, in the order of `add_link`. Takes a while for many sources: for once a second, not for every
+  /// message.
+  [[nodiscard]] std::vector<LinkReport> report() const;
   /// Summed over the peers of one link.
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
   [[nodiscard]] std::vector<std::unique_ptr<link::ByteLink>> const& links() const { return links_; }

@@ -107,13 +107,7 @@ SourceCounters Routes::counters(Address source) const {
   SourceCounters sum;
   auto const found = sources_.find(source);
   if (found == sources_.end()) return sum;
-  for (auto const& [link, tracker] : found->second.by_link) {
-    auto const& one = tracker.counters();
-    sum.received += one.received;
-    sum.lost += one.lost;
-    sum.duplicated += one.duplicated;
-    sum.out_of_order += one.out_of_order;
-  }
+  for (auto const& [link, tracker] : found->second.by_link) sum += tracker.counters();
   return sum;
 }
 

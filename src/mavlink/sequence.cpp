@@ -2,7 +2,19 @@
 
 #include <algorithm>
 
-namespace lapwing::mavlink::internal {
+namespace lapwing::mavlink {
+
+SourceCounters& SourceCounters::operator+=(SourceCounters const& more) {
+  received += more.received;
+  lost += more.lost;
+  duplicated += more.duplicated;
+  redundant += more.redundant;
+  out_of_order += more.out_of_order;
+  unknown_ids += more.unknown_ids;
+  return *this;
+}
+
+namespace internal {
 
 bool SequenceTracker::take(std::uint8_t seq, std::uint16_t checksum) {
   Seen const seen{true, seq, checksum};
@@ -27,4 +39,6 @@ bool SequenceTracker::take(std::uint8_t seq, std::uint16_t checksum) {
   return true;
 }
 
-}  // namespace lapwing::mavlink::internal
+}  // namespace internal
+
+}  // namespace lapwing::mavlink
