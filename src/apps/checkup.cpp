@@ -63,7 +63,8 @@ std::string advice_on_silence(link::Url const& url) {
                        url.host, url.port_or_baud, url.port_or_baud)
                  : fmt::format("does the vehicle send to UDP port {} of this machine, and does a firewall let it in?",
                                url.port_or_baud);
-    case link::Transport::udp_out: return "is the vehicle switched on, and does it listen at that address and port?";
+    case link::Transport::udp_out:
+    case link::Transport::udp_bcast: return "is the vehicle switched on, and does it listen at that address and port?";
     case link::Transport::tcp_in: return "nobody connected: does the vehicle know this machine's address and port?";
     case link::Transport::tcp_out: return "the connection stands: is its far end an autopilot's MAVLink port?";
     case link::Transport::serial:

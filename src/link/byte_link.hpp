@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -36,6 +37,7 @@ struct LinkCounters {
   std::uint64_t send_failures = 0;       ///< chunks that the operating system or a full queue refused
   std::uint64_t perishable_dropped = 0;  ///< chunks that newer ones pushed out of a full queue (see `send_perishable`)
   std::uint64_t bytes_queued = 0;        ///< now: accepted, not yet with the operating system
+  std::uint64_t overruns = 0;            ///< datagrams that arrived and found the kernel's queue full: never seen here
 };
 
 /// A carrier of bytes to one or many peers. Does not know what the bytes mean.
@@ -53,18 +55,32 @@ class ByteLink {
   [[nodiscard]] virtual std::string peer_name(Peer peer) const = 0;
   /// Begins to deliver what arrives. Call once.
   virtual void start(Receive receive) = 0;
+  /// `drained` is called whenever all that lay ready has been received, before others have their turn: the moment to
+  /// `flush`. Call before `start`.
+  void on_drained(std::function<void()> drained) { drained_ = std::move(drained); }
   /// False when the bytes were dropped (peer unknown, link not open, queue full); also counted.
   virtual bool send(Peer peer, Bytes bytes) = 0;
   /// The same for what is worth little when it is late: telemetry, heartbeats, corrections, setpoints. Where a slow
   /// link has a queue, `send` goes before it, and the oldest of it is dropped (and counted) when there is no room: each
   /// call's bytes as a whole, so hand it whole packets. True when the bytes are on their way for now.
   virtual bool send_perishable(Peer peer, Bytes bytes) { return send(peer, bytes); }
+  /// Like `send`, but the bytes, which are copied, may wait for others until `flush`: many for the price of one.
+  virtual bool queue(Peer peer, Bytes bytes) { return send(peer, bytes); }
+  virtual void flush() {}
   /// Peers that may be spoken to before they spoke: the target of udp out, an open serial line, connected TCP ends.
   [[nodiscard]] virtual std::vector<Peer> standing_peers() const = 0;
   [[nodiscard]] virtual LinkState state() const = 0;
   /// Why it is not open; empty when it is.
   [[nodiscard]] virtual std::string last_error() const = 0;
   [[nodiscard]] virtual LinkCounters counters() const = 0;
+
+ protected:
+  void tell_drained() const {
+    if (drained_) drained_();
+  }
+
+ private:
+  std::function<void()> drained_;
 };
 
 /// The link that `url` names. Error (io): the port is taken, the address is not this machine's; says what to do. Far

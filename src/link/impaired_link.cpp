@@ -52,6 +52,7 @@ class ImpairedLink final : public ByteLink {
   base::Task<void> deliver(Peer peer, Chunk chunk) {
     co_await loop_.sleep(lateness());
     receive_(peer, chunk);
+    tell_drained();
   }
   base::Task<void> pass_on(Peer peer, Chunk chunk) {
     co_await loop_.sleep(lateness());

@@ -108,6 +108,98 @@ TEST(UdpLink, GoesOnWhenNobodyListensYet) {
   EXPECT_TRUE(loop.run_until_done(in.hears("hello")));
 }
 
+TEST(UdpLink, KeepsWhatIsQueuedTogetherUntilItIsFlushed) {
+  base::Loop loop;
+  auto const in = opened(loop, "udpin://127.0.0.1:0");
+  auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(*in)));
+  auto const there = out->standing_peers().front();
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(out->queue(there, bytes(std::to_string(i) + " ")));
+  EXPECT_EQ(out->counters().chunks_sent, 64u) << "a batch goes out when it is full";
+  out->flush();
+  EXPECT_EQ(out->counters().chunks_sent, 100u);
+
+  std::string heard;
+  std::string expected;
+  std::vector<int> batches{0};
+  base::Notifier arrived(loop);
+  in->on_drained([&] {
+    batches.push_back(0);
+    arrived.notify_all();
+  });
+  in->start([&](Peer, Bytes data) {
+    heard += std::string(data.begin(), data.end());
+    ++batches.back();
+  });
+  for (int i = 0; i < 100; ++i) expected += std::to_string(i) + " ";
+  EXPECT_TRUE(loop.run_until_done(arrived.wait_for([&] { return heard.size() >= expected.size(); }, 5s)));
+  EXPECT_EQ(heard, expected) << "in the order in which they were queued";
+  EXPECT_EQ(batches, (std::vector{64, 36, 0}));
+}
+
+TEST(UdpLink, SendsAfterWhatWasQueuedBefore) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "udpin://127.0.0.1:0"));
+  auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(in.link())));
+  auto const there = out->standing_peers().front();
+  EXPECT_TRUE(out->queue(there, bytes("first ")));
+  EXPECT_TRUE(out->send(there, bytes("second")));
+  EXPECT_TRUE(loop.run_until_done(in.hears("first second")));
+}
+
+TEST(UdpLink, CountsWhatTheOperatingSystemRefuses) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "udpin://127.0.0.1:0"));
+  auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(in.link())));
+  auto const there = out->standing_peers().front();
+  std::vector<std::uint8_t> const too_long(70'000);
+  EXPECT_TRUE(out->queue(there, bytes("before ")));
+  EXPECT_TRUE(out->queue(there, too_long));
+  EXPECT_TRUE(out->queue(there, bytes("after")));
+  out->flush();
+  EXPECT_EQ(out->counters().chunks_sent, 2u);
+  EXPECT_EQ(out->counters().send_failures, 1u);
+  EXPECT_NE(out->last_error(), "");
+  EXPECT_TRUE(loop.run_until_done(in.hears("before after")));
+  EXPECT_FALSE(out->send(there, too_long));
+}
+
+TEST(UdpLink, CountsWhatTheKernelThrewAway) {
+  base::Loop loop;
+  auto const in = opened(loop, "udpin://127.0.0.1:0");
+  auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(*in)));
+  auto const there = out->standing_peers().front();
+  EXPECT_EQ(in->counters().overruns, 0u);
+  std::vector<std::uint8_t> const large(60'000);
+  int constexpr sent = 1000;  // 60 MB: more than any buffer that was asked for
+  for (int i = 0; i < sent; ++i) out->send(there, large);
+  auto const lost = in->counters().overruns;
+  EXPECT_GT(lost, 0u);
+
+  base::Notifier arrived(loop);
+  in->on_drained([&] { arrived.notify_all(); });
+  in->start([](Peer, Bytes) {});
+  EXPECT_TRUE(loop.run_until_done(
+      arrived.wait_for([&] { return in->counters().chunks_received + lost == out->counters().chunks_sent; }, 5s)))
+      << "every datagram is either received or counted as lost";
+}
+
+TEST(UdpLink, CallsToEverybodyUntilOneAnswers) {
+  base::Loop loop;
+  Talker listener(loop, opened(loop, "udpin://0.0.0.0:0"));
+  Talker caller(loop, opened(loop, "udpbcast://127.255.255.255:" + std::to_string(port_of(listener.link()))));
+  auto const everybody = caller.link().standing_peers().front();
+  EXPECT_TRUE(caller.say("anybody there?"));
+  ASSERT_TRUE(loop.run_until_done(listener.hears("anybody there?")));
+  EXPECT_TRUE(listener.answer("here"));
+  ASSERT_TRUE(loop.run_until_done(caller.hears("here")));
+  auto const there = caller.link().standing_peers();
+  ASSERT_EQ(there.size(), 1u);
+  EXPECT_NE(there.front(), everybody);
+  EXPECT_EQ(caller.link().peer_name(there.front()), "127.0.0.1:" + std::to_string(port_of(listener.link())));
+  EXPECT_TRUE(caller.say("good"));
+  EXPECT_TRUE(loop.run_until_done(listener.hears("good")));
+}
+
 TEST(UdpLink, NamesThePortThatIsTaken) {
   base::Loop loop;
   auto const first = opened(loop, "udpin://127.0.0.1:0");

@@ -11,7 +11,8 @@ namespace lapwing::link {
 base::Result<std::unique_ptr<ByteLink>> open(base::Loop& loop, Url const& url) {
   switch (url.transport) {
     case Transport::udp_in:
-    case Transport::udp_out: return internal::open_udp(loop, url);
+    case Transport::udp_out:
+    case Transport::udp_bcast: return internal::open_udp(loop, url);
     case Transport::tcp_in: return internal::open_tcp_in(loop, url);
     case Transport::tcp_out: return internal::open_tcp_out(loop, url);
     case Transport::serial: return internal::open_serial(loop, url);

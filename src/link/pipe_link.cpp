@@ -43,10 +43,11 @@ class End : public ByteLink {
   }
   /// `receive`, counting.
   [[nodiscard]] Receive counting(Receive receive) const {
-    return [counters = counters_, receive = std::move(receive)](Peer peer, Bytes bytes) {
+    return [this, counters = counters_, receive = std::move(receive)](Peer peer, Bytes bytes) {
       ++counters->chunks_received;
       counters->bytes_received += bytes.size();
       receive(peer, bytes);
+      tell_drained();
     };
   }
 

@@ -103,7 +103,11 @@ class SerialLink final : public ByteLink {
     }
     open_ = true;
     stream_ = std::make_unique<Stream>(
-        loop_, descriptor, counters_, [this](Bytes bytes) { receive_(Peer{}, bytes); },
+        loop_, descriptor, counters_,
+        [this](Bytes bytes) {
+          receive_(Peer{}, bytes);
+          tell_drained();
+        },
         [this](std::string why) {
           last_error_ = fmt::format("{}: {}", url_.host, why);
           open_ = false;

@@ -87,7 +87,11 @@ class TcpOut final : public ByteLink {
 
   void adopt(int descriptor) {
     stream_ = std::make_unique<Stream>(
-        loop_, descriptor, counters_, [this](Bytes bytes) { receive_(Peer{}, bytes); },
+        loop_, descriptor, counters_,
+        [this](Bytes bytes) {
+          receive_(Peer{}, bytes);
+          tell_drained();
+        },
         [this](std::string why) { failed(std::move(why)); });
     connecting_ = false;
     connected_ = true;
@@ -162,7 +166,11 @@ class TcpIn final : public ByteLink {
     Error ignored;
     auto const far_end = socket.remote_endpoint(ignored);
     auto stream = std::make_unique<Stream>(
-        loop_, release(std::move(socket)), counters_, [this, peer](Bytes bytes) { receive_(peer, bytes); },
+        loop_, release(std::move(socket)), counters_,
+        [this, peer](Bytes bytes) {
+          receive_(peer, bytes);
+          tell_drained();
+        },
         [this, peer](std::string const&) { forget_later(peer); });
     clients_[peer] = {fmt::format("{}:{}", far_end.address().to_string(), far_end.port()), std::move(stream)};
   }

@@ -19,6 +19,7 @@ struct Scheme {
 auto constexpr schemes = std::to_array<Scheme>({
     {Transport::udp_in, "udpin", "udpin://0.0.0.0:14550"},
     {Transport::udp_out, "udpout", "udpout://127.0.0.1:14550"},
+    {Transport::udp_bcast, "udpbcast", "udpbcast://192.168.1.255:14550"},
     {Transport::tcp_in, "tcpin", "tcpin://0.0.0.0:5760"},
     {Transport::tcp_out, "tcpout", "tcpout://127.0.0.1:5760"},
     {Transport::serial, "serial", "serial:///dev/ttyUSB0:57600"},
@@ -61,7 +62,7 @@ std::string in_our_words(std::string_view text) {
 /// What people mean who write something else.
 std::string_view meant_by(std::string_view scheme) {
   if (scheme == "udp") return "udpin://0.0.0.0:14550 to listen or udpout://127.0.0.1:14550 to send";
-  return "udpin://0.0.0.0:14550, udpout://, tcpin://, tcpout:// or serial:///dev/ttyUSB0:57600";
+  return "udpin://0.0.0.0:14550, udpout://, udpbcast://, tcpin://, tcpout:// or serial:///dev/ttyUSB0:57600";
 }
 
 std::optional<std::uint32_t> number(std::string_view digits) {

@@ -8,12 +8,13 @@
 
 namespace lapwing::link {
 
-/// What carries the bytes. "in" waits for others on a local address, "out" goes to a remote one.
-enum class Transport { udp_in, udp_out, tcp_in, tcp_out, serial };
+/// What carries the bytes. "in" waits for others on a local address, "out" goes to a remote one, "bcast" to
+/// whoever is on a network, until somebody answers.
+enum class Transport { udp_in, udp_out, udp_bcast, tcp_in, tcp_out, serial };
 [[nodiscard]] std::string_view to_string(Transport transport);
 
-/// Where a link goes, in MAVSDK's spelling: `udpin://0.0.0.0:14550`, `udpout://127.0.0.1:14550`, `tcpout://host:5760`,
-/// `tcpin://0.0.0.0:5760`, `serial:///dev/ttyUSB0:57600`.
+/// Where a link goes, in MAVSDK's spelling: `udpin://0.0.0.0:14550`, `udpout://127.0.0.1:14550`,
+/// `udpbcast://192.168.1.255:14550`, `tcpout://host:5760`, `tcpin://0.0.0.0:5760`, `serial:///dev/ttyUSB0:57600`.
 struct Url {
   Transport transport = Transport::udp_in;
   std::string host;  ///< host name, IPv4 address or device path

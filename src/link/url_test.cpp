@@ -6,8 +6,8 @@ namespace lapwing::link {
 namespace {
 
 TEST(Url, ReadsEveryKindAndPrintsItAgain) {
-  for (auto const* text : {"udpin://0.0.0.0:14550", "udpout://127.0.0.1:14550", "tcpout://drone.local:5760",
-                           "tcpin://0.0.0.0:5760", "serial:///dev/ttyUSB0:57600"}) {
+  for (auto const* text : {"udpin://0.0.0.0:14550", "udpout://127.0.0.1:14550", "udpbcast://192.168.1.255:14550",
+                           "tcpout://drone.local:5760", "tcpin://0.0.0.0:5760", "serial:///dev/ttyUSB0:57600"}) {
     auto const url = parse_url(text);
     ASSERT_TRUE(url) << text;
     EXPECT_EQ(to_string(*url), text);
@@ -21,11 +21,16 @@ TEST(Url, ReadsWhatOtherToolsWrite) {
     char const* ours;
   };
   Written const cases[] = {
-      {"udp:0.0.0.0:14550", "udpin://0.0.0.0:14550"},          {"udpin:127.0.0.1:14550", "udpin://127.0.0.1:14550"},
-      {"udpout:10.0.0.7:14550", "udpout://10.0.0.7:14550"},    {"tcp:127.0.0.1:5760", "tcpout://127.0.0.1:5760"},
-      {"tcpin:0.0.0.0:5760", "tcpin://0.0.0.0:5760"},          {"/dev/ttyACM0,115200", "serial:///dev/ttyACM0:115200"},
-      {"/dev/ttyUSB0", "serial:///dev/ttyUSB0:57600"},         {"udp://:14540", "udpin://0.0.0.0:14540"},
+      {"udp:0.0.0.0:14550", "udpin://0.0.0.0:14550"},
+      {"udpin:127.0.0.1:14550", "udpin://127.0.0.1:14550"},
+      {"udpout:10.0.0.7:14550", "udpout://10.0.0.7:14550"},
+      {"tcp:127.0.0.1:5760", "tcpout://127.0.0.1:5760"},
+      {"tcpin:0.0.0.0:5760", "tcpin://0.0.0.0:5760"},
+      {"/dev/ttyACM0,115200", "serial:///dev/ttyACM0:115200"},
+      {"/dev/ttyUSB0", "serial:///dev/ttyUSB0:57600"},
+      {"udp://:14540", "udpin://0.0.0.0:14540"},
       {"tcp://drone.local:5760", "tcpout://drone.local:5760"},
+      {"udpbcast:10.0.0.255:14550", "udpbcast://10.0.0.255:14550"},
   };
   for (auto const& [theirs, ours] : cases) {
     auto const url = parse_url(theirs);
@@ -46,6 +51,7 @@ TEST(Url, SaysWhatIsWrongAndShowsARightOne) {
       {"udpin://:14550", "the address is missing", "udpin://0.0.0.0:14550"},
       {"udpout://1.2.3.4:x", "'x' is no port", "udpout://127.0.0.1:14550"},
       {"udpout://1.2.3.4:0", "1 to 65535", "udpout://"},
+      {"udpbcast://10.0.0.255:0", "1 to 65535", "udpbcast://192.168.1.255:14550"},
       {"tcpin://0.0.0.0:70000", "1 to 65535", "tcpin://0.0.0.0:5760"},
       {"tcpout://host:-1", "'-1' is no port", "tcpout://"},
       {"serial:///dev/ttyUSB0", "baud rate is missing", "serial:///dev/ttyUSB0:57600"},
