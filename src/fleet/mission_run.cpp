@@ -124,7 +124,7 @@ Task<Result<>> select_first_item(RunContext context, std::uint16_t seq) {
 /// The script's `home` becomes the vehicle's. A vehicle that refuses keeps its own, which is safe.
 Task<> set_home(RunContext context, geo::Wgs84 home) {
   auto const command = mavlink::set_home(home);
-  auto const set = co_await mavlink::run_command_int(context.connection, context.craft.address, command, patient);
+  auto const set = co_await mavlink::run_command(context.connection, context.craft.address, command, patient);
   if (!set) context.log.warn(fmt::format("{} keeps its own home: {}", context.craft.state.name, set.error().message));
 }
 

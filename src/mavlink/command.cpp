@@ -1,10 +1,13 @@
 #include "mavlink/command.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <functional>
+#include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
+#include "mavlink/command_ledger.hpp"
 #include "mavlink/inbox.hpp"
 #include "mavlink/modes.hpp"
 
@@ -21,52 +24,167 @@ std::unexpected<base::Error> refusal(Address target, CommandAck const& ack) {
               fmt::format("vehicle {} answered {}: {}", target.system, to_string(ack.command), to_string(ack.result)));
 }
 
-/// `again(attempt)` is the message of each try.
-base::Task<base::Result<>> exchange(Connection& connection, Address target, MavCmd id,
-                                    std::function<Message(int attempt)> again, CommandOptions options) {
-  auto& loop = connection.loop();
-  auto const self = connection.self();
-  Inbox acks(connection, target.system, wanting<CommandAck>([id, self](CommandAck const& ack) {
-               return ack.command == id && addresses(ack.target, self);
-             }));
-  auto const expires = loop.now() + options.expiry;
-  for (int attempt = 0; attempt < options.tries && loop.now() < expires; ++attempt) {
-    if (auto sent = connection.send(target, again(attempt)); !sent) co_return std::unexpected(sent.error());
-    auto deadline = loop.now() + options.ack_timeout;
-    bool in_progress = false;
-    for (;;) {
-      auto const got = co_await acks.next(deadline);
-      if (!got) break;
-      auto const& ack = std::get<CommandAck>(*got);
-      if (ack.result == MavResult::accepted) co_return base::Result<>{};
-      if (ack.result != MavResult::in_progress) co_return refusal(target, ack);
-      in_progress = true;
-      deadline = loop.now() + options.progress_timeout;
-    }
-    if (in_progress)
-      co_return fail(ErrorKind::timed_out,
-                     fmt::format("vehicle {} began {} and did not say how it ended", target.system, to_string(id)));
+/// A heartbeat comes every second; a vehicle silent for longer may be behind a link that keeps what it is given.
+constexpr base::Duration sign_of_life = std::chrono::seconds(3);
+
+CommandInt as_int(Command const& command) {
+  auto const& p = command.params;
+  CommandInt message{.command = command.id, .params = {p[0], p[1], p[2], p[3]}, .place = {}};
+  if (auto const& place = command.place) {
+    message.frame = place->frame;
+    message.place = {.lat_rad = place->lat_rad, .lon_rad = place->lon_rad, .z_m = place->z_m};
+  } else {
+    message.place = {.x = p[4], .y = p[5], .z_m = p[6]};
   }
-  co_return fail(ErrorKind::timed_out, fmt::format("vehicle {} did not acknowledge {}", target.system, to_string(id)),
-                 "check the link; the command may have taken effect all the same");
+  return message;
+}
+
+CommandLong as_long(Command const& command, int attempt) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  CommandLong message{
+      .command = command.id, .confirmation = static_cast<std::uint8_t>(attempt), .params = command.params};
+  if (auto const& place = command.place) {
+    message.params[4] = static_cast<float>(place->lat_rad / degree);
+    message.params[5] = static_cast<float>(place->lon_rad / degree);
+    message.params[6] = static_cast<float>(place->z_m);
+  }
+  return message;
+}
+
+/// One command on its way to one vehicle.
+struct Exchange {
+  Connection& connection;
+  Address target;
+  Command const& command;
+  CommandOptions const& options;
+  base::TimePoint expires;
+  CommandTurn turn;
+  bool goes_as_int;
+
+  [[nodiscard]] base::TimePoint now() const { return connection.loop().now(); }
+  [[nodiscard]] bool is_careful() const { return is_hazardous(command) && !options.is_urgent; }
+  [[nodiscard]] Message message(int attempt) const {
+    if (goes_as_int) return as_int(command);
+    return as_long(command, attempt);
+  }
+  /// The vehicle knows the command in the other form only.
+  [[nodiscard]] bool changes_form(MavResult result) {
+    bool const other = goes_as_int ? result == MavResult::unsupported || result == MavResult::command_long_only
+                                   : result == MavResult::command_int_only;
+    bool const is_new = other && !has_changed_form;
+    if (is_new) goes_as_int = !goes_as_int;
+    has_changed_form = has_changed_form || is_new;
+    return is_new;
+  }
+  bool has_changed_form = false;
+};
+
+/// Commands that ask for messages go out in long rows; whether they took effect shows in what arrives.
+bool shows_by_itself(MavCmd id) {
+  return id == MavCmd::set_message_interval || id == MavCmd::request_message;
+}
+
+std::unexpected<base::Error> expired(Address target, MavCmd id) {
+  return fail(ErrorKind::timed_out,
+              fmt::format("{} for vehicle {} expired before it could be sent", to_string(id), target.system),
+              "ask again when the vehicle is heard");
+}
+
+std::unexpected<base::Error> overtaken(Address target, MavCmd id) {
+  return fail(ErrorKind::cancelled,
+              fmt::format("{} for vehicle {} was overtaken by a later one", to_string(id), target.system));
+}
+
+/// Waits until the vehicle is heard, if it has not just been.
+base::Task<bool> is_alive(Exchange const& exchange) {
+  auto const heard = exchange.connection.last_heard(exchange.target.system);
+  if (!exchange.is_careful() || !heard || exchange.now() - *heard <= sign_of_life) co_return true;
+  std::function<bool(Heartbeat const&)> any = [](Heartbeat const&) { return true; };
+  auto const left = exchange.expires - exchange.now();
+  auto const got = co_await await_message<Heartbeat>(exchange.connection, exchange.target.system, any, left);
+  co_return got&& exchange.now() < exchange.expires;
+}
+
+/// What became of one try; nothing: it is to be repeated.
+base::Task<std::optional<base::Result<>>> await_answer(Exchange& exchange, Inbox& acks) {
+  auto const target = exchange.target;
+  auto const id = exchange.command.id;
+  auto deadline = exchange.now() + exchange.options.ack_timeout;
+  bool in_progress = false;
+  for (;;) {
+    auto const got = co_await acks.next(deadline);
+    if (!exchange.turn.is_ours()) co_return overtaken(target, id);
+    if (!got) break;
+    auto const& ack = std::get<CommandAck>(*got);
+    if (ack.result == MavResult::in_progress) {
+      in_progress = true;
+      deadline = exchange.now() + exchange.options.progress_timeout;
+      continue;
+    }
+    bool const is_ours = exchange.turn.note_answer(exchange.command, exchange.now());
+    if (!is_ours && !shows_by_itself(id)) continue;
+    if (exchange.changes_form(ack.result)) co_return std::nullopt;
+    if (ack.result == MavResult::accepted) co_return base::Result<>{};
+    co_return refusal(target, ack);
+  }
+  if (!in_progress) co_return std::nullopt;
+  co_return fail(ErrorKind::timed_out,
+                 fmt::format("vehicle {} began {} and did not say how it ended", target.system, to_string(id)));
 }
 
 }  // namespace
 
 base::Task<base::Result<>> run_command(Connection& connection, Address target, Command command,
                                        CommandOptions options) {
-  auto again = [command](int attempt) -> Message {
-    return CommandLong{
-        .command = command.id, .confirmation = static_cast<std::uint8_t>(attempt), .params = command.params};
-  };
-  std::function<Message(int)> const messages(again);
-  co_return co_await exchange(connection, target, command.id, messages, options);
+  auto const self = connection.self();
+  auto const id = command.id;
+  auto const expires = std::min(connection.loop().now() + options.expiry, options.not_after);
+  auto& line = connection.commands().line(target.system, id);
+  while (!options.is_urgent && line.is_taken()) {
+    if (connection.loop().now() >= expires) co_return expired(target, id);
+    co_await line.freed.wait_until(expires);
+  }
+  Exchange exchange{
+      connection, target, command, options, expires, CommandTurn(line), command.place && options.takes_int};
+  Inbox acks(connection, target.system, wanting<CommandAck>([id, self](CommandAck const& ack) {
+               return ack.command == id && addresses(ack.target, self);
+             }));
+  int sent = 0;
+  while (sent < options.tries) {
+    bool const alive = co_await is_alive(exchange);
+    if (!exchange.turn.is_ours()) co_return overtaken(target, id);
+    if (!alive || exchange.now() >= expires) break;
+    if (auto gone = connection.send(target, exchange.message(sent)); !gone) co_return std::unexpected(gone.error());
+    exchange.turn.note_sent(command, exchange.now());
+    ++sent;
+    auto const answer = co_await await_answer(exchange, acks);
+    if (answer) co_return *answer;
+  }
+  if (sent == 0) co_return expired(target, id);
+  co_return fail(ErrorKind::timed_out, fmt::format("vehicle {} did not acknowledge {}", target.system, to_string(id)),
+                 "check the link; the command may have taken effect all the same");
 }
 
-base::Task<base::Result<>> run_command_int(Connection& connection, Address target, CommandInt command,
-                                           CommandOptions options) {
-  std::function<Message(int)> const messages([command](int) -> Message { return command; });
-  co_return co_await exchange(connection, target, command.command, messages, options);
+bool is_hazardous(Command const& command) {
+  switch (command.id) {
+    case MavCmd::component_arm_disarm: return command.params[0] != 0.0F;
+    case MavCmd::do_set_mode:
+    case MavCmd::nav_takeoff:
+    case MavCmd::nav_vtol_takeoff:
+    case MavCmd::nav_return_to_launch:
+    case MavCmd::nav_land:
+    case MavCmd::nav_loiter_unlim:
+    case MavCmd::mission_start:
+    case MavCmd::do_reposition:
+    case MavCmd::do_change_altitude:
+    case MavCmd::do_pause_continue:
+    case MavCmd::do_set_reverse:
+    case MavCmd::do_motor_test:
+    case MavCmd::do_flight_termination:
+    case MavCmd::nav_set_yaw_speed:
+    case MavCmd::condition_yaw: return true;
+    default: return false;
+  }
 }
 
 Command arm() {
@@ -74,6 +192,10 @@ Command arm() {
 }
 Command disarm() {
   return {MavCmd::component_arm_disarm, {0.0F}};
+}
+Command force_disarm() {
+  constexpr float force = 21196.0F;  // the standard's magic number of MAV_CMD_COMPONENT_ARM_DISARM
+  return {MavCmd::component_arm_disarm, {0.0F, force}};
 }
 
 Command set_mode(MavAutopilot autopilot, std::uint32_t custom_mode) {
@@ -108,18 +230,17 @@ Command change_speed(double speed_m_s) {
   return {MavCmd::do_change_speed, {1.0F, static_cast<float>(speed_m_s), -1.0F}};
 }
 
-CommandInt set_home(geo::Wgs84 home) {
-  return {.frame = MavFrame::global,
-          .command = MavCmd::do_set_home,
-          .place = {.lat_rad = home.lat_rad, .lon_rad = home.lon_rad, .z_m = home.alt_m}};
+Command set_home(geo::Wgs84 home) {
+  return {MavCmd::do_set_home, {}, CommandPlace{MavFrame::global, home.lat_rad, home.lon_rad, home.alt_m}};
 }
 
-CommandInt reposition(geo::Wgs84 place) {
+Command reposition(CommandPlace place) {
   // Speed and yaw as they are; switches to the mode that can do it.
-  return {.frame = MavFrame::global,
-          .command = MavCmd::do_reposition,
-          .params = {-1.0F, 1.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()},
-          .place = {.lat_rad = place.lat_rad, .lon_rad = place.lon_rad, .z_m = place.alt_m}};
+  return {MavCmd::do_reposition, {-1.0F, 1.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()}, place};
+}
+
+Command continue_mission(bool goes_on) {
+  return {MavCmd::do_pause_continue, {goes_on ? 1.0F : 0.0F}};
 }
 
 }  // namespace lapwing::mavlink

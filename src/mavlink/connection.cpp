@@ -21,6 +21,7 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
       options_(std::move(options)),
       log_(std::move(log)),
       routes_(std::make_unique<internal::Routes>()),
+      commands_(loop),
       scope_(loop) {
   if (options_.signing_key) guard_.emplace(*options_.signing_key);
   if (options_.heartbeat) scope_.spawn(beat());
@@ -127,6 +128,10 @@ base::Result<> Connection::send(Address target, Message message) {
 }
 
 base::Result<> Connection::send(Address target, Frame frame) {
+  if (send_guard_) {
+    auto const message = decode(frame);
+    if (auto allowed = message ? send_guard_(target, *message) : base::Result<>{}; !allowed) return allowed;
+  }
   if (auto const both = conflict(target.system))
     return fail(ErrorKind::refused,
                 fmt::format("two vehicles use system id {}: {} and {}", both->system_id, both->first, both->second),
@@ -189,6 +194,10 @@ std::optional<Conflict> Connection::conflict(std::uint8_t system_id) const {
 
 bool Connection::is_contested(std::uint8_t system_id) const {
   return routes_->claimants(system_id, loop_.now()).size() > 1;
+}
+
+std::optional<base::TimePoint> Connection::last_heard(std::uint8_t system_id) const {
+  return routes_->last_heard(system_id);
 }
 
 SourceCounters Connection::counters(Address source) const {

@@ -13,6 +13,7 @@
 #include "base/scope.hpp"
 #include "link/byte_link.hpp"
 #include "mavlink/codec.hpp"
+#include "mavlink/command_ledger.hpp"
 #include "mavlink/link_report.hpp"
 #include "mavlink/signing.hpp"
 
@@ -83,6 +84,11 @@ class Connection {
   /// telemetry.
   void send_to_all(Message const& message);
 
+  /// Asked before anything is sent to one vehicle: an error is what the sender gets. For an emergency stop, which holds
+  /// back whatever would move a vehicle.
+  using SendGuard = std::function<base::Result<>(Address, Message const&)>;
+  void set_send_guard(SendGuard guard) { send_guard_ = std::move(guard); }
+
   /// `handler` sees every decoded message from now on (of one system, if given) until the subscription is destroyed.
   Subscription subscribe(Subscription::Handler handler);
   Subscription subscribe(std::uint8_t system_id, Subscription::Handler handler);
@@ -99,6 +105,8 @@ class Connection {
   /// The system id was heard from two addresses within seconds: two vehicles, or one that restarted and has not been
   /// told apart from that yet. Messages are still sent, to the address heard last.
   [[nodiscard]] bool is_contested(std::uint8_t system_id) const;
+  /// When anything of the system was heard last.
+  [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
   /// Summed over all paths.
   [[nodiscard]] SourceCounters counters(Address source) const;
   /// How every link does, in the order of `add_link`. Takes a while for many sources: for once a second, not for every
@@ -110,6 +118,8 @@ class Connection {
 
   [[nodiscard]] base::Loop& loop() const { return loop_; }
   [[nodiscard]] Address self() const { return options_.self; }
+  /// Which commands are on their way: `run_command` keeps it.
+  [[nodiscard]] CommandLedger& commands() { return commands_; }
 
  private:
   struct Listener {
@@ -134,6 +144,8 @@ class Connection {
   std::vector<Listener> listeners_;
   int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
   FrameHook frame_hook_;
+  SendGuard send_guard_;
+  CommandLedger commands_;
   std::optional<SigningGuard> guard_;
   bool has_told_of_strangers_ = false;
   base::Scope scope_;

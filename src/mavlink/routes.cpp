@@ -103,6 +103,13 @@ std::vector<PeerRef> Routes::talkers(base::TimePoint now) const {
   return peers;
 }
 
+std::optional<base::TimePoint> Routes::last_heard(std::uint8_t system_id) const {
+  std::optional<base::TimePoint> latest;
+  for (auto it = sources_.lower_bound({system_id, 0}); it != sources_.end() && it->first.system == system_id; ++it)
+    latest = std::max(latest.value_or(it->second.heard), it->second.heard);
+  return latest;
+}
+
 SourceCounters Routes::counters(Address source) const {
   SourceCounters sum;
   auto const found = sources_.find(source);

@@ -43,6 +43,8 @@ class Routes {
   [[nodiscard]] std::optional<std::pair<PeerRef, PeerRef>> conflict(std::uint8_t system_id, base::TimePoint now) const;
   /// Peers that spoke MAVLink not long before `now`.
   [[nodiscard]] std::vector<PeerRef> talkers(base::TimePoint now) const;
+  /// When any component of the system was heard last.
+  [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
   [[nodiscard]] SourceCounters counters(Address source) const;
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
 

@@ -1,0 +1,46 @@
+#include "mavlink/command_ledger.hpp"
+
+#include <bit>
+
+#include "mavlink/command.hpp"
+
+namespace lapwing::mavlink {
+
+namespace {
+
+/// After that an answer counts as lost: then what comes is believed again.
+constexpr base::Duration answer_lasts = std::chrono::seconds(5);
+
+/// FNV-1a over what makes two commands of a kind different.
+std::uint64_t fingerprint(Command const& command) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  auto const add = [&hash](std::uint64_t value) { hash = (hash ^ value) * 0x100000001b3U; };
+  for (float const parameter : command.params) add(std::bit_cast<std::uint32_t>(parameter));
+  if (auto const& place = command.place) {
+    for (double const value : {place->lat_rad, place->lon_rad, place->z_m}) add(std::bit_cast<std::uint64_t>(value));
+  }
+  return hash;
+}
+
+}  // namespace
+
+CommandTurn::~CommandTurn() {
+  if (!is_ours()) return;
+  line_.owner_ = 0;
+  line_.freed.notify_all();
+}
+
+void CommandTurn::note_sent(Command const& command, base::TimePoint now) {
+  line_.unanswered_.push_back({fingerprint(command), now});
+}
+
+bool CommandTurn::note_answer(Command const& command, base::TimePoint now) {
+  auto& unanswered = line_.unanswered_;
+  while (!unanswered.empty() && now - unanswered.front().sent > answer_lasts) unanswered.pop_front();
+  if (unanswered.empty()) return true;
+  bool const is_meant = unanswered.front().fingerprint == fingerprint(command);
+  unanswered.pop_front();
+  return is_meant;
+}
+
+}  // namespace lapwing::mavlink

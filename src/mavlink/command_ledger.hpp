@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <utility>
+
+#include "base/notifier.hpp"
+#include "mavlink/enums.hpp"
+
+namespace lapwing::mavlink {
+
+struct Command;
+
+/// The commands of one kind to one vehicle: whose turn it is, and which tries may still be answered.
+class CommandLine {
+ public:
+  explicit CommandLine(base::Loop& loop) : freed(loop) {}
+  [[nodiscard]] bool is_taken() const { return owner_ != 0; }
+
+  base::Notifier freed;
+
+ private:
+  friend class CommandTurn;
+  struct Unanswered {
+    std::uint64_t fingerprint;  ///< of the command's parameters
+    base::TimePoint sent;
+  };
+  std::uint64_t owner_ = 0;
+  std::uint64_t last_owner_ = 0;
+  std::deque<Unanswered> unanswered_;
+};
+
+/// Holds the line while it lives, unless a later turn overtakes it.
+class CommandTurn {
+ public:
+  explicit CommandTurn(CommandLine& line) : line_(line), number_(++line.last_owner_) { line.owner_ = number_; }
+  CommandTurn(CommandTurn const&) = delete;
+  CommandTurn& operator=(CommandTurn const&) = delete;
+  ~CommandTurn();
+
+  [[nodiscard]] bool is_ours() const { return line_.owner_ == number_; }
+  void note_sent(Command const& command, base::TimePoint now);
+  /// An acknowledgement has come. Whether it can only be meant for `command`: autopilots answer in order, so the oldest
+  /// try that still waits for an answer has got this one.
+  [[nodiscard]] bool note_answer(Command const& command, base::TimePoint now);
+
+ private:
+  CommandLine& line_;
+  std::uint64_t number_;
+};
+
+/// Every line of one connection. Thread-bound.
+class CommandLedger {
+ public:
+  explicit CommandLedger(base::Loop& loop) : loop_(loop) {}
+  [[nodiscard]] CommandLine& line(std::uint8_t system_id, MavCmd command) {
+    return lines_.try_emplace({system_id, command}, loop_).first->second;
+  }
+
+ private:
+  base::Loop& loop_;
+  std::map<std::pair<std::uint8_t, MavCmd>, CommandLine> lines_;  // nodes do not move
+};
+
+}  // namespace lapwing::mavlink
