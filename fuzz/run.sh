@@ -68,6 +68,10 @@ case $target in
       "${items%,}" | seed simple
     printf 'QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t41\t-8\t90\t1\n1\t0\t3\t22\t15\t0\t0\t0\t41.1\t-8\t30\t1\n' | seed waypoints
     ;;
+  parameter_file)
+    printf '# Lapwing cache, taken (seconds since 1970): 5\n# Lapwing cache, hash: 00c0ffee\n1\t1\tRTL_ALT\t1500\t6\n1\t1\tA\t-1.5e-3\t9\n' | seed qgroundcontrol
+    printf '#NOTE\nRTL_ALT,1500\nWPNAV_SPEED 1000 # cm/s\nSTAT_RESET,1,@READONLY\n' | seed mission_planner
+    ;;
   *)
     echo "fuzz/run.sh: there is no target $target" >&2
     exit 2

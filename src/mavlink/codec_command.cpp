@@ -1,4 +1,4 @@
-// Commands, message rates and parameters.
+// Commands, message rates, parameters and signing.
 #include "mavlink/internal/codec_parts.hpp"
 #include "mavlink/internal/wire.hpp"
 
@@ -6,12 +6,14 @@
 #include <common/mavlink_msg_command_int.hpp>
 #include <common/mavlink_msg_command_long.hpp>
 #include <common/mavlink_msg_message_interval.hpp>
+#include <common/mavlink_msg_param_error.hpp>
 #include <common/mavlink_msg_param_request_list.hpp>
 #include <common/mavlink_msg_param_request_read.hpp>
 #include <common/mavlink_msg_param_set.hpp>
 #include <common/mavlink_msg_param_value.hpp>
 #include <common/mavlink_msg_request_data_stream.hpp>
 #include <common/mavlink_msg_set_mode.hpp>
+#include <common/mavlink_msg_setup_signing.hpp>
 
 namespace lapwing::mavlink::internal {
 
@@ -83,6 +85,14 @@ ParamValue read(PARAM_VALUE const& w) {
           .index = w.param_index};
 }
 
+ParamError read(PARAM_ERROR const& w) {
+  return {.target = target(w), .name = text(w.param_id), .index = w.param_index, .error = MavParamError{w.error}};
+}
+
+SetupSigning read(SETUP_SIGNING const& w) {
+  return {.target = target(w), .key = w.secret_key, .initial_timestamp = w.initial_timestamp};
+}
+
 }  // namespace
 
 ItemPlace place_from_wire(MavFrame frame, MavCmd command, std::int32_t x, std::int32_t y, float z) {
@@ -112,6 +122,8 @@ std::optional<Message> read_command(Frame const& frame) {
     case PARAM_REQUEST_LIST::MSG_ID: return read(unpack<PARAM_REQUEST_LIST>(frame));
     case PARAM_SET::MSG_ID: return read(unpack<PARAM_SET>(frame));
     case PARAM_VALUE::MSG_ID: return read(unpack<PARAM_VALUE>(frame));
+    case PARAM_ERROR::MSG_ID: return read(unpack<PARAM_ERROR>(frame));
+    case SETUP_SIGNING::MSG_ID: return read(unpack<SETUP_SIGNING>(frame));
     default: return std::nullopt;
   }
 }
@@ -211,6 +223,23 @@ void write(ParamValue const& m, Frame& frame) {
   w.param_type = static_cast<std::uint8_t>(m.type);
   w.param_count = m.count;
   w.param_index = m.index;
+  pack(w, frame);
+}
+
+void write(ParamError const& m, Frame& frame) {
+  PARAM_ERROR w{};
+  put_target(w, m.target);
+  w.param_id = text_field<16>(m.name);
+  w.param_index = m.index;
+  w.error = static_cast<std::uint8_t>(m.error);
+  pack(w, frame);
+}
+
+void write(SetupSigning const& m, Frame& frame) {
+  SETUP_SIGNING w{};
+  put_target(w, m.target);
+  w.secret_key = m.key;
+  w.initial_timestamp = m.initial_timestamp;
   pack(w, frame);
 }
 

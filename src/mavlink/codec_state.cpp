@@ -56,7 +56,8 @@ AutopilotVersion read(AUTOPILOT_VERSION const& w) {
           .vendor_id = w.vendor_id,
           .product_id = w.product_id,
           .uid = w.uid,
-          .flight_custom_version = w.flight_custom_version};
+          .flight_custom_version = w.flight_custom_version,
+          .uid2 = w.uid2};
 }
 
 SysStatus read(SYS_STATUS const& w) {
@@ -218,6 +219,7 @@ void write(AutopilotVersion const& m, Frame& frame) {
   w.product_id = m.product_id;
   w.uid = m.uid;
   w.flight_custom_version = m.flight_custom_version;
+  w.uid2 = m.uid2;
   pack(w, frame);
 }
 

@@ -224,4 +224,19 @@ std::string to_string(MavMissionResult result) {
   return fmt::format("result {}", static_cast<int>(result));
 }
 
+std::string to_string(MavParamError error) {
+  switch (error) {
+    case MavParamError::no_error: return "no error";
+    case MavParamError::does_not_exist: return "there is no such parameter";
+    case MavParamError::value_out_of_range: return "the value is out of range";
+    case MavParamError::permission_denied: return "permission denied";
+    case MavParamError::component_not_found: return "there is no such component";
+    case MavParamError::read_only: return "it is read-only";
+    case MavParamError::type_unsupported: return "its type is not supported";
+    case MavParamError::type_mismatch: return "it has another type";
+    case MavParamError::read_fail: return "it could not be read";
+  }
+  return fmt::format("error {}", static_cast<int>(error));
+}
+
 }  // namespace lapwing::mavlink

@@ -336,6 +336,26 @@ enum class MavParamType : std::uint8_t {
   real64 = 10,
 };
 
+enum class MavParamError : std::uint8_t {
+  no_error = 0,
+  does_not_exist = 1,
+  value_out_of_range = 2,
+  permission_denied = 3,
+  component_not_found = 4,
+  read_only = 5,
+  type_unsupported = 6,
+  type_mismatch = 7,
+  read_fail = 8,
+};
+/// "there is no such parameter", "it is read-only" ...: for people.
+[[nodiscard]] std::string to_string(MavParamError error);
+
+/// Bits of AutopilotVersion::capabilities.
+namespace capability_flag {
+inline constexpr std::uint64_t param_encode_bytewise = 1ULL << 4U;
+inline constexpr std::uint64_t param_encode_c_cast = 1ULL << 17U;
+}  // namespace capability_flag
+
 /// Message ids that are asked for by number (message intervals, REQUEST_MESSAGE).
 enum class MessageId : std::uint32_t {
   heartbeat = 0,

@@ -3,7 +3,6 @@
 #include "mavlink/fake_vehicle_test.hpp"
 #include "mavlink/message_interval.hpp"
 #include "mavlink/modes.hpp"
-#include "mavlink/param.hpp"
 
 namespace lapwing::mavlink {
 namespace {
@@ -24,44 +23,6 @@ TEST(MessageInterval, AsksInMicroseconds) {
   EXPECT_EQ(sent[0].params[0], 33.0F);
   EXPECT_EQ(sent[0].params[1], 200'000.0F);
   EXPECT_EQ(sent[1].params[1], 0.0F);
-}
-
-TEST(Param, ReadsByNameAmongUnaskedValues) {
-  Bench bench;
-  bench.vehicle->on = [&](Message const& message) {
-    if (auto const* request = std::get_if<ParamRequestRead>(&message)) {
-      bench.vehicle->answer(ParamValue{.name = "STAT_RUNTIME", .value = 99});
-      bench.vehicle->answer(ParamValue{.name = request->name, .value = 1500});
-    }
-  };
-  auto const value = bench.loop.run_until_done(read_param(bench.ground, Bench::target, "RTL_ALT"));
-  ASSERT_TRUE(value);
-  EXPECT_EQ(value->value, 1500);
-}
-
-TEST(Param, TimesOutOnANameThatTheVehicleDoesNotKnow) {
-  Bench bench;
-  auto const value = bench.loop.run_until_done(read_param(bench.ground, Bench::target, "NO_SUCH"));
-  ASSERT_FALSE(value);
-  EXPECT_NE(value.error().message.find("NO_SUCH"), std::string::npos);
-  EXPECT_EQ(bench.vehicle->all<ParamRequestRead>().size(), 5u);
-}
-
-TEST(Param, VerifiesWhatWasStored) {
-  Bench bench;
-  float stored = 5;
-  float limit = 100;
-  bench.vehicle->on = [&](Message const& message) {
-    if (auto const* set = std::get_if<ParamSet>(&message)) stored = std::min(set->value, limit);
-    if (std::get_if<ParamSet>(&message) || std::get_if<ParamRequestRead>(&message))
-      bench.vehicle->answer(ParamValue{.name = "WPNAV_SPEED", .value = stored});
-  };
-  EXPECT_TRUE(bench.loop.run_until_done(set_param(bench.ground, Bench::target, "WPNAV_SPEED", 50)));
-  EXPECT_EQ(stored, 50);
-  auto const clipped = bench.loop.run_until_done(set_param(bench.ground, Bench::target, "WPNAV_SPEED", 500));
-  ASSERT_FALSE(clipped);
-  EXPECT_EQ(clipped.error().kind, base::ErrorKind::refused);
-  EXPECT_EQ(clipped.error().message, "vehicle 1 stored WPNAV_SPEED = 100, not 500");
 }
 
 TEST(Modes, NameNumbersAndBack) {

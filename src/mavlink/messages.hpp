@@ -57,6 +57,7 @@ struct AutopilotVersion {
   std::uint16_t product_id = 0;
   std::uint64_t uid = 0;
   std::array<std::uint8_t, 8> flight_custom_version{};
+  std::array<std::uint8_t, 18> uid2{};  ///< the longer id of newer autopilots; zeros: `uid` is all there is
 };
 
 // ---- health
@@ -328,7 +329,7 @@ struct ParamRequestList {
 struct ParamSet {
   Address target{};
   std::string name{};
-  float value = 0.0F;
+  float value = 0.0F;  ///< by the vehicle's encoding: param.hpp
   MavParamType type = MavParamType::real32;
 };
 
@@ -338,6 +339,25 @@ struct ParamValue {
   MavParamType type = MavParamType::real32;
   std::uint16_t count = 0;
   std::uint16_t index = 65535;  ///< 65535: not part of a list
+};
+
+/// The vehicle cannot read or set a parameter, and says so.
+struct ParamError {
+  Address target{};
+  std::string name{};
+  std::int16_t index = -1;
+  MavParamError error = MavParamError::no_error;
+};
+
+// ---- signing
+// -------------------------------------------------------------------------------------------------------------
+
+/// Gives a vehicle the key with which it signs and checks from then on; zeros switch signing off. Whoever hears it has
+/// the key: never recorded, never passed on.
+struct SetupSigning {
+  Address target{};
+  std::array<std::uint8_t, 32> key{};
+  std::uint64_t initial_timestamp = 0;  ///< units of 10 us since 2015 (signing.hpp)
 };
 
 // ---- missions, fences, rally points
@@ -434,7 +454,7 @@ using Message =
                  GlobalPosition, LocalPosition, VfrHud, NavControllerOutput, Wind, HomePosition, GpsGlobalOrigin,
                  CameraFeedback, SetPositionTargetGlobalInt, PositionTargetGlobalInt, CommandLong, CommandInt,
                  CommandAck, SetMode, RequestDataStream, MessageInterval, ParamRequestRead, ParamRequestList, ParamSet,
-                 ParamValue, MissionItem, MissionCount, MissionRequest, MissionRequestInt, MissionRequestList,
+                 ParamValue, ParamError, SetupSigning, MissionItem, MissionCount, MissionRequest, MissionRequestInt, MissionRequestList,
                  MissionRequestPartialList, MissionWritePartialList, MissionAck, MissionClearAll, MissionSetCurrent,
                  MissionCurrent, MissionItemReached, WindCov, RcChannels, CameraTrigger, CameraImageCaptured,
                  CameraInformation, GimbalManagerInformation, GimbalDeviceAttitudeStatus, MountStatus, AvailableModes,

@@ -12,6 +12,7 @@ HOUSE = [
     {"dolphin", "fleet", "robot", "imm", "autonomy"},
     {"tasks"},
     {"plan"},
+    {"parameters"},
     {"slam", "explore", "vision", "video"},
     {"mavlink", "bus"},
     {"vehicle", "map"},

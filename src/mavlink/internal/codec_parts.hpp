@@ -61,6 +61,8 @@ void write(ParamRequestRead const& m, Frame& frame);
 void write(ParamRequestList const& m, Frame& frame);
 void write(ParamSet const& m, Frame& frame);
 void write(ParamValue const& m, Frame& frame);
+void write(ParamError const& m, Frame& frame);
+void write(SetupSigning const& m, Frame& frame);
 
 void write(MissionItem const& m, Frame& frame);
 void write(MissionCount const& m, Frame& frame);

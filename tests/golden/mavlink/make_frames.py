@@ -95,6 +95,9 @@ FRAMES = [
     d.MAVLink_available_modes_message(24, 3, 0, 5, 1, b"Loiter"),
     d.MAVLink_current_mode_message(0, 5, 6),
     d.MAVLink_available_modes_monitor_message(7),
+    m.MAVLink_param_error_message(255, 190, b"NO_SUCH_PARAM", -1, 1),
+    m.MAVLink_setup_signing_message(1, 1, list(range(32)), 0x0102030405),
+    m.MAVLink_autopilot_version_message(0xFBEF, 0x04070000, 0, 0, 77, [0] * 8, [0] * 8, [0] * 8, 0, 0, 0, list(range(1, 19))),
 ]
 
 
