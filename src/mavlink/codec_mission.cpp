@@ -24,6 +24,24 @@ namespace {
 
 auto constexpr no_items = std::numeric_limits<std::uint16_t>::max();  // MISSION_CURRENT.total of an empty mission
 
+/// Numbers of 32 bits that came to the standard later than to the generated dialect stand behind what it knows:
+/// `opaque_id` of COUNT and ACK, the three ids of MISSION_CURRENT. A frame's payload is zero behind its end.
+std::size_t constexpr count_id_at = 5;
+std::size_t constexpr ack_id_at = 4;
+std::size_t constexpr current_ids_at = 6;
+std::size_t constexpr id_size = 4;
+
+std::uint32_t id_at(Frame const& frame, std::size_t offset) {
+  std::uint32_t id = 0;
+  for (std::size_t i = id_size; i-- > 0;) id = id << 8U | frame.payload[offset + i];
+  return id;
+}
+void put_id(std::uint32_t id, Frame& frame, std::size_t offset) {
+  for (std::size_t i = 0; i < id_size; ++i, id >>= 8U)
+    frame.payload[offset + i] = static_cast<std::uint8_t>(id & 0xFFU);
+  frame.payload_size = std::max(frame.payload_size, static_cast<std::uint8_t>(offset + id_size));
+}
+
 /// All of an item but its place, which the two forms hold differently.
 template <class Wire>
 MissionItem item_without_place(Wire const& w, ItemForm form) {
@@ -158,16 +176,30 @@ std::optional<Message> read_mission(Frame const& frame) {
   switch (frame.message_id) {
     case MISSION_ITEM::MSG_ID: return read(unpack<MISSION_ITEM>(frame));
     case MISSION_ITEM_INT::MSG_ID: return read(unpack<MISSION_ITEM_INT>(frame));
-    case MISSION_COUNT::MSG_ID: return read(unpack<MISSION_COUNT>(frame));
+    case MISSION_COUNT::MSG_ID: {
+      auto m = read(unpack<MISSION_COUNT>(frame));
+      m.opaque_id = id_at(frame, count_id_at);
+      return m;
+    }
     case MISSION_REQUEST::MSG_ID: return read(unpack<MISSION_REQUEST>(frame));
     case MISSION_REQUEST_INT::MSG_ID: return read(unpack<MISSION_REQUEST_INT>(frame));
     case MISSION_REQUEST_LIST::MSG_ID: return read(unpack<MISSION_REQUEST_LIST>(frame));
     case MISSION_REQUEST_PARTIAL_LIST::MSG_ID: return read(unpack<MISSION_REQUEST_PARTIAL_LIST>(frame));
     case MISSION_WRITE_PARTIAL_LIST::MSG_ID: return read(unpack<MISSION_WRITE_PARTIAL_LIST>(frame));
-    case MISSION_ACK::MSG_ID: return read(unpack<MISSION_ACK>(frame));
+    case MISSION_ACK::MSG_ID: {
+      auto m = read(unpack<MISSION_ACK>(frame));
+      m.opaque_id = id_at(frame, ack_id_at);
+      return m;
+    }
     case MISSION_CLEAR_ALL::MSG_ID: return read(unpack<MISSION_CLEAR_ALL>(frame));
     case MISSION_SET_CURRENT::MSG_ID: return read(unpack<MISSION_SET_CURRENT>(frame));
-    case MISSION_CURRENT::MSG_ID: return read(unpack<MISSION_CURRENT>(frame));
+    case MISSION_CURRENT::MSG_ID: {
+      auto m = read(unpack<MISSION_CURRENT>(frame));
+      m.mission_id = id_at(frame, current_ids_at);
+      m.fence_id = id_at(frame, current_ids_at + id_size);
+      m.rally_id = id_at(frame, current_ids_at + 2 * id_size);
+      return m;
+    }
     case MISSION_ITEM_REACHED::MSG_ID: return read(unpack<MISSION_ITEM_REACHED>(frame));
     default: return std::nullopt;
   }
@@ -195,6 +227,7 @@ void write(MissionCount const& m, Frame& frame) {
   w.count = m.count;
   w.mission_type = static_cast<std::uint8_t>(m.type);
   pack(w, frame);
+  put_id(m.opaque_id, frame, count_id_at);
 }
 
 void write(MissionRequest const& m, Frame& frame) {
@@ -223,6 +256,7 @@ void write(MissionAck const& m, Frame& frame) {
   w.type = static_cast<std::uint8_t>(m.result);
   w.mission_type = static_cast<std::uint8_t>(m.type);
   pack(w, frame);
+  put_id(m.opaque_id, frame, ack_id_at);
 }
 
 void write(MissionSetCurrent const& m, Frame& frame) {
@@ -239,6 +273,9 @@ void write(MissionCurrent const& m, Frame& frame) {
   w.mission_state = static_cast<std::uint8_t>(m.state);
   w.mission_mode = m.mission_mode;
   pack(w, frame);
+  put_id(m.mission_id, frame, current_ids_at);
+  put_id(m.fence_id, frame, current_ids_at + id_size);
+  put_id(m.rally_id, frame, current_ids_at + 2 * id_size);
 }
 
 void write(MissionItemReached const& m, Frame& frame) {

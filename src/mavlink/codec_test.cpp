@@ -130,6 +130,18 @@ TEST(Codec, KeepsTheUnknownUnknown) {
   EXPECT_FALSE(carried(CommandAck{.result = MavResult::in_progress}).progress);
 }
 
+TEST(Codec, CarriesTheNamesOfPlansThatTheDialectDoesNotKnowYet) {
+  EXPECT_EQ(carried(MissionCount{.count = 3, .opaque_id = 0xDEADBEEF}).opaque_id, 0xDEADBEEFU);
+  EXPECT_EQ(carried(MissionAck{.opaque_id = 0x01020304}).opaque_id, 0x01020304U);
+  auto const current =
+      carried(MissionCurrent{.seq = 1, .total = 4, .mission_id = 7, .fence_id = 0, .rally_id = 0xFF000000});
+  EXPECT_EQ(current.total, 4);
+  EXPECT_EQ(current.mission_id, 7U);
+  EXPECT_EQ(current.fence_id, 0U);
+  EXPECT_EQ(current.rally_id, 0xFF000000U);
+  EXPECT_EQ(carried(MissionCount{.count = 3}).opaque_id, 0U);
+}
+
 TEST(Codec, KeepsAHeadingJustBelowNorthWithinTheCircle) {
   GlobalPosition position;
   position.heading_rad = 2 * std::numbers::pi - 1e-9;

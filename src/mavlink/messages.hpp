@@ -384,6 +384,7 @@ struct MissionCount {
   Address target{};
   std::uint16_t count = 0;
   MissionType type = MissionType::mission;
+  std::uint32_t opaque_id = 0;  ///< the vehicle's name for what it holds, changed with every change; 0: it gives none
 };
 
 struct MissionRequest {
@@ -421,6 +422,7 @@ struct MissionAck {
   Address target{};
   MavMissionResult result = MavMissionResult::accepted;
   MissionType type = MissionType::mission;
+  std::uint32_t opaque_id = 0;  ///< of what was just uploaded: MissionCount::opaque_id
 };
 
 struct MissionClearAll {
@@ -438,6 +440,9 @@ struct MissionCurrent {
   std::optional<std::uint16_t> total{};  ///< without the home item
   MissionState state = MissionState::unknown;
   std::uint8_t mission_mode = 0;  ///< 1 while the vehicle flies its mission, 2 while it does not, 0 unknown
+  std::uint32_t mission_id = 0;   ///< MissionCount::opaque_id of the three plans; 0 unknown
+  std::uint32_t fence_id = 0;
+  std::uint32_t rally_id = 0;
 };
 
 /// ArduPilot reports its mission runner's index here, not always the waypoint's: never wait for an exact number.
