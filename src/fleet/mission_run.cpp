@@ -7,8 +7,8 @@
 
 #include "fleet/flight_plan.hpp"
 #include "mavlink/command.hpp"
-#include "mavlink/mission_transfer.hpp"
 #include "mavlink/modes.hpp"
+#include "mavlink/plan_replacement.hpp"
 #include "plan/capabilities.hpp"
 
 namespace lapwing::fleet {
@@ -50,52 +50,22 @@ Task<> wait_until_one(RunContext context) {
   while (connection.is_contested(context.craft.address.system)) co_await connection.loop().sleep(100ms);
 }
 
-Task<Result<>> upload(RunContext context, FlightPlan const& plan, RunRecord& record) {
-  auto const begun = context.connection.loop().now();
-  mavlink::TransferProgress progress = [&record](std::size_t done, std::size_t total) {
-    record.progress = fmt::format("uploading {}/{}", done, total);
-  };
-  auto items = plan.items;
-  auto uploaded = co_await mavlink::upload_mission(context.connection, context.craft.address, std::move(items),
-                                                   mavlink::MissionType::mission, transfer, std::move(progress));
-  record.upload_time = context.connection.loop().now() - begun;
-  if (!uploaded) co_return std::unexpected(named("upload", std::move(uploaded.error())));
-  co_return Result<>{};
-}
-
-std::unexpected<base::Error> different(mavlink::Difference const& difference) {
-  return fail(ErrorKind::refused, fmt::format("the vehicle does not hold the mission that was sent: {}", difference));
-}
-
-/// What the vehicle holds instead of the plan; empty when it holds the plan.
-Task<Result<std::vector<mavlink::Difference>>> read_back(RunContext context, FlightPlan const& plan,
-                                                         RunRecord& record) {
-  mavlink::TransferProgress progress = [&record](std::size_t done, std::size_t total) {
-    record.progress = fmt::format("reading back {}/{}", done, total);
-  };
-  auto held = co_await mavlink::download_mission(context.connection, context.craft.address,
-                                                 mavlink::MissionType::mission, transfer, std::move(progress));
-  if (!held) co_return std::unexpected(named("read-back", std::move(held.error())));
-  co_return mavlink::compare_readback(plan.items, *held, context.craft.mav_autopilot);
-}
-
-/// Phases 3 and 4. What counts is what the vehicle holds: an upload whose last acknowledgement got lost has succeeded,
-/// and a copy that came out different is sent again.
+/// Phases 3 and 4. The mission that the vehicle held is not kept: it is there to be replaced, and fetching it first
+/// would double the time to take-off. A failure leaves none, rather than a part of each.
 Task<Result<>> transfer_mission(RunContext context, FlightPlan const& plan, RunRecord& record) {
-  constexpr int attempts = 4;
-  Result<> outcome;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    outcome = co_await upload(context, plan, record);
-    bool const may_be_there = outcome || outcome.error().kind == ErrorKind::timed_out;
-    if (!may_be_there || (outcome && !context.options.verifies)) break;
-    auto compared = co_await read_back(context, plan, record);
-    if (compared && compared->empty()) co_return Result<>{};
-    if (compared) outcome = different(compared->front());
-    if (!compared && outcome) outcome = std::unexpected(compared.error());
-    bool const answers = compared || compared.error().kind == ErrorKind::refused;
-    if (!answers) break;
-  }
-  co_return outcome;
+  mavlink::ReplaceOptions options{.transfer = transfer,
+                                  .autopilot = context.craft.mav_autopilot,
+                                  .verifies = context.options.verifies,
+                                  .keeps_old = false};
+  options.progress = [&record](std::string_view phase, std::size_t done, std::size_t total) {
+    record.progress = fmt::format("{} {}/{}", phase, done, total);
+  };
+  mavlink::Replacement replacement;
+  auto items = plan.items;
+  auto const replaced = co_await mavlink::replace_plan(context.connection, context.craft.address, std::move(items),
+                                                       mavlink::MissionType::mission, std::move(options), replacement);
+  record.upload_time = replacement.upload_time;
+  co_return replaced;
 }
 
 /// So that a vehicle that flew a part of another mission begins this one at its begin. Autopilots without the command

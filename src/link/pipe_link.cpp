@@ -16,6 +16,7 @@ struct internal::PipeBus {
   ByteLink::Receive server;
   std::map<Peer, ByteLink::Receive> clients;
   std::uint64_t next_key = 1;
+  bool is_cut = false;
 };
 
 namespace {
@@ -71,7 +72,7 @@ class ServerEnd final : public End {
     count_sent(bytes);
     bus_->loop.post([weak = std::weak_ptr(bus_), peer, chunk = Chunk(bytes.begin(), bytes.end())] {
       auto const bus = weak.lock();
-      if (!bus) return;
+      if (!bus || bus->is_cut) return;
       auto const client = bus->clients.find(peer);
       if (client != bus->clients.end() && client->second) client->second(server_peer, chunk);
     });
@@ -100,7 +101,7 @@ class ClientEnd final : public End {
     count_sent(bytes);
     bus_->loop.post([weak = std::weak_ptr(bus_), from = self_, chunk = Chunk(bytes.begin(), bytes.end())] {
       auto const bus = weak.lock();
-      if (bus && bus->server) bus->server(from, chunk);
+      if (bus && bus->server && !bus->is_cut) bus->server(from, chunk);
     });
     return true;
   }
@@ -121,6 +122,10 @@ std::unique_ptr<ByteLink> PipeHub::take_server() {
 }
 std::unique_ptr<ByteLink> PipeHub::connect() {
   return std::make_unique<ClientEnd>(bus_);
+}
+
+void PipeHub::cut(bool is_cut) {
+  bus_->is_cut = is_cut;
 }
 
 Pipe make_pipe(base::Loop& loop) {

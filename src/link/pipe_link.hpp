@@ -31,6 +31,8 @@ class PipeHub {
   [[nodiscard]] std::unique_ptr<ByteLink> take_server();
   /// A new client; destroying it disconnects it, a later one is another peer (as after a vehicle's reboot).
   [[nodiscard]] std::unique_ptr<ByteLink> connect();
+  /// While it is cut nothing arrives at either end.
+  void cut(bool is_cut);
 
  private:
   std::shared_ptr<internal::PipeBus> bus_;  // shared with the ends, any of which may go first

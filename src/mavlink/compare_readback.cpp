@@ -11,6 +11,7 @@ namespace {
 double constexpr angle_tolerance_rad = 4e-9;  // two units of the wire, 2 cm
 double constexpr local_tolerance_m = 1e-3;
 double constexpr altitude_tolerance_m = 0.0101;  // ArduPilot cuts to whole centimetres
+double constexpr rally_tolerance_m = 1.0;        // and to whole metres for rally points
 
 /// Frames that mean the same, mapped to one of them.
 MavFrame plain(MavFrame frame) {
@@ -69,7 +70,9 @@ class Comparison {
                                  std::fabs(a.lon_rad - b.lon_rad) > angle_tolerance_rad
                            : std::fabs(a.x - b.x) > local_tolerance_m || std::fabs(a.y - b.y) > local_tolerance_m;
     if (moved) all.push_back(fmt::format("item {}: position {}, sent {}", index_, text(got_), text(sent_)));
-    if (std::fabs(a.z_m - b.z_m) > altitude_tolerance_m)
+    if (ardupilot_ && sent_.type == MissionType::fence) return;  // ArduPilot's fences have no heights of their own
+    bool const is_rally = ardupilot_ && sent_.type == MissionType::rally;
+    if (std::fabs(a.z_m - b.z_m) > (is_rally ? rally_tolerance_m : altitude_tolerance_m))
       all.push_back(fmt::format("item {}: altitude {:.2f} m, sent {:.2f} m", index_, b.z_m, a.z_m));
   }
 
@@ -104,11 +107,19 @@ std::vector<Difference> compare_readback(std::span<MissionItem const> sent, std:
     all.push_back(fmt::format("the vehicle holds {} items, sent {}", got.size(), sent.size()));
     return all;
   }
-  bool const ardupilot = autopilot == MavAutopilot::ardupilotmega;
   for (std::size_t i = 0; i < sent.size(); ++i) {
-    bool const is_home = ardupilot && i == 0 && sent[i].type == MissionType::mission;
-    if (!is_home) Comparison(i, sent[i], got[i], ardupilot).add_differences(all);
+    auto const differences = compare_item(i, sent[i], got[i], autopilot);
+    all.insert(all.end(), differences.begin(), differences.end());
   }
+  return all;
+}
+
+std::vector<Difference> compare_item(std::size_t index, MissionItem const& sent, MissionItem const& got,
+                                     MavAutopilot autopilot) {
+  std::vector<Difference> all;
+  bool const ardupilot = autopilot == MavAutopilot::ardupilotmega;
+  bool const is_home = ardupilot && index == 0 && sent.type == MissionType::mission;
+  if (!is_home) Comparison(index, sent, got, ardupilot).add_differences(all);
   return all;
 }
 

@@ -90,15 +90,26 @@ class MissionStore {
   std::optional<std::size_t> silent_at;                             ///< falls silent when this item comes
   std::optional<std::pair<std::size_t, MavMissionResult>> refuses;  ///< an item, and why
   std::optional<MavMissionResult> refuses_count;
+  std::optional<MavMissionResult> refuses_part;  ///< MISSION_WRITE_PARTIAL_LIST, and why
+  bool spoils_item_1 = false;                    ///< keeps another height than it was sent
+  std::uint32_t opaque_id = 0;                   ///< what it calls its items
   int finished = 0;
+  int parts = 0;  ///< uploads of a part
+
+  /// Takes the item that it waits for without a word.
+  void swallow(MissionItem const& item) {
+    items.push_back(item);
+    ++next_;
+  }
 
  private:
   void take(Message const& message) {
     if (silent) return;
     if (auto const* count = std::get_if<MissionCount>(&message)) take_count(*count);
+    if (auto const* part = std::get_if<MissionWritePartialList>(&message)) take_part(*part);
     if (auto const* item = std::get_if<MissionItem>(&message)) take_item(*item);
     if (std::get_if<MissionRequestList>(&message))
-      vehicle_.answer(MissionCount{.count = static_cast<std::uint16_t>(items.size())});
+      vehicle_.answer(MissionCount{.count = static_cast<std::uint16_t>(items.size()), .opaque_id = opaque_id});
     if (auto const* request = std::get_if<MissionRequestInt>(&message); request && request->seq < items.size())
       vehicle_.answer(items[request->seq]);
     if (std::get_if<MissionClearAll>(&message)) {
@@ -109,9 +120,23 @@ class MissionStore {
 
   void take_count(MissionCount const& count) {
     if (refuses_count) return acknowledge(*refuses_count);
-    items.clear();
-    expected_ = count.count;
+    // Not atomic: cut to the new length at once, then written over item by item.
+    if (items.size() > count.count) items.resize(count.count);
     if (count.count == 0) return acknowledge(MavMissionResult::accepted);
+    receive(0, count.count);
+  }
+
+  void take_part(MissionWritePartialList const& part) {
+    if (refuses_part) return acknowledge(*refuses_part);
+    if (part.start < 0 || part.end < part.start || static_cast<std::size_t>(part.end) >= items.size())
+      return acknowledge(MavMissionResult::error);
+    ++parts;
+    receive(static_cast<std::size_t>(part.start), static_cast<std::size_t>(part.end) + 1);
+  }
+
+  void receive(std::size_t first, std::size_t end) {
+    next_ = first;
+    end_ = end;
     receiving_ = true;
     progressed_ = now();
     request();
@@ -124,14 +149,16 @@ class MissionStore {
       return;
     }
     if (!receiving_) return acknowledge(MavMissionResult::error);
-    if (item.seq != items.size()) return acknowledge(MavMissionResult::invalid_sequence);
+    if (item.seq != next_) return acknowledge(MavMissionResult::invalid_sequence);
     if (refuses && refuses->first == item.seq) {
       receiving_ = false;
       return acknowledge(refuses->second);
     }
     progressed_ = now();
-    items.push_back(item);
-    if (items.size() < expected_) return request();
+    if (next_ == items.size()) items.emplace_back();
+    items[next_] = item;
+    if (spoils_item_1 && next_ == 1) items[1].place.z_m += 5.0;
+    if (++next_ < end_) return request();
     receiving_ = false;
     ++finished;
     acknowledge(MavMissionResult::accepted);
@@ -154,7 +181,7 @@ class MissionStore {
 
   void request() {
     requested_ = now();
-    auto const seq = static_cast<std::uint16_t>(items.size());
+    auto const seq = static_cast<std::uint16_t>(next_);
     if (asks_with_int)
       vehicle_.answer(MissionRequestInt{.seq = seq});
     else
@@ -166,7 +193,8 @@ class MissionStore {
   FakeVehicle& vehicle_;
   bool receiving_ = false;
   bool watching_ = false;
-  std::size_t expected_ = 0;
+  std::size_t next_ = 0;
+  std::size_t end_ = 0;
   base::TimePoint progressed_{};
   base::TimePoint requested_{};
   base::Scope scope_;

@@ -18,6 +18,16 @@ struct TransferOptions {
   base::Duration silence_limit =
       std::chrono::seconds(8);  ///< an upload in which nothing comes for this long has failed
   int restarts = 2;  ///< how often a transfer that timed out begins anew; the vehicle forgets an upload it gave up
+  /// How long altogether a transfer waits for a vehicle that is not heard at all. Once it is heard again an upload
+  /// begins anew and a download goes on at the first item that is missing.
+  base::Duration outage_limit{};
+};
+
+/// What a vehicle holds of one type.
+struct HeldPlan {
+  std::vector<MissionItem> items;
+  /// The vehicle's name for it, changed with every change; 0: it gives none (ArduPilot before 4.7, PX4 before 1.15).
+  std::uint32_t opaque_id = 0;
 };
 
 /// Called after each step with the number of items that have gone over, and the total.
@@ -31,11 +41,19 @@ base::Task<base::Result<>> upload_mission(Connection& connection, Address target
                                           MissionType type = MissionType::mission, TransferOptions options = {},
                                           TransferProgress progress = {});
 
-/// What the vehicle holds.
-base::Task<base::Result<std::vector<MissionItem>>> download_mission(Connection& connection, Address target,
-                                                                    MissionType type = MissionType::mission,
-                                                                    TransferOptions options = {},
-                                                                    TransferProgress progress = {});
+/// Writes items `first` up to before `end` of `items` over those that the vehicle holds there; the others, and their
+/// number, have to be the same (MISSION_WRITE_PARTIAL_LIST). Not every autopilot can: PX4 stays silent. Errors as
+/// above.
+base::Task<base::Result<>> upload_part(Connection& connection, Address target, std::vector<MissionItem> items,
+                                       std::size_t first, std::size_t end, MissionType type = MissionType::mission,
+                                       TransferOptions options = {}, TransferProgress progress = {});
+
+/// What the vehicle holds. Only its number is asked for where the vehicle still names it as it named `known`.
+/// Errors: refused (also by vehicles without plans of this type), timed_out, those of Connection::send.
+base::Task<base::Result<HeldPlan>> download_mission(Connection& connection, Address target,
+                                                    MissionType type = MissionType::mission,
+                                                    TransferOptions options = {}, TransferProgress progress = {},
+                                                    HeldPlan known = {});
 
 base::Task<base::Result<>> clear_mission(Connection& connection, Address target,
                                          MissionType type = MissionType::mission, TransferOptions options = {});
@@ -49,5 +67,9 @@ using Difference = std::string;
 /// turns and yaw are rounded or dropped; autocontinue and current are its own). Empty: the vehicle holds the mission.
 [[nodiscard]] std::vector<Difference> compare_readback(std::span<MissionItem const> sent,
                                                        std::span<MissionItem const> got, MavAutopilot autopilot);
+
+/// The same for one item, number `index`.
+[[nodiscard]] std::vector<Difference> compare_item(std::size_t index, MissionItem const& sent, MissionItem const& got,
+                                                   MavAutopilot autopilot);
 
 }  // namespace lapwing::mavlink

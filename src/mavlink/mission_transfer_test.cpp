@@ -1,5 +1,6 @@
 #include "mavlink/mission_transfer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -16,6 +17,7 @@ using namespace testing;
 std::vector<MissionItem> mission_of(std::size_t size) {
   std::vector<MissionItem> items(size);
   for (std::size_t i = 0; i < size; ++i) {
+    items[i].seq = static_cast<std::uint16_t>(i);
     items[i].frame = MavFrame::global;
     items[i].command = MavCmd::nav_waypoint;
     items[i].place = {
@@ -189,8 +191,8 @@ TEST(Upload, SendsTheNextItemWhenOnlyTheRequestForItWasLost) {
   bench.vehicle->on = [&](Message const& message) {
     if (auto const* item = std::get_if<MissionItem>(&message)) came.push_back(item->seq);
     if (came == std::vector{0, 1}) {
-      // Item 1 arrives, the request for item 2 does not: swallowed here.
-      store.items.push_back(std::get<MissionItem>(message));
+      // Item 1 arrives, the request for item 2 does not.
+      store.swallow(std::get<MissionItem>(message));
       return;
     }
     script(message);
@@ -207,7 +209,7 @@ TEST(Download, BringsEveryItemBack) {
   ASSERT_TRUE(upload(bench, mission_of(6)));
   auto const got = bench.loop.run_until_done(download_mission(bench.ground, Bench::target));
   ASSERT_TRUE(got);
-  EXPECT_TRUE(compare_readback(mission_of(6), *got, MavAutopilot::px4).empty());
+  EXPECT_TRUE(compare_readback(mission_of(6), got->items, MavAutopilot::px4).empty());
 }
 
 TEST(Download, ReportsRefusalAndSilence) {
@@ -222,6 +224,101 @@ TEST(Download, ReportsRefusalAndSilence) {
   auto const denied = bench.loop.run_until_done(download_mission(bench.ground, Bench::target));
   ASSERT_FALSE(denied);
   EXPECT_EQ(denied.error().kind, base::ErrorKind::refused);
+}
+
+/// Nothing gets through for a time, either way.
+base::Task<void> cut_after(base::Loop& loop, Bench& bench, base::Duration after, base::Duration lasting) {
+  co_await loop.sleep(after);
+  bench.hub.cut(true);
+  co_await loop.sleep(lasting);
+  bench.hub.cut(false);
+}
+
+constexpr TransferOptions patient{.outage_limit = 60s};
+
+TEST(Upload, BeginsAnewWhenTheLinkIsBack) {
+  Bench bench({.delay = 50ms});
+  MissionStore store(*bench.vehicle);
+  base::Scope scope(bench.loop);
+  scope.spawn(cut_after(bench.loop, bench, 2s, 40s));
+  auto const begun = bench.loop.now();
+  ASSERT_TRUE(upload(bench, mission_of(40), patient));
+  EXPECT_EQ(store.items.size(), 40u);
+  EXPECT_LT(bench.loop.now() - begun, 50s);
+}
+
+TEST(Upload, GoesOnWithinTheVehiclesPatience) {
+  Bench bench({.delay = 50ms});
+  MissionStore store(*bench.vehicle);
+  base::Scope scope(bench.loop);
+  scope.spawn(cut_after(bench.loop, bench, 2s, 5s));
+  std::vector<std::size_t> steps;
+  ASSERT_TRUE(upload(bench, mission_of(40), patient, [&](std::size_t done, std::size_t) { steps.push_back(done); }));
+  EXPECT_TRUE(std::ranges::is_sorted(steps));  // never from the start again
+  EXPECT_EQ(store.finished, 1);
+}
+
+TEST(Upload, EndsWhenTheLinkStaysAway) {
+  Bench bench({.delay = 50ms});
+  MissionStore store(*bench.vehicle);
+  base::Scope scope(bench.loop);
+  scope.spawn(cut_after(bench.loop, bench, 2s, 1h));
+  auto const begun = bench.loop.now();
+  auto const result = upload(bench, mission_of(40), patient);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, base::ErrorKind::timed_out);
+  EXPECT_LT(bench.loop.now() - begun, 100s);
+}
+
+TEST(Download, GoesOnWhereTheLinkWasLost) {
+  Bench bench({.delay = 50ms});
+  MissionStore store(*bench.vehicle);
+  store.items = mission_of(40);
+  base::Scope scope(bench.loop);
+  scope.spawn(cut_after(bench.loop, bench, 2s, 50s));
+  std::vector<std::size_t> steps;
+  auto const got =
+      bench.loop.run_until_done(download_mission(bench.ground, Bench::target, MissionType::mission, patient,
+                                                 [&](std::size_t done, std::size_t) { steps.push_back(done); }));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_TRUE(compare_readback(mission_of(40), got->items, MavAutopilot::px4).empty());
+  EXPECT_EQ(steps.size(), 40u);  // each once
+}
+
+TEST(Download, BeginsAnewWhenThePlanIsAnotherAfterTheOutage) {
+  Bench bench({.delay = 50ms});
+  MissionStore store(*bench.vehicle);
+  store.items = mission_of(40);
+  base::Scope scope(bench.loop);
+  scope.spawn(cut_after(bench.loop, bench, 2s, 50s));
+  auto other = mission_of(39);
+  for (auto& item : other) item.place.z_m = 7.0;
+  bool is_changed = false;
+  auto const got = bench.loop.run_until_done(
+      download_mission(bench.ground, Bench::target, MissionType::mission, patient, [&](std::size_t done, std::size_t) {
+        if (done < 10 || is_changed) return;
+        store.items = other;
+        is_changed = true;
+      }));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_TRUE(compare_readback(other, got->items, MavAutopilot::px4).empty());
+}
+
+TEST(Download, AsksForNoItemOfAPlanThatIsStillTheOneKnown) {
+  Bench bench;
+  MissionStore store(*bench.vehicle);
+  store.items = mission_of(6);
+  store.opaque_id = 0xC0FFEE01;
+  HeldPlan const known{mission_of(6), 0xC0FFEE01};
+  auto const get = [&] {
+    return bench.loop.run_until_done(
+        download_mission(bench.ground, Bench::target, MissionType::mission, {}, {}, known));
+  };
+  ASSERT_EQ(get()->items.size(), 6u);
+  EXPECT_TRUE(bench.vehicle->all<MissionRequestInt>().empty());
+  store.opaque_id = 2;
+  EXPECT_EQ(get()->opaque_id, 2u);
+  EXPECT_EQ(bench.vehicle->all<MissionRequestInt>().size(), 6u);
 }
 
 TEST(Clear, EmptiesTheVehicleAndReportsRefusal) {
@@ -268,7 +365,7 @@ TEST_P(BadLink, CarriesAMissionThereAndBack) {
       continue;
     }
     ASSERT_TRUE(got) << got.error().message << " with seed " << seed;
-    EXPECT_TRUE(compare_readback(sent, *got, MavAutopilot::px4).empty());
+    EXPECT_TRUE(compare_readback(sent, got->items, MavAutopilot::px4).empty());
   }
 }
 

@@ -1,0 +1,254 @@
+#include "mavlink/mission_transfer.hpp"
+
+#include <utility>
+
+#include "mavlink/internal/transfer_parts.hpp"
+
+namespace lapwing::mavlink {
+
+using base::ErrorKind;
+using base::fail;
+using base::TimePoint;
+using internal::meant_for;
+using internal::Outage;
+using internal::Party;
+using internal::Patience;
+using internal::silent;
+
+namespace {
+
+/// Tells the vehicle that the transfer is off, if it ends (or is destroyed) before `settled()`.
+class CancelNotice {
+ public:
+  explicit CancelNotice(Party party) : party_(party) {}
+  CancelNotice(CancelNotice const&) = delete;
+  CancelNotice& operator=(CancelNotice const&) = delete;
+  ~CancelNotice() {
+    if (!settled_) (void)party_.send(MissionAck{.result = MavMissionResult::operation_cancelled, .type = party_.type});
+  }
+  void settled() { settled_ = true; }
+
+ private:
+  Party party_;
+  bool settled_ = false;
+};
+
+/// The vehicle's side of an upload as it appears here.
+class Upload {
+ public:
+  /// Of the items `first` up to before `end`; less than all are written over those that the vehicle holds there.
+  Upload(Party party, std::vector<MissionItem> const& items, std::size_t first, std::size_t end,
+         TransferOptions const& options, TransferProgress const& progress)
+      : party_(party),
+        items_(items),
+        first_(first),
+        end_(end),
+        options_(options),
+        progress_(progress),
+        patience_(options) {}
+
+  base::Task<base::Result<>> run();
+
+ private:
+  using Ended = std::optional<base::Result<>>;
+
+  base::Result<> send_opening();
+  base::Result<> send_item(std::size_t seq);
+  [[nodiscard]] Ended take_request(std::size_t seq);
+  [[nodiscard]] Ended take_ack(MavMissionResult result);
+  [[nodiscard]] Ended repeat();
+  [[nodiscard]] Ended take_invalid_sequence();
+  [[nodiscard]] bool begun() const { return last_sent_.has_value(); }
+  [[nodiscard]] bool all_sent() const { return items_.empty() || last_sent_ == end_ - 1; }
+  [[nodiscard]] bool is_part() const { return end_ - first_ < items_.size(); }
+  [[nodiscard]] base::Error refusal(MavMissionResult result) const;
+
+  Party party_;
+  std::vector<MissionItem> const& items_;
+  std::size_t first_;
+  std::size_t end_;
+  TransferOptions const& options_;
+  TransferProgress const& progress_;
+  Patience patience_;
+  int counts_sent_ = 0;
+  std::optional<std::size_t> last_sent_;
+  std::size_t sent_ = 0;        ///< how many items have gone out at least once
+  bool last_repeated_ = false;  ///< the item sent last was sent before
+  TimePoint count_sent_at_{};
+  TimePoint advanced_at_{};    ///< when the item before the last one first went out
+  TimePoint first_sent_at_{};  ///< when the last one first went out
+  std::optional<MavMissionResult> doubtful_;
+  std::size_t requested_ = 0;  ///< what the vehicle asked for last
+  std::size_t guessed_ = 0;    ///< what it is taken to want now: that, or an item a little further on
+};
+
+base::Result<> Upload::send_opening() {
+  ++counts_sent_;
+  count_sent_at_ = party_.now();
+  if (is_part())
+    return party_.send(MissionWritePartialList{
+        .start = static_cast<std::int16_t>(first_), .end = static_cast<std::int16_t>(end_ - 1), .type = party_.type});
+  return party_.send(MissionCount{.count = static_cast<std::uint16_t>(items_.size()), .type = party_.type});
+}
+
+base::Result<> Upload::send_item(std::size_t seq) {
+  last_repeated_ = seq < sent_;
+  if (!last_repeated_) {
+    advanced_at_ = std::exchange(first_sent_at_, party_.now());
+    sent_ = seq + 1;
+  }
+  last_sent_ = seq;
+  MissionItem item = items_[seq];
+  item.seq = static_cast<std::uint16_t>(seq);
+  item.type = party_.type;
+  item.form = ItemForm::integer;
+  return party_.send(item);
+}
+
+/// ERROR to a repeated item is what a vehicle says that gave the upload up: that, like a cancellation, is worth another
+/// round.
+base::Error Upload::refusal(MavMissionResult result) const {
+  bool const gave_up =
+      result == MavMissionResult::operation_cancelled || (result == MavMissionResult::error && last_repeated_);
+  auto const kind = gave_up ? ErrorKind::timed_out : ErrorKind::refused;
+  if (!last_sent_)
+    return {kind, fmt::format("vehicle {} refused {} {}: {}", party_.target.system, items_.size(), party_.plural(),
+                              to_string(result))};
+  return {kind, fmt::format("vehicle {} refused item {} ({}): {}", party_.target.system, *last_sent_,
+                            to_string(items_[*last_sent_].command), to_string(result))};
+}
+
+Upload::Ended Upload::take_request(std::size_t seq) {
+  if (seq < first_ || seq >= end_) return std::nullopt;  // of another transfer
+  if (!begun() && counts_sent_ == 1) {
+    patience_.measured(party_.now() - count_sent_at_);
+  } else if (begun() && seq == *last_sent_ + 1 && !last_repeated_ && guessed_ == requested_) {
+    patience_.measured(party_.now() - first_sent_at_);
+  } else if (begun() && seq != *last_sent_) {
+    patience_.moved_on();
+  }
+  requested_ = guessed_ = seq;
+  if (auto sent = send_item(seq); !sent) return sent;
+  if (progress_) progress_(seq, items_.size());
+  return std::nullopt;
+}
+
+/// Answers that late repetitions provoke must not end a good transfer, nor must the last word of an earlier one.
+Upload::Ended Upload::take_ack(MavMissionResult result) {
+  switch (result) {
+    case MavMissionResult::accepted:
+      if (all_sent()) return base::Result<>{};
+      return std::nullopt;
+    case MavMissionResult::invalid_sequence: return take_invalid_sequence();
+    case MavMissionResult::operation_cancelled:
+      if (!begun()) return std::nullopt;
+      break;
+    case MavMissionResult::error: {
+      if (!begun() && is_part()) break;
+      if (!begun() || !all_sent()) {
+        doubtful_ = result;  // it counts if nothing follows
+        return std::nullopt;
+      }
+      // ArduPilot says ERROR to a repeated last item when it has finished and its acknowledgement was lost. It cannot
+      // have given up instead as long as its own limit, which began no earlier than the item before went out, has not
+      // passed.
+      bool const may_have_given_up = party_.now() - advanced_at_ >= options_.silence_limit;
+      if (last_repeated_ && party_.type == MissionType::mission && !may_have_given_up) return base::Result<>{};
+      break;
+    }
+    default: break;
+  }
+  return std::unexpected(refusal(result));
+}
+
+/// ArduPilot says so to an item that it has already: if that was a repetition, the request for the next one was lost.
+/// The next one goes out at once, since the vehicle would repeat its request only after a second. It is a guess (the
+/// answer can be to an older repetition), so it never goes far ahead of the requests.
+Upload::Ended Upload::take_invalid_sequence() {
+  constexpr std::size_t farthest_lead = 3;
+  if (!begun() || !last_repeated_) return std::nullopt;
+  if (*last_sent_ == guessed_) {
+    if (guessed_ + 1 == end_ || guessed_ - requested_ == farthest_lead) return std::nullopt;
+    ++guessed_;
+  }
+  if (auto sent = send_item(guessed_); !sent) return sent;
+  return std::nullopt;
+}
+
+Upload::Ended Upload::repeat() {
+  patience_.repeated();
+  if (begun()) {
+    // After a wrong guess the vehicle still waits for what it asked for: take turns.
+    if (auto sent = send_item(*last_sent_ == guessed_ && last_repeated_ ? requested_ : guessed_); !sent) return sent;
+    return std::nullopt;
+  }
+  if (counts_sent_ == options_.tries) {
+    if (doubtful_) return std::unexpected(refusal(*doubtful_));
+    return silent(party_, "upload");
+  }
+  if (auto sent = send_opening(); !sent) return sent;
+  return std::nullopt;
+}
+
+base::Task<base::Result<>> Upload::run() {
+  Inbox inbox(party_.connection, party_.target.system,
+              meant_for<MissionRequest, MissionRequestInt, MissionAck>(party_));
+  if (auto sent = send_opening(); !sent) co_return sent;
+  CancelNotice notice(party_);
+  auto heard = party_.now();
+  for (;;) {
+    auto const got = co_await inbox.next(party_.now() + patience_.value());
+    Ended ended;
+    if (!got) {
+      if (begun() && party_.now() - heard >= options_.silence_limit) {
+        if (doubtful_) co_return std::unexpected(refusal(*doubtful_));
+        co_return silent(party_, "upload");
+      }
+      ended = repeat();
+    } else {
+      // Only its requests show that the vehicle is still at it: one that gave up refuses every item that comes late.
+      if (!std::holds_alternative<MissionAck>(*got)) heard = party_.now();
+      if (auto const* ack = std::get_if<MissionAck>(&*got))
+        ended = take_ack(ack->result);
+      else if (auto const* request = std::get_if<MissionRequest>(&*got))
+        ended = take_request(request->seq);
+      else
+        ended = take_request(std::get<MissionRequestInt>(*got).seq);
+    }
+    if (!ended) continue;
+    if (*ended || ended->error().kind == ErrorKind::refused) notice.settled();
+    co_return *ended;
+  }
+}
+
+}  // namespace
+
+base::Task<base::Result<>> upload_mission(Connection& connection, Address target, std::vector<MissionItem> items,
+                                          MissionType type, TransferOptions options, TransferProgress progress) {
+  base::Result<> result;
+  Outage outage(connection, target.system, options);
+  for (int round = 0; round <= options.restarts; ++round) {
+    Upload upload({connection, target, type}, items, 0, items.size(), options, progress);
+    result = co_await upload.run();
+    if (result && progress) progress(items.size(), items.size());
+    if (result) break;
+    bool const is_down = result.error().kind == ErrorKind::lost;
+    if (!is_down && result.error().kind != ErrorKind::timed_out) break;
+    if (co_await outage.is_over(is_down))
+      round = -1;
+    else if (is_down)
+      break;
+  }
+  co_return result;
+}
+
+base::Task<base::Result<>> upload_part(Connection& connection, Address target, std::vector<MissionItem> items,
+                                       std::size_t first, std::size_t end, MissionType type, TransferOptions options,
+                                       TransferProgress progress) {
+  Upload upload({connection, target, type}, items, first, end, options, progress);
+  auto const result = co_await upload.run();
+  if (result && progress) progress(items.size(), items.size());
+  co_return result;
+}
+
+}  // namespace lapwing::mavlink
