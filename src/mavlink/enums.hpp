@@ -105,6 +105,7 @@ namespace sensor_flag {
 inline constexpr std::uint32_t gps = 1U << 5U;
 inline constexpr std::uint32_t motor_outputs = 1U << 15U;
 inline constexpr std::uint32_t rc_receiver = 1U << 16U;
+inline constexpr std::uint32_t geofence = 1U << 20U;
 inline constexpr std::uint32_t ahrs = 1U << 21U;
 inline constexpr std::uint32_t battery = 1U << 25U;
 inline constexpr std::uint32_t prearm_check = 1U << 28U;

@@ -15,6 +15,7 @@ struct ArmingView {
   bool checks_passed = false;  ///< start-up is through with its own checks
   bool arm_in_auto = false;    ///< AUTO_OPTIONS allows a copter to arm in AUTO
   bool has_mission = false;
+  bool outside_fence = false;
   std::string const& fault;  ///< an injected reason; empty: none
 };
 

@@ -11,12 +11,12 @@ using mavlink::MavSeverity;
 using mavlink::MavState;
 using vehicle::Family;
 
-Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, MissionPlan const& plan)
+Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, Plans const& plans)
     : airframe_(airframe_of(setup.family)),
       site_(site),
       parameters_(parameters),
-      plan_(plan),
-      mission_(plan),
+      plans_(plans),
+      mission_(plans.mission),
       start_up_(setup.boot),
       battery_(setup.battery),
       mode_(&initial_mode(setup.family)),
@@ -27,7 +27,7 @@ Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& par
 }
 
 FlightContext Autopilot::context(double utc_day_s) const {
-  return {body_, airframe_, site_, pace_, tuning_, home_, now_, utc_day_s};
+  return {body_, airframe_, site_, pace_, tuning_, plans_.rally, home_, now_, utc_day_s};
 }
 
 void Autopilot::read_parameters() {
@@ -35,6 +35,7 @@ void Autopilot::read_parameters() {
     parameters_read_ = parameters_.revision();
     pace_ = pace_from(airframe_.family, parameters_);
     tuning_ = tuning_from(airframe_.family, parameters_);
+    safety_ = safety_from(airframe_.family, parameters_);
     if (speed_override_) pace_.speed_m_s = *speed_override_;
   }
 }
@@ -42,7 +43,7 @@ void Autopilot::read_parameters() {
 MavResult Autopilot::arm(bool force) {
   if (armed_) return MavResult::accepted;
   auto const refusal = arming_refusal({*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, tuning_.arm_in_auto,
-                                       plan_.size() > 1, arming_fault_});
+                                       plans_.mission.size() > 1, fence_.breached() != 0, arming_fault_});
   if (refusal && !force) {
     outbox_.say(MavSeverity::critical, "Arm: " + *refusal);
     return MavResult::failed;
@@ -69,6 +70,7 @@ MavResult Autopilot::disarm(bool force) {
 void Autopilot::do_disarm() {
   armed_ = false;
   take_off_allowed_ = false;
+  fence_took_over_ = false;
   lift_at_.reset();
   idle_since_.reset();
   goal_ = StandStill{};
@@ -86,7 +88,7 @@ bool Autopilot::may_enter(FlightMode const& mode) {
   };
   if (mode.needs_position && !position) return refuse("requires position");
   if (mode.behaviour != Behaviour::mission || airframe_.family == Family::plane) return true;
-  if (plan_.size() <= 1) {
+  if (plans_.mission.size() <= 1) {
     if (airframe_.family == Family::rover) outbox_.say(MavSeverity::notice, "No Mission. Can't set AUTO.");
     return refuse("init failed");
   }
@@ -99,6 +101,19 @@ bool Autopilot::may_enter(FlightMode const& mode) {
 }
 
 MavResult Autopilot::set_mode(std::uint32_t number) {
+  bool const recovers = fence_took_over_ && safety_.fence.holds_mode && fence_.breached() != 0 && armed_;
+  if (recovers && !body_.on_ground && number != mode_->number) {
+    auto const* wanted = find_mode(airframe_.family, number);
+    outbox_.say(MavSeverity::warning,
+                fmt::format("Mode change to {} failed: in fence recovery", wanted ? wanted->name : "?"));
+    return MavResult::failed;
+  }
+  auto const result = change_mode(number);
+  if (result == MavResult::accepted) fence_took_over_ = false;
+  return result;
+}
+
+MavResult Autopilot::change_mode(std::uint32_t number) {
   auto const* mode = find_mode(airframe_.family, number);
   if (!mode) {
     outbox_.say(MavSeverity::warning, fmt::format("No such mode {}", number));
@@ -171,6 +186,8 @@ MavResult Autopilot::reposition(geo::Ned point, bool change_mode, double radius_
     auto const result = set_mode(mode_for(airframe_.family, Behaviour::guided).number);
     if (result != MavResult::accepted) return MavResult::denied;
   }
+  bool const reachable = airframe_.family != Family::copter || fence_.allows(point, home_, safety_.fence);
+  if (!reachable) return MavResult::failed;
   if (radius_m != 0.0 && airframe_.family == Family::plane) {
     guided().circle(point, radius_m);
   } else {
@@ -242,10 +259,12 @@ MavState Autopilot::system_status() const {
 }
 
 bool Autopilot::prearm_ok() const {
-  ArmingView const view{*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, arming_fault_};
+  ArmingView const view{
+      *mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, fence_.breached() != 0, arming_fault_};
   // The periodic check does not ask whether this mode may arm, only whether the vehicle is fit for it. Before the
   // position is there the bit depends on the mode: healthy in STABILIZE, not in GUIDED.
-  return view.checks_passed && view.fault.empty() && (!mode_->needs_position || navigation_.position_ok);
+  return view.checks_passed && view.fault.empty() && !view.outside_fence &&
+         (!mode_->needs_position || navigation_.position_ok);
 }
 
 mavlink::MavLandedState Autopilot::landed_state() const {

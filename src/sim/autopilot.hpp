@@ -6,11 +6,13 @@
 
 #include "sim/arming.hpp"
 #include "sim/failsafe.hpp"
+#include "sim/fence.hpp"
 #include "sim/flight_context.hpp"
 #include "sim/guided.hpp"
 #include "sim/mission_runner.hpp"
 #include "sim/parameters.hpp"
 #include "sim/return_home.hpp"
+#include "sim/safety.hpp"
 #include "sim/tuning.hpp"
 
 namespace lapwing::sim {
@@ -28,8 +30,8 @@ class Autopilot {
     BootTimeline boot;
     BatteryPack battery{5000.0};
   };
-  /// `parameters` and `plan` are the vehicle's and outlive this.
-  Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, MissionPlan const& plan);
+  /// `parameters` and `plans` are the vehicle's and outlive this.
+  Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, Plans const& plans);
 
   /// One step of `dt_s` ending at `now`.
   void step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, double dt_s);
@@ -48,6 +50,8 @@ class Autopilot {
   mavlink::MavResult pause(bool paused);
   bool set_current_item(int seq);
   void set_home(geo::Ned place);
+  /// DO_FENCE_ENABLE.
+  void enable_fence(bool enabled) { fence_.order(enabled); }
   void plan_changed() { mission_.plan_changed(outbox_); }
   void plan_cleared() { mission_.plan_cleared(); }
   void ground_station_heard() { ground_station_.heard(now_); }
@@ -68,6 +72,8 @@ class Autopilot {
   [[nodiscard]] Goal const& goal() const { return goal_; }
   [[nodiscard]] Pace const& pace() const { return pace_; }
   [[nodiscard]] bool armed() const { return armed_; }
+  [[nodiscard]] FenceWatch const& fence() const { return fence_; }
+  [[nodiscard]] bool fence_enabled() const { return fence_.enabled(safety_.fence); }
   /// Home; nothing before the origin is set.
   [[nodiscard]] std::optional<geo::Ned> home() const;
   [[nodiscard]] base::Duration now() const { return now_; }
@@ -83,6 +89,8 @@ class Autopilot {
 
   [[nodiscard]] FlightContext context(double utc_day_s) const;
   void read_parameters();
+  /// `set_mode`, by the vehicle's own decision.
+  mavlink::MavResult change_mode(std::uint32_t number);
   bool may_enter(FlightMode const& mode);
   void enter(FlightMode const& mode);
   [[nodiscard]] Logic logic_for(FlightMode const& mode) const;
@@ -94,8 +102,13 @@ class Autopilot {
   void end_mission(FlightContext const& flight);
   Goal hold_on_the_ground(Goal goal, FlightContext const& flight);
   void watch_health();
+  void watch_ground_station();
+  void watch_estimate();
   void watch_battery();
-  void fail_safe(Behaviour behaviour);
+  void watch_fence();
+  void watch_gps();
+  /// Changes the mode by itself, as far as it is needed and possible.
+  void act(Behaviour behaviour);
   void disarm_when_idle();
   void notice_touch_down();
   void repeat_prearm_fault();
@@ -103,12 +116,13 @@ class Autopilot {
   Airframe airframe_;
   Site const& site_;
   Parameters const& parameters_;
-  MissionPlan const& plan_;
+  Plans const& plans_;
   MissionRunner mission_;
   StartUp start_up_;
   BatteryPack battery_;
   GroundStationWatch ground_station_;
   BatteryWatch battery_watch_;
+  FenceWatch fence_;
   Navigation navigation_;
   Body body_;
   FlightMode const* mode_;
@@ -116,12 +130,15 @@ class Autopilot {
   Goal goal_ = StandStill{};
   Pace pace_;
   Tuning tuning_;
+  Safety safety_;
   unsigned parameters_read_ = 0;
   geo::Ned home_;
   bool home_locked_ = false;
   bool armed_ = false;
   bool take_off_allowed_ = false;  ///< stands for the raised throttle stick in AUTO
   bool estimate_failed_ = false;
+  bool gps_is_cut_off_ = false;
+  bool fence_took_over_ = false;  ///< the mode is what a breach made of it
   std::optional<double> speed_override_;
   std::optional<base::Duration> lift_at_;
   std::optional<base::Duration> idle_since_;

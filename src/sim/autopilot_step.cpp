@@ -81,9 +81,10 @@ Goal Autopilot::fly_mission(FlightContext const& flight) {
   Goal goal = mission_.update(flight, outbox_);
   if (auto const speed = mission_.take_speed()) change_speed(*speed);
   if (auto const home = mission_.take_home()) set_home(*home);
+  if (auto const enabled = mission_.take_fence()) enable_fence(*enabled);
   if (auto const yaw = mission_.yaw_rad()) pace_.yaw_rad = yaw;
   if (mission_.complete() && !was_complete) end_mission(flight);
-  if (mission_.take_return()) set_mode(mode_for(Family::plane, Behaviour::return_home).number);
+  if (mission_.take_return()) change_mode(mode_for(Family::plane, Behaviour::return_home).number);
   return armed_ ? goal : Goal{StandStill{}};
 }
 
@@ -97,11 +98,11 @@ void Autopilot::end_mission(FlightContext const& flight) {
   if (flight.family() == Family::sub) return;
   if (flight.family() == Family::plane) {
     outbox_.say(MavSeverity::notice, "Mission complete, changing mode to RTL");
-    set_mode(mode_for(Family::plane, Behaviour::return_home).number);
+    change_mode(mode_for(Family::plane, Behaviour::return_home).number);
     return;
   }
   outbox_.say(MavSeverity::notice, "Mission Complete");
-  set_mode(mode_for(Family::rover, Behaviour::hold).number);
+  change_mode(mode_for(Family::rover, Behaviour::hold).number);
 }
 
 /// A copter on the ground only leaves it by a take-off, and only when its motors have spooled up.
@@ -118,52 +119,84 @@ Goal Autopilot::hold_on_the_ground(Goal goal, FlightContext const& flight) {
   return now_ < *lift_at_ ? Goal{Idle{}} : goal;
 }
 
-void Autopilot::fail_safe(Behaviour behaviour) {
+void Autopilot::act(Behaviour behaviour) {
   if (!armed_ || mode_->behaviour == behaviour || mode_->behaviour == Behaviour::land) return;
-  if (airframe_.family == Family::rover) behaviour = Behaviour::hold;
-  if (airframe_.family == Family::plane && behaviour == Behaviour::land) behaviour = Behaviour::return_home;
   auto const& mode = mode_for(airframe_.family, behaviour);
-  if (mode.needs_position && !navigation_.position_ok) return fail_safe(Behaviour::land);
-  set_mode(mode.number);
+  bool const can_land = airframe_.family == Family::copter || airframe_.family == Family::sub;
+  if (mode.needs_position && !navigation_.position_ok) {
+    if (can_land && behaviour != Behaviour::land) act(Behaviour::land);
+    return;
+  }
+  change_mode(mode.number);
 }
 
 void Autopilot::watch_health() {
-  bool const enabled = parameters_.value("FS_GCS_ENABLE", parameters_.value("FS_GCS_ENABL")) != 0.0;
-  auto const patience = base::from_seconds(parameters_.value("FS_GCS_TIMEOUT", 5.0));
-  auto const event = ground_station_.update(now_, enabled, patience);
-  if (event == GroundStationWatch::Event::lost) {
-    outbox_.say(MavSeverity::warning, "GCS Failsafe");
-    fail_safe(Behaviour::return_home);
-  } else if (event == GroundStationWatch::Event::returned) {
-    outbox_.say(MavSeverity::warning, "GCS Failsafe Cleared");
+  watch_ground_station();
+  watch_gps();
+  watch_estimate();
+  watch_battery();
+  watch_fence();
+}
+
+void Autopilot::watch_ground_station() {
+  auto const event = ground_station_.update(now_, safety_.watches_ground_station, safety_.ground_station_patience);
+  if (event == GroundStationWatch::Event::returned) outbox_.say(MavSeverity::warning, "GCS Failsafe Cleared");
+  if (event != GroundStationWatch::Event::lost) return;
+  outbox_.say(MavSeverity::warning, "GCS Failsafe");
+  bool const goes_on = safety_.keeps_mission && mode_->behaviour == Behaviour::mission;
+  if (safety_.on_ground_station_lost && !goes_on) act(*safety_.on_ground_station_lost);
+}
+
+void Autopilot::watch_gps() {
+  if (safety_.gps_is_cut_off == gps_is_cut_off_) return;
+  gps_is_cut_off_ = safety_.gps_is_cut_off;
+  if (gps_is_cut_off_) {
+    lose_gps();
+  } else {
+    restore_gps();
   }
+}
+
+void Autopilot::watch_estimate() {
   bool const failed = start_up_.estimate_lost(now_);
   if (failed && !estimate_failed_ && armed_) {
     outbox_.say(MavSeverity::critical, "EKF variance");
-    outbox_.say(MavSeverity::critical,
-                fmt::format("EKF Failsafe: changed to {} Mode", airframe_.family == Family::rover ? "HOLD" : "LAND"));
-    fail_safe(Behaviour::land);
+    bool const matters = mode_->needs_position || safety_.in_every_mode;
+    if (safety_.on_estimate_lost && matters) {
+      act(*safety_.on_estimate_lost);
+      outbox_.say(MavSeverity::critical, fmt::format("EKF Failsafe: changed to {} Mode", mode_->name));
+    }
   }
   estimate_failed_ = failed && (estimate_failed_ || armed_);
-  watch_battery();
 }
 
 void Autopilot::watch_battery() {
-  BatteryLimits const limits{.low_v = parameters_.value("BATT_LOW_VOLT"),
-                             .low_mah = parameters_.value("BATT_LOW_MAH"),
-                             .critical_v = parameters_.value("BATT_CRT_VOLT"),
-                             .critical_mah = parameters_.value("BATT_CRT_MAH"),
-                             .patience = base::from_seconds(parameters_.value("BATT_LOW_TIMER"))};
-  auto const reached = battery_watch_.update(now_, battery_, limits);
+  auto const reached = battery_watch_.update(now_, battery_, safety_.battery);
   if (!reached) return;
   bool const critical = *reached == BatteryWatch::Level::critical;
   outbox_.say(MavSeverity::warning,
               fmt::format("Battery 1 is {} {:.2f}V used {:.0f} mAh", critical ? "critical" : "low",
                           battery_.voltage_v(), battery_.used_mah()));
-  int const action = static_cast<int>(parameters_.value(critical ? "BATT_FS_CRT_ACT" : "BATT_FS_LOW_ACT"));
-  if (action == 0) return;
+  auto const action = critical ? safety_.on_critical_battery : safety_.on_low_battery;
+  if (!action) return;
   outbox_.say(MavSeverity::warning, "Battery Failsafe");
-  fail_safe(action == 1 ? Behaviour::land : Behaviour::return_home);
+  act(*action);
+}
+
+void Autopilot::watch_fence() {
+  auto const fresh = fence_.update({.body = body_,
+                                    .site = site_,
+                                    .home = home_,
+                                    .plan = plans_.fence,
+                                    .settings = safety_.fence,
+                                    .position_ok = navigation_.position_ok,
+                                    .now = now_});
+  if (fence_.breached() == 0) fence_took_over_ = false;
+  if (fresh == 0 || !armed_) return;
+  outbox_.say(MavSeverity::notice, "Fence Breached");
+  if (!safety_.fence.action) return;
+  act(*safety_.fence.action);
+  fence_took_over_ = true;
 }
 
 void Autopilot::notice_touch_down() {
@@ -185,8 +218,10 @@ void Autopilot::disarm_when_idle() {
 }
 
 void Autopilot::repeat_prearm_fault() {
-  if (armed_ || arming_fault_.empty() || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
-  outbox_.say(MavSeverity::critical, "PreArm: " + arming_fault_);
+  bool const outside = fence_.breached() != 0;
+  bool const fit = arming_fault_.empty() && !outside;
+  if (armed_ || fit || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
+  outbox_.say(MavSeverity::critical, "PreArm: " + (arming_fault_.empty() ? "vehicle outside fence" : arming_fault_));
   next_prearm_text_ = now_ + prearm_repeat_time;
 }
 

@@ -50,6 +50,7 @@ MavResult FlightController::perform(CommandInt const& command, Address from) {
     }
     case MavCmd::do_pause_continue: return autopilot_.pause(p[0] == 0.0F);
     case MavCmd::do_set_home: return set_home(command);
+    case MavCmd::do_fence_enable: return enable_fence(command);
     case MavCmd::preflight_reboot_shutdown: return reboot(command);
     case MavCmd::run_prearm_checks: return autopilot_.armed() ? MavResult::temporarily_rejected : MavResult::accepted;
     case MavCmd::image_start_capture:
@@ -117,6 +118,14 @@ MavResult FlightController::reposition(CommandInt const& command) {
   auto const result = autopilot_.reposition(point, change_mode, std::isfinite(p[2]) ? p[2] : 0.0);
   if (result == MavResult::accepted && p[0] > 0.0F) (void)autopilot_.change_speed(p[0]);
   return result;
+}
+
+/// p1: 0 off, 1 on, 2 the floor off, which a vehicle that lands does by itself here.
+MavResult FlightController::enable_fence(CommandInt const& command) {
+  auto const wanted = command.params[0];
+  if (wanted != 0.0F && wanted != 1.0F && wanted != 2.0F) return MavResult::failed;
+  if (wanted != 2.0F) autopilot_.enable_fence(wanted == 1.0F);
+  return MavResult::accepted;
 }
 
 MavResult FlightController::set_home(CommandInt const& command) {

@@ -187,6 +187,83 @@ TEST(GpsLoss, LandsEightSecondsLater) {
   EXPECT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 60s));
 }
 
+TEST(GpsLoss, IsAParameterAsInArduPilotsSimulator) {
+  TestGround ground("copter");
+  hover(ground, 10);
+  ground.request(MessageId::gps_raw_int, 5);
+  ground.send(ParamSet{.name = "SIM_GPS_DISABLE", .value = 1.0F});
+  ground.run_for(1s);
+  EXPECT_EQ(ground.last<GpsRaw>()->fix, GpsFix::no_fix);
+  ground.send(ParamSet{.name = "SIM_GPS_DISABLE", .value = 0.0F});
+  ground.run_for(5s);
+  EXPECT_EQ(ground.last<GpsRaw>()->fix, GpsFix::rtk_fixed);
+  EXPECT_EQ(ground.pilot().mode().name, "GUIDED") << "it came back in time";
+  ground.send(ParamSet{.name = "SIM_GPS_DISABLE", .value = 1.0F});
+  ground.run_for(9s);
+  EXPECT_EQ(ground.pilot().mode().name, "LAND") << "a second loss is a loss";
+}
+
+TEST(EstimatorFailsafe, DoesWhatItsActionSays) {
+  struct Case {
+    float action;
+    std::string_view mode;
+  };
+  for (auto const& [action, mode] : {Case{0, "GUIDED"}, {1, "LAND"}, {2, "ALT_HOLD"}, {3, "LAND"}}) {
+    TestGround ground("copter");
+    ground.vehicle().parameters().set("FS_EKF_ACTION", action);
+    hover(ground, 10);
+    ground.vehicle().lose_gps();
+    ground.run_for(9s);
+    EXPECT_EQ(ground.pilot().mode().name, mode) << action;
+    EXPECT_EQ(ground.said("EKF variance"), 1);
+    EXPECT_EQ(ground.said("EKF Failsafe"), action == 0 ? 0 : 1);
+    EXPECT_EQ(ground.pilot().system_status(), MavState::critical);
+  }
+}
+
+TEST(EstimatorFailsafe, StopsARover) {
+  TestGround ground("rover");
+  ground.boot();
+  ground.set_mode(15);
+  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.vehicle().lose_gps();
+  ground.run_for(9s);
+  EXPECT_EQ(ground.pilot().mode().name, "HOLD");
+  EXPECT_EQ(ground.pilot().system_status(), MavState::critical);
+}
+
+TEST(GroundStationFailsafe, DoesWhatItsActionSays) {
+  struct Case {
+    float enable;
+    std::string_view mode;
+  };
+  for (auto const& [enable, mode] : {Case{1, "RTL"}, {5, "LAND"}, {7, "BRAKE"}}) {
+    TestGround ground("copter", {}, false);
+    ground.vehicle().parameters().set("FS_GCS_ENABLE", enable);
+    hover(ground, 10);
+    ground.send(Connection::ground_station_heartbeat());
+    ground.run_for(6s);
+    EXPECT_EQ(ground.pilot().mode().name, mode);
+  }
+}
+
+TEST(BatteryFailsafe, BecomesCriticalAfterLow) {
+  TestGround ground("copter");
+  for (auto const& [name, value] : {std::pair{"BATT_LOW_MAH", 1000.0F},
+                                    {"BATT_FS_LOW_ACT", 2.0F},
+                                    {"BATT_CRT_MAH", 500.0F},
+                                    {"BATT_FS_CRT_ACT", 1.0F}})
+    ground.vehicle().parameters().set(name, value);
+  hover(ground, 20);
+  ground.vehicle().set_battery(0.19);
+  ground.run_for(1s);
+  EXPECT_EQ(ground.pilot().mode().name, "RTL");
+  ground.vehicle().set_battery(0.09);
+  ground.run_for(1s);
+  EXPECT_EQ(ground.said("Battery 1 is critical"), 1);
+  EXPECT_EQ(ground.pilot().mode().name, "LAND");
+}
+
 TEST(Pilot, ChangesTheModeOfAFlyingVehicle) {
   TestGround ground("copter");
   hover(ground, 10);

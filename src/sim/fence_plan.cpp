@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -55,6 +56,40 @@ std::optional<std::string> fence_problem(MissionPlan const& fence) {
     }
   }
   return std::nullopt;
+}
+
+std::vector<FenceArea> fence_areas(MissionPlan const& fence, Site const& site) {
+  std::vector<FenceArea> areas;
+  auto const level = [&](mavlink::MissionItem const& item) {
+    auto const point = site.ned_from({item.place.lat_rad, item.place.lon_rad, site.anchor().alt_m});
+    return plan::LevelPoint{point.north, point.east};
+  };
+  for (std::size_t i = 0; i < fence.size();) {
+    auto const& item = fence[i];
+    bool const circle =
+        item.command == MavCmd::nav_fence_circle_inclusion || item.command == MavCmd::nav_fence_circle_exclusion;
+    FenceArea area{.includes = item.command == MavCmd::nav_fence_polygon_vertex_inclusion ||
+                               item.command == MavCmd::nav_fence_circle_inclusion};
+    std::size_t used = 1;
+    if (circle) {
+      area.center = level(item);
+      area.radius_m = item.params[0];
+      areas.push_back(std::move(area));
+    } else if (is_vertex(item.command)) {
+      used = std::min(static_cast<std::size_t>(item.params[0]), fence.size() - i);
+      plan::Ring ring;
+      for (std::size_t k = 0; k < used; ++k) ring.push_back(level(fence[i + k]));
+      area.polygon.rings.push_back(std::move(ring));
+      areas.push_back(std::move(area));
+    }
+    i += used;
+  }
+  return areas;
+}
+
+bool contains(FenceArea const& area, geo::Ned point) {
+  if (!area.polygon.rings.empty()) return plan::contains(area.polygon, {point.north, point.east});
+  return std::hypot(point.north - area.center.north_m, point.east - area.center.east_m) <= area.radius_m;
 }
 
 }  // namespace lapwing::sim

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "plan/fence.hpp"
 #include "sim/mission_plan.hpp"
 
 namespace lapwing::sim {
@@ -13,5 +14,16 @@ namespace lapwing::sim {
 [[nodiscard]] mavlink::MissionItem normalised_zone(mavlink::MissionItem item);
 /// What is wrong with a whole fence, in ArduPilot's words; nothing when it is good.
 [[nodiscard]] std::optional<std::string> fence_problem(MissionPlan const& fence);
+
+/// An area of a stored fence, level, in the site's frame: a polygon, or without one a circle.
+struct FenceArea {
+  bool includes = true;  ///< stay inside; else outside
+  plan::Polygon polygon{};
+  plan::LevelPoint center{};
+  double radius_m = 0.0;
+};
+/// The areas of a good fence.
+[[nodiscard]] std::vector<FenceArea> fence_areas(MissionPlan const& fence, Site const& site);
+[[nodiscard]] bool contains(FenceArea const& area, geo::Ned point);
 
 }  // namespace lapwing::sim

@@ -21,6 +21,8 @@ struct Tuning {
   bool arm_in_auto = false;                ///< AUTO_OPTIONS bit 0
   bool take_off_without_throttle = false;  ///< AUTO_OPTIONS bit 1
   bool restart_mission = false;            ///< MIS_RESTART
+  double rally_limit_m = 0.0;              ///< rally points farther away do not count; 0: all do
+  bool rally_includes_home = true;         ///< home is one of them
 };
 
 /// What a flight logic sees at one step.
@@ -30,6 +32,7 @@ struct FlightContext {
   Site const& site;
   Pace const& pace;
   Tuning const& tuning;
+  MissionPlan const& rally;
   geo::Ned home;
   base::Duration now{};    ///< since boot
   double utc_day_s = 0.0;  ///< seconds since UTC midnight

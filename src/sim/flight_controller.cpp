@@ -53,7 +53,7 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       site_(site),
       memory_(memory),
       powered_on_(setup.powered_on),
-      autopilot_(setup.autopilot, site, memory.parameters, memory.plans.mission),
+      autopilot_(setup.autopilot, site, memory.parameters, memory.plans),
       telemetry_(setup.autopilot.boot.first_heartbeat),
       missions_(memory.plans, mission_ports(), autopilot_.airframe().family),
       connection_(loop, connection_options(setup), std::move(log)),

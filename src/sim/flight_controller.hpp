@@ -76,6 +76,7 @@ class FlightController {
   Result battery_reset(mavlink::CommandInt const& command);
   Result reposition(mavlink::CommandInt const& command);
   Result set_home(mavlink::CommandInt const& command);
+  Result enable_fence(mavlink::CommandInt const& command);
   Result set_interval(mavlink::CommandInt const& command);
   Result get_interval(mavlink::CommandInt const& command, mavlink::Address from);
   Result request_message(mavlink::CommandInt const& command, mavlink::Address from);

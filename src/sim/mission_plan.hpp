@@ -13,6 +13,13 @@ namespace lapwing::sim {
 /// real item is 1.
 using MissionPlan = std::vector<mavlink::MissionItem>;
 
+/// All that a vehicle holds; outlives a reboot.
+struct Plans {
+  MissionPlan mission;
+  MissionPlan fence;
+  MissionPlan rally;
+};
+
 /// Navigation commands follow each other; everything else ("do" commands) runs on the way between two of them.
 [[nodiscard]] bool is_navigation(mavlink::MavCmd command);
 /// Whether that family's autopilot can fly the navigation command; what it cannot is stored but skipped

@@ -235,6 +235,7 @@ void MissionRunner::perform(int index, FlightContext const& context, Outbox& out
       break;
     case image_stop_capture: capturing_ = {}; break;
     case do_digicam_control: ++captures_; break;
+    case do_fence_enable: fence_ = p[0] == 1.0F; break;
     default: break;
   }
 }

@@ -47,6 +47,7 @@ class MissionRunner {
   /// Wishes of "do" commands, taken by the autopilot.
   [[nodiscard]] std::optional<double> take_speed() { return std::exchange(speed_m_s_, std::nullopt); }
   [[nodiscard]] std::optional<geo::Ned> take_home() { return std::exchange(home_, std::nullopt); }
+  [[nodiscard]] std::optional<bool> take_fence() { return std::exchange(fence_, std::nullopt); }
   /// A plane leaves AUTO for RTL when the mission says "return to launch"; the others fly that item within AUTO.
   [[nodiscard]] bool take_return() { return std::exchange(wants_return_, false); }
   [[nodiscard]] std::optional<double> yaw_rad() const { return yaw_rad_; }
@@ -97,6 +98,7 @@ class MissionRunner {
   std::optional<geo::Ned> end_;
   std::optional<double> speed_m_s_;
   std::optional<geo::Ned> home_;
+  std::optional<bool> fence_;
   std::optional<double> yaw_rad_;
   bool wants_return_ = false;
   Captures capturing_;

@@ -28,11 +28,7 @@ class MissionStore {
     std::function<std::optional<geo::Wgs84>()> home;
   };
   /// The plans outlive a reboot; transfers do not.
-  struct Plans {
-    MissionPlan mission;
-    MissionPlan fence;
-    MissionPlan rally;
-  };
+  using Plans = sim::Plans;
 
   MissionStore(Plans& plans, Ports ports, vehicle::Family family = vehicle::Family::copter)
       : plans_(plans), ports_(std::move(ports)), family_(family) {}

@@ -51,8 +51,10 @@ double reported_yaw(Autopilot const& autopilot) {
 
 SysStatus sys_status(Autopilot const& autopilot) {
   using namespace sensor_flag;
-  std::uint32_t const present = gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
+  std::uint32_t present = gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
   std::uint32_t health = motor_outputs | rc_receiver | battery;
+  if (autopilot.fence_enabled()) present |= geofence;
+  if (autopilot.fence_enabled() && autopilot.fence().breached() == 0) health |= geofence;
   if (autopilot.navigation().fix_type >= 3) health |= gps;
   if (autopilot.now() >= autopilot.boot().ekf_initialised) health |= ahrs;
   if (autopilot.prearm_ok()) health |= prearm_check;
@@ -188,6 +190,22 @@ EkfStatusReport ekf_status(Autopilot const& autopilot) {
           .compass_variance = 0.01F};
 }
 
+FenceStatus fence_status(Autopilot const& autopilot) {
+  // FENCE_BREACH of common.xml.
+  constexpr std::uint8_t too_low = 1;
+  constexpr std::uint8_t too_high = 2;
+  constexpr std::uint8_t boundary = 3;
+  auto const& fence = autopilot.fence();
+  auto const breached = fence.breached();
+  std::uint8_t type = breached != 0 ? boundary : 0;
+  if ((breached & FenceWatch::height) != 0) type = too_high;
+  if ((breached & FenceWatch::floor) != 0) type = too_low;
+  return {.breached = breached != 0,
+          .breach_count = static_cast<std::uint16_t>(fence.count()),
+          .breach_type = type,
+          .breach_time = fence.breached_at()};
+}
+
 Wind wind(ReportView const& view) {
   auto const& w = view.wind_m_s;
   return {.from_rad = geo::wrap_two_pi(std::atan2(w.east, w.north) + pi), .speed_m_s = std::hypot(w.north, w.east)};
@@ -216,6 +234,9 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
     case MessageId::mission_current: return mission_current(view);
     case MessageId::ekf_status_report: return ekf_status(autopilot);
     case MessageId::wind: return wind(view);
+    case MessageId::fence_status:
+      if (!autopilot.fence_enabled()) return std::nullopt;
+      return fence_status(autopilot);
     case MessageId::extended_sys_state: return ExtendedSysState{.landed_state = autopilot.landed_state()};
     case MessageId::home_position:
       if (!autopilot.home()) return std::nullopt;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/rally.hpp"
+
 namespace lapwing::sim {
 
 using namespace std::chrono_literals;
@@ -35,16 +37,19 @@ bool stays_level(vehicle::Family family) {
 
 Goal ReturnHome::begin(FlightContext const& context) {
   start_ = context.body.position_m;
-  above_home_ = context.home;
+  auto const goal = return_place(context);
+  above_home_ = goal.point;
   using enum vehicle::Family;
   if (stays_level(context.family())) {
+    above_home_.down = context.home.down;
     phase_ = Phase::travel;
   } else if (context.body.on_ground) {
     phase_ = Phase::land;
     landing_.emplace(start_);
   } else {
     double const height = context.home.down - context.tuning.rtl_height_m;
-    above_home_.down = context.family() == plane ? height : std::min(start_.down, height);
+    double const wanted = goal.is_rally ? goal.point.down : height;
+    above_home_.down = context.family() == plane ? wanted : std::min({start_.down, height, wanted});
     phase_ = context.family() == plane ? Phase::travel : Phase::climb;
   }
   return fly(context);
@@ -69,7 +74,7 @@ Goal ReturnHome::fly(FlightContext const& context) {
     bool const over_home = has_reached(body, above_home_, above_home_, 0.3);
     if (context.now - waiting_since_ < context.tuning.rtl_loiter_time || !over_home) return HoldAt{above_home_};
     phase_ = Phase::land;
-    landing_.emplace(context.home);
+    landing_.emplace(geo::Ned{above_home_.north, above_home_.east, context.home.down});
   }
   if (phase_ == Phase::land) {
     Goal const goal = landing_->update(context);

@@ -32,7 +32,7 @@ class ReturnHome {
 
   Phase phase_ = Phase::start;
   geo::Ned start_;
-  geo::Ned above_home_;
+  geo::Ned above_home_;  ///< or above the rally point
   base::Duration waiting_since_{};
   std::optional<Landing> landing_;
 };

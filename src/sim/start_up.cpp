@@ -37,6 +37,11 @@ BootTimeline quick_boot() {
           .position_ok = 2800ms};
 }
 
+void StartUp::lose_gps(base::Duration since_boot) {
+  gps_lost_at_ = since_boot;
+  gps_back_at_ = base::Duration::max();
+}
+
 void StartUp::restore_gps(base::Duration since_boot) {
   if (gps_lost_at_ != base::Duration::max()) gps_back_at_ = since_boot;
 }

@@ -38,7 +38,7 @@ class StartUp {
  public:
   explicit StartUp(BootTimeline const& timeline) : timeline_(timeline) {}
 
-  void lose_gps(base::Duration since_boot) { gps_lost_at_ = since_boot; }
+  void lose_gps(base::Duration since_boot);
   void restore_gps(base::Duration since_boot);
 
   [[nodiscard]] BootTimeline const& timeline() const { return timeline_; }

@@ -24,6 +24,7 @@ constexpr std::array rows{
     Row{MessageId::mission_current, 2},
     Row{MessageId::gps_raw_int, 2},
     Row{MessageId::nav_controller_output, 2},
+    Row{MessageId::fence_status, 2},
     Row{position_target, 2},
     Row{MessageId::global_position_int, 6},
     Row{MessageId::local_position_ned, 6},

@@ -37,6 +37,8 @@ Tuning tuning_from(vehicle::Family family, Parameters const& parameters) {
   using base::from_seconds;
   Tuning tuning;
   tuning.restart_mission = parameters.value("MIS_RESTART") != 0.0;
+  tuning.rally_limit_m = parameters.value("RALLY_LIMIT_KM") * 1000.0;
+  tuning.rally_includes_home = parameters.value("RALLY_INCL_HOME") != 0.0;
   tuning.guided_timeout = from_seconds(parameters.value("GUID_TIMEOUT", 3.0));
   if (family == plane) {
     tuning.waypoint_radius_m = std::max(1.0, parameters.value("WP_RADIUS"));

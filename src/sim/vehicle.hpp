@@ -64,6 +64,7 @@ class Vehicle {
   [[nodiscard]] Autopilot const& autopilot() const { return controller_->autopilot(); }
   [[nodiscard]] Parameters& parameters() { return memory_.parameters; }
   [[nodiscard]] MissionPlan const& mission() const { return memory_.plans.mission; }
+  [[nodiscard]] Plans& plans() { return memory_.plans; }
   [[nodiscard]] geo::Wgs84 place() const { return site_.place_at(body_.position_m); }
 
  private:

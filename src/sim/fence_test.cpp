@@ -1,0 +1,244 @@
+#include "sim/fence.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/test_ground.hpp"
+
+namespace lapwing::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using namespace mavlink;
+
+constexpr int guided = 4;
+
+void set(TestGround& ground, std::initializer_list<std::pair<char const*, float>> parameters) {
+  for (auto const& [name, value] : parameters) EXPECT_TRUE(ground.vehicle().parameters().set(name, value)) << name;
+}
+
+MissionItem zone_item(TestGround& ground, MavCmd command, double north, double east, float p1) {
+  ItemMaker const make{ground.world.options().home};
+  auto item = make.at(command, {north, east, 0.0}, {p1});
+  item.type = MissionType::fence;
+  return item;
+}
+
+std::vector<MissionItem> square(TestGround& ground, MavCmd command, double north, double east, double half_m) {
+  std::vector<MissionItem> items;
+  for (auto const& [n, e] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+    items.push_back(zone_item(ground, command, north + n * half_m, east + e * half_m, 4.0F));
+  return items;
+}
+
+/// As `TestGround::upload`, for a fence.
+std::optional<MavMissionResult> upload_fence(TestGround& ground, std::vector<MissionItem> const& items) {
+  auto from = ground.heard.size();
+  ground.send(MissionCount{.count = static_cast<std::uint16_t>(items.size()), .type = MissionType::fence});
+  std::optional<MavMissionResult> result;
+  ground.run_until(
+      [&] {
+        for (; from < ground.heard.size() && !result; ++from) {
+          if (auto const* ack = std::get_if<MissionAck>(&ground.heard[from].message)) result = ack->result;
+          auto const* request = std::get_if<MissionRequest>(&ground.heard[from].message);
+          if (!request || request->seq >= items.size()) continue;
+          auto item = items[request->seq];
+          item.seq = request->seq;
+          ground.send(item);
+        }
+        return result.has_value();
+      },
+      10s);
+  EXPECT_EQ(ground.vehicle().plans().fence.size(), items.size());
+  return result;
+}
+
+void hover(TestGround& ground, float height_m) {
+  ground.boot();
+  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
+  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, height_m}), MavResult::accepted);
+  ground.run_for(8s + base::from_seconds(height_m / 2.0));
+}
+
+/// Keeps a velocity as a ground station does: repeating it.
+void fly(TestGround& ground, geo::Ned velocity_m_s, base::Duration time) {
+  SetPositionTargetGlobalInt target;
+  target.setpoint.ignore = 0b110111000111;
+  target.setpoint.velocity_m_s = velocity_m_s;
+  for (auto passed = base::Duration{}; passed < time; passed += 1s) {
+    ground.send(target);
+    ground.run_for(1s);
+  }
+}
+
+TEST(Fence, SendsACopterHomeThatLeavesTheCircleAndItsStateStaysActive) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 60}, {"FENCE_ACTION", 1}});
+  hover(ground, 10);
+  ground.request(MessageId::fence_status, 5);
+  fly(ground, {8, 0, 0}, 5s);
+  EXPECT_EQ(ground.said("Fence Breached"), 0);
+  fly(ground, {8, 0, 0}, 5s);
+  EXPECT_EQ(ground.said("Fence Breached"), 1);
+  EXPECT_EQ(ground.pilot().mode().name, "RTL");
+  EXPECT_EQ(ground.last<Heartbeat>()->system_status, MavState::active);
+  EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 1);
+  EXPECT_EQ(ground.last<FenceStatus>()->breach_type, 3);
+  EXPECT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 120s));
+  ground.run_for(1s);
+  EXPECT_FALSE(ground.last<FenceStatus>()->breached);
+  EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 1);
+  EXPECT_LT(ground.from_start(), 2.0);
+}
+
+TEST(Fence, DoesWhatItsActionSays) {
+  struct Case {
+    float action;
+    std::string_view mode;
+  };
+  for (auto const& [action, mode] : {Case{0, "GUIDED"}, {1, "RTL"}, {2, "LAND"}, {4, "BRAKE"}}) {
+    TestGround ground("copter");
+    set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_ALT_MAX", 20}, {"FENCE_ACTION", action}});
+    hover(ground, 10);
+    ground.request(MessageId::fence_status, 5);
+    fly(ground, {0, 0, -2.5}, 7s);
+    EXPECT_EQ(ground.said("Fence Breached"), 1) << action;
+    EXPECT_EQ(ground.pilot().mode().name, mode);
+    EXPECT_EQ(ground.last<FenceStatus>()->breach_type, 2) << "by height";
+  }
+}
+
+TEST(Fence, HoldsTheModeUntilTheVehicleIsBackInside) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}});
+  hover(ground, 10);
+  fly(ground, {8, 0, 0}, 7s);
+  ASSERT_EQ(ground.pilot().mode().name, "RTL");
+  EXPECT_EQ(ground.set_mode(guided), MavResult::failed);
+  EXPECT_EQ(ground.said("Mode change to GUIDED failed: in fence recovery"), 1);
+  ASSERT_TRUE(ground.run_until([&] { return ground.pilot().fence().breached() == 0; }, 60s));
+  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
+}
+
+TEST(Fence, RefusesGuidedTargetsOutside) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 50}});
+  hover(ground, 10);
+  auto const to = [&](double north_m) {
+    auto const place = geo::displaced(ground.world.options().home, {north_m, 0.0, -10.0});
+    return ground.command(MavCmd::do_reposition, {-1, 0, 0, NAN, static_cast<float>(place.lat_deg()),
+                                                  static_cast<float>(place.lon_deg()), 10});
+  };
+  EXPECT_EQ(to(30), MavResult::accepted);
+  EXPECT_EQ(to(80), MavResult::failed);
+}
+
+TEST(Fence, KeepsACopterInThePolygonThatWasUploaded) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}});
+  ground.boot();
+  auto const items = square(ground, MavCmd::nav_fence_polygon_vertex_inclusion, 0, 0, 50);
+  ASSERT_EQ(upload_fence(ground, items), MavMissionResult::accepted);
+  hover(ground, 10);
+  fly(ground, {0, 8, 0}, 12s);
+  EXPECT_EQ(ground.pilot().mode().name, "RTL");
+  EXPECT_EQ(ground.said("Fence Breached"), 1);
+}
+
+TEST(Fence, RefusesArmingInsideAnExclusionZone) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}});
+  ground.boot();
+  auto const items = std::vector{zone_item(ground, MavCmd::nav_fence_circle_exclusion, 5, 0, 30.0F)};
+  ASSERT_EQ(upload_fence(ground, items), MavMissionResult::accepted);
+  ground.run_for(100ms);
+  ground.set_mode(guided);
+  EXPECT_EQ(ground.arm(), MavResult::failed);
+  ground.run_for(100ms);
+  EXPECT_EQ(ground.said("Arm: vehicle outside fence"), 1);
+  EXPECT_EQ(ground.said("PreArm: vehicle outside fence"), 1);
+  EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {0}), MavResult::accepted);
+  ground.run_for(100ms);
+  EXPECT_EQ(ground.arm(), MavResult::accepted);
+}
+
+TEST(Fence, IsSwitchedByCommandAndReportsNothingWhileOff) {
+  TestGround ground("copter");
+  ground.boot();
+  EXPECT_EQ(ground.command(MavCmd::request_message, {162}), MavResult::failed);
+  EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {1}), MavResult::accepted);
+  EXPECT_EQ(ground.command(MavCmd::request_message, {162}), MavResult::accepted);
+  EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {7}), MavResult::failed);
+}
+
+TEST(Fence, StopsARover) {
+  TestGround ground("rover");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 30}, {"FENCE_ACTION", 2}});
+  ground.boot();
+  ground.set_mode(15);
+  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  fly(ground, {4, 0, 0}, 14s);
+  EXPECT_EQ(ground.said("Fence Breached"), 1);
+  EXPECT_EQ(ground.pilot().mode().name, "HOLD");
+  ground.run_for(5s);
+  EXPECT_LT(ground.from_start(), 45.0);
+}
+
+TEST(Fence, BringsAPlaneBack) {
+  TestGround ground("plane");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_TYPE", 2}, {"FENCE_RADIUS", 1000}});
+  ground.boot();
+  ground.set_mode(13);
+  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.run_for(25s);
+  ground.set_mode(15);
+  ItemMaker const make{ground.world.options().home};
+  auto target = make.waypoint(4000, 0, 60);
+  target.current = 2;
+  ground.send(target);
+  ASSERT_TRUE(ground.run_until([&] { return ground.said("Fence Breached") == 1; }, 90s));
+  ground.run_for(500ms);
+  EXPECT_EQ(ground.pilot().mode().name, "RTL");
+  EXPECT_TRUE(ground.run_until([&] { return ground.pilot().fence().breached() == 0; }, 90s));
+}
+
+TEST(FenceAreas, IncludeEitherAllOrAny) {
+  Site const site(geo::Wgs84::from_degrees(41.0, -8.0, 0.0));
+  ItemMaker const make{site.anchor()};
+  MissionPlan const fence{make.at(MavCmd::nav_fence_circle_inclusion, {0, 0, 0}, {50.0F}),
+                          make.at(MavCmd::nav_fence_circle_inclusion, {80, 0, 0}, {50.0F})};
+  Body body;
+  FenceSettings settings{.enabled = true, .watched = FenceWatch::areas, .action = Behaviour::return_home};
+  FenceWatch watch;
+  FenceWatch::View const view{
+      .body = body, .site = site, .home = {}, .plan = fence, .settings = settings, .position_ok = true, .now = 1s};
+  EXPECT_EQ(watch.update(view), FenceWatch::areas) << "in the first only";
+  settings.any_inclusion = true;
+  EXPECT_EQ(watch.update(view), 0u);
+  EXPECT_EQ(watch.breached(), 0u);
+  settings.any_inclusion = false;
+  body.position_m.north = 40.0;
+  EXPECT_EQ(watch.update(view), 0u) << "in both";
+  EXPECT_EQ(watch.count(), 1);
+}
+
+TEST(FenceFloor, CountsOnceTheVehicleWasAboveIt) {
+  Site const site(geo::Wgs84::from_degrees(41.0, -8.0, 0.0));
+  MissionPlan const fence;
+  Body body;
+  FenceSettings const settings{.enabled = true, .watched = FenceWatch::floor, .lowest_m = 10.0, .action = {}};
+  FenceWatch watch;
+  FenceWatch::View const view{
+      .body = body, .site = site, .home = {}, .plan = fence, .settings = settings, .position_ok = true, .now = 1s};
+  EXPECT_EQ(watch.update(view), 0u) << "on the ground";
+  body.on_ground = false;
+  body.position_m.down = -5.0;
+  EXPECT_EQ(watch.update(view), 0u) << "on its way up";
+  body.position_m.down = -12.0;
+  EXPECT_EQ(watch.update(view), 0u);
+  body.position_m.down = -9.0;
+  EXPECT_EQ(watch.update(view), FenceWatch::floor);
+}
+
+}  // namespace
+}  // namespace lapwing::sim
