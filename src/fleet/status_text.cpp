@@ -25,26 +25,28 @@ vehicle::StatusText StatusTexts::Partial::joined() const {
     expected = number + 1;
   }
   if (!chunks.empty() && chunks.rbegin()->second.size() == chunk_length) text += "...";
-  return {severity, text, last};
+  return {severity, text, last, component};
 }
 
 std::vector<vehicle::StatusText> StatusTexts::add(TextChunk const& chunk, base::TimePoint now) {
-  if (chunk.id == 0) return {{chunk.severity, chunk.text, now}};
-  auto& partial = partial_[chunk.id];
+  if (chunk.id == 0) return {{chunk.severity, chunk.text, now, chunk.component}};
+  auto& partial = partial_[{chunk.component, chunk.id}];
+  if (partial.is_given_out && now - partial.last < patience) return {};
+  if (partial.is_given_out) partial = {};
   partial.severity = chunk.severity;
+  partial.component = chunk.component;
   partial.last = now;
   partial.chunks[chunk.number] = chunk.text;
   if (!partial.whole()) return {};
-  auto text = partial.joined();
-  partial_.erase(chunk.id);
-  return {std::move(text)};
+  partial.is_given_out = true;
+  return {partial.joined()};
 }
 
 std::vector<vehicle::StatusText> StatusTexts::overdue(base::TimePoint now) {
   std::vector<vehicle::StatusText> texts;
   std::erase_if(partial_, [&](auto const& entry) {
     if (now - entry.second.last < patience) return false;
-    texts.push_back(entry.second.joined());
+    if (!entry.second.is_given_out) texts.push_back(entry.second.joined());
     return true;
   });
   return texts;

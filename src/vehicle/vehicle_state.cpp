@@ -24,6 +24,13 @@ std::string_view to_string(Autopilot autopilot) {
   return "other";
 }
 
+std::string_view gps_fix_name(int fix) {
+  static constexpr std::array<std::string_view, 9> names{"no GPS",    "no fix",    "2D",     "3D", "DGPS",
+                                                         "RTK float", "RTK fixed", "static", "PPP"};
+  auto const index = static_cast<std::size_t>(fix);
+  return index < names.size() ? names[index] : "unknown";
+}
+
 std::string_view to_string(Connection connection) {
   switch (connection) {
     case Connection::ok: return "ok";

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,6 +9,7 @@
 
 #include "base/time.hpp"
 #include "geo/position.hpp"
+#include "vehicle/equipment.hpp"
 #include "vehicle/vehicle_id.hpp"
 
 namespace lapwing::vehicle {
@@ -50,6 +53,62 @@ struct Battery {
   double remaining = 0.0;  ///< 0..1
   std::optional<double> voltage_v;
   std::optional<double> current_a;
+  int id = 0;
+  std::optional<double> consumed_ah = {};
+  std::optional<base::Duration> time_left = {};
+  bool time_left_is_estimate = false;  ///< ours, not the vehicle's: from how fast it empties
+};
+
+struct Gps {
+  int fix = 0;  ///< as GPS_FIX_TYPE counts: `gps_fix_name`
+  std::optional<int> satellites;
+  std::optional<double> hdop;
+};
+/// "no fix", "3D", "RTK fixed" ...
+[[nodiscard]] std::string_view gps_fix_name(int fix);
+
+/// How far the estimator's innovations are from what it trusts: above 1 it does not believe the sensor; above 0.8
+/// ArduPilot's failsafe acts by default.
+struct Estimator {
+  double velocity = 0.0;
+  double position_horizontal = 0.0;
+  double position_vertical = 0.0;
+  std::optional<double> compass;
+};
+
+struct RemoteControl {
+  bool is_lost = false;  ///< the receiver hears no transmitter
+  int channels = 0;
+  std::array<std::uint16_t, 18> pulses_us{};
+  std::optional<double> rssi;  ///< 0..1
+};
+
+/// The telemetry radio's own view of its link, for both ends.
+struct Radio {
+  std::optional<int> rssi;  ///< in the radio's own units, 0..254
+  std::optional<int> remote_rssi;
+  int noise = 0;
+  int remote_noise = 0;
+  double transmit_buffer_free = 0.0;  ///< 0..1
+  int receive_errors = 0;
+};
+
+/// What a pilot's head-up display shows beside attitude and position.
+struct Hud {
+  double airspeed_m_s = 0.0;
+  double climb_m_s = 0.0;
+  double throttle = 0.0;  ///< 0..1
+};
+
+struct Wind {
+  double from_rad = 0.0;  ///< clockwise from true north
+  double speed_m_s = 0.0;
+};
+
+struct Fence {
+  bool is_breached = false;
+  int breaches = 0;            ///< since boot
+  std::string_view type = {};  ///< of the last breach: "maximum altitude"; empty for none
 };
 
 /// Where the vehicle stands in the mission it holds.
@@ -57,12 +116,14 @@ struct MissionProgress {
   int current_seq = 0;
   int total = 0;
   bool complete = false;
+  std::string_view state = {};  ///< "active", "paused" ...; empty when the vehicle does not say
 };
 
 struct StatusText {
   int severity = 6;  ///< MAVLink / syslog: 0 emergency .. 7 debug
   std::string text;
   base::TimePoint heard{};
+  int component = 1;  ///< who said it; 1 is the autopilot
 };
 
 /// The vehicle's own view of its health, as far as arming needs it.
@@ -89,11 +150,25 @@ struct VehicleState {
   Aged<double> relative_alt_m;  ///< above home
   Aged<geo::Ned> velocity_m_s;
   Aged<Attitude> attitude;
-  Aged<double> heading_rad;  ///< clockwise from true north
-  Aged<Battery> battery;
+  Aged<double> heading_rad;                      ///< clockwise from true north
+  Aged<Battery> battery;                         ///< the first one, by which guards go
+  std::vector<Aged<Battery>> further_batteries;  ///< by id
+  Aged<Gps> gps;
+  Aged<Estimator> estimator;
   Aged<Health> health;
+  Aged<std::vector<std::string_view>> unhealthy;  ///< sensors that are there, enabled and sick
+  std::vector<StatusText> arming_reasons;  ///< why it refused to arm or would, newest last; empty when it would not
+  Aged<RemoteControl> remote_control;
+  Aged<Radio> radio;
+  Aged<Hud> hud;
+  Aged<Wind> wind;
+  Aged<Fence> fence;
   Aged<geo::Wgs84> home;
   Aged<MissionProgress> mission;
+  Aged<double> waypoint_distance_m;  ///< to where it is flying now
+  Aged<Gimbal> gimbal;
+  std::vector<Component> components;  ///< besides the autopilot, by id
+  Aged<Pictures> pictures;
   std::vector<std::string> payload;      ///< named equipment, "Camera"
   std::vector<geo::Wgs84> planned_path;  ///< positions of the mission it holds, in flight order, for the map
   std::vector<StatusText> recent_texts;  ///< newest last, bounded
