@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/notifier.hpp"
+#include "fleet/battery_time.hpp"
 #include "fleet/message_rates.hpp"
 #include "fleet/status_text.hpp"
 #include "mavlink/connection.hpp"
@@ -58,6 +60,10 @@ struct Craft {
   std::optional<geo::Wgs84> path_end;  ///< up to where `path_m` has been counted
   double path_m = 0.0;                 ///< like `track_m`, height differences included
   bool has_reported_battery = false;   ///< be it that it does not know
+  std::optional<base::TimePoint> battery_status_heard;
+  std::map<std::uint8_t, BatteryTime> battery_times;  ///< by battery
+  std::optional<bool> prearm_ok;                      ///< by the last SYS_STATUS
+  std::uint32_t sick_sensors = 0;                     ///< bits of mavlink::sensor_flag
   StatusTexts texts;
   std::optional<MessageRates> rates;
   bool is_asking = false;  ///< message intervals are being asked for

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "fleet/arming_reasons.hpp"
 #include "fleet/telemetry.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "fleet/vehicle_kind.hpp"
@@ -97,10 +98,40 @@ void Fleet::set_connection_timeout(VehicleId const& id, Duration timeout) {
 
 void Fleet::take(mavlink::Received const& received) {
   if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message)) take_heartbeat(received, *heartbeat);
-  if (received.source.component != mavlink::autopilot_component) return;
+  if (auto const* radio = std::get_if<mavlink::RadioStatus>(&received.message)) take_radio_of_link(received, *radio);
   auto const found = crafts_.find(received.source.system);
   if (found == crafts_.end()) return;
-  take_from_autopilot(*found->second, received);
+  if (received.source.component == mavlink::autopilot_component) return take_from_autopilot(*found->second, received);
+  take_from_component(*found->second, received);
+}
+
+/// A radio speaks for itself, under a system id of its own: what it says concerns every vehicle behind it.
+void Fleet::take_radio_of_link(mavlink::Received const& received, mavlink::RadioStatus const& radio) {
+  for (auto& [system_id, craft] : crafts_) {
+    if (craft->from != received.from) continue;
+    take_radio(*craft, radio, received.at);
+    registry_.touch(craft->id());
+  }
+}
+
+void Fleet::take_from_component(Craft& craft, mavlink::Received const& received) {
+  if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message)) {
+    tell(craft, take_text(craft, received.source.component, *chunk, received.at));
+    registry_.touch(craft.id());
+  }
+}
+
+void Fleet::tell(Craft const& craft, std::vector<vehicle::StatusText> const& texts) {
+  for (auto const& text : texts) write(log_, craft.state.name, text);
+}
+
+/// What nothing but time changes: texts whose end was lost, reasons that were not repeated.
+void Fleet::let_age(Craft& craft) {
+  auto const now = loop().now();
+  auto const texts = take_overdue_texts(craft, now);
+  tell(craft, texts);
+  bool const forgot = forget_old_arming_reasons(craft.state.arming_reasons, now);
+  if (forgot || !texts.empty()) registry_.touch(craft.id());
 }
 
 void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat) {
@@ -124,6 +155,7 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
   state.heartbeat_heard = received.at;
   state.mode.set(mavlink::mode_name(state.autopilot, state.family, heartbeat.custom_mode), received.at);
   state.armed.set(heartbeat.armed(), received.at);
+  if (heartbeat.armed()) state.arming_reasons.clear();
   state.link = connection_.whereabouts(received.source.system).value_or("");
   if (is_new) {
     log_.info(fmt::format("{} found at {}", state.name, state.link));
@@ -161,6 +193,8 @@ void Fleet::note_restart(Craft& craft, TimePoint now) {
   craft.trace = {};
   craft.mission_mode_pending = false;
   craft.state.health.value.reset();
+  craft.state.arming_reasons.clear();
+  craft.prearm_ok.reset();
   if (craft.rates) craft.rates->restart(now);
   log_.warn(fmt::format("{} restarted", craft.state.name));
 }
@@ -174,7 +208,7 @@ void Fleet::take_from_autopilot(Craft& craft, mavlink::Received const& received)
   }
   if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
   if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
-    for (auto const& text : take_text(craft, *chunk, received.at)) write(log_, craft.state.name, text);
+    tell(craft, take_text(craft, received.source.component, *chunk, received.at));
   (void)take_telemetry(craft, received.message, received.at);
   registry_.touch(craft.id());
   craft.changed.notify_all();
@@ -205,6 +239,7 @@ base::Task<> Fleet::watch() {
     co_await loop().sleep(watch_period);
     for (auto& [system_id, craft] : crafts_) {
       check_connection(*craft);
+      let_age(*craft);
       bool const is_one = !connection_.is_contested(system_id);
       if (!options_.asks_for_messages || !craft->is_connected() || !is_one || craft->is_asking) continue;
       if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());

@@ -47,6 +47,10 @@ class Fleet {
   void take(mavlink::Received const& received);
   void take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
   void take_from_autopilot(Craft& craft, mavlink::Received const& received);
+  void take_from_component(Craft& craft, mavlink::Received const& received);
+  void take_radio_of_link(mavlink::Received const& received, mavlink::RadioStatus const& radio);
+  void tell(Craft const& craft, std::vector<vehicle::StatusText> const& texts);
+  void let_age(Craft& craft);
   Craft& discover(mavlink::Received const& received);
   void note_restart(Craft& craft, base::TimePoint now);
   void note_camera(std::uint8_t system_id);

@@ -221,5 +221,43 @@ TEST(Fleet, DoesNotTakeAMoveToAnotherAddressForARestart) {
   EXPECT_EQ(world.fleet->find(VehicleId{"1"})->boots, 1);
 }
 
+TEST(Fleet, ShowsWhatARadioSaysAtTheVehiclesBehindIt) {
+  TestWorld world;
+  auto& near = world.add();
+  world.add({.address = {2, 1}});
+  world.run_for(1s);
+  near.send_as({51, 68}, mavlink::RadioStatus{.rssi = 180, .remote_rssi = 170, .transmit_buffer_free = 0.9});
+  world.run_for(100ms);
+  ASSERT_TRUE(world.state("1").radio.known());
+  EXPECT_EQ(world.state("1").radio.value->rssi, 180);
+  EXPECT_FALSE(world.state("2").radio.known());
+  EXPECT_EQ(world.registry.all().size(), 2u);
+}
+
+TEST(Fleet, ShowsTextsOfComponentsAndTornOnes) {
+  TestWorld world;
+  auto& copter = world.add();
+  world.run_for(1s);
+  copter.send_as({1, 100}, mavlink::StatusText{.text = "card full"});
+  copter.send(mavlink::StatusText{.text = std::string(50, 'x'), .id = 3});
+  world.run_for(1s);
+  ASSERT_EQ(world.state().recent_texts.size(), 1u);
+  EXPECT_EQ(world.state().recent_texts[0].component, 100);
+  world.run_for(3s);  // nothing else is said
+  ASSERT_EQ(world.state().recent_texts.size(), 2u);
+  EXPECT_EQ(world.state().recent_texts[1].text, std::string(50, 'x') + "...");
+}
+
+TEST(Fleet, ForgetsReasonsAgainstArmingThatAreNotRepeated) {
+  TestWorld world;
+  auto& copter = world.add();
+  world.run_for(1s);
+  copter.say(mavlink::MavSeverity::critical, "Arm: Throttle too high");
+  world.run_for(60s);
+  EXPECT_EQ(world.state().arming_reasons.size(), 1u);
+  world.run_for(20s);
+  EXPECT_TRUE(world.state().arming_reasons.empty());
+}
+
 }  // namespace
 }  // namespace lapwing::fleet

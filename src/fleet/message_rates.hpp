@@ -12,6 +12,7 @@ namespace lapwing::fleet {
 struct WantedMessage {
   mavlink::MessageId id{};
   base::Duration interval{};
+  bool may_wait = false;  ///< a slow link carries less of it
 };
 
 /// Decides which messages to ask a vehicle for: only those that do not come by themselves, often enough.

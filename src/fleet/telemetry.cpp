@@ -5,19 +5,23 @@
 #include <cmath>
 #include <utility>
 
+#include "fleet/arming_reasons.hpp"
 #include "geo/position.hpp"
 
 namespace lapwing::fleet {
 
 using namespace std::chrono_literals;
 using base::TimePoint;
+using mavlink::sensor_flag::prearm_check;
 using vehicle::VehicleState;
 
 namespace {
 
 constexpr std::size_t texts_kept = 50;
-constexpr double smallest_step_m = 0.5;      // below it a standing vehicle's GPS noise would count as travel
-constexpr double fastest_vehicle_m_s = 100;  // a step beyond it is a jump of the estimator
+constexpr std::size_t batteries_kept = 16;
+constexpr base::Duration battery_status_prevails = 5s;  // over SYS_STATUS, which says less of the same battery
+constexpr double smallest_step_m = 0.5;                 // below it a standing vehicle's GPS noise would count as travel
+constexpr double fastest_vehicle_m_s = 100;             // a step beyond it is a jump of the estimator
 constexpr double jump_allowance_m = 20.0;
 
 void extend_track(Craft& craft, VehicleState& state, geo::Wgs84 place, TimePoint now) {
@@ -54,6 +58,60 @@ void set_estimator(VehicleState& state, std::uint16_t flags, TimePoint now) {
   state.health.set(health, now);
 }
 
+/// The battery of that id; the first one stands by itself.
+vehicle::Aged<vehicle::Battery>* battery_of(VehicleState& state, int id) {
+  if (id == 0) return &state.battery;
+  auto& all = state.further_batteries;
+  auto const place = std::ranges::lower_bound(all, id, {}, [](auto const& battery) { return battery.value->id; });
+  if (place != all.end() && place->value->id == id) return &*place;
+  if (all.size() >= batteries_kept) return nullptr;
+  vehicle::Battery fresh;
+  fresh.id = id;
+  return &*all.insert(place, {fresh, {}});
+}
+
+void set_time_left(Craft& craft, vehicle::Battery& battery, std::optional<std::chrono::seconds> told, TimePoint now) {
+  auto const estimate = craft.battery_times[static_cast<std::uint8_t>(battery.id)].add(battery.remaining, now);
+  battery.time_left = told ? std::optional<base::Duration>(*told) : estimate;
+  battery.time_left_is_estimate = !told && estimate.has_value();
+}
+
+/// Names are put together only when a sensor falls sick or recovers, not for every message.
+void set_unhealthy(Craft& craft, VehicleState& state, mavlink::SysStatus const& heard, TimePoint now) {
+  auto const sick = heard.sensors_present & heard.sensors_enabled & ~heard.sensors_health;
+  auto& shown = state.unhealthy;
+  shown.heard = now;
+  if (shown.value && sick == craft.sick_sensors) return;
+  craft.sick_sensors = sick;
+  std::vector<std::string_view> names;
+  for (unsigned bit = 0; bit < 32; ++bit)
+    if ((sick >> bit & 1U) != 0 && !mavlink::sensor_name(bit).empty()) names.push_back(mavlink::sensor_name(bit));
+  shown.value = std::move(names);
+}
+
+void set_remote_control_lost(Craft const& craft, VehicleState& state) {
+  auto& remote = state.remote_control;
+  if (!remote.value) return;
+  remote.value->is_lost = remote.value->channels == 0 || (craft.sick_sensors & mavlink::sensor_flag::rc_receiver) != 0;
+}
+
+std::string_view state_name(mavlink::MissionState state) {
+  switch (state) {
+    case mavlink::MissionState::no_mission: return "no mission";
+    case mavlink::MissionState::not_started: return "not started";
+    case mavlink::MissionState::active: return "active";
+    case mavlink::MissionState::paused: return "paused";
+    case mavlink::MissionState::complete: return "complete";
+    case mavlink::MissionState::unknown: break;
+  }
+  return "";
+}
+
+std::string_view breach_name(std::uint8_t type) {
+  static constexpr std::array<std::string_view, 4> names{"", "minimum altitude", "maximum altitude", "boundary"};
+  return type < names.size() ? names[type] : "fence";
+}
+
 /// One overload for each message that shows; everything else falls through to the template.
 struct Taking {
   Craft& craft;
@@ -83,33 +141,87 @@ struct Taking {
 
   bool operator()(mavlink::GpsRaw const& heard) const {
     craft.fix = heard.fix;
-    return false;
+    state.gps.set({static_cast<int>(heard.fix), heard.satellites, heard.hdop}, now);
+    return true;
+  }
+
+  bool operator()(mavlink::VfrHud const& heard) const {
+    state.hud.set({heard.airspeed_m_s, heard.climb_m_s, heard.throttle}, now);
+    return true;
+  }
+
+  bool operator()(mavlink::Wind const& heard) const {
+    state.wind.set({geo::wrap_two_pi(heard.from_rad), heard.speed_m_s}, now);
+    return true;
+  }
+
+  bool operator()(mavlink::WindCov const& heard) const {
+    auto const& wind = heard.wind_m_s;
+    if (!std::isfinite(wind.north) || !std::isfinite(wind.east)) return false;
+    state.wind.set({geo::wrap_two_pi(std::atan2(-wind.east, -wind.north)), std::hypot(wind.north, wind.east)}, now);
+    return true;
+  }
+
+  bool operator()(mavlink::NavControllerOutput const& heard) const {
+    state.waypoint_distance_m.set(heard.waypoint_distance_m, now);
+    return true;
+  }
+
+  bool operator()(mavlink::RcChannels const& heard) const {
+    state.remote_control.set({false, heard.count, heard.pulses_us, heard.rssi}, now);
+    set_remote_control_lost(craft, state);
+    return true;
+  }
+
+  bool operator()(mavlink::FenceStatus const& heard) const {
+    state.fence.set({heard.breached, heard.breach_count, breach_name(heard.breach_type)}, now);
+    return true;
   }
 
   bool operator()(mavlink::SysStatus const& heard) const {
     craft.has_reported_battery = true;
-    if (heard.battery_remaining)
-      state.battery.set({*heard.battery_remaining, heard.battery_voltage_v, heard.battery_current_a}, now);
+    bool const knows_more = craft.battery_status_heard && now - *craft.battery_status_heard < battery_status_prevails;
+    if (heard.battery_remaining && !knows_more) {
+      vehicle::Battery battery{*heard.battery_remaining, heard.battery_voltage_v, heard.battery_current_a};
+      set_time_left(craft, battery, std::nullopt, now);
+      state.battery.set(battery, now);
+    }
     auto health = state.health.value.value_or(vehicle::Health{});
-    health.prearm_ok = (heard.sensors_health & mavlink::sensor_flag::prearm_check) != 0;
+    health.prearm_ok = (heard.sensors_health & prearm_check) != 0;
     state.health.set(health, now);
+    bool const could_not_arm = craft.prearm_ok == false;
+    craft.prearm_ok = health.prearm_ok;
+    if (could_not_arm && health.prearm_ok) state.arming_reasons.clear();
+    set_unhealthy(craft, state, heard, now);
+    set_remote_control_lost(craft, state);
     return true;
   }
 
   bool operator()(mavlink::BatteryStatus const& heard) const {
-    if (heard.id != 0 || !heard.remaining) return false;
+    if (!heard.remaining) return false;
+    auto* const shown = battery_of(state, heard.id);
+    if (!shown) return false;
+    vehicle::Battery battery{*heard.remaining, heard.voltage_v, heard.current_a, heard.id, heard.consumed_ah};
+    set_time_left(craft, battery, heard.time_remaining, now);
+    shown->set(battery, now);
+    if (heard.id != 0) return true;
     craft.has_reported_battery = true;
-    state.battery.set({*heard.remaining, heard.voltage_v, heard.current_a}, now);
+    craft.battery_status_heard = now;
     return true;
   }
 
   bool operator()(mavlink::EkfStatusReport const& heard) const {
     set_estimator(state, heard.flags, now);
+    state.estimator.set({heard.velocity_variance, heard.position_horizontal_variance, heard.position_vertical_variance,
+                         heard.compass_variance},
+                        now);
     return true;
   }
 
   bool operator()(mavlink::EstimatorStatus const& heard) const {
     set_estimator(state, heard.flags, now);
+    state.estimator.set(
+        {heard.velocity_ratio, heard.position_horizontal_ratio, heard.position_vertical_ratio, std::nullopt}, now);
     return true;
   }
 
@@ -135,7 +247,8 @@ struct Taking {
     trace.reports_complete = heard.state == mavlink::MissionState::complete;
     if (!trace.reports_complete) trace.was_active = true;
     int const known_total = state.mission.value ? state.mission.value->total : 0;
-    state.mission.set({heard.seq, heard.total ? static_cast<int>(*heard.total) : known_total, trace.reports_complete},
+    state.mission.set({heard.seq, heard.total ? static_cast<int>(*heard.total) : known_total, trace.reports_complete,
+                       state_name(heard.state)},
                       now);
     return true;
   }
@@ -146,25 +259,11 @@ struct Taking {
   }
 };
 
-struct Numbering {
-  using Id = mavlink::MessageId;
-  template <class Other>
-  std::optional<Id> operator()(Other const&) const {
-    return std::nullopt;
-  }
-  std::optional<Id> operator()(mavlink::GlobalPosition const&) const { return Id::global_position_int; }
-  std::optional<Id> operator()(mavlink::Attitude const&) const { return Id::attitude; }
-  std::optional<Id> operator()(mavlink::SysStatus const&) const { return Id::sys_status; }
-  std::optional<Id> operator()(mavlink::GpsRaw const&) const { return Id::gps_raw_int; }
-  std::optional<Id> operator()(mavlink::MissionCurrent const&) const { return Id::mission_current; }
-  std::optional<Id> operator()(mavlink::ExtendedSysState const&) const { return Id::extended_sys_state; }
-  std::optional<Id> operator()(mavlink::HomePosition const&) const { return Id::home_position; }
-  std::optional<Id> operator()(mavlink::EkfStatusReport const&) const { return Id::ekf_status_report; }
-  std::optional<Id> operator()(mavlink::EstimatorStatus const&) const { return Id::estimator_status; }
-};
-
-WantedMessage wanted(mavlink::MessageId id, base::Duration interval) {
-  return {id, interval};
+void show_texts(VehicleState& state, std::vector<vehicle::StatusText> const& texts) {
+  for (auto const& text : texts) (void)note_arming_reason(state.arming_reasons, text);
+  auto& kept = state.recent_texts;
+  kept.insert(kept.end(), texts.begin(), texts.end());
+  if (kept.size() > texts_kept) kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(texts_kept));
 }
 
 }  // namespace
@@ -173,14 +272,28 @@ bool take_telemetry(Craft& craft, mavlink::Message const& message, TimePoint now
   return std::visit(Taking{craft, craft.state, now}, message);
 }
 
-std::vector<vehicle::StatusText> take_text(Craft& craft, mavlink::StatusText const& chunk, TimePoint now) {
-  auto texts = craft.texts.overdue(now);
-  auto whole = craft.texts.add({static_cast<int>(chunk.severity), chunk.text, chunk.id, chunk.chunk_seq}, now);
-  texts.insert(texts.end(), std::make_move_iterator(whole.begin()), std::make_move_iterator(whole.end()));
-  auto& kept = craft.state.recent_texts;
-  kept.insert(kept.end(), texts.begin(), texts.end());
-  if (kept.size() > texts_kept) kept.erase(kept.begin(), kept.end() - texts_kept);
+std::vector<vehicle::StatusText> take_text(Craft& craft, std::uint8_t component, mavlink::StatusText const& chunk,
+                                           TimePoint now) {
+  auto texts =
+      craft.texts.add({static_cast<int>(chunk.severity), chunk.text, chunk.id, chunk.chunk_seq, component}, now);
+  show_texts(craft.state, texts);
   return texts;
+}
+
+std::vector<vehicle::StatusText> take_overdue_texts(Craft& craft, TimePoint now) {
+  auto texts = craft.texts.overdue(now);
+  show_texts(craft.state, texts);
+  return texts;
+}
+
+void take_radio(Craft& craft, mavlink::RadioStatus const& heard, TimePoint now) {
+  craft.state.radio.set({.rssi = heard.rssi,
+                         .remote_rssi = heard.remote_rssi,
+                         .noise = heard.noise,
+                         .remote_noise = heard.remote_noise,
+                         .transmit_buffer_free = heard.transmit_buffer_free,
+                         .receive_errors = heard.receive_errors},
+                        now);
 }
 
 std::optional<base::Duration> boot_time(mavlink::Message const& message) {
@@ -188,31 +301,6 @@ std::optional<base::Duration> boot_time(mavlink::Message const& message) {
   if (auto const* attitude = std::get_if<mavlink::Attitude>(&message)) return attitude->since_boot;
   if (auto const* time = std::get_if<mavlink::SystemTime>(&message)) return time->since_boot;
   return std::nullopt;
-}
-
-std::optional<mavlink::MessageId> id_of(mavlink::Message const& message) {
-  return std::visit(Numbering{}, message);
-}
-
-std::span<WantedMessage const> wanted_messages(vehicle::Autopilot autopilot) {
-  using mavlink::MessageId;
-  static std::array const common{
-      wanted(MessageId::global_position_int, 200ms),
-      wanted(MessageId::attitude, 250ms),
-      wanted(MessageId::sys_status, 1s),
-      wanted(MessageId::gps_raw_int, 1s),
-      wanted(MessageId::mission_current, 1s),
-      wanted(MessageId::extended_sys_state, 1s),
-      wanted(MessageId::home_position, 10s),
-      wanted(MessageId::ekf_status_report, 1s),
-  };
-  static std::array const px4 = [] {
-    auto changed = common;
-    changed.back() = wanted(MessageId::estimator_status, 1s);
-    return changed;
-  }();
-  return autopilot == vehicle::Autopilot::px4 ? std::span<WantedMessage const>(px4)
-                                              : std::span<WantedMessage const>(common);
 }
 
 }  // namespace lapwing::fleet

@@ -16,7 +16,13 @@ namespace lapwing::fleet {
 bool take_telemetry(Craft& craft, mavlink::Message const& message, base::TimePoint now);
 
 /// Appends texts that are complete now to the state; returns them for the log.
-std::vector<vehicle::StatusText> take_text(Craft& craft, mavlink::StatusText const& chunk, base::TimePoint now);
+std::vector<vehicle::StatusText> take_text(Craft& craft, std::uint8_t component, mavlink::StatusText const& chunk,
+                                           base::TimePoint now);
+/// The same for texts whose missing chunks are not coming any more.
+std::vector<vehicle::StatusText> take_overdue_texts(Craft& craft, base::TimePoint now);
+
+/// What the telemetry radio on the vehicle's link says of itself.
+void take_radio(Craft& craft, mavlink::RadioStatus const& heard, base::TimePoint now);
 
 /// The vehicle's own clock, in messages that carry it.
 [[nodiscard]] std::optional<base::Duration> boot_time(mavlink::Message const& message);

@@ -1,5 +1,8 @@
 #include "fleet/telemetry.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace lapwing::fleet {
@@ -96,6 +99,141 @@ TEST_F(Telemetry, TakesTheFirstBatteryOnlyFromBatteryStatus) {
   EXPECT_EQ(state.battery.value->remaining, 0.9);
 }
 
+TEST_F(Telemetry, ShowsFurtherBatteriesById) {
+  for (int const id : {2, 1, 2}) {
+    mavlink::BatteryStatus status;
+    status.id = static_cast<std::uint8_t>(id);
+    status.remaining = 0.1 * id;
+    take(status, 1s);
+  }
+  ASSERT_EQ(state.further_batteries.size(), 2u);
+  EXPECT_EQ(state.further_batteries[0].value->id, 1);
+  EXPECT_NEAR(state.further_batteries[1].value->remaining, 0.2, 1e-9);
+  EXPECT_EQ(state.further_batteries[1].heard, TimePoint(1s));
+}
+
+TEST_F(Telemetry, BelievesTheTimeLeftThatTheVehicleTells) {
+  mavlink::BatteryStatus status;
+  status.remaining = 0.9;
+  status.consumed_ah = 0.5;
+  status.time_remaining = 600s;
+  take(status, 1s);
+  EXPECT_EQ(state.battery.value->time_left, 600s);
+  EXPECT_FALSE(state.battery.value->time_left_is_estimate);
+  EXPECT_EQ(state.battery.value->consumed_ah, 0.5);
+}
+
+TEST_F(Telemetry, EstimatesTheTimeLeftThatTheVehicleDoesNotTell) {
+  for (int second = 0; second <= 60; ++second) {
+    mavlink::BatteryStatus status;
+    status.remaining = 1.0 - 0.01 * (second / 6);  // 600 s for the whole
+    take(status, second * 1s);
+  }
+  ASSERT_TRUE(state.battery.value->time_left);
+  EXPECT_TRUE(state.battery.value->time_left_is_estimate);
+  EXPECT_NEAR(base::to_seconds(*state.battery.value->time_left), 540.0, 15.0);
+}
+
+TEST_F(Telemetry, DoesNotForgetOverSysStatusWhatBatteryStatusTold) {
+  mavlink::BatteryStatus status;
+  status.remaining = 0.9;
+  status.consumed_ah = 0.5;
+  take(status, 1s);
+  mavlink::SysStatus other;
+  other.battery_remaining = 0.89;
+  take(other, 2s);
+  EXPECT_EQ(state.battery.value->consumed_ah, 0.5);
+  take(other, 8s);  // BATTERY_STATUS has stopped
+  EXPECT_EQ(state.battery.value->remaining, 0.89);
+}
+
+TEST_F(Telemetry, NamesTheSensorsThatAreSick) {
+  mavlink::SysStatus status;
+  status.sensors_present = 0x24;  // compass, GPS
+  status.sensors_enabled = 0x24;
+  status.sensors_health = 0x20;
+  take(status, 1s);
+  EXPECT_EQ(state.unhealthy.value, std::vector<std::string_view>{"compass"});
+  status.sensors_health = 0;
+  status.sensors_enabled = 0x20;  // a compass that is not used may be sick
+  take(status, 2s);
+  EXPECT_EQ(state.unhealthy.value, std::vector<std::string_view>{"GPS"});
+  status.sensors_health = 0x20;
+  take(status, 3s);
+  EXPECT_TRUE(state.unhealthy.value->empty());
+  EXPECT_EQ(state.unhealthy.heard, TimePoint(3s));
+}
+
+TEST_F(Telemetry, KeepsTheReasonsAgainstArmingUntilTheChecksPass) {
+  take(mavlink::SysStatus{}, 1s);
+  (void)take_text(craft, 1, {.severity = mavlink::MavSeverity::critical, .text = "PreArm: Compass not calibrated"},
+                  TimePoint(2s));
+  take(mavlink::SysStatus{}, 3s);
+  ASSERT_EQ(state.arming_reasons.size(), 1u);
+  mavlink::SysStatus passed;
+  passed.sensors_health = mavlink::sensor_flag::prearm_check;
+  take(passed, 4s);
+  EXPECT_TRUE(state.arming_reasons.empty());
+  // Refused in this mode though the checks pass.
+  (void)take_text(craft, 1, {.severity = mavlink::MavSeverity::critical, .text = "Arm: Mode not armable"},
+                  TimePoint(5s));
+  take(passed, 6s);
+  EXPECT_EQ(state.arming_reasons.size(), 1u);
+}
+
+TEST_F(Telemetry, TellsTheRemoteControlIsLostByItsChannelsOrItsHealth) {
+  mavlink::RcChannels channels;
+  channels.count = 8;
+  channels.rssi = 0.5;
+  take(channels, 1s);
+  EXPECT_FALSE(state.remote_control.value->is_lost);
+  mavlink::SysStatus status;
+  status.sensors_present = status.sensors_enabled = mavlink::sensor_flag::rc_receiver;
+  take(status, 2s);
+  EXPECT_TRUE(state.remote_control.value->is_lost);
+  take(channels, 3s);
+  EXPECT_TRUE(state.remote_control.value->is_lost);
+  status.sensors_health = mavlink::sensor_flag::rc_receiver;
+  take(status, 4s);
+  EXPECT_FALSE(state.remote_control.value->is_lost);
+  channels.count = 0;
+  take(channels, 5s);
+  EXPECT_TRUE(state.remote_control.value->is_lost);
+}
+
+TEST_F(Telemetry, TellsWhereTheWindComesFromForBothAutopilots) {
+  take(mavlink::Wind{.from_rad = -0.5, .speed_m_s = 3.0}, 1s);
+  EXPECT_NEAR(state.wind.value->from_rad, 2.0 * std::numbers::pi - 0.5, 1e-9);
+  take(mavlink::WindCov{.time = {}, .wind_m_s = {0.0, 4.0, 0.0}}, 2s);  // to the east: from the west
+  EXPECT_NEAR(state.wind.value->from_rad, 1.5 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(state.wind.value->speed_m_s, 4.0, 1e-9);
+  take(mavlink::WindCov{.time = {}, .wind_m_s = {std::nan(""), 4.0, 0.0}}, 3s);
+  EXPECT_EQ(state.wind.heard, TimePoint(2s));
+}
+
+TEST_F(Telemetry, ShowsGpsEstimatorHudFenceAndTheWayToGo) {
+  mavlink::GpsRaw gps;
+  gps.fix = mavlink::GpsFix::rtk_fixed;
+  gps.satellites = 14;
+  gps.hdop = 0.7;
+  take(gps, 1s);
+  EXPECT_EQ(vehicle::gps_fix_name(state.gps.value->fix), "RTK fixed");
+  EXPECT_EQ(state.gps.value->satellites, 14);
+  take(mavlink::EkfStatusReport{.flags = 0x33F, .compass_variance = 0.5F}, 2s);
+  EXPECT_EQ(state.estimator.value->compass, 0.5);
+  take(mavlink::VfrHud{.airspeed_m_s = 14.0, .throttle = 0.5, .climb_m_s = -1.0}, 3s);
+  EXPECT_EQ(state.hud.value->climb_m_s, -1.0);
+  take(mavlink::FenceStatus{.breached = true, .breach_count = 2, .breach_type = 3}, 4s);
+  EXPECT_TRUE(state.fence.value->is_breached);
+  EXPECT_EQ(state.fence.value->type, "boundary");
+  take(mavlink::FenceStatus{.breach_type = 200}, 4s);
+  EXPECT_EQ(state.fence.value->type, "fence");
+  take(mavlink::NavControllerOutput{.waypoint_distance_m = 120.0}, 5s);
+  EXPECT_EQ(state.waypoint_distance_m.value, 120.0);
+  take(mavlink::MissionCurrent{.seq = 3, .total = 7, .state = mavlink::MissionState::paused}, 6s);
+  EXPECT_EQ(state.mission.value->state, "paused");
+}
+
 TEST_F(Telemetry, ReadsThePrearmBit) {
   mavlink::SysStatus status;
   take(status, 1s);
@@ -139,7 +277,7 @@ TEST_F(Telemetry, AddsUpTheTrackWithoutNoiseAndJumps) {
 
 TEST_F(Telemetry, KeepsTheLastTextsOnly) {
   for (int i = 0; i < 60; ++i)
-    (void)take_text(craft, {.severity = mavlink::MavSeverity::info, .text = std::to_string(i)}, TimePoint(1s));
+    (void)take_text(craft, 1, {.severity = mavlink::MavSeverity::info, .text = std::to_string(i)}, TimePoint(1s));
   EXPECT_EQ(state.recent_texts.size(), 50u);
   EXPECT_EQ(state.recent_texts.back().text, "59");
 }

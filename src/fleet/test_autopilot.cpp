@@ -325,6 +325,16 @@ void TestAutopilot::send_message(MessageId id) {
       return send(state);
     }
     case MessageId::home_position: return send(mavlink::HomePosition{.position = home, .local_m = {}});
+    case MessageId::battery_status: {
+      mavlink::BatteryStatus status;
+      status.remaining = battery;
+      return send(status);
+    }
+    case MessageId::vfr_hud: return send(mavlink::VfrHud{});
+    case MessageId::nav_controller_output: return send(mavlink::NavControllerOutput{});
+    case MessageId::rc_channels: return send(mavlink::RcChannels{.count = 8});
+    case MessageId::fence_status: return send(mavlink::FenceStatus{});
+    case MessageId::wind: return send(mavlink::Wind{});
     default: return;
   }
 }
