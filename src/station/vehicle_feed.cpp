@@ -1,8 +1,11 @@
 #include "station/vehicle_feed.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "station/json.hpp"
@@ -42,14 +45,122 @@ Json to_json(vehicle::Battery const& battery) {
   Json json{{"remaining", rounded(battery.remaining, 3)}};
   if (battery.voltage_v) json["voltage_v"] = rounded(*battery.voltage_v, 2);
   if (battery.current_a) json["current_a"] = rounded(*battery.current_a, 2);
+  if (battery.consumed_ah) json["consumed_ah"] = rounded(*battery.consumed_ah, 3);
+  // In steps of 10 s: it is no more exact than that, and every change is sent.
+  if (battery.time_left) json["time_left_s"] = 10.0 * std::round(base::to_seconds(*battery.time_left) / 10.0);
+  if (battery.time_left_is_estimate) json["time_left_is_estimate"] = true;
   return json;
 }
 
-void add_texts(Fields& fields, std::vector<vehicle::StatusText> const& texts) {
+Json to_json(vehicle::Gps const& gps) {
+  Json json{{"fix", vehicle::gps_fix_name(gps.fix)}};
+  if (gps.satellites) json["satellites"] = *gps.satellites;
+  if (gps.hdop) json["hdop"] = rounded(*gps.hdop, 2);
+  return json;
+}
+
+Json to_json(vehicle::Estimator const& e) {
+  Json json{{"velocity", rounded(e.velocity, 2)},
+            {"position_horizontal", rounded(e.position_horizontal, 2)},
+            {"position_vertical", rounded(e.position_vertical, 2)}};
+  if (e.compass) json["compass"] = rounded(*e.compass, 2);
+  return json;
+}
+
+Json to_json(vehicle::RemoteControl const& remote) {
+  Json json{{"lost", remote.is_lost}, {"channels", remote.channels}};
+  if (remote.rssi) json["rssi"] = rounded(*remote.rssi, 2);
+  auto const shown = std::min<std::size_t>(remote.pulses_us.size(), static_cast<std::size_t>(remote.channels));
+  json["pulses_us"] = std::vector<std::uint16_t>(remote.pulses_us.begin(), remote.pulses_us.begin() + shown);
+  return json;
+}
+
+Json to_json(vehicle::Radio const& radio) {
+  Json json{{"noise", radio.noise},
+            {"remote_noise", radio.remote_noise},
+            {"buffer_free", rounded(radio.transmit_buffer_free, 2)},
+            {"receive_errors", radio.receive_errors}};
+  if (radio.rssi) json["rssi"] = *radio.rssi;
+  if (radio.remote_rssi) json["remote_rssi"] = *radio.remote_rssi;
+  return json;
+}
+
+Json to_json(vehicle::Hud const& hud) {
+  return {{"airspeed_m_s", rounded(hud.airspeed_m_s, 1)},
+          {"climb_m_s", rounded(hud.climb_m_s, 1)},
+          {"throttle", rounded(hud.throttle, 2)}};
+}
+
+Json to_json(vehicle::Wind const& wind) {
+  return {{"from_rad", rounded(wind.from_rad, 2)}, {"speed_m_s", rounded(wind.speed_m_s, 1)}};
+}
+
+Json to_json(vehicle::Fence const& fence) {
+  Json json{{"breached", fence.is_breached}, {"breaches", fence.breaches}};
+  if (!fence.type.empty()) json["type"] = fence.type;
+  return json;
+}
+
+Json to_json(vehicle::MissionProgress const& mission) {
+  Json json{{"current", mission.current_seq}, {"total", mission.total}, {"complete", mission.complete}};
+  if (!mission.state.empty()) json["state"] = mission.state;
+  return json;
+}
+
+Json to_json(vehicle::Gimbal const& gimbal) {
+  return {{"roll_rad", rounded(gimbal.roll_rad, 3)},
+          {"pitch_rad", rounded(gimbal.pitch_rad, 3)},
+          {"yaw_rad", rounded(gimbal.yaw_rad, 3)},
+          {"yaw_is_from_north", gimbal.yaw_is_from_north}};
+}
+
+Json to_json(vehicle::Pictures const& pictures) {
+  return {{"taken", pictures.taken}, {"lost", pictures.lost}};
+}
+
+void add_texts(Fields& fields, char const* key, std::vector<vehicle::StatusText> const& texts) {
   if (texts.empty()) return;
   Json list = Json::array();
-  for (auto const& text : texts) list.push_back({{"severity", text.severity}, {"text", text.text}});
-  fields["texts"] = {std::move(list), texts.back().heard};
+  for (auto const& text : texts) {
+    list.push_back({{"severity", text.severity}, {"text", text.text}});
+    if (text.component != 1) list.back()["component"] = text.component;
+  }
+  fields[key] = {std::move(list), texts.back().heard};
+}
+
+/// An empty list, too, when there was one before: a reason that is gone must go.
+void add_arming_reasons(Fields& fields, VehicleState const& state) {
+  Json list = Json::array();
+  for (auto const& reason : state.arming_reasons) list.push_back(reason.text);
+  fields["arming_reasons"] = {std::move(list), {}};
+  if (!state.arming_reasons.empty()) fields["arming_reasons"].heard = state.arming_reasons.back().heard;
+}
+
+/// As old as the oldest of them.
+void add_further_batteries(Fields& fields, VehicleState const& state) {
+  if (state.further_batteries.empty()) return;
+  Json list = Json::array();
+  auto heard = base::TimePoint::max();
+  for (auto const& battery : state.further_batteries) {
+    list.push_back(to_json(*battery.value));
+    list.back()["id"] = battery.value->id;
+    heard = std::min(heard, battery.heard);
+  }
+  fields["further_batteries"] = {std::move(list), heard};
+}
+
+/// The list itself has no age; each component has, under a key of its own.
+void add_components(Fields& fields, VehicleState const& state) {
+  if (state.components.empty()) return;
+  Json list = Json::array();
+  for (auto const& component : state.components) {
+    Json json{{"id", component.id}, {"kind", component.kind}};
+    if (!component.state.empty()) json["state"] = component.state;
+    if (!component.model.empty()) json["model"] = component.model;
+    fields[fmt::format("component_{}", component.id)] = {true, component.heard};
+    list.push_back(std::move(json));
+  }
+  fields["components"] = {std::move(list), {}};
 }
 
 void add_identity(Fields& fields, VehicleState const& state) {
@@ -78,13 +189,25 @@ Fields fields_of(VehicleState const& state) {
   add(fields, "attitude_rad", state.attitude, json);
   add(fields, "heading_rad", state.heading_rad, [](double rad) { return Json(rounded(rad, 3)); });
   add(fields, "battery", state.battery, json);
+  add_further_batteries(fields, state);
+  add(fields, "gps", state.gps, json);
+  add(fields, "estimator", state.estimator, json);
+  add(fields, "unhealthy", state.unhealthy);
+  add_arming_reasons(fields, state);
+  add(fields, "remote_control", state.remote_control, json);
+  add(fields, "radio", state.radio, json);
+  add(fields, "hud", state.hud, json);
+  add(fields, "wind", state.wind, json);
+  add(fields, "fence", state.fence, json);
   add(fields, "health", state.health,
       [](vehicle::Health const& h) { return Json{{"position_ok", h.position_ok}, {"prearm_ok", h.prearm_ok}}; });
   add(fields, "home", state.home, place);
-  add(fields, "mission", state.mission, [](vehicle::MissionProgress const& m) {
-    return Json{{"current", m.current_seq}, {"total", m.total}, {"complete", m.complete}};
-  });
-  add_texts(fields, state.recent_texts);
+  add(fields, "mission", state.mission, json);
+  add(fields, "waypoint_distance_m", state.waypoint_distance_m, [](double m) { return Json(rounded(m, 0)); });
+  add(fields, "gimbal", state.gimbal, json);
+  add_components(fields, state);
+  add(fields, "pictures", state.pictures, json);
+  add_texts(fields, "texts", state.recent_texts);
   return fields;
 }
 
@@ -115,6 +238,24 @@ std::string plan_text(VehicleState const& state) {
   return dump({{"type", "plan"}, {"vehicle", state.id.text}, {"path", std::move(path)}});
 }
 
+/// The pictures behind that number; `full` when the client is to forget those that it has.
+std::string pictures_text(VehicleState const& state, int behind, bool is_full) {
+  Json list = Json::array();
+  for (auto const& picture : state.pictures.value->recent) {
+    if (picture.number <= behind) continue;
+    auto json = position_json(picture.position);
+    json["number"] = picture.number;
+    json["relative_alt_m"] = rounded(picture.relative_alt_m, 1);
+    list.push_back(std::move(json));
+  }
+  return dump({{"type", "pictures"}, {"vehicle", state.id.text}, {"full", is_full}, {"pictures", std::move(list)}});
+}
+
+int newest_picture(VehicleState const& state) {
+  auto const& pictures = state.pictures.value;
+  return pictures && !pictures->recent.empty() ? pictures->recent.back().number : 0;
+}
+
 }  // namespace
 
 struct VehicleFeed::Sent {
@@ -122,6 +263,7 @@ struct VehicleFeed::Sent {
     unsigned long long revision = 0;
     Fields fields;
     std::vector<geo::Wgs84> plan;
+    int picture = 0;  ///< the newest
   };
   std::map<vehicle::VehicleId, Vehicle> vehicles;
 };
@@ -138,13 +280,16 @@ std::string VehicleFeed::vehicles_message(base::TimePoint now) const {
 std::vector<std::string> VehicleFeed::snapshot(base::TimePoint now) const {
   std::vector<std::string> messages{vehicles_message(now)};
   // A vehicle without a plan says so too: the client may hold an old one from before it lost the station.
-  for (auto const* state : registry_.all()) messages.push_back(plan_text(*state));
+  for (auto const* state : registry_.all()) {
+    messages.push_back(plan_text(*state));
+    if (newest_picture(*state) > 0) messages.push_back(pictures_text(*state, 0, true));
+  }
   return messages;
 }
 
 std::vector<std::string> VehicleFeed::news(base::TimePoint now) {
   Json vehicles = Json::array();
-  std::vector<std::string> plans;
+  std::vector<std::string> others;
   for (auto const* state : registry_.all()) {
     auto& before = sent_->vehicles[state->id];
     auto const revision = registry_.revision(state->id);
@@ -154,13 +299,16 @@ std::vector<std::string> VehicleFeed::news(base::TimePoint now) {
     auto object = changes(state->id.text, fields, before.fields, now);
     before.fields = std::move(fields);
     if (object.size() > 1) vehicles.push_back(std::move(object));
-    if (before.plan == state->planned_path) continue;
-    before.plan = state->planned_path;
-    plans.push_back(plan_text(*state));
+    if (before.plan != state->planned_path) {
+      before.plan = state->planned_path;
+      others.push_back(plan_text(*state));
+    }
+    if (auto const newest = newest_picture(*state); newest > before.picture)
+      others.push_back(pictures_text(*state, std::exchange(before.picture, newest), false));
   }
   std::vector<std::string> messages;
   if (!vehicles.empty()) messages.push_back(vehicles_text(std::move(vehicles), false, now));
-  messages.insert(messages.end(), std::make_move_iterator(plans.begin()), std::make_move_iterator(plans.end()));
+  messages.insert(messages.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
   return messages;
 }
 

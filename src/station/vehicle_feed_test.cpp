@@ -54,6 +54,66 @@ TEST_F(VehicleFeedTest, TellsEverythingKnownWithItsAge) {
             json({{"battery", 2.0}, {"heading_rad", 0.0}, {"heartbeat", 0.5}, {"mode", 0.5}, {"position", 0.1}}));
 }
 
+TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
+  auto& state = edit("1");
+  vehicle::Battery battery{.remaining = 0.4, .voltage_v = {}, .current_a = {}};
+  battery.time_left = 333s;
+  battery.time_left_is_estimate = true;
+  state.battery.set(battery, at(9s));
+  battery.id = 1;
+  state.further_batteries = {{battery, at(7s)}};
+  state.gps.set({.fix = 3, .satellites = 11, .hdop = 0.8}, at(9s));
+  state.unhealthy.set({"compass"}, at(9s));
+  state.arming_reasons = {{2, "PreArm: Compass not calibrated", at(6s)}};
+  state.remote_control.set({.is_lost = true, .channels = 2, .pulses_us = {1500, 1000}, .rssi = {}}, at(9s));
+  state.fence.set({.is_breached = true, .breaches = 1, .type = "boundary"}, at(9s));
+  state.mission.set({.current_seq = 2, .total = 5, .complete = false, .state = "active"}, at(9s));
+  state.components = {{.id = 154, .kind = "gimbal", .state = "active", .model = "Maker G", .heard = at(8s)}};
+  state.gimbal.set({.roll_rad = 0, .pitch_rad = -1.5, .yaw_rad = 0, .yaw_is_from_north = true}, at(9s));
+  auto const vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  EXPECT_EQ(vehicle["battery"], json({{"remaining", 0.4}, {"time_left_s", 330.0}, {"time_left_is_estimate", true}}));
+  EXPECT_EQ(vehicle["further_batteries"].at(0)["id"], 1);
+  EXPECT_EQ(vehicle["age_s"]["further_batteries"], 3.0);
+  EXPECT_EQ(vehicle["gps"], json({{"fix", "3D"}, {"satellites", 11}, {"hdop", 0.8}}));
+  EXPECT_EQ(vehicle["unhealthy"], json::array({"compass"}));
+  EXPECT_EQ(vehicle["arming_reasons"], json::array({"PreArm: Compass not calibrated"}));
+  EXPECT_EQ(vehicle["age_s"]["arming_reasons"], 4.0);
+  EXPECT_EQ(vehicle["remote_control"], json({{"lost", true}, {"channels", 2}, {"pulses_us", {1500, 1000}}}));
+  EXPECT_EQ(vehicle["fence"], json({{"breached", true}, {"breaches", 1}, {"type", "boundary"}}));
+  EXPECT_EQ(vehicle["mission"]["state"], "active");
+  EXPECT_EQ(vehicle["components"].at(0),
+            json({{"id", 154}, {"kind", "gimbal"}, {"state", "active"}, {"model", "Maker G"}}));
+  EXPECT_EQ(vehicle["age_s"]["component_154"], 2.0);
+  EXPECT_EQ(vehicle["gimbal"]["pitch_rad"], -1.5);
+}
+
+TEST_F(VehicleFeedTest, TakesBackReasonsThatAreGone) {
+  edit("1").arming_reasons = {{2, "PreArm: Compass not calibrated", at(1s)}};
+  (void)feed.news(at(1s));
+  edit("1").arming_reasons.clear();
+  EXPECT_EQ(only_news(2s)["vehicles"].at(0)["arming_reasons"], json::array());
+}
+
+TEST_F(VehicleFeedTest, SendsEachPictureOnce) {
+  auto& pictures = edit("1").pictures;
+  auto const place = geo::Wgs84::from_degrees(1, 2, 3);
+  pictures.set({.taken = 1, .lost = 0, .recent = {{.number = 1, .position = place, .relative_alt_m = 20}}}, at(1s));
+  auto const first = feed.news(at(1s));
+  ASSERT_EQ(first.size(), 2U);
+  auto const expected =
+      json{{"number", 1}, {"lat_deg", 1.0}, {"lon_deg", 2.0}, {"alt_m", 3.0}, {"relative_alt_m", 20.0}};
+  EXPECT_EQ(json::parse(first[1])["pictures"], json::array({expected}));
+  edit("1").pictures.value->recent.push_back({.number = 2, .position = place, .relative_alt_m = 20});
+  auto const second = json::parse(feed.news(at(2s)).back());
+  EXPECT_EQ(second["type"], "pictures");
+  EXPECT_EQ(second["full"], false);
+  ASSERT_EQ(second["pictures"].size(), 1U);
+  EXPECT_EQ(second["pictures"].at(0)["number"], 2);
+  auto const newcomer = json::parse(feed.snapshot(at(3s)).back());
+  EXPECT_EQ(newcomer["full"], true);
+  EXPECT_EQ(newcomer["pictures"].size(), 2U);
+}
+
 TEST_F(VehicleFeedTest, LeavesOutWhatWasNeverHeard) {
   edit("1");
   auto const vehicle = json::parse(feed.vehicles_message(at(1s)))["vehicles"].at(0);
