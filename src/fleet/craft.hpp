@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,9 @@
 #include "base/notifier.hpp"
 #include "fleet/battery_time.hpp"
 #include "fleet/message_rates.hpp"
+#include "fleet/mode_list.hpp"
+#include "fleet/pictures.hpp"
+#include "fleet/questions.hpp"
 #include "fleet/status_text.hpp"
 #include "mavlink/connection.hpp"
 #include "vehicle/vehicle_state.hpp"
@@ -65,6 +69,16 @@ struct Craft {
   std::optional<bool> prearm_ok;                      ///< by the last SYS_STATUS
   std::uint32_t sick_sensors = 0;                     ///< bits of mavlink::sensor_flag
   StatusTexts texts;
+
+  // What it carries, and what it is asked once.
+  PictureTrace pictures;
+  std::optional<base::TimePoint> gimbal_status_heard;
+  ModeList modes;
+  bool mode_is_unnamed = false;  ///< no table of ours names the present one
+  bool has_asked_for_modes = false;
+  std::deque<Question> questions;
+  bool is_questioning = false;
+
   std::optional<MessageRates> rates;
   bool is_asking = false;  ///< message intervals are being asked for
 

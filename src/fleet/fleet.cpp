@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fleet/arming_reasons.hpp"
+#include "fleet/payload.hpp"
 #include "fleet/telemetry.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "fleet/vehicle_kind.hpp"
@@ -115,10 +116,15 @@ void Fleet::take_radio_of_link(mavlink::Received const& received, mavlink::Radio
 }
 
 void Fleet::take_from_component(Craft& craft, mavlink::Received const& received) {
-  if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message)) {
-    tell(craft, take_text(craft, received.source.component, *chunk, received.at));
-    registry_.touch(craft.id());
-  }
+  auto const component = received.source.component;
+  if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message))
+    take_component_heartbeat(craft, received.source, *heartbeat, received.at);
+  if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
+    tell(craft, take_text(craft, component, *chunk, received.at));
+  if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
+  (void)take_payload(craft, component, received.message, received.at);
+  registry_.touch(craft.id());
+  craft.changed.notify_all();
 }
 
 void Fleet::tell(Craft const& craft, std::vector<vehicle::StatusText> const& texts) {
@@ -153,11 +159,14 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
   if (in_mission_mode(craft)) craft.mission_mode_pending = false;
   auto& state = craft.state;
   state.heartbeat_heard = received.at;
-  state.mode.set(mavlink::mode_name(state.autopilot, state.family, heartbeat.custom_mode), received.at);
+  state.mode.set(name_of_mode(craft, heartbeat.type, heartbeat.custom_mode), received.at);
+  for (auto& component : state.components)
+    if (component.id == received.source.component) component.heard = received.at;  // it speaks for what is wired to it
   state.armed.set(heartbeat.armed(), received.at);
   if (heartbeat.armed()) state.arming_reasons.clear();
   state.link = connection_.whereabouts(received.source.system).value_or("");
   if (is_new) {
+    ask_for_payload(craft);
     log_.info(fmt::format("{} found at {}", state.name, state.link));
     registry_.touch_membership(craft.id());
   }
@@ -195,6 +204,11 @@ void Fleet::note_restart(Craft& craft, TimePoint now) {
   craft.state.health.value.reset();
   craft.state.arming_reasons.clear();
   craft.prearm_ok.reset();
+  craft.pictures.restart();
+  craft.modes.clear();
+  craft.has_asked_for_modes = false;
+  craft.questions.clear();
+  ask_for_payload(craft);
   if (craft.rates) craft.rates->restart(now);
   log_.warn(fmt::format("{} restarted", craft.state.name));
 }
@@ -209,7 +223,8 @@ void Fleet::take_from_autopilot(Craft& craft, mavlink::Received const& received)
   if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
   if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
     tell(craft, take_text(craft, received.source.component, *chunk, received.at));
-  (void)take_telemetry(craft, received.message, received.at);
+  if (!take_telemetry(craft, received.message, received.at))
+    (void)take_payload(craft, received.source.component, received.message, received.at);
   registry_.touch(craft.id());
   craft.changed.notify_all();
 }
@@ -241,7 +256,9 @@ base::Task<> Fleet::watch() {
       check_connection(*craft);
       let_age(*craft);
       bool const is_one = !connection_.is_contested(system_id);
-      if (!options_.asks_for_messages || !craft->is_connected() || !is_one || craft->is_asking) continue;
+      if (!options_.asks_for_messages || !craft->is_connected() || !is_one) continue;
+      if (!craft->questions.empty() && !craft->is_questioning) scope_.spawn(ask_questions(*craft));
+      if (craft->is_asking) continue;
       if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
       auto due = craft->rates->due(loop().now());
       if (!due.empty()) scope_.spawn(ask_for_messages(*craft, std::move(due)));

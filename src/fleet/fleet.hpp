@@ -56,6 +56,9 @@ class Fleet {
   void note_camera(std::uint8_t system_id);
   void check_connection(Craft& craft);
   base::Task<> watch();
+  base::Task<> ask_questions(Craft& craft);
+  base::Task<> ask_for_picture(Craft& craft, Question question);
+  base::Task<> ask_for_modes(Craft& craft, Question question);
   base::Task<> ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted);
 
   mavlink::Connection& connection_;

@@ -26,6 +26,12 @@ MessageRates::MessageRates(std::span<WantedMessage const> wanted, base::TimePoin
   restart(now);
 }
 
+void MessageRates::want(WantedMessage const& message, base::TimePoint now) {
+  auto const is_it = [&](Watched const& watched) { return watched.wanted.id == message.id; };
+  if (std::ranges::any_of(watched_, is_it)) return;
+  look(watched_.emplace_back(Watched{message}), now, shortest_look);
+}
+
 void MessageRates::look(Watched& watched, base::TimePoint now, base::Duration time) const {
   watched.count = 0;
   watched.since = now;

@@ -24,6 +24,8 @@ class MessageRates {
  public:
   MessageRates(std::span<WantedMessage const> wanted, base::TimePoint now);
 
+  /// One more, from now on; again the same changes nothing.
+  void want(WantedMessage const& message, base::TimePoint now);
   /// Call for every message from the vehicle.
   void arrived(mavlink::MessageId id);
   /// What to ask for now; each is then left alone until there was time to see whether it helped.

@@ -17,11 +17,11 @@ struct Mode {
 };
 
 auto constexpr copter_modes = std::to_array<Mode>({
-    {0, "STABILIZE"},  {1, "ACRO"},      {2, "ALT_HOLD"}, {3, "AUTO"},    {4, "GUIDED"},      {5, "LOITER"},
-    {6, "RTL"},        {7, "CIRCLE"},    {9, "LAND"},     {11, "DRIFT"},  {13, "SPORT"},      {14, "FLIP"},
-    {15, "AUTOTUNE"},  {16, "POSHOLD"},  {17, "BRAKE"},   {18, "THROW"},  {19, "AVOID_ADSB"}, {20, "GUIDED_NOGPS"},
-    {21, "SMART_RTL"}, {22, "FLOWHOLD"}, {23, "FOLLOW"},  {24, "ZIGZAG"}, {25, "SYSTEMID"},   {26, "AUTOROTATE"},
-    {27, "AUTO_RTL"},  {28, "TURTLE"},
+    {0, "STABILIZE"},  {1, "ACRO"},      {2, "ALT_HOLD"},   {3, "AUTO"},     {4, "GUIDED"},      {5, "LOITER"},
+    {6, "RTL"},        {7, "CIRCLE"},    {9, "LAND"},       {11, "DRIFT"},   {13, "SPORT"},      {14, "FLIP"},
+    {15, "AUTOTUNE"},  {16, "POSHOLD"},  {17, "BRAKE"},     {18, "THROW"},   {19, "AVOID_ADSB"}, {20, "GUIDED_NOGPS"},
+    {21, "SMART_RTL"}, {22, "FLOWHOLD"}, {23, "FOLLOW"},    {24, "ZIGZAG"},  {25, "SYSTEMID"},   {26, "AUTOROTATE"},
+    {27, "AUTO_RTL"},  {28, "TURTLE"},   {29, "RATE_ACRO"}, {8, "POSITION"}, {10, "OF_LOITER"},
 });
 
 auto constexpr plane_modes = std::to_array<Mode>({
@@ -29,13 +29,14 @@ auto constexpr plane_modes = std::to_array<Mode>({
     {5, "FBWA"},          {6, "FBWB"},        {7, "CRUISE"},    {8, "AUTOTUNE"},    {10, "AUTO"},
     {11, "RTL"},          {12, "LOITER"},     {13, "TAKEOFF"},  {14, "AVOID_ADSB"}, {15, "GUIDED"},
     {16, "INITIALISING"}, {17, "QSTABILIZE"}, {18, "QHOVER"},   {19, "QLOITER"},    {20, "QLAND"},
-    {21, "QRTL"},         {22, "QAUTOTUNE"},  {23, "QACRO"},    {24, "THERMAL"},    {25, "LOITER_ALT_QLAND"},
+    {21, "QRTL"},         {22, "QAUTOTUNE"},  {23, "QACRO"},    {24, "THERMAL"},    {25, "LOITERALTQLAND"},
     {26, "AUTOLAND"},
 });
 
 auto constexpr rover_modes = std::to_array<Mode>({
     {0, "MANUAL"},
     {1, "ACRO"},
+    {2, "LEARNING"},
     {3, "STEERING"},
     {4, "HOLD"},
     {5, "LOITER"},
@@ -64,6 +65,16 @@ auto constexpr sub_modes = std::to_array<Mode>({
     {21, "SURFTRAK"},
 });
 
+auto constexpr blimp_modes = std::to_array<Mode>({
+    {0, "LAND"},
+    {1, "MANUAL"},
+    {2, "VELOCITY"},
+    {3, "LOITER"},
+    {4, "RTL"},
+    {5, "AUTO"},
+    {6, "HOLD"},
+});
+
 constexpr std::uint32_t px4(std::uint32_t main, std::uint32_t sub = 0) {
   return main << 16U | sub << 24U;
 }
@@ -73,18 +84,23 @@ auto constexpr px4_modes = std::to_array<Mode>({
     {px4(2), "ALTCTL"},
     {px4(3), "POSCTL"},
     {px4(3, 1), "ORBIT"},
+    {px4(3, 2), "POSITION_SLOW"},
     {px4(4, 1), "AUTO.READY"},
     {px4(4, 2), "AUTO.TAKEOFF"},
     {px4(4, 3), "AUTO.LOITER"},
     {px4(4, 4), "AUTO.MISSION"},
     {px4(4, 5), "AUTO.RTL"},
     {px4(4, 6), "AUTO.LAND"},
+    {px4(4, 7), "AUTO.RTGS"},
     {px4(4, 8), "AUTO.FOLLOW_TARGET"},
     {px4(4, 9), "AUTO.PRECLAND"},
     {px4(4, 10), "AUTO.VTOL_TAKEOFF"},
     {px4(5), "ACRO"},
     {px4(6), "OFFBOARD"},
     {px4(7), "STABILIZED"},
+    {px4(8), "RATTITUDE"},
+    {px4(10), "TERMINATION"},
+    {px4(11), "ALTITUDE_CRUISE"},
 });
 
 std::span<Mode const> modes_of(Autopilot autopilot, Family family) {
@@ -148,7 +164,6 @@ Family family_of(MavType type) {
     case MavType::dodecarotor:
     case MavType::decarotor: return Family::copter;
     case MavType::fixed_wing:
-    case MavType::airship:
     case MavType::flapping_wing:
     case MavType::parafoil: return Family::plane;
     case MavType::vtol_tailsitter_duorotor:
@@ -171,10 +186,16 @@ Autopilot autopilot_of(MavAutopilot autopilot) {
   return Autopilot::other;
 }
 
-std::string mode_name(Autopilot autopilot, Family family, std::uint32_t custom_mode) {
-  auto const modes = modes_of(autopilot, family);
+std::string_view known_mode_name(Autopilot autopilot, Family family, MavType type, std::uint32_t custom_mode) {
+  bool const is_blimp = autopilot == Autopilot::ardupilot && type == MavType::airship;
+  auto const modes = is_blimp ? std::span<Mode const>(blimp_modes) : modes_of(autopilot, family);
   auto const found = std::ranges::find(modes, custom_mode, &Mode::number);
-  if (found != modes.end()) return std::string(found->name);
+  return found == modes.end() ? std::string_view() : found->name;
+}
+
+std::string mode_name(Autopilot autopilot, Family family, std::uint32_t custom_mode) {
+  auto const known = known_mode_name(autopilot, family, MavType::generic, custom_mode);
+  if (!known.empty()) return std::string(known);
   if (autopilot == Autopilot::px4) return fmt::format("mode {}.{}", custom_mode >> 16U & 0xFFU, custom_mode >> 24U);
   return fmt::format("mode {}", custom_mode);
 }

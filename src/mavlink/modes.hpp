@@ -22,6 +22,10 @@ using vehicle::Family;
 
 /// The autopilot's own name, "AUTO"; "mode 42" for a number that is not in its table.
 [[nodiscard]] std::string mode_name(Autopilot autopilot, Family family, std::uint32_t custom_mode);
+/// The name in our tables; empty for a number that is not there. Takes the vehicle's type because not every one that
+/// ArduPilot moves has a family here (Blimp).
+[[nodiscard]] std::string_view known_mode_name(Autopilot autopilot, Family family, MavType type,
+                                               std::uint32_t custom_mode);
 /// The number of a name, letter case ignored.
 [[nodiscard]] std::optional<std::uint32_t> mode_number(Autopilot autopilot, Family family, std::string_view name);
 

@@ -30,7 +30,7 @@ struct Gimbal {
 
 /// One picture taken in flight.
 struct Picture {
-  int number = 0;  ///< as the ground counts them, from 1
+  int number = 0;  ///< counts the pictures whose place is known, from 1, in the order in which they were told
   geo::Wgs84 position;
   double relative_alt_m = 0.0;
 };

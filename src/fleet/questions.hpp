@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/task.hpp"
+#include "mavlink/enums.hpp"
+
+namespace lapwing::fleet {
+
+struct Craft;
+
+/// A message that is wanted once, and of whom. What the argument says is the message's: the number of a picture, the
+/// place in a list.
+struct Question {
+  mavlink::MessageId message{};
+  std::uint8_t component = 0;
+  float argument = 0.0F;
+  int tries = 0;  ///< before this one
+};
+
+}  // namespace lapwing::fleet
