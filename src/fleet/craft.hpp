@@ -58,6 +58,7 @@ struct Craft {
 
   // What telemetry keeps between messages.
   std::optional<base::Duration> since_boot;  ///< the vehicle's clock, to notice that it began anew
+  mavlink::PeerRef clock_from{};             ///< where that was heard
   std::optional<mavlink::GpsFix> fix;
   std::optional<geo::Wgs84> track_end;  ///< up to where `track_m` has been counted
   base::TimePoint track_end_heard{};

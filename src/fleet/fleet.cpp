@@ -28,6 +28,8 @@ constexpr std::string_view camera = "Camera";  // the language's name for it (sp
 constexpr Duration watch_period = 250ms;
 // Telemetry may arrive out of order; a clock that goes back further than that began anew.
 constexpr Duration clock_slack = 3s;
+// The other of two links may be a slow radio with a full queue.
+constexpr Duration clock_slack_between_links = 10s;
 
 std::string vehicle_name(vehicle::Family family, std::uint8_t system_id) {
   if (family == vehicle::Family::unknown) return fmt::format("vehicle {}", system_id);
@@ -42,19 +44,19 @@ void set_kind(Craft& craft, VehicleKind const& kind, mavlink::MavAutopilot autop
   craft.mav_autopilot = autopilot;
 }
 
-bool has_moved(Craft const& craft, mavlink::Received const& received) {
-  return received.from != craft.from && received.from.link == craft.from.link;
+/// It speaks from a new place on the same link, and that is not known to be another way to the same vehicle.
+bool has_moved(mavlink::Connection const& connection, Craft const& craft, mavlink::Received const& received) {
+  return received.from != craft.from && received.from.link == craft.from.link &&
+         !connection.are_one(received.source.system, received.from, craft.from);
 }
 
 /// An autopilot on the same link that speaks from a new place and has lost its arming or mode has restarted. (That its
 /// clock began anew shows only once telemetry flows again.)
-bool heartbeat_tells_restart(Craft const& craft, mavlink::Received const& received,
-                             mavlink::Heartbeat const& heartbeat) {
+bool heartbeat_tells_restart(Craft const& craft, bool has_moved, mavlink::Heartbeat const& heartbeat) {
   auto const status = heartbeat.system_status;
   if (status == mavlink::MavState::uninit || status == mavlink::MavState::boot)
     return craft.is_armed;  // nobody boots armed
-  return has_moved(craft, received) &&
-         ((craft.is_armed && !heartbeat.armed()) || craft.custom_mode != heartbeat.custom_mode);
+  return has_moved && ((craft.is_armed && !heartbeat.armed()) || craft.custom_mode != heartbeat.custom_mode);
 }
 
 void write(base::Logger const& log, std::string const& name, vehicle::StatusText const& text) {
@@ -148,8 +150,10 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
   bool const is_new = found == crafts_.end();
   auto& craft = is_new ? discover(received) : *found->second;
   set_kind(craft, *kind, heartbeat.autopilot);
-  if (!is_new && heartbeat_tells_restart(craft, received, heartbeat)) note_restart(craft, received.at);
-  if (!is_new && has_moved(craft, received) && craft.rates) craft.rates->restart(received.at);
+  bool const is_restarted = heartbeat_tells_restart(craft, has_moved(connection_, craft, received), heartbeat);
+  if (!is_new && is_restarted) note_restart(craft, received.at);
+  // A vehicle sends each link what was asked for over that link.
+  if (!is_new && received.from != craft.from && craft.rates) craft.rates->restart(received.at);
 
   craft.from = received.from;
   if (craft.custom_mode != heartbeat.custom_mode) craft.mode_changed = received.at;
@@ -217,8 +221,10 @@ void Fleet::take_from_autopilot(Craft& craft, mavlink::Received const& received)
   if (auto const clock = boot_time(received.message)) {
     // Two vehicles under one id have two clocks.
     bool const is_one = craft.state.connection != Connection::conflict;
-    if (is_one && craft.since_boot && *clock + clock_slack < *craft.since_boot) note_restart(craft, received.at);
+    auto const slack = received.from == craft.clock_from ? clock_slack : clock_slack_between_links;
+    if (is_one && craft.since_boot && *clock + slack < *craft.since_boot) note_restart(craft, received.at);
     craft.since_boot = clock;
+    craft.clock_from = received.from;
   }
   if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
   if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))

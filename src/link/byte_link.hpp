@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -73,6 +74,8 @@ class ByteLink {
   /// Why it is not open; empty when it is.
   [[nodiscard]] virtual std::string last_error() const = 0;
   [[nodiscard]] virtual LinkCounters counters() const = 0;
+  /// What the line can carry each way, where that is known and little: a serial line's speed.
+  [[nodiscard]] virtual std::optional<double> bytes_per_s() const { return std::nullopt; }
 
  protected:
   void tell_drained() const {

@@ -21,6 +21,7 @@ class ImpairedLink final : public ByteLink {
   [[nodiscard]] LinkState state() const override { return inner_->state(); }
   [[nodiscard]] std::string last_error() const override { return inner_->last_error(); }
   [[nodiscard]] LinkCounters counters() const override { return inner_->counters(); }
+  [[nodiscard]] std::optional<double> bytes_per_s() const override { return inner_->bytes_per_s(); }
   [[nodiscard]] std::vector<Peer> standing_peers() const override { return inner_->standing_peers(); }
 
   void start(Receive receive) override {

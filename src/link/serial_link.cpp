@@ -69,6 +69,8 @@ class SerialLink final : public ByteLink {
   [[nodiscard]] LinkState state() const override { return open_ ? LinkState::open : LinkState::opening; }
   [[nodiscard]] std::string last_error() const override { return open_ ? std::string() : last_error_; }
   [[nodiscard]] LinkCounters counters() const override { return counters_; }
+  /// A byte takes ten bits: one to start, one to stop.
+  [[nodiscard]] std::optional<double> bytes_per_s() const override { return url_.port_or_baud / 10.0; }
   [[nodiscard]] std::vector<Peer> standing_peers() const override {
     return open_ ? std::vector<Peer>{Peer{}} : std::vector<Peer>{};
   }

@@ -12,6 +12,12 @@ namespace lapwing::mavlink {
 using base::ErrorKind;
 using base::fail;
 
+namespace {
+
+base::Duration constexpr watch_period = std::chrono::milliseconds(500);
+
+}  // namespace
+
 Heartbeat Connection::ground_station_heartbeat() {
   return {.type = MavType::gcs, .autopilot = MavAutopilot::invalid, .system_status = MavState::active};
 }
@@ -25,12 +31,14 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
       scope_(loop) {
   if (options_.signing_key) guard_.emplace(*options_.signing_key);
   if (options_.heartbeat) scope_.spawn(beat());
+  scope_.spawn(watch());
 }
 
 Connection::~Connection() = default;
 
 std::size_t Connection::add_link(std::unique_ptr<link::ByteLink> link) {
   auto const number = links_.size();
+  routes_->add_link(link->bytes_per_s());
   links_.push_back(std::move(link));
   links_.back()->start([this, number](link::Peer peer, link::Bytes bytes) { receive({number, peer}, bytes); });
   return number;
@@ -44,35 +52,74 @@ base::Task<void> Connection::beat() {
   }
 }
 
+/// Measures links and tells one vehicle on two of them from two vehicles.
+base::Task<void> Connection::watch() {
+  for (;;) {
+    co_await loop_.sleep(watch_period);
+    for (auto const id : routes_->examine(loop_.now()))
+      if (auto const both = conflict(id))
+        log_.warn(fmt::format(
+            "two vehicles use system id {}: {} and {}; commands to them are refused until one is switched off", id,
+            both->first, both->second));
+    if (options_.timesync_period > base::Duration{}) ask_who_they_are();
+  }
+}
+
+void Connection::ask_who_they_are() {
+  auto const now = loop_.now();
+  for (auto const& peer : routes_->ask_clocks(options_.timesync_period, now)) {
+    auto frame = encode(Timesync{.tc1 = {}, .ts1 = now.time_since_epoch()}, options_.self, 0);
+    send_frame(peer, frame);
+  }
+  for (auto const& [system_id, peer, knows_hardware] : routes_->suspects(now)) {
+    for (auto const wanted : {MessageId::autopilot_version, MessageId::global_position_int}) {
+      if (knows_hardware && wanted == MessageId::autopilot_version) continue;
+      CommandLong const request{.target = {system_id, autopilot_component},
+                                .command = MavCmd::request_message,
+                                .params = {static_cast<float>(wanted)}};
+      auto frame = encode(request, options_.self, 0);
+      send_frame(peer, frame);
+    }
+  }
+}
+
 // ---- receiving
 // -----------------------------------------------------------------------------------------------------------
 
 void Connection::receive(PeerRef from, link::Bytes bytes) {
   auto& peer = routes_->hear(from, loop_.now());
-  peer.parser.feed(bytes, [this, from](Frame const& frame) { accept(from, frame); });
+  peer.parser.feed(bytes, [this, from, &peer](Frame const& frame) { accept(from, peer, frame); });
 }
 
-void Connection::accept(PeerRef from, Frame const& frame) {
+void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& frame) {
   if (frame.source == options_.self) return;  // our own, come back over a broadcast address or another link
   if (guard_ && !may_be_heard(from, frame)) return;
   auto const now = loop_.now();
-  auto& peer = routes_->speak_to(from);
   if (frame.version == 2) peer.spoke_v2 = true;
   if (!std::exchange(peer.spoke, true) && options_.heartbeat) {
     auto greeting = encode(options_.heartbeat(), options_.self, 0);
     send_frame(from, greeting);
   }
-  auto const taken = routes_->take(frame.source, from, frame.seq, frame.checksum, now);
-  if (!taken.fresh) return;
-  if (taken.conflict_new) {
-    if (auto const both = conflict(frame.source.system))
-      log_.warn(fmt::format(
-          "two vehicles use system id {}: {} and {}; commands to them are refused until one is switched off",
-          both->system_id, both->first, both->second));
-  }
+  auto const taken = routes_->take(from, peer, frame, now);
+  if (!taken.is_fresh) return;
+  auto const id = static_cast<MessageId>(frame.message_id);
+  if (id == MessageId::timesync || (taken.is_one_of_several && internal::tells_identity(id))) look_into(from, frame);
+  if (!taken.is_news) return;
   if (frame_hook_) frame_hook_(Direction::received, frame, now);
   if (listeners_.empty()) return;
   if (auto const message = decode(frame)) dispatch({*message, frame.source, from, now});
+}
+
+/// Clocks and hardware numbers, for the routes; and answers to vehicles that ask for our clock.
+void Connection::look_into(PeerRef from, Frame const& frame) {
+  auto const message = decode(frame);
+  if (!message) return;
+  routes_->identify(from, frame.source, *message, loop_.now());
+  auto const* request = std::get_if<Timesync>(&*message);
+  bool const asks = request && request->tc1 == base::Duration{} && frame.source.component == autopilot_component;
+  if (!asks || options_.timesync_period == base::Duration{}) return;
+  auto answer = encode(Timesync{.tc1 = loop_.now().time_since_epoch(), .ts1 = request->ts1}, options_.self, 0);
+  send_frame(from, answer);
 }
 
 bool Connection::may_be_heard(PeerRef from, Frame const& frame) {
@@ -136,12 +183,13 @@ base::Result<> Connection::send(Address target, Frame frame) {
     return fail(ErrorKind::refused,
                 fmt::format("two vehicles use system id {}: {} and {}", both->system_id, both->first, both->second),
                 "give one of them another system id (ArduPilot: SYSID_THISMAV or MAV_SYSID, PX4: MAV_SYS_ID)");
-  auto const route = routes_->route_to(target);
-  if (!route)
+  auto const routes = routes_->routes_to(target, internal::traffic_of(frame.message_id), loop_.now());
+  if (routes.empty())
     return fail(ErrorKind::lost, fmt::format("vehicle {} has not been heard on any link", target.system),
                 "check that it is switched on and sends to this station");
-  if (send_frame(*route, frame)) return {};
-  auto const& link = *links_[route->link];
+  for (auto const route : routes)
+    if (send_frame(route, frame)) return {};
+  auto const& link = *links_[routes.front().link];
   return fail(ErrorKind::lost, fmt::format("vehicle {} cannot be reached over {}: {}", target.system, link.name(),
                                            link.last_error().empty() ? "it is not connected" : link.last_error()));
 }
@@ -166,7 +214,10 @@ bool Connection::send_frame(PeerRef to, Frame& frame) {
   frame.seq = peer.next_seq;
   if (guard_) guard_->sign(frame, static_cast<std::uint8_t>(to.link), loop_.utc_now());
   auto const out = serialize(frame);
-  if (!links_[to.link]->send(to.peer, out.bytes())) return false;
+  auto& link = *links_[to.link];
+  bool const is_sent = internal::is_perishable(frame.message_id) ? link.send_perishable(to.peer, out.bytes())
+                                                                 : link.send(to.peer, out.bytes());
+  if (!is_sent) return false;
   ++peer.next_seq;
   if (frame_hook_) frame_hook_(Direction::sent, frame, loop_.now());
   return true;
@@ -181,19 +232,26 @@ std::string Connection::describe(PeerRef peer) const {
 }
 
 std::optional<std::string> Connection::whereabouts(std::uint8_t system_id) const {
-  auto const route = routes_->route_to({system_id, autopilot_component});
-  if (!route) return std::nullopt;
-  return describe(*route);
+  auto const routes = routes_->routes_to({system_id, autopilot_component}, internal::Traffic::command, loop_.now());
+  if (routes.empty()) return std::nullopt;
+  return describe(routes.front());
 }
 
 std::optional<Conflict> Connection::conflict(std::uint8_t system_id) const {
-  auto const both = routes_->conflict(system_id, loop_.now());
+  auto const* claims = routes_->claims(system_id);
+  auto const both = claims ? claims->conflict(loop_.now()) : std::nullopt;
   if (!both) return std::nullopt;
   return Conflict{system_id, describe(both->first), describe(both->second)};
 }
 
 bool Connection::is_contested(std::uint8_t system_id) const {
-  return routes_->claimants(system_id, loop_.now()).size() > 1;
+  auto const* claims = routes_->claims(system_id);
+  return claims && claims->is_contested(loop_.now());
+}
+
+bool Connection::are_one(std::uint8_t system_id, PeerRef a, PeerRef b) const {
+  auto const* claims = routes_->claims(system_id);
+  return claims && claims->are_one(a, b);
 }
 
 std::optional<base::TimePoint> Connection::last_heard(std::uint8_t system_id) const {
@@ -206,6 +264,23 @@ SourceCounters Connection::counters(Address source) const {
 
 ParserCounters Connection::parser_counters(std::size_t link) const {
   return routes_->parser_counters(link);
+}
+
+std::vector<LinkReport> Connection::report() const {
+  std::vector<LinkReport> reports(links_.size());
+  for (std::size_t number = 0; number < links_.size(); ++number) {
+    auto const& link = *links_[number];
+    auto& report = reports[number];
+    report.number = number;
+    report.name = link.name();
+    report.state = link.state();
+    report.last_error = link.last_error();
+    report.bytes = link.counters();
+  }
+  routes_->report(reports, loop_.now());
+  for (auto& report : reports)
+    for (auto& source : report.sources) source.address = links_[report.number]->peer_name(source.from.peer);
+  return reports;
 }
 
 }  // namespace lapwing::mavlink

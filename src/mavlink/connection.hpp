@@ -21,7 +21,8 @@ namespace lapwing::mavlink {
 
 namespace internal {
 class Routes;
-}
+struct PeerState;
+}  // namespace internal
 
 /// A message as it came in. References live for the callback.
 struct Received {
@@ -51,10 +52,13 @@ class [[nodiscard]] Subscription {
 
 /// A MAVLink node: owns links, turns their bytes into messages and messages into bytes.
 ///
-/// Remembers where each system was last heard and sends there, from the socket on which it listens. Sends MAVLink 2,
-/// and MAVLink 1 to a peer that never spoke anything else. Its heartbeat goes to every link that can be spoken to, to
-/// every peer that spoke MAVLink, and at once to a new one (vehicles send texts only where they have heard a ground
-/// station). Thread-bound to the loop.
+/// Remembers where each system is heard and sends there, from the socket on which it listens. A vehicle may be heard on
+/// several links: what they bring is made one stream, commands go over the one that is alive, answers soonest and loses
+/// least, bulk over the one that carries most; when it falls silent or refuses, over the next at once. (Which packets
+/// are one vehicle's, and which two vehicles' that use one id: internal/likeness.hpp.) Sends MAVLink 2, and MAVLink 1
+/// to a peer that never spoke anything else. Its heartbeat goes to every link that can be spoken to, to every peer that
+/// spoke MAVLink, and at once to a new one (vehicles send texts only where they have heard a ground station).
+/// Thread-bound to the loop.
 class Connection {
  public:
   struct Options {
@@ -62,6 +66,9 @@ class Connection {
     /// What the heartbeat says, asked each time. Empty: no heartbeats.
     std::function<Heartbeat()> heartbeat = ground_station_heartbeat;
     base::Duration heartbeat_period = std::chrono::seconds(1);
+    /// How often each link of each vehicle is asked for its clock (TIMESYNC), which measures the round trip; vehicles
+    /// that ask for ours are answered. Zero: neither.
+    base::Duration timesync_period = std::chrono::seconds(5);
     /// Sign everything that is sent, and listen to nobody who does not.
     std::optional<SigningKey> signing_key = std::nullopt;
   };
@@ -75,7 +82,7 @@ class Connection {
   /// Starts `link` at once. Returns its number, which PeerRef::link uses.
   std::size_t add_link(std::unique_ptr<link::ByteLink> link);
 
-  /// Sends to where the system was last heard, with `target` written into the message if it has a target.
+  /// Sends to where the system is heard best, with `target` written into the message if it has a target.
   /// Errors: lost (never heard, or its link is down), refused (two vehicles use this system id; names both).
   base::Result<> send(Address target, Message message);
   /// The same for a frame made by hand (`raw_message`), which names its addressee already.
@@ -98,15 +105,18 @@ class Connection {
   using FrameHook = std::function<void(Direction, Frame const&, base::TimePoint)>;
   void set_frame_hook(FrameHook hook);
 
-  /// Link and address at which the system was last heard, for people: "udpin://0.0.0.0:14550 from 127.0.0.1:40001".
+  /// Link and address over which commands to the system go, for people: "udpin://0.0.0.0:14550 from 127.0.0.1:40001".
   [[nodiscard]] std::optional<std::string> whereabouts(std::uint8_t system_id) const;
-  /// Set while two peers both keep claiming to be the autopilot of one system. One that falls silent for 5 s has left.
+  /// Set while two peers both keep claiming to be the autopilot of one system and are not proven to lead to one
+  /// vehicle. One that falls silent for 5 s has left.
   [[nodiscard]] std::optional<Conflict> conflict(std::uint8_t system_id) const;
-  /// The system id was heard from two addresses within seconds: two vehicles, or one that restarted and has not been
-  /// told apart from that yet. Messages are still sent, to the address heard last.
+  /// The system id was heard from two addresses within seconds: two vehicles, or one that restarted or has two links
+  /// and has not been told apart from that yet. Messages are still sent, to the address that was known first.
   [[nodiscard]] bool is_contested(std::uint8_t system_id) const;
   /// When anything of the system was heard last.
   [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
+  /// Both far ends are known to lead to one vehicle of this system id.
+  [[nodiscard]] bool are_one(std::uint8_t system_id, PeerRef a, PeerRef b) const;
   /// Summed over all paths.
   [[nodiscard]] SourceCounters counters(Address source) const;
   /// How every link does, in the order of `add_link`. Takes a while for many sources: for once a second, not for every
@@ -129,11 +139,14 @@ class Connection {
 
   Subscription listen(std::optional<std::uint8_t> system_id, Subscription::Handler handler);
   void receive(PeerRef from, link::Bytes bytes);
-  void accept(PeerRef from, Frame const& frame);
+  void accept(PeerRef from, internal::PeerState& peer, Frame const& frame);
+  void look_into(PeerRef from, Frame const& frame);
   void dispatch(Received const& received);
   bool send_frame(PeerRef to, Frame& frame);
   [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
   base::Task<void> beat();
+  base::Task<void> watch();
+  void ask_who_they_are();
   [[nodiscard]] std::string describe(PeerRef peer) const;
 
   base::Loop& loop_;

@@ -372,6 +372,7 @@ enum class MessageId : std::uint32_t {
   rc_channels = 65,
   vfr_hud = 74,
   radio_status = 109,
+  timesync = 111,
   camera_trigger = 112,
   battery_status = 147,
   autopilot_version = 148,

@@ -57,7 +57,7 @@ struct AutopilotVersion {
   std::uint16_t product_id = 0;
   std::uint64_t uid = 0;
   std::array<std::uint8_t, 8> flight_custom_version{};
-  std::array<std::uint8_t, 18> uid2{};  ///< the longer id of newer autopilots; zeros: `uid` is all there is
+  std::array<std::uint8_t, 18> uid2{};  ///< the longer number of the hardware; zeros when not told
 };
 
 // ---- health

@@ -1,6 +1,7 @@
 #include "mavlink/internal/routes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lapwing::mavlink::internal {
 
@@ -10,12 +11,27 @@ using namespace std::chrono_literals;
 
 /// More far ends than any fleet has; a flood of datagrams from random ports must not fill the memory.
 std::size_t constexpr max_peers = 1024;
-/// A peer that has been silent for this long is not sent heartbeats any more.
+/// The same for one source.
+std::size_t constexpr max_paths = 8;
+/// A far end that has been silent for this long is not sent heartbeats any more, and one of several paths is forgotten.
 base::Duration constexpr forget_after = 60s;
-/// Silence after which a peer no longer claims its system id: five heartbeats.
-base::Duration constexpr claim_lasts = 5s;
-/// How often a peer must have come back. Once or twice can be datagrams of a rebooted vehicle that overtook each other.
-int constexpr returns_of_a_conflict = 3;
+/// Of a far end that has not answered TIMESYNC: a slow radio's.
+base::Duration constexpr assumed_round_trip = 300ms;
+/// What either end takes to turn an answer round; keeps differences of a millisecond from deciding.
+base::Duration constexpr turn_round = 50ms;
+/// A path that brings telemetry and takes no commands is worse than any other, but better than none.
+double constexpr deaf_costs = 100.0;
+
+std::size_t wire_size(Frame const& frame) {
+  std::size_t constexpr v1 = 8;
+  std::size_t constexpr v2 = 12;
+  return frame.payload_size + (frame.version == 1 ? v1 : v2) + (frame.is_signed() ? frame.signature.size() : 0);
+}
+
+/// Bytes of a typical exchange.
+double size_of(Traffic traffic) {
+  return traffic == Traffic::bulk ? 10'000.0 : 100.0;
+}
 
 }  // namespace
 
@@ -35,65 +51,186 @@ void Routes::make_room() {
   peers_.erase(oldest);
 }
 
-Routes::Taken Routes::take(Address source, PeerRef peer, std::uint8_t seq, std::uint16_t checksum,
-                           base::TimePoint now) {
-  auto& known = sources_[source];
-  auto& tracker = known.by_link[peer.link];
-  if (known.peer != peer && known.peer.link == peer.link) tracker.restart();
-  if (!tracker.take(seq, checksum)) return {};
-  known.peer = peer;
-  known.heard = now;
-  bool const conflict_new = source.component == autopilot_component && claim(claims_[source.system], peer, now);
-  return {.fresh = true, .conflict_new = conflict_new};
+// ---- what comes in
+// -------------------------------------------------------------------------------------------------------
+
+Routes::Path* Routes::Source::find(PeerRef peer) {
+  auto const found = std::ranges::find(paths, peer, &Path::peer);
+  return found == paths.end() ? nullptr : &*found;
 }
 
-bool Routes::claim(Claims& claims, PeerRef peer, base::TimePoint now) {
-  auto& alive = claims.alive;
-  if (alive.size() == 1 && alive.back().peer == peer) {
-    alive.back().heard = now;
-    return false;
-  }
-  std::erase_if(alive, [now](Claim const& c) { return now - c.heard > claim_lasts; });
-  if (alive.size() <= 1) claims.returns = 0;
-  auto const before = std::ranges::find(alive, peer, &Claim::peer);
-  if (before == alive.end()) {
-    alive.push_back({peer, now});
-    return false;
-  }
-  bool const returned = before != std::prev(alive.end());
-  std::rotate(before, before + 1, alive.end());
-  alive.back().heard = now;
-  if (!returned) return false;
-  return ++claims.returns == returns_of_a_conflict;
+void Routes::Source::forget(std::vector<Path>::iterator path) {
+  gone[path->peer.link] += path->sequence.counters();
+  paths.erase(path);
+  if (paths.size() == 1) merge.reset();
 }
 
-std::optional<PeerRef> Routes::route_to(Address target) const {
-  if (auto const exact = sources_.find(target); exact != sources_.end()) return exact->second.peer;
+Routes::Path& Routes::path_of(Source& source, PeerRef peer) {
+  if (auto* path = source.find(peer)) return *path;
+  if (source.paths.size() == max_paths)
+    source.forget(std::ranges::min_element(source.paths, {}, [](Path const& p) { return p.meter.last_heard(); }));
+  auto& path = source.paths.emplace_back();
+  path.peer = peer;
+  return path;
+}
+
+Routes::Taken Routes::take(PeerRef peer, PeerState& state, Frame const& frame, base::TimePoint now) {
+  auto& source = sources_[frame.source];
+  if (!source.system) source.system = &systems_[frame.source.system];
+  auto& path = path_of(source, peer);
+  path.meter.heard(wire_size(frame), path.sequence.counters(), now);
+  if (!path.sequence.take(frame.seq, frame.checksum)) return {};
+  if (auto const unknown = state.parser.counters().unknown_ids; unknown != state.unknown_ids) {
+    state.unknown_ids = unknown;
+    path.sequence.count_unknown();
+  }
+  Taken taken{.is_fresh = true, .is_news = true};
+  if (frame.source.component == autopilot_component) {
+    state.leads_to_autopilot = true;
+    source.system->claims.hear(peer, now);
+    taken.is_one_of_several = source.system->claims.are_several();
+  }
+  if (source.paths.size() > 1 && is_told_already(source, peer, frame, now)) {
+    path.sequence.count_redundant();
+    taken.is_news = false;
+  }
+  return taken;
+}
+
+bool Routes::is_told_already(Source& source, PeerRef peer, Frame const& frame, base::TimePoint now) {
+  auto& claims = source.system->claims;
+  if (!source.merge) source.merge = std::make_unique<Merge>();
+  bool const is_one = claims.are_several() && claims.is_proven(peer, now) && !claims.is_contested(now);
+  bool const is_best = source.system->choice(Traffic::command).current() == peer;
+  auto const look = source.merge->look(frame, peer, is_one, is_best, now);
+  if (look.copy_of && carries_clock(frame.message_id)) claims.note_copy(*look.copy_of, peer);
+  return !look.is_news;
+}
+
+void Routes::identify(PeerRef peer, Address source, Message const& message, base::TimePoint now) {
+  auto* claim = systems_[source.system].claims.find(peer);
+  auto const* answer = std::get_if<Timesync>(&message);
+  if (answer && answer->tc1 != base::Duration{}) {
+    auto const& asked = peers_[peer].asked;
+    if (std::ranges::find(asked, base::TimePoint(answer->ts1)) == asked.end()) return;
+    if (auto* path = sources_[source].find(peer)) path->meter.answered(now - base::TimePoint(answer->ts1));
+    if (claim) claim->fingerprint.take(*answer, now);
+  }
+  if (!claim) return;
+  if (auto const* version = std::get_if<AutopilotVersion>(&message)) claim->fingerprint.take(*version);
+  if (auto const* position = std::get_if<GlobalPosition>(&message)) claim->fingerprint.take(*position, now);
+}
+
+// ---- twice a second
+// ------------------------------------------------------------------------------------------------------
+
+std::vector<std::uint8_t> Routes::examine(base::TimePoint now) {
+  std::vector<std::uint8_t> conflicts;
+  for (auto& [id, system] : systems_)
+    if (system.claims.compare(now)) conflicts.push_back(id);
+  for (auto& [address, source] : sources_) {
+    if (source.paths.size() > 1) {
+      auto const silent = std::ranges::find_if(
+          source.paths, [now](Path const& path) { return now - path.meter.last_heard() > forget_after; });
+      if (silent != source.paths.end()) source.forget(silent);
+    }
+    if (address.component != autopilot_component) continue;
+    for (auto const traffic : {Traffic::command, Traffic::bulk})
+      source.system->choice(traffic).consider(candidates(source, traffic, now), now);
+  }
+  return conflicts;
+}
+
+std::vector<PeerRef> Routes::ask_clocks(base::Duration period, base::TimePoint now) {
+  std::vector<PeerRef> open;
+  for (auto const& suspect : suspects(now)) open.push_back(suspect.peer);
+  std::vector<PeerRef> due;
+  for (auto& [peer, state] : peers_) {
+    if (!state.leads_to_autopilot || now - state.heard > forget_after) continue;
+    auto const last = state.asks == 0 ? base::TimePoint::min() : state.asked[(state.asks - 1) % state.asked.size()];
+    bool const is_due = state.asks == 0 || now - last >= period;
+    if (!is_due && std::ranges::find(open, peer) == open.end()) continue;
+    state.asked[state.asks++ % state.asked.size()] = now;
+    due.push_back(peer);
+  }
+  for (auto& [address, source] : sources_) {
+    if (address.component != autopilot_component) continue;
+    for (auto& path : source.paths)
+      if (std::ranges::binary_search(due, path.peer)) path.meter.asked();
+  }
+  return due;
+}
+
+std::vector<Routes::Suspect> Routes::suspects(base::TimePoint now) const {
+  std::vector<Suspect> suspects;
+  for (auto const& [id, system] : systems_) {
+    if (!system.claims.is_contested(now)) continue;
+    for (auto const& peer : system.claims.alive(now))
+      suspects.push_back({id, peer, system.claims.find(peer)->fingerprint.hardware.has_value()});
+  }
+  return suspects;
+}
+
+// ---- where to send
+// -------------------------------------------------------------------------------------------------------
+
+/// The time that an exchange takes: each try costs a round trip and the line's time, and both ways must be lucky.
+double Routes::cost_s(Path const& path, Traffic traffic, base::TimePoint now) const {
+  auto const capacity = bytes_per_s_[path.peer.link];
+  double const line_s = capacity ? size_of(traffic) / *capacity : 0.0;
+  double const once_s = base::to_seconds(path.meter.round_trip().value_or(assumed_round_trip) + turn_round) + line_s;
+  double const arrives = std::max(0.05, 1.0 - path.meter.rates(path.sequence.counters(), now).loss);
+  return once_s / (arrives * arrives) * (path.meter.is_deaf() ? deaf_costs : 1.0);
+}
+
+/// Paths that are alive and lead to the established vehicle.
+std::vector<Candidate> Routes::candidates(Source const& source, Traffic traffic, base::TimePoint now) const {
+  auto const& claims = source.system->claims;
+  bool const is_proven_only = claims.are_several();
+  std::vector<Candidate> found;
+  for (auto const& path : source.paths)
+    if (path.is_alive(now) && (!is_proven_only || claims.is_proven(path.peer, now)))
+      found.push_back({path.peer, source.paths.size() > 1 ? cost_s(path, traffic, now) : 0.0});
+  return found;
+}
+
+Routes::Source const* Routes::source_for(Address target) const {
+  if (auto const exact = sources_.find(target); exact != sources_.end()) return &exact->second;
   if (auto const main = sources_.find({target.system, autopilot_component}); main != sources_.end())
-    return main->second.peer;
+    return &main->second;
+  auto const heard = [](Source const& source) {
+    return std::ranges::max(source.paths, {}, [](Path const& p) { return p.meter.last_heard(); }).meter.last_heard();
+  };
   Source const* latest = nullptr;
   for (auto it = sources_.lower_bound({target.system, 0}); it != sources_.end() && it->first.system == target.system;
        ++it)
-    if (!latest || it->second.heard > latest->heard) latest = &it->second;
-  return latest ? std::optional(latest->peer) : std::nullopt;
+    if (!latest || heard(it->second) > heard(*latest)) latest = &it->second;
+  return latest;
 }
 
-std::vector<PeerRef> Routes::claimants(std::uint8_t system_id, base::TimePoint now) const {
-  std::vector<PeerRef> peers;
-  auto const found = claims_.find(system_id);
-  if (found == claims_.end()) return peers;
-  for (auto const& claim : found->second.alive)
-    if (now - claim.heard <= claim_lasts) peers.push_back(claim.peer);
-  return peers;
+std::vector<PeerRef> Routes::routes_to(Address target, Traffic traffic, base::TimePoint now) const {
+  auto const* source = source_for(target);
+  if (!source) return {};
+  if (source->paths.size() == 1) return {source->paths.front().peer};
+  auto found = candidates(*source, traffic, now);
+  std::ranges::sort(found, {}, &Candidate::cost_s);
+  std::vector<PeerRef> routes;
+  // What was chosen for the system goes first as long as it lives; then what is best just now.
+  auto const chosen = source->system->choice(traffic).current();
+  for (auto const& candidate : found) routes.push_back(candidate.peer);
+  auto const held = std::ranges::find(routes, chosen, [](PeerRef peer) { return std::optional(peer); });
+  if (held != routes.end()) std::rotate(routes.begin(), held, held + 1);
+  // When all else fails where it was heard last: perhaps that is the vehicle, restarted.
+  auto const last =
+      std::ranges::max_element(source->paths, {}, [](Path const& p) { return p.meter.last_heard(); })->peer;
+  for (auto const peer : {source->system->claims.established(now).value_or(last), last})
+    if (std::ranges::find(routes, peer) == routes.end()) routes.push_back(peer);
+  return routes;
 }
 
-std::optional<std::pair<PeerRef, PeerRef>> Routes::conflict(std::uint8_t system_id, base::TimePoint now) const {
-  auto const found = claims_.find(system_id);
-  if (found == claims_.end() || found->second.returns < returns_of_a_conflict) return std::nullopt;
-  auto peers = claimants(system_id, now);
-  if (peers.size() < 2) return std::nullopt;
-  std::ranges::sort(peers);
-  return std::pair(peers[0], peers[1]);
+Claims const* Routes::claims(std::uint8_t system_id) const {
+  auto const found = systems_.find(system_id);
+  return found == systems_.end() ? nullptr : &found->second.claims;
 }
 
 std::vector<PeerRef> Routes::talkers(base::TimePoint now) const {
@@ -106,29 +243,9 @@ std::vector<PeerRef> Routes::talkers(base::TimePoint now) const {
 std::optional<base::TimePoint> Routes::last_heard(std::uint8_t system_id) const {
   std::optional<base::TimePoint> latest;
   for (auto it = sources_.lower_bound({system_id, 0}); it != sources_.end() && it->first.system == system_id; ++it)
-    latest = std::max(latest.value_or(it->second.heard), it->second.heard);
+    for (auto const& path : it->second.paths)
+      latest = std::max(latest.value_or(path.meter.last_heard()), path.meter.last_heard());
   return latest;
-}
-
-SourceCounters Routes::counters(Address source) const {
-  SourceCounters sum;
-  auto const found = sources_.find(source);
-  if (found == sources_.end()) return sum;
-  for (auto const& [link, tracker] : found->second.by_link) sum += tracker.counters();
-  return sum;
-}
-
-ParserCounters Routes::parser_counters(std::size_t link) const {
-  ParserCounters sum;
-  for (auto const& [peer, state] : peers_) {
-    if (peer.link != link) continue;
-    auto const& one = state.parser.counters();
-    sum.frames += one.frames;
-    sum.crc_errors += one.crc_errors;
-    sum.unknown_ids += one.unknown_ids;
-    sum.junk_bytes += one.junk_bytes;
-  }
-  return sum;
 }
 
 }  // namespace lapwing::mavlink::internal

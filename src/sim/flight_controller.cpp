@@ -29,7 +29,10 @@ constexpr std::array stream_rates{
 
 Connection::Options connection_options(FlightController::Setup const& setup) {
   // The vehicle's heartbeat is telemetry like any other here: its rate can be changed.
-  return {.self = {setup.system_id, autopilot_component}, .heartbeat = {}, .signing_key = setup.signing_key};
+  return {.self = {setup.system_id, autopilot_component},
+          .heartbeat = {},
+          .timesync_period = {},
+          .signing_key = setup.signing_key};
 }
 
 /// COMMAND_LONG says the same as COMMAND_INT with the place in floats and altitudes above home.

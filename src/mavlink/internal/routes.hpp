@@ -1,11 +1,18 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "mavlink/connection.hpp"
+#include "mavlink/internal/choice.hpp"
+#include "mavlink/internal/claims.hpp"
+#include "mavlink/internal/merge.hpp"
+#include "mavlink/internal/message_kinds.hpp"
+#include "mavlink/internal/path_meter.hpp"
 #include "mavlink/internal/sequence.hpp"
 
 namespace lapwing::mavlink::internal {
@@ -16,12 +23,20 @@ struct PeerState {
   std::uint8_t next_seq = 0;  ///< each peer sees a sequence without gaps
   bool spoke = false;         ///< at least one valid frame came from it
   bool spoke_v2 = false;
+  bool leads_to_autopilot = false;
+  std::uint64_t unknown_ids = 0;  ///< as far as they are counted to a source
   base::TimePoint heard{};
+  std::array<base::TimePoint, 8> asked{};  ///< the last TIMESYNC requests, a ring
+  std::size_t asks = 0;
 };
 
-/// Who speaks MAVLink where: far ends, sources behind them, and which far ends claim to be the same system.
+/// Who speaks MAVLink where: far ends, sources behind them, the paths (source and far end) on which each is heard, and
+/// which path is the best.
 class Routes {
  public:
+  /// What a link can carry; call once for each, in order.
+  void add_link(std::optional<double> bytes_per_s) { bytes_per_s_.push_back(bytes_per_s); }
+
   /// The state of a far end; made when new. Bounded: the one silent for longest makes room, those that never spoke
   /// MAVLink first.
   [[nodiscard]] PeerState& hear(PeerRef peer, base::TimePoint now);
@@ -29,47 +44,76 @@ class Routes {
   [[nodiscard]] PeerState& speak_to(PeerRef peer) { return peers_[peer]; }
 
   struct Taken {
-    bool fresh = false;         ///< not a duplicate
-    bool conflict_new = false;  ///< with this frame two peers are known to use one system id
+    bool is_fresh = false;           ///< not delivered twice by this path
+    bool is_news = false;            ///< nor told by another path of the vehicle
+    bool is_one_of_several = false;  ///< the autopilot is heard at several far ends: `identify` wants to see it
   };
-  /// Notes a frame of `source` that came from `peer`.
-  Taken take(Address source, PeerRef peer, std::uint8_t seq, std::uint16_t checksum, base::TimePoint now);
+  /// Notes a frame that came from `peer`.
+  Taken take(PeerRef peer, PeerState& state, Frame const& frame, base::TimePoint now);
+  /// What tells one vehicle from another: TIMESYNC answers, hardware numbers, positions of autopilots.
+  void identify(PeerRef peer, Address source, Message const& message, base::TimePoint now);
 
-  /// Where to send for `target`: its component, else the system's autopilot, else whoever of the system spoke last.
-  [[nodiscard]] std::optional<PeerRef> route_to(Address target) const;
-  /// Every peer that claimed the system not long before `now`.
-  [[nodiscard]] std::vector<PeerRef> claimants(std::uint8_t system_id, base::TimePoint now) const;
-  /// The two peers that keep claiming the system, at `now`.
-  [[nodiscard]] std::optional<std::pair<PeerRef, PeerRef>> conflict(std::uint8_t system_id, base::TimePoint now) const;
+  /// Compares, chooses, forgets; call twice a second. Systems whose conflict is new.
+  std::vector<std::uint8_t> examine(base::TimePoint now);
+  /// Far ends to send TIMESYNC to: all that lead to an autopilot and were not asked for `period`, and those of
+  /// autopilots of which it is open whether they are one.
+  std::vector<PeerRef> ask_clocks(base::Duration period, base::TimePoint now);
+  struct Suspect {
+    std::uint8_t system_id = 0;
+    PeerRef peer;
+    bool knows_hardware = false;
+  };
+  /// Whom to ask who they are.
+  [[nodiscard]] std::vector<Suspect> suspects(base::TimePoint now) const;
+
+  /// Where to send for `target`, best first: to its component, else to the system's autopilot, else to whoever of the
+  /// system spoke last.
+  [[nodiscard]] std::vector<PeerRef> routes_to(Address target, Traffic traffic, base::TimePoint now) const;
+  /// Null for a system that was never heard.
+  [[nodiscard]] Claims const* claims(std::uint8_t system_id) const;
   /// Peers that spoke MAVLink not long before `now`.
   [[nodiscard]] std::vector<PeerRef> talkers(base::TimePoint now) const;
   /// When any component of the system was heard last.
   [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
+
   [[nodiscard]] SourceCounters counters(Address source) const;
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
+  /// Fills in everything but names and what the link itself knows.
+  void report(std::vector<LinkReport>& links, base::TimePoint now) const;
 
  private:
+  struct System {
+    Claims claims;
+    std::array<Choice, 2> choices;  ///< by Traffic
+    [[nodiscard]] Choice& choice(Traffic traffic) { return choices[static_cast<std::size_t>(traffic)]; }
+    [[nodiscard]] Choice const& choice(Traffic traffic) const { return choices[static_cast<std::size_t>(traffic)]; }
+  };
+  struct Path {
+    PeerRef peer;
+    SequenceTracker sequence;
+    PathMeter meter;
+    [[nodiscard]] bool is_alive(base::TimePoint now) const { return meter.is_alive(sequence.counters(), now); }
+  };
   struct Source {
-    PeerRef peer;
-    base::TimePoint heard{};
-    std::map<std::size_t, SequenceTracker> by_link;
+    System* system = nullptr;
+    std::vector<Path> paths;
+    std::unique_ptr<Merge> merge;                ///< once there are several paths
+    std::map<std::size_t, SourceCounters> gone;  ///< by link: of paths that are forgotten
+    [[nodiscard]] Path* find(PeerRef peer);
+    void forget(std::vector<Path>::iterator path);
   };
-  struct Claim {
-    PeerRef peer;
-    base::TimePoint heard;
-  };
-  /// Peers that recently spoke as the autopilot of one system. A vehicle that rebooted speaks from a new address and
-  /// never again from the old one; two vehicles take turns, so that a peer comes back after the other was heard.
-  struct Claims {
-    std::vector<Claim> alive;  ///< the last to speak at the end
-    int returns = 0;
-  };
-  bool claim(Claims& claims, PeerRef peer, base::TimePoint now);
+  [[nodiscard]] Path& path_of(Source& source, PeerRef peer);
+  [[nodiscard]] bool is_told_already(Source& source, PeerRef peer, Frame const& frame, base::TimePoint now);
+  [[nodiscard]] std::vector<Candidate> candidates(Source const& source, Traffic traffic, base::TimePoint now) const;
+  [[nodiscard]] double cost_s(Path const& path, Traffic traffic, base::TimePoint now) const;
+  [[nodiscard]] SourceReport report(Address address, Source const& source, Path const& path, base::TimePoint now) const;
+  [[nodiscard]] Source const* source_for(Address target) const;
   void make_room();
 
+  std::vector<std::optional<double>> bytes_per_s_;  ///< of each link
   std::map<PeerRef, PeerState> peers_;
+  std::map<std::uint8_t, System> systems_;  ///< before the sources that point into it
   std::map<Address, Source> sources_;
-  std::map<std::uint8_t, Claims> claims_;
 };
 
 }  // namespace lapwing::mavlink::internal

@@ -3,20 +3,18 @@
 #include <array>
 #include <cstdint>
 
-#include "mavlink/connection.hpp"
+#include "mavlink/link_report.hpp"
 
 namespace lapwing::mavlink::internal {
 
-/// Follows the 8-bit packet sequence of one source on one link.
+/// Follows the 8-bit packet sequence of one source over one path.
 class SequenceTracker {
  public:
   /// False for a frame that was seen before (the link delivered it twice).
   [[nodiscard]] bool take(std::uint8_t seq, std::uint16_t checksum);
-  /// The source began anew: the next number is not a gap.
-  void restart() {
-    started_ = false;
-    recent_ = {};
-  }
+  /// Notes that the frame just taken told what another path had told already.
+  void count_redundant() { ++counters_.redundant; }
+  void count_unknown() { ++counters_.unknown_ids; }
   [[nodiscard]] SourceCounters const& counters() const { return counters_; }
 
  private:
