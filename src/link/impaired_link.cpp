@@ -34,7 +34,13 @@ class ImpairedLink final : public ByteLink {
 
   /// What is lost later was sent all the same.
   bool send(Peer peer, Bytes bytes) override {
-    for (int copies = arrivals(); copies > 0; --copies) scope_.spawn(pass_on(peer, Chunk(bytes.begin(), bytes.end())));
+    for (int copies = arrivals(); copies > 0; --copies)
+      scope_.spawn(pass_on(peer, Chunk(bytes.begin(), bytes.end()), &ByteLink::send));
+    return inner_->state() == LinkState::open;
+  }
+  bool send_perishable(Peer peer, Bytes bytes) override {
+    for (int copies = arrivals(); copies > 0; --copies)
+      scope_.spawn(pass_on(peer, Chunk(bytes.begin(), bytes.end()), &ByteLink::send_perishable));
     return inner_->state() == LinkState::open;
   }
 
@@ -55,9 +61,9 @@ class ImpairedLink final : public ByteLink {
     receive_(peer, chunk);
     tell_drained();
   }
-  base::Task<void> pass_on(Peer peer, Chunk chunk) {
+  base::Task<void> pass_on(Peer peer, Chunk chunk, bool (ByteLink::*how)(Peer, Bytes)) {
     co_await loop_.sleep(lateness());
-    inner_->send(peer, chunk);
+    (*inner_.*how)(peer, chunk);
   }
 
   base::Loop& loop_;

@@ -3,8 +3,11 @@
 
 #include <cstdlib>
 #include <deque>
+#include <filesystem>
 #include <string>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/notifier.hpp"
@@ -259,6 +262,24 @@ TEST(TcpLink, ForgetsAClientThatLeft) {
   EXPECT_FALSE(in.say("anybody there?", peer));
 }
 
+TEST(TcpLink, ConnectsToAHostByItsName) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
+  Talker out(loop, opened(loop, "tcpout://localhost:" + std::to_string(port_of(in.link()))));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
+}
+
+TEST(TcpLink, SpeaksIpv6WhereThereIsOne) {
+  base::Loop loop;
+  auto listening = open(loop, parse_url("tcpin://[::1]:0").value());
+  if (!listening) GTEST_SKIP() << listening.error().message;
+  Talker in(loop, std::move(*listening));
+  Talker out(loop, opened(loop, "tcpout" + in.link().name().substr(5)));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
+  EXPECT_TRUE(out.say("hello"));
+  EXPECT_TRUE(loop.run_until_done(in.hears("hello")));
+}
+
 TEST(TcpLink, NamesThePortThatIsTaken) {
   base::Loop loop;
   auto const first = opened(loop, "tcpin://127.0.0.1:0");
@@ -286,6 +307,55 @@ TEST(SerialLink, TalksToATerminalLineAndWaitsForOneThatIsGone) {
   ASSERT_TRUE(loop.run_until_done(until_standing(loop, serial.link(), false)));
   EXPECT_EQ(serial.link().state(), LinkState::opening);
   EXPECT_FALSE(serial.say("gone"));
+}
+
+/// A device that can be plugged in and out: the far end of a pseudo-terminal behind a link, as udev makes them.
+class Plug {
+ public:
+  Plug() : place_(std::filesystem::temp_directory_path() / fmt::format("lapwing-plug-{}", getpid())) {}
+  Plug(Plug const&) = delete;
+  Plug& operator=(Plug const&) = delete;
+  ~Plug() { pull(); }
+  void plug_in() {
+    master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ASSERT_GE(master_, 0);
+    ASSERT_EQ(grantpt(master_), 0);
+    ASSERT_EQ(unlockpt(master_), 0);
+    std::filesystem::create_symlink(ptsname(master_), place_);
+  }
+  void pull() {
+    std::error_code ignored;
+    std::filesystem::remove(place_, ignored);
+    if (master_ >= 0) close(std::exchange(master_, -1));
+  }
+  [[nodiscard]] std::string url() const { return fmt::format("serial://{}:57600", place_.string()); }
+  [[nodiscard]] int master() const { return master_; }
+
+ private:
+  std::filesystem::path place_;
+  int master_ = -1;
+};
+
+TEST(SerialLink, ComesBackWithItsDevice) {
+  base::Loop loop(base::Loop::Pace{.speedup = 20.0});
+  Plug plug;
+  Talker serial(loop, opened(loop, plug.url()));
+  EXPECT_NE(serial.link().last_error().find("is it plugged in?"), std::string::npos) << serial.link().last_error();
+  for (std::string const word : {"first", "second"}) {
+    plug.plug_in();
+    ASSERT_TRUE(loop.run_until_done(until_standing(loop, serial.link(), true))) << serial.link().last_error();
+    ASSERT_EQ(write(plug.master(), word.data(), word.size()), static_cast<ssize_t>(word.size()));
+    EXPECT_TRUE(loop.run_until_done(serial.hears(word)));
+    plug.pull();
+    ASSERT_TRUE(loop.run_until_done(until_standing(loop, serial.link(), false)));
+    EXPECT_EQ(serial.link().counters().bytes_queued, 0u);
+  }
+}
+
+TEST(SerialLink, NamesWhatIsWrongWithADevice) {
+  base::Loop loop(base::Loop::Pace{.unpaced = true});
+  Talker file(loop, opened(loop, "serial:///dev/null:57600"));
+  EXPECT_EQ(file.link().last_error(), "/dev/null is no serial device");
 }
 
 TEST(SerialLink, RefusesABaudRateThatNoLineHas) {

@@ -1,4 +1,7 @@
 #include <fcntl.h>
+#include <grp.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -47,16 +50,34 @@ std::optional<speed_t> speed_of(std::uint32_t rate) {
   return std::nullopt;
 }
 
-/// 8 data bits, no parity, 1 stop bit, no flow control, nothing translated.
-bool make_raw(int descriptor, speed_t speed) {
+/// 8 data bits, no parity, 1 stop bit, nothing translated.
+bool make_raw(int descriptor, speed_t speed, bool flow_control) {
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) return false;
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
+  if (flow_control) settings.c_cflag |= CRTSCTS;
   settings.c_cc[VMIN] = 1;  // so that a read of nothing means hang-up
   settings.c_cc[VTIME] = 0;
   return cfsetspeed(&settings, speed) == 0 && tcsetattr(descriptor, TCSANOW, &settings) == 0;
+}
+
+/// What to do about it, as far as that can be told.
+std::string why_not_open(std::string const& device, int system_error) {
+  if (system_error == EACCES) {
+    struct stat entry{};
+    auto const* group = ::stat(device.c_str(), &entry) == 0 ? getgrgid(entry.st_gid) : nullptr;
+    auto const name = group ? std::string(group->gr_name) : std::string("dialout");
+    return fmt::format(
+        "no permission for {}: this user is not in the group {} (sudo usermod -aG {} $USER, then log in again)", device,
+        name, name);
+  }
+  if (system_error == EBUSY)
+    return fmt::format("{}: another program has it open (ModemManager? another ground station?)", device);
+  if (system_error == ENOTTY) return fmt::format("{} is no serial device", device);
+  if (system_error == ENOENT) return fmt::format("{} is not there (yet): is it plugged in?", device);
+  return fmt::format("{}: {}", device, std::strerror(system_error));
 }
 
 class SerialLink final : public ByteLink {
@@ -78,13 +99,16 @@ class SerialLink final : public ByteLink {
     receive_ = std::move(receive);
     scope_.spawn(keep_open());
   }
-  bool send(Peer, Bytes bytes) override {
-    if (open_) return stream_->send(bytes);
+  bool send(Peer, Bytes bytes) override { return send(bytes, Worth::lasting); }
+  bool send_perishable(Peer, Bytes bytes) override { return send(bytes, Worth::perishable); }
+
+ private:
+  bool send(Bytes bytes, Worth worth) {
+    if (open_) return stream_->send(bytes, worth);
     ++counters_.send_failures;
     return false;
   }
 
- private:
   base::Task<void> keep_open() {
     for (;;) {
       open_device();
@@ -96,16 +120,15 @@ class SerialLink final : public ByteLink {
 
   void open_device() {
     int const descriptor = ::open(url_.host.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0 || !make_raw(descriptor, speed_)) {
-      last_error_ = errno == EACCES
-                        ? fmt::format("no permission for {} (is this user in the group dialout?)", url_.host)
-                        : fmt::format("{}: {}", url_.host, std::strerror(errno));
+    // For us alone: a second program on the line would take every other byte.
+    if (descriptor < 0 || !make_raw(descriptor, speed_, url_.flow_control) || ioctl(descriptor, TIOCEXCL) != 0) {
+      last_error_ = why_not_open(url_.host, errno);
       if (descriptor >= 0) ::close(descriptor);
       return;
     }
     open_ = true;
     stream_ = std::make_unique<Stream>(
-        loop_, descriptor, counters_,
+        loop_, Stream::End{descriptor, bytes_per_s()}, counters_,
         [this](Bytes bytes) {
           receive_(Peer{}, bytes);
           tell_drained();

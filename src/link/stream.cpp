@@ -2,9 +2,11 @@
 
 #include "link/internal/stream.hpp"
 
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -18,8 +20,20 @@ namespace {
 
 using boost::asio::posix::stream_descriptor;
 
-/// A second of the fastest serial line in use, many seconds of a radio's.
-std::size_t constexpr queue_limit = 128 * 1024;
+/// Perishable packets may wait for a slow line for this long.
+double constexpr perishable_wait_s = 1.0;
+/// What may wait in the driver of a slow line: enough to keep it busy until the next look.
+double constexpr driver_wait_s = 0.1;
+/// What may wait in the kernel for a TCP peer; it takes twice that. Enough for 1 MB/s over 50 ms.
+int constexpr socket_buffer = 32 * 1024;
+
+SendQueue::Limits limits_for(std::optional<double> bytes_per_s) {
+  SendQueue::Limits limits;
+  if (!bytes_per_s) return limits;
+  auto constexpr few_packets = 4 * std::size_t{280};
+  limits.perishable_bytes = std::max(few_packets, static_cast<std::size_t>(*bytes_per_s * perishable_wait_s));
+  return limits;
+}
 
 bool would_block(int error) {
   return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
@@ -32,16 +46,23 @@ struct Stream::Descriptor {
   bool is_socket;
 };
 
-Stream::Stream(base::Loop& loop, int descriptor, LinkCounters& counters, Data data, Ended ended)
-    : counters_(counters), data_(std::move(data)), ended_(std::move(ended)) {
-  int type = 0;
-  socklen_t size = sizeof(type);
-  bool const is_socket = getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) == 0;
-  descriptor_ = std::make_unique<Descriptor>(Descriptor{stream_descriptor(loop.io(), descriptor), is_socket});
+Stream::Stream(base::Loop& loop, End end, LinkCounters& counters, Data data, Ended ended)
+    : counters_(counters),
+      data_(std::move(data)),
+      ended_(std::move(ended)),
+      loop_(loop),
+      bytes_per_s_(end.bytes_per_s),
+      queue_(limits_for(end.bytes_per_s)),
+      scope_(loop) {
+  // Fails for what is no socket.
+  bool const is_socket = setsockopt(end.descriptor, SOL_SOCKET, SO_SNDBUF, &socket_buffer, sizeof(socket_buffer)) == 0;
+  descriptor_ = std::make_unique<Descriptor>(Descriptor{stream_descriptor(loop.io(), end.descriptor), is_socket});
   wait_to_read();
 }
 
-Stream::~Stream() = default;
+Stream::~Stream() {
+  counters_.bytes_queued -= bytes_counted_;
+}
 
 void Stream::wait_to_read() {
   descriptor_->handle.async_wait(stream_descriptor::wait_read,
@@ -64,15 +85,22 @@ void Stream::read() {
   wait_to_read();
 }
 
-bool Stream::send(Bytes bytes) {
-  if (!descriptor_->handle.is_open() || queue_.size() + bytes.size() > queue_limit) {
+bool Stream::send(Bytes packet, Worth worth) {
+  bool const is_taken = descriptor_->handle.is_open() && queue_.push(packet, worth);
+  if (is_taken)
+    ++counters_.chunks_sent;
+  else
     ++counters_.send_failures;
-    return false;
-  }
-  ++counters_.chunks_sent;
-  queue_.insert(queue_.end(), bytes.begin(), bytes.end());
-  if (!writing_) write();
-  return true;
+  if (is_taken && !writing_) write();
+  count();
+  return is_taken;
+}
+
+void Stream::count() {
+  counters_.bytes_queued += queue_.bytes() - bytes_counted_;
+  counters_.perishable_dropped += queue_.dropped() - drops_counted_;
+  bytes_counted_ = queue_.bytes();
+  drops_counted_ = queue_.dropped();
 }
 
 void Stream::wait_to_write() {
@@ -82,23 +110,40 @@ void Stream::wait_to_write() {
                                    if (alive.expired() || error) return;
                                    writing_ = false;
                                    write();
+                                   count();
                                  });
 }
 
 void Stream::write() {
-  std::array<std::uint8_t, 4096> chunk;
-  while (!queue_.empty()) {
-    auto const size = std::min(queue_.size(), chunk.size());
-    std::copy_n(queue_.begin(), size, chunk.begin());
+  for (auto packet = queue_.front(); !packet.empty(); packet = queue_.front()) {
+    if (waits_for_line()) return;
     auto const fd = descriptor_->handle.native_handle();
     // A socket whose far end is gone must report it, not end the process with SIGPIPE.
-    auto const sent =
-        descriptor_->is_socket ? ::send(fd, chunk.data(), size, MSG_NOSIGNAL) : ::write(fd, chunk.data(), size);
+    auto const sent = descriptor_->is_socket ? ::send(fd, packet.data(), packet.size(), MSG_NOSIGNAL)
+                                             : ::write(fd, packet.data(), packet.size());
     if (sent < 0 && would_block(errno)) return wait_to_write();
     if (sent < 0) return end(std::strerror(errno));
     counters_.bytes_sent += static_cast<std::uint64_t>(sent);
-    queue_.erase(queue_.begin(), queue_.begin() + sent);
+    queue_.pop(static_cast<std::size_t>(sent));
   }
+}
+
+/// A terminal driver takes kilobytes, which are a second of a slow line. Nothing tells when they are out but looking.
+bool Stream::waits_for_line() {
+  int waiting = 0;
+  if (!bytes_per_s_ || ioctl(descriptor_->handle.native_handle(), TIOCOUTQ, &waiting) != 0) return false;
+  double const wait_s = waiting / *bytes_per_s_;
+  if (wait_s < driver_wait_s) return false;
+  writing_ = true;
+  scope_.spawn(write_after(base::from_seconds(wait_s - driver_wait_s / 2)));
+  return true;
+}
+
+base::Task<void> Stream::write_after(base::Duration time) {
+  co_await loop_.sleep(time);
+  writing_ = false;
+  write();
+  count();
 }
 
 void Stream::end(std::string why) {

@@ -30,6 +30,12 @@ int release(tcp::socket socket) {
   return socket.release(ignored);
 }
 
+/// An IPv6 address stands in brackets in a URL.
+std::string bare_host(std::string const& host) {
+  bool const is_bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+  return is_bracketed ? host.substr(1, host.size() - 2) : host;
+}
+
 class TcpOut final : public ByteLink {
  public:
   TcpOut(base::Loop& loop, Url url)
@@ -49,13 +55,16 @@ class TcpOut final : public ByteLink {
     receive_ = std::move(receive);
     scope_.spawn(keep_connected());
   }
-  bool send(Peer, Bytes bytes) override {
-    if (connected_) return stream_->send(bytes);
+  bool send(Peer, Bytes bytes) override { return send(bytes, Worth::lasting); }
+  bool send_perishable(Peer, Bytes bytes) override { return send(bytes, Worth::perishable); }
+
+ private:
+  bool send(Bytes bytes, Worth worth) {
+    if (connected_) return stream_->send(bytes, worth);
     ++counters_.send_failures;
     return false;
   }
 
- private:
   base::Task<void> keep_connected() {
     for (;;) {
       connecting_ = true;
@@ -67,7 +76,7 @@ class TcpOut final : public ByteLink {
   }
 
   void begin_to_connect() {
-    resolver_.async_resolve(tcp::v4(), url_.host, std::to_string(url_.port_or_baud),
+    resolver_.async_resolve(bare_host(url_.host), std::to_string(url_.port_or_baud),
                             [this, alive = std::weak_ptr(alive_)](Error error, tcp::resolver::results_type found) {
                               if (alive.expired()) return;
                               if (error) return failed(fmt::format("cannot find host '{}'", url_.host));
@@ -87,7 +96,7 @@ class TcpOut final : public ByteLink {
 
   void adopt(int descriptor) {
     stream_ = std::make_unique<Stream>(
-        loop_, descriptor, counters_,
+        loop_, Stream::End{descriptor}, counters_,
         [this](Bytes bytes) {
           receive_(Peer{}, bytes);
           tell_drained();
@@ -140,18 +149,21 @@ class TcpIn final : public ByteLink {
     receive_ = std::move(receive);
     accept();
   }
-  bool send(Peer peer, Bytes bytes) override {
-    auto const found = clients_.find(peer);
-    if (found != clients_.end()) return found->second.stream->send(bytes);
-    ++counters_.send_failures;
-    return false;
-  }
+  bool send(Peer peer, Bytes bytes) override { return send(peer, bytes, Worth::lasting); }
+  bool send_perishable(Peer peer, Bytes bytes) override { return send(peer, bytes, Worth::perishable); }
 
  private:
   struct Client {
     std::string name;
     std::unique_ptr<Stream> stream;
   };
+
+  bool send(Peer peer, Bytes bytes, Worth worth) {
+    auto const found = clients_.find(peer);
+    if (found != clients_.end()) return found->second.stream->send(bytes, worth);
+    ++counters_.send_failures;
+    return false;
+  }
 
   void accept() {
     acceptor_.async_accept([this, alive = std::weak_ptr(alive_)](Error error, tcp::socket socket) {
@@ -166,7 +178,7 @@ class TcpIn final : public ByteLink {
     Error ignored;
     auto const far_end = socket.remote_endpoint(ignored);
     auto stream = std::make_unique<Stream>(
-        loop_, release(std::move(socket)), counters_,
+        loop_, Stream::End{release(std::move(socket))}, counters_,
         [this, peer](Bytes bytes) {
           receive_(peer, bytes);
           tell_drained();
@@ -199,14 +211,14 @@ std::unique_ptr<ByteLink> open_tcp_out(base::Loop& loop, Url const& url) {
 
 base::Result<std::unique_ptr<ByteLink>> open_tcp_in(base::Loop& loop, Url const& url) {
   Error error;
-  auto const address = boost::asio::ip::make_address_v4(url.host, error);
+  auto const address = boost::asio::ip::make_address(bare_host(url.host), error);
   if (error)
     return base::fail(base::ErrorKind::invalid_input,
-                      fmt::format("link {}: '{}' is no IPv4 address", to_string(url), url.host),
-                      "listen on 127.0.0.1 (this machine only) or 0.0.0.0 (every network)");
+                      fmt::format("link {}: '{}' is no address", to_string(url), url.host),
+                      "listen on 127.0.0.1 (this machine only), 0.0.0.0 (every network) or [::] (IPv6, too)");
   tcp::endpoint const endpoint(address, static_cast<std::uint16_t>(url.port_or_baud));
   tcp::acceptor acceptor(loop.io());
-  acceptor.open(tcp::v4(), error);
+  acceptor.open(endpoint.protocol(), error);
   // Connections of an earlier run that linger must not keep the port; a program that listens there still does.
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
   if (!error) acceptor.bind(endpoint, error);

@@ -65,6 +65,8 @@ std::string_view meant_by(std::string_view scheme) {
   return "udpin://0.0.0.0:14550, udpout://, udpbcast://, tcpin://, tcpout:// or serial:///dev/ttyUSB0:57600";
 }
 
+constexpr std::string_view flow_on = "?flow=on";
+
 std::optional<std::uint32_t> number(std::string_view digits) {
   std::uint32_t value = 0;
   auto const* const end = digits.data() + digits.size();
@@ -80,7 +82,8 @@ std::string_view to_string(Transport transport) {
 }
 
 std::string to_string(Url const& url) {
-  return fmt::format("{}://{}:{}", to_string(url.transport), url.host, url.port_or_baud);
+  return fmt::format("{}://{}:{}{}", to_string(url.transport), url.host, url.port_or_baud,
+                     url.flow_control ? flow_on : "");
 }
 
 base::Result<Url> parse_url(std::string_view written) {
@@ -95,7 +98,9 @@ base::Result<Url> parse_url(std::string_view written) {
     return wrong(text, "there is no '://' in it", meant_by(text.substr(0, text.find(':'))));
   if (!scheme) return wrong(text, fmt::format("'{}' is no kind of link", name), meant_by(name));
 
-  auto const rest = text.substr(slashes + 3);
+  auto rest = text.substr(slashes + 3);
+  bool const flow_control = scheme->transport == Transport::serial && rest.ends_with(flow_on);
+  if (flow_control) rest.remove_suffix(flow_on.size());
   auto const colon = rest.rfind(':');
   bool const is_serial = scheme->transport == Transport::serial;
   auto const what = is_serial ? "baud rate" : "port";
@@ -110,7 +115,7 @@ base::Result<Url> parse_url(std::string_view written) {
   if (!is_serial && (*value > 65535 || (*value == 0 && !listens)))
     return wrong(text, "a port is a number from 1 to 65535", scheme->example);
   if (is_serial && *value == 0) return wrong(text, "the baud rate cannot be 0", scheme->example);
-  return Url{scheme->transport, std::string(host), *value};
+  return Url{scheme->transport, std::string(host), *value, flow_control};
 }
 
 }  // namespace lapwing::link

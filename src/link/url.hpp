@@ -14,11 +14,13 @@ enum class Transport { udp_in, udp_out, udp_bcast, tcp_in, tcp_out, serial };
 [[nodiscard]] std::string_view to_string(Transport transport);
 
 /// Where a link goes, in MAVSDK's spelling: `udpin://0.0.0.0:14550`, `udpout://127.0.0.1:14550`,
-/// `udpbcast://192.168.1.255:14550`, `tcpout://host:5760`, `tcpin://0.0.0.0:5760`, `serial:///dev/ttyUSB0:57600`.
+/// `udpbcast://192.168.1.255:14550`, `tcpout://host:5760`, `tcpin://0.0.0.0:5760`, `serial:///dev/ttyUSB0:57600` (with
+/// RTS/CTS flow control: `...:57600?flow=on`).
 struct Url {
   Transport transport = Transport::udp_in;
-  std::string host;  ///< host name, IPv4 address or device path
+  std::string host;  ///< host name, IPv4 address, IPv6 address in brackets (TCP) or device path
   std::uint32_t port_or_baud = 0;
+  bool flow_control = false;  ///< RTS/CTS, of a serial line
 
   friend bool operator==(Url const&, Url const&) = default;
 };

@@ -77,5 +77,14 @@ TEST(Url, TakesPortZeroWhereItListens) {
   EXPECT_TRUE(parse_url("tcpin://127.0.0.1:0"));
 }
 
+TEST(Url, TakesFlowControlOfASerialLine) {
+  auto const url = parse_url("serial:///dev/serial/by-id/usb-FTDI_Radio-if00:57600?flow=on");
+  ASSERT_TRUE(url);
+  EXPECT_EQ(*url, (Url{Transport::serial, "/dev/serial/by-id/usb-FTDI_Radio-if00", 57600, true}));
+  EXPECT_EQ(to_string(*url), "serial:///dev/serial/by-id/usb-FTDI_Radio-if00:57600?flow=on");
+  EXPECT_FALSE(parse_url("udpin://0.0.0.0:14550?flow=on"));
+  EXPECT_FALSE(parse_url("serial:///dev/ttyUSB0:57600?flow=maybe"));
+}
+
 }  // namespace
 }  // namespace lapwing::link
