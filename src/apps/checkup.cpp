@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -42,6 +43,14 @@ std::string describe(int system, mavlink::Heartbeat const& heartbeat, vehicle::F
                      heartbeat.armed() ? "armed" : "disarmed");
 }
 
+/// ": 12 messages/s, 2 % lost, round trip 120 ms".
+std::string describe(mavlink::SourceReport const& source) {
+  auto text = fmt::format(": {:.0f} message{}/s, {:.0f} % lost", source.messages_per_s,
+                          std::lround(source.messages_per_s) == 1 ? "" : "s", 100 * source.loss);
+  if (source.round_trip) text += fmt::format(", round trip {:.0f} ms", 1000 * base::to_seconds(*source.round_trip));
+  return text;
+}
+
 void note(Heard& heard, mavlink::Received const& received) {
   auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message);
   auto const family = heartbeat ? mavlink::family_of(heartbeat->type) : vehicle::Family::unknown;
@@ -77,8 +86,8 @@ std::string advice_on_silence(link::Url const& url) {
 std::string advice_on_closed(link::Url const& url, std::string const& why) {
   if (url.transport == link::Transport::tcp_out) return "start what should answer there, or mend host and port";
   if (url.transport != link::Transport::serial) return "mend address and port";
-  if (why.find("permission") != std::string::npos) return "sudo usermod -aG dialout $USER, then log in again";
-  if (why.find("No such file") != std::string::npos) return "is it plugged in? lapwing doctor lists what is there";
+  if (why.find("permission") != std::string::npos) return "lapwing doctor lists the devices that may be used";
+  if (why.find("not there") != std::string::npos) return "is it plugged in? lapwing doctor lists what is there";
   return "is another program using it, such as ModemManager or another ground station?";
 }
 
@@ -147,6 +156,21 @@ Findings look_at_installation(fs::path const& home, std::string const& search_pa
   return findings;
 }
 
+namespace {
+
+/// The name by which udev finds the device again in whatever socket it is plugged; else its own.
+fs::path lasting_name(fs::path const& folder, fs::path const& device) {
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(folder / "serial/by-id", error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (fs::equivalent(entry->path(), device, ignored)) return entry->path();
+  }
+  return device;
+}
+
+}  // namespace
+
 Findings look_at_serial_devices(fs::path const& folder) {
   Findings findings;
   std::error_code error;
@@ -156,7 +180,8 @@ Findings look_at_serial_devices(fs::path const& folder) {
     auto const name = entry->path().filename().string();
     if (!name.starts_with("ttyACM") && !name.starts_with("ttyUSB")) continue;
     if (::access(path.c_str(), R_OK | W_OK) == 0) {
-      findings.push_back({Verdict::good, fmt::format("{}: use --link serial://{}:57600", name, path)});
+      findings.push_back({Verdict::good, fmt::format("{}: use --link serial://{}:57600", name,
+                                                     lasting_name(folder, entry->path()).string())});
     } else {
       findings.push_back({Verdict::wrong, fmt::format("{}: no permission", name),
                           "sudo usermod -aG dialout $USER, then log in again"});
@@ -195,9 +220,14 @@ Findings listen(std::string const& text, base::Duration time, bool must_answer) 
   loop.run_until_done(wait(loop, time));
 
   Findings findings;
+  auto const sources = connection.report().at(0).sources;
   for (auto const& [id, line] : heard.vehicles) {
     auto const conflict = connection.conflict(static_cast<std::uint8_t>(id));
-    findings.push_back({Verdict::good, fmt::format("{} on {}", line, text)});
+    auto const source = std::ranges::find_if(sources, [id = id](mavlink::SourceReport const& report) {
+      return report.source == mavlink::Address{static_cast<std::uint8_t>(id), mavlink::autopilot_component};
+    });
+    auto const quality = source == sources.end() ? std::string() : describe(*source);
+    findings.push_back({Verdict::good, fmt::format("{} on {}{}", line, text, quality)});
     if (!conflict) continue;
     findings.push_back({Verdict::wrong,
                         fmt::format("two vehicles have system id {}: {} and {}", id, conflict->first, conflict->second),

@@ -89,6 +89,16 @@ TEST(Checkup, ListsSerialDevices) {
   EXPECT_FALSE(any_wrong(findings));
 }
 
+TEST(Checkup, NamesADeviceAsItIsFoundAgain) {
+  TemporaryFolder const folder;
+  auto const device = folder.write("ttyUSB0", "");
+  std::filesystem::create_directories(folder.path() / "serial/by-id");
+  std::filesystem::create_symlink(device, folder.path() / "serial/by-id/usb-FTDI_Radio");
+  auto const findings = look_at_serial_devices(folder.path());
+  EXPECT_EQ(findings.at(0).what,
+            fmt::format("ttyUSB0: use --link serial://{}/serial/by-id/usb-FTDI_Radio:57600", folder.path().string()));
+}
+
 TEST(Checkup, TellsOfASerialDeviceWithoutPermission) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may use every device";
   TemporaryFolder const folder;
@@ -141,7 +151,7 @@ TEST(Checkup, ExplainsAnAddressWhereNobodyListens) {
 TEST(Checkup, ExplainsASerialDeviceThatIsNotThere) {
   auto const finding = listen("serial:///dev/ttyAbsent:57600", a_moment, true).at(0);
   EXPECT_EQ(finding.verdict, Verdict::wrong);
-  EXPECT_NE(finding.what.find("No such file"), std::string::npos) << finding.what;
+  EXPECT_NE(finding.what.find("is not there"), std::string::npos) << finding.what;
   EXPECT_NE(finding.advice.find("plugged in"), std::string::npos);
 }
 

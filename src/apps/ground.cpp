@@ -16,12 +16,19 @@ fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop, tasks::Pla
   return options;
 }
 
+mavlink::Connection::Options connection_options(fleet::Fleet::Options const& fleet_options,
+                                                std::optional<mavlink::SigningKey> const& signing_key) {
+  mavlink::Connection::Options options{.signing_key = signing_key};
+  if (!fleet_options.asks_for_messages) options.timesync_period = {};
+  return options;
+}
+
 }  // namespace
 
 Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options,
                tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> signing_key)
     : loop(on),
-      connection(on, {.signing_key = signing_key}, log.named("link")),
+      connection(on, connection_options(fleet_options, signing_key), log.named("link")),
       registry(on),
       fleet(connection, registry, std::move(fleet_options), log.named("fleet")),
       platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")) {}

@@ -26,6 +26,7 @@ namespace {
 
 constexpr std::string_view camera = "Camera";  // the language's name for it (specification, REC-44)
 constexpr Duration watch_period = 250ms;
+constexpr unsigned links_noted_every = 4;  // turns of the watch
 // Telemetry may arrive out of order; a clock that goes back further than that began anew.
 constexpr Duration clock_slack = 3s;
 // The other of two links may be a slow radio with a full queue.
@@ -255,9 +256,30 @@ void Fleet::check_connection(Craft& craft) {
   craft.changed.notify_all();
 }
 
+/// How the links of each vehicle's autopilot do.
+void Fleet::note_links() {
+  std::map<std::uint8_t, std::vector<vehicle::LinkQuality>> links;
+  for (auto const& link : connection_.report())
+    for (auto const& source : link.sources)
+      if (source.source.component == mavlink::autopilot_component && crafts_.contains(source.source.system))
+        links[source.source.system].push_back({.name = fmt::format("{} from {}", link.name, source.address),
+                                               .loss = source.loss,
+                                               .messages_per_s = source.messages_per_s,
+                                               .bytes_per_s = source.bytes_per_s,
+                                               .round_trip = source.round_trip,
+                                               .is_alive = source.is_alive,
+                                               .is_used = source.is_route});
+  for (auto& [system_id, craft] : crafts_) {
+    if (craft->state.links == links[system_id]) continue;
+    craft->state.links = std::move(links[system_id]);
+    registry_.touch(craft->id());
+  }
+}
+
 base::Task<> Fleet::watch() {
-  while (true) {
+  for (unsigned turn = 0;; ++turn) {
     co_await loop().sleep(watch_period);
+    if (turn % links_noted_every == 0) note_links();
     for (auto& [system_id, craft] : crafts_) {
       check_connection(*craft);
       let_age(*craft);

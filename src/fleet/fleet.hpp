@@ -55,6 +55,7 @@ class Fleet {
   void note_restart(Craft& craft, base::TimePoint now);
   void note_camera(std::uint8_t system_id);
   void check_connection(Craft& craft);
+  void note_links();
   base::Task<> watch();
   base::Task<> ask_questions(Craft& craft);
   base::Task<> ask_for_picture(Craft& craft, Question question);

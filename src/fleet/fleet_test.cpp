@@ -130,7 +130,7 @@ TEST(Fleet, NamesBothPeersWhenTwoVehiclesUseOneSystemId) {
   TestWorld world;
   auto& first = world.add();
   auto& second = world.add();
-  world.run_for(6s);
+  world.run_for(10s);
   EXPECT_EQ(world.state().connection, Connection::conflict);
   EXPECT_FALSE(world.platform->find(VehicleId{"1"})->connected);
   EXPECT_TRUE(world.has_logged("two vehicles use system id 1: "));
@@ -148,7 +148,8 @@ TEST(Fleet, EndsTheConflictWhenOneOfTheTwoLeaves) {
   TestWorld world;
   auto& first = world.add();
   world.add();
-  world.run_for(6s);
+  world.run_for(10s);
+  EXPECT_EQ(world.state().connection, Connection::conflict);
   first.is_silent = true;
   world.run_for(10s);
   EXPECT_EQ(world.state().connection, Connection::ok);

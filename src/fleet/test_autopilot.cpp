@@ -14,6 +14,13 @@ using mavlink::MissionState;
 
 namespace {
 
+/// The connection's own questions, whoever else wants something of the vehicle.
+bool asks_who_it_is(mavlink::Message const& message) {
+  if (std::holds_alternative<mavlink::Timesync>(message)) return true;
+  auto const* command = std::get_if<mavlink::CommandLong>(&message);
+  return command && command->command == mavlink::MavCmd::request_message;
+}
+
 constexpr base::Duration step = 50ms;
 constexpr base::Duration upload_patience = 8s;  // ArduPilot's
 constexpr base::Duration request_again = 1s;
@@ -122,7 +129,7 @@ void TestAutopilot::take(mavlink::Frame const& frame) {
   if (!message || std::holds_alternative<mavlink::Heartbeat>(*message)) return;
   auto const target = mavlink::target_of(*message);
   if (target && !mavlink::addresses(*target, options_.address)) return;
-  heard.push_back(*message);
+  if (!asks_who_it_is(*message)) heard.push_back(*message);
   if (auto const* command = std::get_if<mavlink::CommandLong>(&*message))
     return obey(command->command, command->params, frame.source);
   if (auto const* command = std::get_if<mavlink::CommandInt>(&*message))

@@ -84,7 +84,7 @@ class TestAutopilot {
   bool is_flying = false;
   std::vector<mavlink::MissionItem> mission;
   std::uint16_t current_item = 0;
-  std::vector<mavlink::Message> heard;  ///< from the ground, heartbeats excepted
+  std::vector<mavlink::Message> heard;  ///< from the ground; heartbeats and questions who it is excepted
   [[nodiscard]] int commands_heard(mavlink::MavCmd command) const;
   [[nodiscard]] std::vector<std::uint32_t> modes_commanded() const;
   [[nodiscard]] std::vector<mavlink::MessageId> messages_asked_for() const;

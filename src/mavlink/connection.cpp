@@ -54,24 +54,26 @@ base::Task<void> Connection::beat() {
 
 /// Measures links and tells one vehicle on two of them from two vehicles.
 base::Task<void> Connection::watch() {
-  for (;;) {
+  for (unsigned turn = 0;; ++turn) {
     co_await loop_.sleep(watch_period);
     for (auto const id : routes_->examine(loop_.now()))
       if (auto const both = conflict(id))
         log_.warn(fmt::format(
             "two vehicles use system id {}: {} and {}; commands to them are refused until one is switched off", id,
             both->first, both->second));
-    if (options_.timesync_period > base::Duration{}) ask_who_they_are();
+    if (options_.timesync_period > base::Duration{}) ask_who_they_are(turn % 10 == 0);
   }
 }
 
-void Connection::ask_who_they_are() {
+/// Those of a known conflict seldom: that lasts until somebody mends it.
+void Connection::ask_who_they_are(bool with_conflicts) {
   auto const now = loop_.now();
-  for (auto const& peer : routes_->ask_clocks(options_.timesync_period, now)) {
-    auto frame = encode(Timesync{.tc1 = {}, .ts1 = now.time_since_epoch()}, options_.self, 0);
+  auto const suspects = routes_->suspects(with_conflicts, now);
+  for (auto const& [peer, asked] : routes_->ask_clocks(suspects, options_.timesync_period, now)) {
+    auto frame = encode(Timesync{.tc1 = {}, .ts1 = asked.time_since_epoch()}, options_.self, 0);
     send_frame(peer, frame);
   }
-  for (auto const& [system_id, peer, knows_hardware] : routes_->suspects(now)) {
+  for (auto const& [system_id, peer, knows_hardware] : suspects) {
     for (auto const wanted : {MessageId::autopilot_version, MessageId::global_position_int}) {
       if (knows_hardware && wanted == MessageId::autopilot_version) continue;
       CommandLong const request{.target = {system_id, autopilot_component},

@@ -146,7 +146,7 @@ class Connection {
   [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
   base::Task<void> beat();
   base::Task<void> watch();
-  void ask_who_they_are();
+  void ask_who_they_are(bool with_conflicts);
   [[nodiscard]] std::string describe(PeerRef peer) const;
 
   base::Loop& loop_;

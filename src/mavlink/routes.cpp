@@ -113,7 +113,8 @@ void Routes::identify(PeerRef peer, Address source, Message const& message, base
   if (answer && answer->tc1 != base::Duration{}) {
     auto const& asked = peers_[peer].asked;
     if (std::ranges::find(asked, base::TimePoint(answer->ts1)) == asked.end()) return;
-    if (auto* path = sources_[source].find(peer)) path->meter.answered(now - base::TimePoint(answer->ts1));
+    auto const round_trip = std::max(now - base::TimePoint(answer->ts1), base::Duration{});
+    if (auto* path = sources_[source].find(peer)) path->meter.answered(round_trip);
     if (claim) claim->fingerprint.take(*answer, now);
   }
   if (!claim) return;
@@ -141,30 +142,29 @@ std::vector<std::uint8_t> Routes::examine(base::TimePoint now) {
   return conflicts;
 }
 
-std::vector<PeerRef> Routes::ask_clocks(base::Duration period, base::TimePoint now) {
-  std::vector<PeerRef> open;
-  for (auto const& suspect : suspects(now)) open.push_back(suspect.peer);
-  std::vector<PeerRef> due;
+std::vector<Routes::ClockQuestion> Routes::ask_clocks(std::vector<Suspect> const& suspects, base::Duration period,
+                                                      base::TimePoint now) {
+  std::vector<ClockQuestion> due;
   for (auto& [peer, state] : peers_) {
     if (!state.leads_to_autopilot || now - state.heard > forget_after) continue;
     auto const last = state.asks == 0 ? base::TimePoint::min() : state.asked[(state.asks - 1) % state.asked.size()];
     bool const is_due = state.asks == 0 || now - last >= period;
-    if (!is_due && std::ranges::find(open, peer) == open.end()) continue;
-    state.asked[state.asks++ % state.asked.size()] = now;
-    due.push_back(peer);
+    if (!is_due && std::ranges::find(suspects, peer, &Suspect::peer) == suspects.end()) continue;
+    due.push_back({peer, now + base::Duration(due.size())});
+    state.asked[state.asks++ % state.asked.size()] = due.back().asked;
   }
   for (auto& [address, source] : sources_) {
     if (address.component != autopilot_component) continue;
     for (auto& path : source.paths)
-      if (std::ranges::binary_search(due, path.peer)) path.meter.asked();
+      if (std::ranges::binary_search(due, path.peer, {}, &ClockQuestion::peer)) path.meter.asked();
   }
   return due;
 }
 
-std::vector<Routes::Suspect> Routes::suspects(base::TimePoint now) const {
+std::vector<Routes::Suspect> Routes::suspects(bool with_conflicts, base::TimePoint now) const {
   std::vector<Suspect> suspects;
   for (auto const& [id, system] : systems_) {
-    if (!system.claims.is_contested(now)) continue;
+    if (!system.claims.is_contested(now) || (!with_conflicts && system.claims.conflict(now))) continue;
     for (auto const& peer : system.claims.alive(now))
       suspects.push_back({id, peer, system.claims.find(peer)->fingerprint.hardware.has_value()});
   }

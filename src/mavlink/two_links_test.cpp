@@ -284,12 +284,12 @@ TEST(LinkReport, TellsRatesLossesAndRoundTripsOfEachSource) {
   EXPECT_GT(wifi.bytes_per_s, 10 * 15.0);
   EXPECT_EQ(wifi.loss, 0.0);
   EXPECT_EQ(wifi.counters.lost, 0u);
-  EXPECT_EQ(wifi.round_trip, 20ms);
+  EXPECT_NEAR(base::to_seconds(*wifi.round_trip), 0.020, 1e-6);
   EXPECT_TRUE(wifi.is_alive);
   EXPECT_TRUE(wifi.is_route);
   EXPECT_LE(wifi.age, 100ms);
   EXPECT_NEAR(radio.loss, 0.25, 0.12);
-  EXPECT_EQ(radio.round_trip, 400ms);
+  EXPECT_NEAR(base::to_seconds(*radio.round_trip), 0.400, 1e-6);
   EXPECT_FALSE(radio.is_route);
   EXPECT_GT(radio.counters.redundant, 150u);
   EXPECT_EQ(report[1].counters.lost, radio.counters.lost);

@@ -118,6 +118,22 @@ Json to_json(vehicle::Pictures const& pictures) {
   return {{"taken", pictures.taken}, {"lost", pictures.lost}};
 }
 
+/// Rounded so that what hardly changes is not sent again and again.
+Json to_json(std::vector<vehicle::LinkQuality> const& links) {
+  Json list = Json::array();
+  for (auto const& link : links) {
+    Json json{{"name", link.name},
+              {"loss", rounded(link.loss, 2)},
+              {"messages_per_s", rounded(link.messages_per_s, 0)},
+              {"bytes_per_s", rounded(link.bytes_per_s, -1)},
+              {"alive", link.is_alive},
+              {"used", link.is_used}};
+    if (link.round_trip) json["round_trip_s"] = rounded(base::to_seconds(*link.round_trip), 2);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 void add_texts(Fields& fields, char const* key, std::vector<vehicle::StatusText> const& texts) {
   if (texts.empty()) return;
   Json list = Json::array();
@@ -170,6 +186,7 @@ void add_identity(Fields& fields, VehicleState const& state) {
   fields["autopilot"] = {vehicle::to_string(state.autopilot), {}};
   fields["connection"] = {vehicle::to_string(state.connection), {}};
   fields["link"] = {state.link, {}};
+  if (!state.links.empty()) fields["links"] = {to_json(state.links), {}};
   fields["payload"] = {state.payload, {}};
   fields["track_m"] = {rounded(state.track_m, 1), {}};
   fields["heartbeat"] = {true, state.heartbeat_heard};  // its age is the link's age

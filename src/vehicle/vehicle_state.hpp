@@ -132,6 +132,19 @@ struct Health {
   bool prearm_ok = false;
 };
 
+/// One of the links on which a vehicle is heard, over the last 10 s.
+struct LinkQuality {
+  std::string name;   ///< URL and far end
+  double loss = 0.0;  ///< 0..1
+  double messages_per_s = 0.0;
+  double bytes_per_s = 0.0;
+  std::optional<base::Duration> round_trip;  ///< nothing until it has been measured
+  bool is_alive = false;
+  bool is_used = false;  ///< commands go over it
+
+  friend bool operator==(LinkQuality const&, LinkQuality const&) = default;
+};
+
 /// Everything known about one vehicle. A value: copy it to keep a moment.
 struct VehicleState {
   VehicleId id;
@@ -140,7 +153,8 @@ struct VehicleState {
   Family family = Family::unknown;
   Autopilot autopilot = Autopilot::other;
   Connection connection = Connection::ok;
-  std::string link;  ///< URL of the link it was last heard on, with its peer
+  std::string link;  ///< URL of the link over which it is commanded, with its peer
+  std::vector<LinkQuality> links;
   base::TimePoint heartbeat_heard{};
 
   Aged<std::string> mode;  ///< the autopilot's own name, "AUTO"

@@ -1,6 +1,7 @@
 """A copter whose protocol side is pymavlink: small, strict about what it is told, and broken on request. Not a test itself."""
 
 import dataclasses
+import itertools
 import select
 
 from pymavlink import mavutil
@@ -29,6 +30,9 @@ class Faults:
     battery: int = 88  # percent; -1: not known
 
 
+HARDWARE = itertools.count(1)
+
+
 class Copter:
     """Teleports along its mission, one leg every `leg_time` seconds of its own time, which passes `speedup` times faster."""
 
@@ -36,7 +40,7 @@ class Copter:
         self.port, self.system_id, self.speedup, self.leg_time = port, system_id, speedup, leg_time
         self.faults = Faults()
         self.items, self.uploads, self.heard, self.problems, self.ground_heartbeats = [], 0, [], [], []
-        self.link = None
+        self.link, self.hardware = None, next(HARDWARE)
         self.power_on(0.0)
 
     def power_on(self, now: float):
@@ -83,6 +87,10 @@ class Copter:
                 break
             if not self.faults.silent:
                 self.receive(message, now)
+        self.live(now)
+
+    def live(self, now: float):
+        """What it does by itself."""
         if self.next_request is not None and now >= self.next_request:
             self.ask(now)
         if now >= self.next_beat:
@@ -156,6 +164,8 @@ class Copter:
             if (message.type, message.autopilot) != (mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID):
                 self.problems.append(f"ground heartbeat {message}")
             return
+        if self.tells_who_it_is(kind, message, now):
+            return
         self.heard.append(message)
         if getattr(message, "target_system", self.system_id) not in (0, self.system_id):
             self.problems.append(f"{kind} for system {message.target_system}")
@@ -165,6 +175,20 @@ class Copter:
             self.pilot_sets_mode(message.custom_mode)
         elif kind.startswith("MISSION_"):
             self.mission_message(kind, message, now)
+
+    def tells_who_it_is(self, kind: str, message, now: float) -> bool:
+        """Answers what the ground asks to know links and vehicles apart."""
+        if kind == "TIMESYNC":
+            if message.tc1 == 0:
+                self.mav.timesync_send(round((now - self.booted) * 1e9) + 1, message.ts1)
+            return True
+        if kind != "COMMAND_LONG" or message.command != mavlink.MAV_CMD_REQUEST_MESSAGE:
+            return False
+        if message.param1 == mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION:
+            self.mav.autopilot_version_send(0, 0, 0, 0, 0, [0] * 8, [0] * 8, [0] * 8, 0, 0, self.hardware)
+        else:
+            self.send_telemetry(int(message.param1), now)
+        return True
 
     def command(self, message):
         result = mavlink.MAV_RESULT_ACCEPTED

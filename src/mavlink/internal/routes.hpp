@@ -55,16 +55,20 @@ class Routes {
 
   /// Compares, chooses, forgets; call twice a second. Systems whose conflict is new.
   std::vector<std::uint8_t> examine(base::TimePoint now);
-  /// Far ends to send TIMESYNC to: all that lead to an autopilot and were not asked for `period`, and those of
-  /// autopilots of which it is open whether they are one.
-  std::vector<PeerRef> ask_clocks(base::Duration period, base::TimePoint now);
   struct Suspect {
     std::uint8_t system_id = 0;
     PeerRef peer;
     bool knows_hardware = false;
   };
-  /// Whom to ask who they are.
-  [[nodiscard]] std::vector<Suspect> suspects(base::TimePoint now) const;
+  /// Whom to ask who they are; those of a known conflict only if told to.
+  [[nodiscard]] std::vector<Suspect> suspects(bool with_conflicts, base::TimePoint now) const;
+  /// Far ends to send TIMESYNC to: all that lead to an autopilot and were not asked for `period`, and the suspects.
+  struct ClockQuestion {
+    PeerRef peer;
+    base::TimePoint asked;  ///< for ts1: its own for each far end, so that a router's copy of an answer is known as one
+  };
+  std::vector<ClockQuestion> ask_clocks(std::vector<Suspect> const& suspects, base::Duration period,
+                                        base::TimePoint now);
 
   /// Where to send for `target`, best first: to its component, else to the system's autopilot, else to whoever of the
   /// system spoke last.

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { age, clock, heading, latitude, longitude, metres, percent, speed } from './format';
+import { age, clock, heading, latitude, linkSummary, linkTitle, longitude, metres, percent, speed } from './format';
 
 describe('format', () => {
   it('shows what is unknown as a dash, never as 0', () => {
@@ -15,6 +15,15 @@ describe('format', () => {
   });
   it('shows ages in the unit that fits', () => {
     expect([age(0.42), age(12.3), age(119), age(300), age(7300)]).toEqual(['0.4 s', '12 s', '119 s', '5 min', '2 h']);
+  });
+  it('shows the link that is used, and how many live', () => {
+    const wifi = { name: 'wifi', loss: 0.024, messages_per_s: 20, bytes_per_s: 900, round_trip_s: 0.12, alive: true, used: true };
+    const radio = { name: 'radio', loss: 0, messages_per_s: 0, bytes_per_s: 0, alive: false, used: false };
+    expect(linkSummary([wifi])).toBe('2 % lost, 120 ms');
+    expect(linkSummary([radio, wifi])).toBe('2 % lost, 120 ms, 1 of 2 links');
+    expect(linkSummary([radio])).toBe('');
+    expect(linkSummary(undefined)).toBe('');
+    expect(linkTitle([wifi, radio])).toBe('wifi: 2 % lost, 20 messages/s (commands go here)\nradio: silent');
   });
   it('shows headings with three digits', () => {
     expect([heading(0), heading(Math.PI / 2), heading(-0.1), heading(6.28318)]).toEqual(['000°', '090°', '354°', '000°']);

@@ -1,3 +1,5 @@
+import type { LinkQuality } from './protocol';
+
 /** Numbers for people. What is not known is an en dash, never 0. */
 const UNKNOWN = '–';
 
@@ -21,6 +23,26 @@ export function age(seconds: number | undefined): string {
   if (seconds < 120) return `${Math.round(seconds)} s`;
   if (seconds < 7200) return `${Math.floor(seconds / 60)} min`;
   return `${Math.floor(seconds / 3600)} h`;
+}
+
+/** The link that is used, in short: "2 % lost, 120 ms"; with several links how many are alive. */
+export function linkSummary(links: LinkQuality[] | undefined): string {
+  const used = links?.find((link) => link.used);
+  if (!links || !used) return '';
+  const parts = [`${percent(used.loss)} lost`];
+  if (used.round_trip_s !== undefined) parts.push(`${Math.round(used.round_trip_s * 1000)} ms`);
+  if (links.length > 1) parts.push(`${links.filter((link) => link.alive).length} of ${links.length} links`);
+  return parts.join(', ');
+}
+
+/** Every link on a line of its own. */
+export function linkTitle(links: LinkQuality[] | undefined): string | undefined {
+  return links
+    ?.map((link) => {
+      const state = link.alive ? `${percent(link.loss)} lost, ${link.messages_per_s} messages/s` : 'silent';
+      return `${link.name}: ${state}${link.used ? ' (commands go here)' : ''}`;
+    })
+    .join('\n');
 }
 
 export function heading(radians: number | undefined): string {

@@ -11,6 +11,17 @@ export interface Position {
 export type Family = 'copter' | 'plane' | 'vtol' | 'rover' | 'boat' | 'sub' | 'unknown';
 export type Link = 'ok' | 'lost' | 'conflict';
 
+/** One of the links on which a vehicle is heard, over the last 10 s. */
+export interface LinkQuality {
+  name: string;
+  loss: number;
+  messages_per_s: number;
+  bytes_per_s: number;
+  round_trip_s?: number;
+  alive: boolean;
+  used: boolean;
+}
+
 /** What may be known about a vehicle; a key that is missing was never heard. */
 export interface VehicleFields {
   system_id?: number;
@@ -19,6 +30,7 @@ export interface VehicleFields {
   autopilot?: string;
   connection?: Link;
   link?: string;
+  links?: LinkQuality[];
   payload?: string[];
   track_m?: number;
   heartbeat?: true;
