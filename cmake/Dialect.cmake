@@ -15,7 +15,8 @@ add_custom_command(
 # Names of messages, fields and enumerations, for messages that people write by hand.
 set(DIALECT_TABLES ${DIALECT_DIR}/tables)
 set(DIALECT_TABLE_FILES
-  ${DIALECT_TABLES}/dialect_messages.inc ${DIALECT_TABLES}/dialect_fields.inc ${DIALECT_TABLES}/dialect_names.inc)
+  ${DIALECT_TABLES}/dialect_messages.inc ${DIALECT_TABLES}/dialect_fields.inc ${DIALECT_TABLES}/dialect_names.inc
+  ${DIALECT_TABLES}/dialect_instances.inc)
 add_custom_command(
   OUTPUT ${DIALECT_TABLE_FILES}
   COMMAND ${LAPWING_PYTHON} ${CMAKE_SOURCE_DIR}/cmake/generate_message_tables.py ardupilotmega ${DIALECT_TABLES}

@@ -3,7 +3,8 @@
 usage: generate_message_tables.py DIALECT OUT_DIR
 
 Writes OUT_DIR/dialect_messages.inc, dialect_fields.inc and dialect_names.inc, which src/mavlink/dialect_names.cpp includes.
-Rows are sorted by name, fields by message and place on the wire.
+Rows are sorted by name, fields by message and place on the wire. Also dialect_instances.inc for src/mavlink/message_table.cpp: of
+messages about one of several things, the place of the field that says which.
 """
 
 import pathlib
@@ -14,6 +15,17 @@ from pymavlink.generator import mavparse
 
 FOLDER = pathlib.Path(pymavlink.__file__).parent / "dialects" / "v20"
 
+# Fields that say which of several things a message is about, where the XML does not mark them (instance="true").
+UNMARKED_INSTANCES = {
+    "ADSB_VEHICLE": "ICAO_address",
+    "AIS_VESSEL": "MMSI",
+    "COLLISION": "id",
+    "ESC_INFO": "index",
+    "ESC_STATUS": "index",
+    "RC_CHANNELS_RAW": "port",
+    "RC_CHANNELS_SCALED": "port",
+}
+
 
 def dialect_with_includes(name: str, seen: dict[str, mavparse.MAVXML]) -> None:
     if name in seen:
@@ -22,6 +34,13 @@ def dialect_with_includes(name: str, seen: dict[str, mavparse.MAVXML]) -> None:
     seen[name] = parsed
     for included in parsed.include:
         dialect_with_includes(included, seen)
+
+
+def instance_row(message) -> str | None:
+    for field in message.ordered_fields:
+        if field.instance or UNMARKED_INSTANCES.get(message.name) == field.name:
+            return f"{{{message.id}, {field.wire_offset}, {field.wire_length}}},"
+    return None
 
 
 def main() -> int:
@@ -42,8 +61,10 @@ def main() -> int:
             field_rows.append(f'{{"{field.name}", WireType::{kind}_, {field.wire_offset}, {length}}},')
     name_rows = [f'{{"{name}", {names[name]}}},' for name in sorted(names) if not name.endswith("_ENUM_END")]
 
+    instance_rows = [row for row in map(instance_row, messages.values()) if row]
+
     out.mkdir(parents=True, exist_ok=True)
-    for file, rows in (("messages", message_rows), ("fields", field_rows), ("names", name_rows)):
+    for file, rows in (("messages", message_rows), ("fields", field_rows), ("names", name_rows), ("instances", instance_rows)):
         (out / f"dialect_{file}.inc").write_text("\n".join(rows) + "\n")
     return 0
 

@@ -123,7 +123,7 @@ bool FrameParser::next() {
     sealed_ -= std::min(sealed_, used);
     if (step == Step::frame) {
       ++counters_.frames;
-      if (!find_traits(frame_.message_id)) ++counters_.unknown_ids;
+      if (!view_.traits) ++counters_.unknown_ids;
       return true;
     }
     if (step == Step::bad_checksum) ++counters_.crc_errors;
@@ -161,20 +161,32 @@ FrameParser::Step FrameParser::parse_at(std::span<std::uint8_t const> at, std::s
   auto const id = v2 ? little_endian_24(&at[7]) : at[5];
   auto const checksum = static_cast<std::uint16_t>(at[checksum_at] | at[checksum_at + 1] << 8U);
   auto const sum = crc_accumulate(at.subspan(1, checksum_at - 1));
-  if (!checksum_fits(checksum, sum, find_traits(id))) return Step::bad_checksum;
+  auto const* traits = find_traits(id);
+  if (!checksum_fits(checksum, sum, traits)) return Step::bad_checksum;
 
-  frame_.version = v2 ? 2 : 1;
-  frame_.incompat_flags = v2 ? at[2] : std::uint8_t{0};
-  frame_.compat_flags = v2 ? at[3] : std::uint8_t{0};
-  frame_.seq = at[header - (v2 ? 6U : 4U)];
-  frame_.source = {at[header - (v2 ? 5U : 3U)], at[header - (v2 ? 4U : 2U)]};
-  frame_.message_id = id;
-  frame_.checksum = checksum;
-  take_payload(at.subspan(header, at[1]));
-  if (is_signed)
-    std::ranges::copy(at.subspan(total - frame_.signature.size(), frame_.signature.size()), frame_.signature.begin());
+  view_ = {.bytes = at.first(total),
+           .payload = at.subspan(header, at[1]),
+           .message_id = id,
+           .checksum = checksum,
+           .version = static_cast<std::uint8_t>(v2 ? 2 : 1),
+           .seq = at[header - (v2 ? 6U : 4U)],
+           .source = {at[header - (v2 ? 5U : 3U)], at[header - (v2 ? 4U : 2U)]},
+           .traits = traits};
   used = total;
   return Step::frame;
+}
+
+void FrameParser::unpack(FrameView const& view) {
+  bool const v2 = view.version == 2;
+  frame_.version = view.version;
+  frame_.incompat_flags = v2 ? view.bytes[2] : std::uint8_t{0};
+  frame_.compat_flags = v2 ? view.bytes[3] : std::uint8_t{0};
+  frame_.seq = view.seq;
+  frame_.source = view.source;
+  frame_.message_id = view.message_id;
+  frame_.checksum = view.checksum;
+  take_payload(view.payload);
+  if (frame_.is_signed()) std::ranges::copy(view.bytes.last(frame_.signature.size()), frame_.signature.begin());
 }
 
 /// Behind `payload_size` the frame's payload is always zero, so only what the last frame left there is cleared.

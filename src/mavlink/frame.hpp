@@ -29,15 +29,42 @@ struct Frame {
 
 inline constexpr std::size_t max_frame_size = 280;
 
+/// Of MessageTraits: the message has no such field.
+inline constexpr std::uint8_t no_field = 255;
+
 /// What the protocol's tables say about a message id.
 struct MessageTraits {
   std::uint32_t id = 0;
   std::uint8_t crc_extra = 0;
   std::uint8_t min_size = 0;  ///< payload bytes without extension fields
   std::uint8_t max_size = 0;
+  std::uint8_t target_system_at = no_field;  ///< where in the payload
+  std::uint8_t target_component_at = no_field;
+  std::uint8_t instance_at = no_field;  ///< of the field that tells apart which battery, motor, name ... it is about
+  std::uint8_t instance_size = 0;
 };
 /// Null for an id that is not in the dialect.
 [[nodiscard]] MessageTraits const* find_traits(std::uint32_t message_id);
+
+/// A packet where it lies in a buffer, for those who pass it on as it is. Borrowed: lives as long as the buffer.
+struct FrameView {
+  std::span<std::uint8_t const> bytes = {};    ///< all of it, signature included
+  std::span<std::uint8_t const> payload = {};  ///< as it travelled: zeros at the end may be missing
+  std::uint32_t message_id = 0;
+  std::uint16_t checksum = 0;
+  std::uint8_t version = 2;
+  std::uint8_t seq = 0;
+  Address source{};
+  MessageTraits const* traits = nullptr;  ///< null: the dialect lacks the message
+
+  /// 0 for a byte that was trimmed, or that no field has.
+  [[nodiscard]] std::uint8_t payload_byte(std::size_t at) const { return at < payload.size() ? payload[at] : 0; }
+  /// Whom it is for; 0 stands for all, as it does where nobody can tell.
+  [[nodiscard]] Address target() const {
+    if (!traits) return {};
+    return {payload_byte(traits->target_system_at), payload_byte(traits->target_component_at)};
+  }
+};
 
 /// CRC-16/MCRF4XX ("X.25" in MAVLink's words) of `bytes`, going on from `crc`.
 [[nodiscard]] std::uint16_t crc_accumulate(std::span<std::uint8_t const> bytes, std::uint16_t crc = 0xFFFF);
@@ -75,8 +102,16 @@ class FrameParser {
   /// ids.
   template <class Take>
   void feed(std::span<std::uint8_t const> bytes, Take&& take) {
+    feed_views(bytes, [&](FrameView const& view) {
+      unpack(view);
+      take(static_cast<Frame const&>(frame_));
+    });
+  }
+  /// The same without unpacking: `take(FrameView const&)`.
+  template <class Take>
+  void feed_views(std::span<std::uint8_t const> bytes, Take&& take) {
     begin(bytes);
-    while (next()) take(static_cast<Frame const&>(frame_));
+    while (next()) take(static_cast<FrameView const&>(view_));
     keep_rest();
   }
   [[nodiscard]] ParserCounters const& counters() const { return counters_; }
@@ -87,8 +122,10 @@ class FrameParser {
   bool next();
   void keep_rest();
   Step parse_at(std::span<std::uint8_t const> at, std::size_t& used);
+  void unpack(FrameView const& view);
   void take_payload(std::span<std::uint8_t const> payload);
 
+  FrameView view_;
   Frame frame_;
   std::span<std::uint8_t const> input_;  ///< what this call still has to look at
   std::size_t sealed_ = 0;               ///< bytes of `input_` that no frame may reach beyond

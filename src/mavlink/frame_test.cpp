@@ -199,5 +199,62 @@ TEST(Serialize, TrimsZerosButNeverTheFirstByte) {
   EXPECT_EQ(bytes[1], 1);
 }
 
+TEST(FrameParser, ShowsPacketsWhereTheyLie) {
+  auto const data = joined({text("boot"), heartbeat, position_v1, signed_heartbeat});
+  std::vector<Data> packets;
+  FrameParser parser;
+  parser.feed_views(data, [&](FrameView const& view) {
+    packets.emplace_back(view.bytes.begin(), view.bytes.end());
+    EXPECT_GE(view.bytes.data(), data.data()) << "nothing is copied when a packet came in one piece";
+    EXPECT_LE(view.bytes.data() + view.bytes.size(), data.data() + data.size());
+  });
+  EXPECT_EQ(packets, (std::vector{heartbeat, position_v1, signed_heartbeat}));
+}
+
+TEST(FrameParser, ShowsPacketsThatCameInPieces) {
+  auto const data = joined({heartbeat, signed_heartbeat});
+  std::vector<Data> packets;
+  FrameParser parser;
+  for (auto const byte : data) {
+    parser.feed_views(std::span(&byte, 1),
+                      [&](FrameView const& view) { packets.emplace_back(view.bytes.begin(), view.bytes.end()); });
+  }
+  EXPECT_EQ(packets, (std::vector{heartbeat, signed_heartbeat}));
+}
+
+TEST(FrameView, TellsWhomAMessageIsFor) {
+  FrameParser parser;
+  std::vector<Address> targets;
+  // MISSION_COUNT names its addressee, the others are for all.
+  parser.feed_views(joined({heartbeat, position_v1, count_v1}),
+                    [&](FrameView const& view) { targets.push_back(view.target()); });
+  EXPECT_EQ(targets, (std::vector<Address>{{0, 0}, {0, 0}, {1, 1}}));
+}
+
+TEST(FrameView, TakesAnUnknownMessageAndATrimmedTargetForOneToAll) {
+  FrameView const unknown{.payload = count_v1};
+  EXPECT_EQ(unknown.target(), (Address{0, 0}));
+  MessageTraits const* request = find_traits(43);  // MISSION_REQUEST_LIST
+  ASSERT_NE(request, nullptr);
+  std::uint8_t const system_only[] = {7};
+  FrameView const trimmed{.payload = system_only, .traits = request};
+  EXPECT_EQ(trimmed.target(), (Address{7, 0}));
+}
+
+TEST(MessageTraits, KnowsWhichFieldTellsInstancesApart) {
+  MessageTraits const* battery = find_traits(147);  // BATTERY_STATUS: id, behind its longer fields
+  ASSERT_NE(battery, nullptr);
+  EXPECT_EQ(battery->instance_at, 32);
+  EXPECT_EQ(battery->instance_size, 1);
+  MessageTraits const* value = find_traits(251);  // NAMED_VALUE_FLOAT: its name
+  ASSERT_NE(value, nullptr);
+  EXPECT_EQ(value->instance_at, 8);
+  EXPECT_EQ(value->instance_size, 10);
+  MessageTraits const* traffic = find_traits(246);  // ADSB_VEHICLE: the aircraft's address
+  ASSERT_NE(traffic, nullptr);
+  EXPECT_EQ(traffic->instance_size, 4);
+  EXPECT_EQ(find_traits(0)->instance_at, no_field);
+}
+
 }  // namespace
 }  // namespace lapwing::mavlink

@@ -16,22 +16,42 @@ namespace {
 
 auto constexpr& entries = ::mavlink::ardupilotmega::MESSAGE_ENTRIES;
 
+struct InstanceRow {
+  std::uint32_t id;
+  std::uint8_t offset;  ///< in the payload
+  std::uint8_t size;
+};
+InstanceRow constexpr instances[] = {
+#include <tables/dialect_instances.inc>
+};
+
+MessageTraits constexpr traits_of(::mavlink::mavlink_msg_entry_t const& entry) {
+  MessageTraits traits{entry.msgid, entry.crc_extra, entry.min_msg_len, entry.max_msg_len};
+  if ((entry.flags & MAV_MSG_ENTRY_FLAG_HAVE_TARGET_SYSTEM) != 0) traits.target_system_at = entry.target_system_ofs;
+  if ((entry.flags & MAV_MSG_ENTRY_FLAG_HAVE_TARGET_COMPONENT) != 0)
+    traits.target_component_at = entry.target_component_ofs;
+  for (auto const& instance : instances) {
+    if (instance.id != entry.msgid) continue;
+    traits.instance_at = instance.offset;
+    traits.instance_size = instance.size;
+  }
+  return traits;
+}
+
 template <class Wire>
-auto constexpr traits_of = MessageTraits{Wire::MSG_ID, Wire::CRC_EXTRA, Wire::MIN_LENGTH, Wire::LENGTH};
+MessageTraits constexpr untargeted{Wire::MSG_ID, Wire::CRC_EXTRA, Wire::MIN_LENGTH, Wire::LENGTH};
 
 /// Messages of the development dialect that ArduPilot and PX4 send already.
 namespace development = ::mavlink::development::msg;
 auto constexpr early = std::to_array<MessageTraits>({
-    traits_of<development::AVAILABLE_MODES>,
-    traits_of<development::CURRENT_MODE>,
-    traits_of<development::AVAILABLE_MODES_MONITOR>,
+    untargeted<development::AVAILABLE_MODES>,
+    untargeted<development::CURRENT_MODE>,
+    untargeted<development::AVAILABLE_MODES_MONITOR>,
 });
 
 auto constexpr make_table() {
   std::array<MessageTraits, entries.size() + early.size()> table{};
-  auto const rest = std::ranges::transform(entries, table.begin(), [](auto const& entry) {
-    return MessageTraits{entry.msgid, entry.crc_extra, entry.min_msg_len, entry.max_msg_len};
-  });
+  auto const rest = std::ranges::transform(entries, table.begin(), traits_of);
   std::ranges::copy(early, rest.out);
   std::ranges::sort(table, {}, &MessageTraits::id);
   return table;
