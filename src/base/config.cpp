@@ -111,6 +111,22 @@ std::optional<Placed<std::int64_t>> ConfigReader::integer(std::string_view key, 
   return Placed{*value, entry->value.span};
 }
 
+std::optional<Placed<double>> ConfigReader::number(std::string_view key, double low, double high) {
+  auto const* entry = find(key);
+  if (!entry) return std::nullopt;
+  auto const* whole = std::get_if<std::int64_t>(&entry->value.content);
+  auto const* real = std::get_if<double>(&entry->value.content);
+  if (!whole && !real) {
+    wrong_type(*entry, "a number");
+    return std::nullopt;
+  }
+  auto const value = real ? *real : static_cast<double>(*whole);
+  if (value >= low && value <= high) return Placed{value, entry->value.span};
+  diagnostics_.report(config_kinds::invalid_value, entry->value.span,
+                      fmt::format("{} must be from {} to {}", key, low, high));
+  return std::nullopt;
+}
+
 std::optional<Placed<std::string>> ConfigReader::text(std::string_view key) {
   auto const* entry = find(key);
   if (!entry) return std::nullopt;
@@ -140,6 +156,27 @@ std::optional<std::vector<Placed<std::string>>> ConfigReader::texts(std::string_
   return texts;
 }
 
+std::vector<Placed<std::int64_t>> ConfigReader::integers(std::string_view key, std::int64_t low, std::int64_t high) {
+  auto const* entry = find(key);
+  if (!entry) return {};
+  auto const* elements = std::get_if<ConfigValue::Array>(&entry->value.content);
+  if (!elements) {
+    wrong_type(*entry, "an array of whole numbers");
+    return {};
+  }
+  std::vector<Placed<std::int64_t>> values;
+  for (auto const& element : *elements) {
+    auto const* value = std::get_if<std::int64_t>(&element.content);
+    if (value && *value >= low && *value <= high) {
+      values.push_back({*value, element.span});
+    } else {
+      diagnostics_.report(value ? config_kinds::invalid_value : config_kinds::wrong_type, element.span,
+                          fmt::format("every element of {} must be a whole number from {} to {}", key, low, high));
+    }
+  }
+  return values;
+}
+
 std::optional<ConfigReader> ConfigReader::table(std::string_view key) {
   auto const* entry = find(key);
   if (!entry) return std::nullopt;
@@ -148,6 +185,28 @@ std::optional<ConfigReader> ConfigReader::table(std::string_view key) {
   }
   wrong_type(*entry, fmt::format("a table: [{}]", key));
   return std::nullopt;
+}
+
+std::vector<Placed<ConfigReader>> ConfigReader::tables(std::string_view key) {
+  auto const* entry = find(key);
+  if (!entry) return {};
+  std::vector<Placed<ConfigReader>> readers;
+  auto const* elements = std::get_if<ConfigValue::Array>(&entry->value.content);
+  bool all_are = elements != nullptr;
+  if (elements) {
+    for (auto const& element : *elements) {
+      if (auto const* table = std::get_if<ConfigValue::Table>(&element.content))
+        readers.push_back({ConfigReader(*table, diagnostics_), element.span});
+      else
+        all_are = false;
+    }
+  }
+  if (!all_are) wrong_type(*entry, fmt::format("written as [[{}]]", key));
+  return readers;
+}
+
+bool ConfigReader::has(std::string_view key) const {
+  return std::ranges::find(table_, key, &ConfigEntry::key) != table_.end();
 }
 
 void ConfigReader::refuse(std::string_view key, std::string_view advice) {

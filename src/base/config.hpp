@@ -57,14 +57,23 @@ struct Placed {
 class ConfigReader {
  public:
   ConfigReader(ConfigValue::Table const& table, Diagnostics& diagnostics) : table_(table), diagnostics_(diagnostics) {}
+  [[nodiscard]] Diagnostics& diagnostics() const { return diagnostics_; }
 
   [[nodiscard]] std::optional<Placed<bool>> flag(std::string_view key);
   [[nodiscard]] std::optional<Placed<std::int64_t>> integer(std::string_view key, std::int64_t low, std::int64_t high);
+  /// Whole numbers are numbers, too.
+  [[nodiscard]] std::optional<Placed<double>> number(std::string_view key, double low, double high);
   [[nodiscard]] std::optional<Placed<std::string>> text(std::string_view key);
   /// Every text of an array; elements of another type are reported and left out.
   [[nodiscard]] std::optional<std::vector<Placed<std::string>>> texts(std::string_view key);
+  /// Every whole number of an array; others are reported and left out.
+  [[nodiscard]] std::vector<Placed<std::int64_t>> integers(std::string_view key, std::int64_t low, std::int64_t high);
   [[nodiscard]] std::optional<ConfigReader> table(std::string_view key);
+  /// Every table of an array of them: [[key]] ... [[key]] ...
+  [[nodiscard]] std::vector<Placed<ConfigReader>> tables(std::string_view key);
 
+  /// Whether somebody wrote the key.
+  [[nodiscard]] bool has(std::string_view key) const;
   /// Reports the key, when somebody wrote it, with what to do instead.
   void refuse(std::string_view key, std::string_view advice);
   void refuse_unknown();

@@ -117,5 +117,47 @@ TEST(Config, RefusesAKeyThatStandsTwice) {
   EXPECT_EQ(config.diagnostics.error_count(), 1U);
 }
 
+TEST(Config, ReadsArraysOfTablesNumbersAndWholeNumbers) {
+  Config config("[[link]]\nrate = 2\nids = [1, 2]\n[[link]]\nrate = 2.5\n[link.in]\non = true\n");
+  ConfigReader reader(config.root, config.diagnostics);
+  auto links = reader.tables("link");
+  ASSERT_EQ(links.size(), 2U);
+  EXPECT_EQ(links[0].value.number("rate", 0.0, 10.0)->value, 2.0);
+  EXPECT_EQ(links[1].value.number("rate", 0.0, 10.0)->value, 2.5);
+  auto const ids = links[0].value.integers("ids", 0, 255);
+  ASSERT_EQ(ids.size(), 2U);
+  EXPECT_EQ(ids[1].value, 2);
+  EXPECT_TRUE(links[1].value.table("in")->flag("on")->value);
+  EXPECT_TRUE(links[1].value.integers("ids", 0, 255).empty());
+  EXPECT_TRUE(reader.tables("others").empty());
+  reader.refuse_unknown();
+  EXPECT_EQ(config.complaints(), "");
+}
+
+TEST(Config, ComplainsOfNumbersThatAreNone) {
+  Config config("rate = 'fast'\nspeed = 11\nids = [1, 300, 'x']\nsystems = 1\n");
+  ConfigReader reader(config.root, config.diagnostics);
+  EXPECT_FALSE(reader.number("rate", 0.0, 10.0));
+  EXPECT_FALSE(reader.number("speed", 0.0, 10.0));
+  EXPECT_EQ(reader.integers("ids", 0, 255).size(), 1U);
+  EXPECT_TRUE(reader.integers("systems", 0, 255).empty());
+  auto const complaints = config.complaints();
+  EXPECT_NE(complaints.find("rate must be a number, not text"), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("speed must be from 0 to 10"), std::string::npos) << complaints;
+  EXPECT_NE(complaints.find("f.toml:3:11: error: every element of ids must be a whole number from 0 to 255"),
+            std::string::npos)
+      << complaints;
+  EXPECT_NE(complaints.find("systems must be an array of whole numbers, not a whole number"), std::string::npos)
+      << complaints;
+}
+
+TEST(Config, ComplainsOfATableThatShouldBeMany) {
+  Config config("[link]\na = 1\n");
+  ConfigReader reader(config.root, config.diagnostics);
+  EXPECT_TRUE(reader.tables("link").empty());
+  EXPECT_NE(config.complaints().find("link must be written as [[link]], not a table"), std::string::npos)
+      << config.complaints();
+}
+
 }  // namespace
 }  // namespace lapwing::base

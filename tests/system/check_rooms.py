@@ -9,7 +9,7 @@ HOUSE = [
     {"apps"},
     {"station", "onboard", "sim", "dryrun"},
     {"lsp"},
-    {"dolphin", "fleet", "robot", "imm", "autonomy"},
+    {"dolphin", "fleet", "robot", "imm", "autonomy", "route"},
     {"tasks"},
     {"plan"},
     {"parameters"},

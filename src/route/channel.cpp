@@ -1,0 +1,88 @@
+#include "route/internal/channel.hpp"
+
+namespace lapwing::route::internal {
+
+namespace {
+
+/// Fits an Ethernet frame with IP and UDP heads, tunnels included.
+std::size_t constexpr largest_pack = 1400;
+
+bool is_stream(link::Transport transport) {
+  return transport == link::Transport::tcp_in || transport == link::Transport::tcp_out ||
+         transport == link::Transport::serial;
+}
+
+}  // namespace
+
+void add(mavlink::ParserCounters& sum, mavlink::ParserCounters const& more) {
+  sum.frames += more.frames;
+  sum.crc_errors += more.crc_errors;
+  sum.unknown_ids += more.unknown_ids;
+  sum.junk_bytes += more.junk_bytes;
+}
+
+Channel::Channel(ChannelId number, Endpoint& on, link::Peer far_end, bool standing, base::TimePoint now)
+    : id(number),
+      endpoint(on),
+      peer(far_end),
+      is_standing(standing),
+      heard(now),
+      shaper_(on.options.limits.any() ? std::make_unique<Shaper>(on.options.limits) : nullptr),
+      packs_(on.options.coalesces || is_stream(on.options.url.transport)) {
+  if (packs_) pack_.reserve(largest_pack);
+}
+
+void Channel::offer(mavlink::FrameView const& frame, base::TimePoint now) {
+  auto& out = endpoint.counters.out;
+  if (!endpoint.options.out.passes(frame)) {
+    ++out.filtered;
+    return;
+  }
+  if (!shaper_) return put(frame.bytes);
+  switch (shaper_->offer(frame, now)) {
+    case Shaper::Verdict::go: put(frame.bytes); break;
+    case Shaper::Verdict::waits: break;
+    case Shaper::Verdict::replaced: ++out.superseded; break;
+    case Shaper::Verdict::refused: ++out.overflowed; break;
+  }
+}
+
+void Channel::release(base::TimePoint now) {
+  if (!shaper_) return;
+  while (auto const frame = shaper_->release(now)) put(*frame);
+}
+
+base::TimePoint Channel::next_release(base::TimePoint now) const {
+  return shaper_ ? shaper_->next_release(now) : base::TimePoint::max();
+}
+
+void Channel::put(std::span<std::uint8_t const> frame) {
+  endpoint.is_dirty = true;
+  if (!packs_) return hand_over(frame, 1);
+  if (pack_.size() + frame.size() > largest_pack) flush();
+  pack_.insert(pack_.end(), frame.begin(), frame.end());
+  ++packed_frames_;
+}
+
+void Channel::flush() {
+  if (pack_.empty()) return;
+  hand_over(pack_, packed_frames_);
+  pack_.clear();
+  packed_frames_ = 0;
+}
+
+void Channel::hand_over(std::span<std::uint8_t const> bytes, std::uint64_t frames) {
+  auto& out = endpoint.counters.out;
+  if (!endpoint.link->queue(peer, bytes)) {
+    out.refused += frames;
+    return;
+  }
+  out.frames += frames;
+  out.bytes += bytes.size();
+}
+
+void Channel::abandon() {
+  endpoint.counters.out.abandoned += waiting() + packed_frames_;
+}
+
+}  // namespace lapwing::route::internal
