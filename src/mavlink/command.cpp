@@ -239,8 +239,4 @@ Command reposition(CommandPlace place) {
   return {MavCmd::do_reposition, {-1.0F, 1.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()}, place};
 }
 
-Command continue_mission(bool goes_on) {
-  return {MavCmd::do_pause_continue, {goes_on ? 1.0F : 0.0F}};
-}
-
 }  // namespace lapwing::mavlink

@@ -76,7 +76,5 @@ base::Task<base::Result<>> run_command(Connection& connection, Address target, C
 [[nodiscard]] Command set_home(geo::Wgs84 home);
 /// Go there and stay, at `place.z_m`, in the mode that can do it; speed and heading as they are.
 [[nodiscard]] Command reposition(CommandPlace place);
-/// Of a mission: stay here (false), or go on (true).
-[[nodiscard]] Command continue_mission(bool goes_on);
 
 }  // namespace lapwing::mavlink

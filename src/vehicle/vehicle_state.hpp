@@ -145,6 +145,14 @@ struct LinkQuality {
   friend bool operator==(LinkQuality const&, LinkQuality const&) = default;
 };
 
+/// Who commands the vehicle; names as in vehicle/control.hpp.
+struct ControlState {
+  std::string commander = {};     ///< empty: nobody
+  std::string asked_for_by = {};  ///< who wants it from him; empty: nobody
+  base::TimePoint granted_at{};   ///< when that request is granted unless he answers
+  friend bool operator==(ControlState const&, ControlState const&) = default;
+};
+
 /// Everything known about one vehicle. A value: copy it to keep a moment.
 struct VehicleState {
   VehicleId id;
@@ -187,6 +195,10 @@ struct VehicleState {
   std::vector<geo::Wgs84> planned_path;  ///< positions of the mission it holds, in flight order, for the map
   std::vector<StatusText> recent_texts;  ///< newest last, bounded
   double track_m = 0.0;                  ///< distance travelled since discovery
+  ControlState control;
+  /// The last thing that happened to it without this station: another station's command, a mode that nobody here asked
+  /// for.
+  Aged<std::string> foreign_change;
 };
 
 }  // namespace lapwing::vehicle
