@@ -55,6 +55,10 @@ struct Craft {
   base::TimePoint armed_changed{};    ///< when a heartbeat first showed it
   bool mission_mode_pending = false;  ///< we commanded the mission mode, and no heartbeat has shown what came of it
   MissionTrace trace;
+  std::optional<std::uint32_t> asked_mode;  ///< the last that this station commanded
+  base::TimePoint mode_asked{};
+  std::optional<std::uint64_t> capabilities;  ///< MAV_PROTOCOL_CAPABILITY, once the vehicle has told
+  bool may_arm_late = false;  ///< an arming was given up unanswered: if the vehicle carries it out, it is taken back
 
   // What telemetry keeps between messages.
   std::optional<base::Duration> since_boot;  ///< the vehicle's clock, to notice that it began anew
@@ -86,6 +90,11 @@ struct Craft {
   base::Notifier changed;
 
   [[nodiscard]] vehicle::VehicleId const& id() const { return state.id; }
+  /// What is not known is tried.
+  [[nodiscard]] bool takes_command_int() const {
+    constexpr std::uint64_t command_int = 8;  // MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+    return !capabilities || (*capabilities & command_int) != 0;
+  }
   [[nodiscard]] bool is_connected() const { return state.connection == vehicle::Connection::ok; }
 };
 

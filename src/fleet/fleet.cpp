@@ -76,6 +76,7 @@ Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Optio
       registry_(registry),
       options_(std::move(options)),
       log_(std::move(log)),
+      authority_(connection.loop(), registry, log_.named("command")),
       subscription_(connection.subscribe([this](mavlink::Received const& received) { take(received); })),
       scope_(connection.loop()) {
   scope_.spawn(watch());
@@ -230,6 +231,8 @@ void Fleet::take_from_autopilot(Craft& craft, mavlink::Received const& received)
   if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
   if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
     tell(craft, take_text(craft, received.source.component, *chunk, received.at));
+  if (auto const* version = std::get_if<mavlink::AutopilotVersion>(&received.message))
+    craft.capabilities = version->capabilities;
   if (!take_telemetry(craft, received.message, received.at))
     (void)take_payload(craft, received.source.component, received.message, received.at);
   registry_.touch(craft.id());

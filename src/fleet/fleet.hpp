@@ -9,6 +9,7 @@
 
 #include "base/log.hpp"
 #include "base/scope.hpp"
+#include "fleet/authority.hpp"
 #include "fleet/craft.hpp"
 #include "mavlink/connection.hpp"
 #include "vehicle/registry.hpp"
@@ -39,6 +40,8 @@ class Fleet {
   [[nodiscard]] std::vector<Craft const*> all() const;
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout);
 
+  /// Who commands which vehicle.
+  [[nodiscard]] Authority& authority() { return authority_; }
   [[nodiscard]] vehicle::Registry& registry() const { return registry_; }
   [[nodiscard]] mavlink::Connection& connection() const { return connection_; }
   [[nodiscard]] base::Loop& loop() const { return connection_.loop(); }
@@ -68,6 +71,7 @@ class Fleet {
   base::Logger log_;
   std::map<std::uint8_t, std::unique_ptr<Craft>> crafts_;  // pointers: craft addresses must not change
   std::set<std::uint8_t> cameras_;                         ///< systems that were heard to carry one
+  Authority authority_;
   mavlink::Subscription subscription_;
   base::Scope scope_;
 };

@@ -112,7 +112,8 @@ Task<Result<>> start(RunContext context, plan::Mission const& mission, FlightPla
   context.craft.trace = {};
   auto const expected = expectation(mission, context.craft.state);
   record.may_have_armed = !context.craft.is_armed;
-  auto started = co_await arm_and_start(context.connection, context.craft);
+  ActionOptions const how{};
+  auto started = co_await arm_and_start(context.connection, context.craft, how);
   if (!started) co_return started;
   record.has_begun = true;
   record.flown = plan::Flown{.estimate = expected, .path_m = 0.0, .duration = {}};

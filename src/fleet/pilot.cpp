@@ -1,5 +1,6 @@
 #include "fleet/pilot.hpp"
 
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,6 +40,14 @@ void Pilot::stop(OnStop on_stop) {
   // Somebody else may have taken the vehicle over since the last look at it: then it is theirs.
   bool const is_ours = !run_->has_begun || in_mission_mode(context_.craft);
   if (is_ours) begin_rest(on_stop);
+}
+
+void Pilot::yield(std::string reason) {
+  rest_ = {};
+  if (std::exchange(is_settling_, false)) settled_.notify_all();
+  if (!is_flying()) return;
+  flight_ = {};
+  end(Outcome::failed, std::move(reason));
 }
 
 Task<> Pilot::fly(plan::Mission mission) {
@@ -109,9 +118,11 @@ Task<> Pilot::rest(OnStop on_stop, bool only_disarm) {
   auto& craft = context_.craft;
   base::Result<> done;
   if (only_disarm) {
-    done = co_await disarm(context_.connection, craft);
+    ActionOptions const at_once{.is_urgent = true};
+    done = co_await disarm(context_.connection, craft, at_once);
   } else {
-    done = co_await bring_to_rest(context_.connection, craft, on_stop);
+    std::function<void()> const nobody_waits;
+    done = co_await bring_to_rest(context_.connection, craft, on_stop, nobody_waits);
   }
   if (done) {
     context_.log.info(fmt::format("{} stopped: {}", craft.state.name, craft.state.mode.value.value_or("")));

@@ -28,6 +28,10 @@ class Pilot {
   /// The same for whatever run is on its way.
   void stop(OnStop on_stop);
 
+  /// Gives the vehicle up to somebody else, who commands it from now on: ends the run and the rest after one, and sends
+  /// nothing but the end of an upload.
+  void yield(std::string reason);
+
   [[nodiscard]] bool is_flying() const { return run_ && run_->outcome == RunRecord::Outcome::running; }
   /// The vehicle is being put to rest.
   [[nodiscard]] bool is_settling() const { return is_settling_; }

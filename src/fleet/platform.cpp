@@ -125,6 +125,8 @@ std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::Plat
   if (!mission)
     return std::make_unique<FailedRun>(
         fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));
+  if (auto claimed = fleet_.authority().claim(*craft, script_commander); !claimed)
+    return std::make_unique<FailedRun>(claimed.error().message);
   auto& its_pilot = pilot(*craft);
   return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
 }
@@ -151,6 +153,16 @@ Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view messa
 base::Task<void> FleetPlatform::settle() {
   auto const is_settling = [](auto const& entry) { return entry.second->is_settling(); };
   while (std::ranges::any_of(pilots_, is_settling)) co_await settled_.wait();
+  for (auto& [id, its_pilot] : pilots_)
+    if (!its_pilot->is_flying()) (void)fleet_.authority().yield(*fleet_.find(id), script_commander);
+}
+
+void FleetPlatform::yield(VehicleId const& id, std::string const& reason) {
+  if (auto const found = pilots_.find(id); found != pilots_.end()) found->second->yield(reason);
+}
+
+void FleetPlatform::yield_all(std::string const& reason) {
+  for (auto& [id, its_pilot] : pilots_) its_pilot->yield(reason);
 }
 
 base::Task<void> FleetPlatform::make_safe(OnStop on_stop) {

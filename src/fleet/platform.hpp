@@ -57,6 +57,9 @@ class FleetPlatform final : public tasks::Platform {
   /// Stops every run of ours and ends when each vehicle has confirmed its stop mode, or has failed to with a logged
   /// reason. For the end of a program. Vehicles without a run of ours are not touched.
   [[nodiscard]] base::Task<void> make_safe(OnStop on_stop);
+  /// Gives the vehicle, or all of them, up to somebody else: a run on it fails with `reason`, and nothing more is sent.
+  void yield(vehicle::VehicleId const& id, std::string const& reason);
+  void yield_all(std::string const& reason);
   /// Every mission that was run on the vehicle, oldest first.
   [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
 

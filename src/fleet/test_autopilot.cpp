@@ -152,13 +152,18 @@ MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& par
   switch (command) {
     case MavCmd::component_arm_disarm:
       if (params[0] == 1.0F) return arm();
-      if (is_flying) return MavResult::failed;
+      if (is_flying && params[1] != 21196.0F) return MavResult::failed;
       disarm();
       return MavResult::accepted;
     case MavCmd::do_set_mode:
       if (refused_modes.contains(static_cast<std::uint32_t>(params[1]))) return MavResult::failed;
       change_mode(static_cast<std::uint32_t>(params[1]));
       return MavResult::accepted;
+    case MavCmd::nav_takeoff:
+      if (!is_armed || mode != copter_mode::guided) return MavResult::failed;
+      is_flying = true;
+      return MavResult::accepted;
+    case MavCmd::do_reposition: change_mode(copter_mode::guided); return MavResult::accepted;
     case MavCmd::mission_start:
       if (is_armed) is_flying = true;
       change_mode(is_copter() ? copter_mode::automatic : rover_mode::automatic);

@@ -9,6 +9,7 @@
 #include "fleet/test_autopilot.hpp"
 #include "link/impaired_link.hpp"
 #include "link/pipe_link.hpp"
+#include "mavlink/stalling_link_test.hpp"
 #include "tasks/mission_task.hpp"
 
 namespace lapwing::fleet {
@@ -18,7 +19,7 @@ struct TestWorld {
   explicit TestWorld(Fleet::Options fleet_options = {}, FleetPlatform::Options platform_options = {})
       : hub(loop), connection(loop, {}, base::Logger(log, "mavlink")), registry(loop) {
     log.add_sink([this](base::LogRecord const& record) { lines.push_back(record.text); });
-    connection.add_link(hub.take_server());
+    connection.add_link(mavlink::testing::stall(hub.take_server(), way));
     fleet = std::make_unique<Fleet>(connection, registry, std::move(fleet_options), base::Logger(log, "fleet"));
     platform = std::make_unique<FleetPlatform>(*fleet, std::move(platform_options), base::Logger(log, "fleet"));
   }
@@ -45,6 +46,8 @@ struct TestWorld {
   }
 
   base::Loop loop{{.unpaced = true}};
+  /// Of the ground's link: lets it stall and come back.
+  std::shared_ptr<mavlink::testing::StalledWay> way = std::make_shared<mavlink::testing::StalledWay>();
   base::LogHub log;
   std::vector<std::string> lines;
   link::PipeHub hub;

@@ -88,12 +88,18 @@ std::optional<std::uint32_t> stop_mode(Craft const& craft, OnStop on_stop) {
   return hold;
 }
 
-Task<Result<>> arm(mavlink::Connection& connection, Craft& craft) {
+void note_asked(Craft& craft, std::uint32_t mode, TimePoint now) {
+  craft.asked_mode = mode;
+  craft.mode_asked = now;
+}
+
+Task<Result<>> send_arming(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
   auto const since = connection.loop().now();
   // Short waits and many tries: it must come through within the seconds before it expires.
-  mavlink::CommandOptions const options{.tries = 10, .ack_timeout = 700ms, .expiry = 8s};
+  mavlink::CommandOptions const options{.tries = 10, .ack_timeout = 700ms, .expiry = 8s, .not_after = how.not_after};
   auto const command = mavlink::arm();
   auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
+  if (asked && how.on_accepted) how.on_accepted();
   if (!asked && asked.error().kind == ErrorKind::refused) {
     co_await wait_for_reason(craft, since);
     co_return explained("arming refused", asked.error(), given_reason(craft, since));
@@ -109,8 +115,10 @@ Task<Result<>> arm(mavlink::Connection& connection, Craft& craft) {
 
 /// One try to get the vehicle into its mission mode. MISSION_START makes a copter on the ground take off without a
 /// pilot's throttle; the others start with the mode.
-Task<Result<>> command_mission(mavlink::Connection& connection, Craft& craft, std::uint32_t mission_mode) {
-  mavlink::CommandOptions const options{.tries = 1, .ack_timeout = ack_wait};
+Task<Result<>> command_mission(mavlink::Connection& connection, Craft& craft, std::uint32_t mission_mode,
+                               TimePoint not_after) {
+  mavlink::CommandOptions const options{.tries = 1, .ack_timeout = ack_wait, .not_after = not_after};
+  note_asked(craft, mission_mode, connection.loop().now());
   auto const by_mode = mavlink::set_mode(craft.mav_autopilot, mission_mode);
   if (!is_ardupilot_copter(craft)) co_return co_await mavlink::run_command(connection, craft.address, by_mode, options);
   auto const by_start = mavlink::start_mission();
@@ -119,7 +127,7 @@ Task<Result<>> command_mission(mavlink::Connection& connection, Craft& craft, st
   co_return co_await mavlink::run_command(connection, craft.address, by_mode, options);
 }
 
-Task<Result<>> enter_mission(mavlink::Connection& connection, Craft& craft) {
+Task<Result<>> enter_mission(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
   constexpr int tries = 10;
   auto const mission_mode = mode_for(craft, ModeRole::mission);
   if (!mission_mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mission mode", craft.state.name));
@@ -127,7 +135,8 @@ Task<Result<>> enter_mission(mavlink::Connection& connection, Craft& craft) {
   Result<> commanded;
   for (int attempt = 0; attempt < tries; ++attempt) {
     craft.mission_mode_pending = !in_mission_mode(craft);
-    commanded = co_await command_mission(connection, craft, *mission_mode);
+    commanded = co_await command_mission(connection, craft, *mission_mode, how.not_after);
+    if (commanded && how.on_accepted) how.on_accepted();
     if (!commanded && commanded.error().kind != ErrorKind::timed_out) break;
     std::function<bool()> decided = [&craft] { return in_mission_mode(craft) || !craft.is_armed; };
     (void)co_await wait_for(craft, std::move(decided), heartbeat_wait);
@@ -180,11 +189,15 @@ Task<Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeCh
   auto const mode = change.custom_mode;
   if (craft.custom_mode == mode && !change.even_if_shown) co_return Result<>{};
   auto const since = connection.loop().now();
-  mavlink::CommandOptions const options{.tries = 1, .ack_timeout = ack_wait};
+  auto const& how = change.how;
+  mavlink::CommandOptions const options{
+      .tries = 1, .ack_timeout = ack_wait, .not_after = how.not_after, .is_urgent = how.is_urgent};
   auto const command = mavlink::set_mode(craft.mav_autopilot, mode);
   Result<> asked;
   for (int attempt = 0; attempt < change.tries; ++attempt) {
+    note_asked(craft, mode, connection.loop().now());
     asked = co_await mavlink::run_command(connection, craft.address, command, options);
+    if (asked && how.on_accepted) how.on_accepted();
     if (!asked && asked.error().kind != ErrorKind::timed_out) break;
     auto const answered = connection.loop().now();
     std::function<bool()> shown = [&craft, &change, mode, answered] {
@@ -230,45 +243,66 @@ Task<Result<>> leave_mission(mavlink::Connection& connection, Craft& craft, OnSt
   co_return co_await change_mode(connection, craft, change);
 }
 
-Task<Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft) {
+Task<Result<>> arm(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
+  if (craft.is_armed) co_return Result<>{};
+  if (auto const mode = mode_to_arm_in(craft)) {
+    ModeChange const change{
+        .custom_mode = *mode, .even_if_shown = craft.mission_mode_pending, .how = {.not_after = how.not_after}};
+    if (auto changed = co_await change_mode(connection, craft, change); !changed) co_return changed;
+  }
+  co_return co_await send_arming(connection, craft, how);
+}
+
+Task<Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
   constexpr int attempts = 3;  // a lossy link can eat up the seconds between arming and the start
+  ActionOptions const first{.not_after = how.not_after};
   Result<> entered;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (!craft.is_armed) {
-      if (auto const mode = mode_to_arm_in(craft)) {
-        ModeChange const change{.custom_mode = *mode, .even_if_shown = craft.mission_mode_pending};
-        if (auto changed = co_await change_mode(connection, craft, change); !changed) co_return changed;
-      }
-      if (auto armed = co_await arm(connection, craft); !armed) co_return armed;
-    }
-    entered = co_await enter_mission(connection, craft);
+    if (auto armed = co_await arm(connection, craft, first); !armed) co_return armed;
+    entered = co_await enter_mission(connection, craft, how);
     if (entered || craft.is_armed) break;
   }
   co_return entered;
 }
 
-Task<Result<>> disarm(mavlink::Connection& connection, Craft& craft) {
+Task<Result<>> disarm(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
+  auto const since = connection.loop().now();
   auto const command = mavlink::disarm();
-  mavlink::CommandOptions const options{};
-  co_return co_await mavlink::run_command(connection, craft.address, command, options);
+  mavlink::CommandOptions const options{.not_after = how.not_after, .is_urgent = how.is_urgent};
+  auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
+  if (asked && how.on_accepted) how.on_accepted();
+  if (!asked && asked.error().kind == ErrorKind::refused) {
+    co_await wait_for_reason(craft, since);
+    co_return explained("disarming refused", asked.error(), given_reason(craft, since));
+  }
+  auto const answered = connection.loop().now();
+  std::function<bool()> shown = [&craft, answered] {
+    return !craft.is_armed && craft.state.heartbeat_heard >= answered;
+  };
+  if (co_await wait_for(craft, std::move(shown), heartbeat_wait)) co_return Result<>{};
+  if (!asked) co_return asked;
+  co_return fail(ErrorKind::timed_out, "accepted disarming but still reports armed");
 }
 
-Task<Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop) {
+Task<Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop,
+                             std::function<void()> on_accepted) {
   auto const mode = stop_mode(craft, on_stop);
   if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
-  ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .tries = 10};
+  ActionOptions const how{.is_urgent = true, .on_accepted = on_accepted};
+  ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .tries = 10, .how = how};
   auto changed = co_await change_mode(connection, craft, change);
   if (!changed && changed.error().kind == ErrorKind::refused) {
     // Without a position a copter cannot stay in place, but it can always come down.
     if (auto const land = mode_for(craft, ModeRole::land); land && land != mode) {
-      ModeChange const down{.custom_mode = *land, .even_if_shown = true, .tries = 10};
+      ModeChange const down{.custom_mode = *land, .even_if_shown = true, .tries = 10, .how = how};
       changed = co_await change_mode(connection, craft, down);
     }
   }
   if (!changed) co_return changed;
   // Refused when it is in the air after all: then it holds, which is what was asked for.
   bool const stands = craft.state.landed.value.value_or(false);
-  if (can_fly(craft) && craft.is_armed && stands) (void)co_await disarm(connection, craft);
+  ActionOptions const at_once{.is_urgent = true};
+  if (can_fly(craft) && craft.is_armed && stands) (void)co_await disarm(connection, craft, at_once);
   co_return Result<>{};
 }
 

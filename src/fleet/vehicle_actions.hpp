@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -32,11 +33,19 @@ enum class OnStop {
 /// A text in which the vehicle announced a failsafe or a fence breach in the last seconds, or empty.
 [[nodiscard]] std::string recent_failsafe(Craft const& craft, base::TimePoint now);
 
+/// How a command of this page is sent.
+struct ActionOptions {
+  base::TimePoint not_after = base::TimePoint::max();  ///< nothing is sent later
+  bool is_urgent = false;                              ///< a stop: overtakes what else is on its way
+  std::function<void()> on_accepted = {};              ///< the vehicle has acknowledged the deciding command
+};
+
 struct ModeChange {
   std::uint32_t custom_mode = 0;
   bool even_if_shown =
       false;  ///< command it although the vehicle seems to be in it: another mode may be on its way there
   int tries = 5;
+  ActionOptions how = {};
 };
 /// Commands the mode until a heartbeat shows it. Errors: refused (at once), timed_out, those of Connection::send.
 base::Task<base::Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeChange change);
@@ -48,13 +57,17 @@ base::Task<base::Result<>> wait_until_ready(Craft& craft, base::Loop& loop, base
 /// Takes the vehicle out of its mission mode; does nothing if it is not in it and not on the way there.
 base::Task<base::Result<>> leave_mission(mavlink::Connection& connection, Craft& craft, OnStop on_stop);
 
-/// Arms and begins the mission it holds within the time in which an autopilot disarms again by itself.
-base::Task<base::Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft);
+/// Arms, in a mode that allows it, until a heartbeat shows it.
+base::Task<base::Result<>> arm(mavlink::Connection& connection, Craft& craft, ActionOptions how);
 
-/// Takes back an arming. An autopilot in the air refuses it.
-base::Task<base::Result<>> disarm(mavlink::Connection& connection, Craft& craft);
+/// Arms and begins the mission it holds within the time in which an autopilot disarms again by itself.
+base::Task<base::Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft, ActionOptions how);
+
+/// Takes back an arming, until a heartbeat shows it. An autopilot in the air refuses it.
+base::Task<base::Result<>> disarm(mavlink::Connection& connection, Craft& craft, ActionOptions how);
 
 /// Puts the vehicle into its stop mode; a flying machine that stands on the ground is disarmed.
-base::Task<base::Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop);
+base::Task<base::Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop,
+                                         std::function<void()> on_accepted);
 
 }  // namespace lapwing::fleet

@@ -1,0 +1,241 @@
+#include "fleet/control.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fleet/operator_actions.hpp"
+
+namespace lapwing::fleet {
+
+using base::ErrorKind;
+using base::fail;
+using base::Result;
+using vehicle::Action;
+using vehicle::Commander;
+using vehicle::CommandOutcome;
+using vehicle::CommandRecord;
+using vehicle::CommandState;
+using vehicle::VehicleId;
+
+namespace {
+
+constexpr std::size_t max_records = 12;
+
+/// What a command lacks, whatever vehicle it is for.
+Result<> check(vehicle::VehicleCommand const& command) {
+  constexpr double highest_m = 10'000.0;
+  auto const height_m = command.height_m.value_or(1.0);
+  if (command.action == Action::take_off && !(height_m > 0.0 && height_m <= highest_m))
+    return fail(ErrorKind::invalid_input, "the height to take off to must be above 0 and at most 10000 m");
+  if (!(height_m >= -highest_m && height_m <= highest_m))
+    return fail(ErrorKind::invalid_input, "the height must be a number of metres up to 10000");
+  if (command.action == Action::go_to && !command.place)
+    return fail(ErrorKind::invalid_input, "go_to needs a place", "give lat_deg and lon_deg");
+  if (command.action == Action::set_mode && command.mode.empty())
+    return fail(ErrorKind::invalid_input, "set_mode needs a mode", "by the autopilot's own name, as GUIDED");
+  return {};
+}
+
+bool may_arm(Action action) {
+  return action == Action::arm || action == Action::take_off || action == Action::start_mission;
+}
+
+CommandState state_after(Result<> const& ended, bool was_accepted, bool is_past_expiry) {
+  if (ended) return CommandState::confirmed;
+  switch (ended.error().kind) {
+    case ErrorKind::refused:
+    case ErrorKind::invalid_input: return CommandState::refused;
+    case ErrorKind::cancelled: return CommandState::superseded;
+    default: return is_past_expiry && !was_accepted ? CommandState::expired : CommandState::timed_out;
+  }
+}
+
+}  // namespace
+
+Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log)
+    : fleet_(fleet),
+      platform_(platform),
+      options_(std::move(options)),
+      log_(log.named("command")),
+      emergency_(
+          fleet, [this] { ++revision_; }, log.named("emergency")),
+      others_(fleet, log.named("others")),
+      acknowledgements_(
+          fleet.connection().subscribe([this](mavlink::Received const& received) { take_late_arming(received); })),
+      scope_(fleet.loop()) {
+  fleet_.authority().set_on_loss([this](Craft& craft, Commander const& to) {
+    auto const reason = fmt::format("{} took {} over", to, craft.state.name);
+    supersede(craft.id(), reason);
+    platform_.yield(craft.id(), reason);
+  });
+}
+
+// ---- commands
+// ------------------------------------------------------------------------------------------------------------
+
+Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::span<VehicleId const> vehicles,
+                                       Commander by, bool takes_over) {
+  if (vehicles.empty()) return fail(ErrorKind::invalid_input, "no vehicle was named to command");
+  if (auto checked = check(command); !checked) return std::unexpected(checked.error());
+  if (records_.size() == max_records) records_.pop_front();
+  auto& record = records_.emplace_back(CommandRecord{
+      .number = ++last_number_, .command = std::move(command), .by = std::move(by), .asked = fleet_.loop().utc_now()});
+  log_.info(fmt::format("{} commands {} to {} vehicle{}", record.by, to_string(record.command.action), vehicles.size(),
+                        vehicles.size() == 1 ? "" : "s"));
+  for (auto const& id : vehicles) {
+    bool const is_twice = std::ranges::find(record.outcomes, id, &CommandOutcome::vehicle) != record.outcomes.end();
+    if (!is_twice) give(record, id, takes_over);
+  }
+  ++revision_;
+  return record.number;
+}
+
+void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) {
+  record.outcomes.push_back({.vehicle = id});
+  auto* const craft = fleet_.find(id);
+  if (!craft) return show(record.number, id, CommandState::refused, fmt::format("there is no vehicle {}", id.text));
+  if (auto through = let_through(*craft, record, takes_over); !through)
+    return show(record.number, id, CommandState::refused, through.error().message);
+  supersede(id, fmt::format("{} by {} came after it", to_string(record.command.action), record.by));
+  craft->may_arm_late = false;
+  // A stop is not given up while there is a chance; what makes a vehicle move must not come late.
+  auto const patience = is_stop(record.command.action) ? 3 * options_.expiry : options_.expiry;
+  auto& running = running_[id];
+  running.number = record.number;
+  running.task = carry(*craft, record.number, record.command, fleet_.loop().now() + patience);
+  running.task.start();
+}
+
+/// Whether the giver may command the vehicle; takes it from who has it if he may do that.
+Result<> Control::let_through(Craft& craft, CommandRecord const& record, bool takes_over) {
+  auto& authority = fleet_.authority();
+  bool const stops = is_stop(record.command.action);
+  if (!craft.is_connected() && !stops)
+    return fail(ErrorKind::lost, fmt::format("{} is not heard: nothing that moves it is sent", craft.state.name));
+  if (authority.barred()) {
+    if (!stops) return fail(ErrorKind::refused, *authority.barred());
+    emergency_.leave_to_operator(craft.id());
+    return {};
+  }
+  auto const& has = craft.state.control.commander;
+  if (takes_over || (stops && (has.empty() || has == script_commander))) {
+    authority.take(craft, record.by);
+    return {};
+  }
+  return stops ? Result<>{} : authority.claim(craft, record.by);
+}
+
+base::Task<> Control::carry(Craft& craft, std::uint64_t number, vehicle::VehicleCommand command,
+                            base::TimePoint expires) {
+  auto const id = craft.id();
+  std::function<void()> const on_accepted = [this, number, id] { show(number, id, CommandState::accepted, ""); };
+  ActionOptions const how{.not_after = expires, .is_urgent = is_stop(command.action), .on_accepted = on_accepted};
+  auto const ended = co_await carry_out(fleet_.connection(), craft, command, how);
+  finish(craft, number, ended, expires);
+}
+
+void Control::finish(Craft& craft, std::uint64_t number, Result<> const& ended, base::TimePoint expires) {
+  auto const record = std::ranges::find(records_, number, &CommandRecord::number);
+  if (record == records_.end()) return;
+  auto const outcome = std::ranges::find(record->outcomes, craft.id(), &CommandOutcome::vehicle);
+  bool const was_accepted = outcome->state == CommandState::accepted;
+  auto const state = state_after(ended, was_accepted, fleet_.loop().now() >= expires);
+  // An arming that nobody answered may still be on its way.
+  craft.may_arm_late = may_arm(record->command.action) && !ended && !craft.is_armed;
+  show(number, craft.id(), state, ended ? mode_name(craft, craft.custom_mode) : ended.error().message);
+}
+
+void Control::supersede(VehicleId const& id, std::string const& reason) {
+  auto const found = running_.find(id);
+  if (found == running_.end()) return;
+  auto const number = found->second.number;
+  bool const may_have_armed = !found->second.task.done();
+  running_.erase(found);  // from here on nothing of it is sent
+  auto const record = std::ranges::find(records_, number, &CommandRecord::number);
+  if (record == records_.end()) return;
+  auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
+  if (vehicle::is_over(outcome->state)) return;
+  if (may_have_armed && may_arm(record->command.action)) fleet_.find(id)->may_arm_late = true;
+  show(number, id, CommandState::superseded, reason);
+}
+
+void Control::show(std::uint64_t number, VehicleId const& id, CommandState state, std::string reason) {
+  auto const record = std::ranges::find(records_, number, &CommandRecord::number);
+  if (record == records_.end()) return;
+  auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
+  if (outcome == record->outcomes.end() || vehicle::is_over(outcome->state)) return;
+  outcome->state = state;
+  outcome->reason = std::move(reason);
+  ++revision_;
+  if (!vehicle::is_over(state)) return;
+  auto const line = fmt::format("{} of vehicle {}: {}{}{}", to_string(record->command.action), id.text,
+                                to_string(state), outcome->reason.empty() ? "" : ": ", outcome->reason);
+  state == CommandState::confirmed ? log_.info(line) : log_.warn(line);
+}
+
+/// An acknowledgement to us of an arming that we have given up: the link had kept one or the other.
+void Control::take_late_arming(mavlink::Received const& received) {
+  auto const* ack = std::get_if<mavlink::CommandAck>(&received.message);
+  if (!ack || ack->command != mavlink::MavCmd::component_arm_disarm || ack->result != mavlink::MavResult::accepted)
+    return;
+  if (!mavlink::addresses(ack->target, fleet_.connection().self())) return;
+  auto* const craft = fleet_.find(VehicleId{std::to_string(received.source.system)});
+  if (!craft || !std::exchange(craft->may_arm_late, false)) return;
+  scope_.spawn(take_back(*craft));
+}
+
+base::Task<> Control::take_back(Craft& craft) {
+  log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
+  ActionOptions const how{.is_urgent = true};
+  auto const disarmed = co_await disarm(fleet_.connection(), craft, how);
+  if (!disarmed) log_.error(fmt::format("{} stays armed: {}", craft.state.name, disarmed.error().message));
+}
+
+// ---- emergency stop
+// ------------------------------------------------------------------------------------------------------
+
+void Control::emergency_stop(std::optional<vehicle::StopAction> action, Commander by) {
+  auto const reason = fmt::format("emergency stop by {}", by);
+  fleet_.authority().bar(reason + ": release it first");
+  while (!running_.empty()) {
+    auto const id = running_.begin()->first;
+    supersede(id, reason);
+  }
+  platform_.yield_all(reason);
+  emergency_.latch(action.value_or(options_.stop_action), std::move(by));
+  if (options_.on_latched) options_.on_latched(reason);
+}
+
+void Control::release_emergency_stop(Commander by) {
+  fleet_.authority().bar(std::nullopt);
+  emergency_.release(by);
+}
+
+// ---- who is in command
+// ---------------------------------------------------------------------------------------------------
+
+Result<> Control::request_control(VehicleId const& id, Commander by) {
+  auto* const craft = fleet_.find(id);
+  if (!craft) return fail(ErrorKind::not_found, fmt::format("there is no vehicle {}", id.text));
+  return fleet_.authority().request(*craft, std::move(by), options_.answer_timeout);
+}
+
+Result<> Control::yield_control(VehicleId const& id, Commander by) {
+  auto* const craft = fleet_.find(id);
+  if (craft && fleet_.authority().yield(*craft, by)) return {};
+  return fail(ErrorKind::refused, fmt::format("vehicle {} is not commanded by {}", id.text, by));
+}
+
+Result<> Control::keep_control(VehicleId const& id, Commander by) {
+  auto* const craft = fleet_.find(id);
+  if (craft && fleet_.authority().keep(*craft, by)) return {};
+  return fail(ErrorKind::refused, fmt::format("vehicle {} is not commanded by {}", id.text, by));
+}
+
+void Control::forget(Commander const& by) {
+  for (auto const* craft : fleet_.all()) (void)fleet_.authority().yield(*fleet_.find(craft->id()), by);
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/log.hpp"
+#include "base/scope.hpp"
+#include "fleet/emergency.hpp"
+#include "fleet/other_stations.hpp"
+#include "fleet/platform.hpp"
+#include "vehicle/control.hpp"
+
+namespace lapwing::fleet {
+
+/// What operators do with the vehicles of a fleet: commands to many at once with what each made of them, the emergency
+/// stop, and the command of a vehicle handed from one to the other.
+///
+/// Each command runs as one task a vehicle; a later one, or a stop, destroys that first, so that nothing of it can
+/// follow. Thread-bound.
+class Control final : public vehicle::VehicleControl {
+ public:
+  struct Options {
+    vehicle::StopAction stop_action = vehicle::StopAction::hold;     ///< of an emergency stop that names none
+    base::Duration expiry = std::chrono::seconds(10);                ///< of commands that make a vehicle move
+    base::Duration answer_timeout = std::chrono::seconds(10);        ///< of who is asked for a vehicle
+    std::function<void(std::string const& reason)> on_latched = {};  ///< scripts are to be halted
+  };
+  /// `fleet` and `platform` outlive this.
+  Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log);
+  Control(Control const&) = delete;
+  Control& operator=(Control const&) = delete;
+
+  base::Result<std::uint64_t> command(vehicle::VehicleCommand command, std::span<vehicle::VehicleId const> vehicles,
+                                      vehicle::Commander by, bool takes_over) override;
+  [[nodiscard]] std::deque<vehicle::CommandRecord> const& commands() const override { return records_; }
+  void emergency_stop(std::optional<vehicle::StopAction> action, vehicle::Commander by) override;
+  void release_emergency_stop(vehicle::Commander by) override;
+  [[nodiscard]] vehicle::EmergencyStop const& emergency() const override { return emergency_.state(); }
+  base::Result<> request_control(vehicle::VehicleId const& id, vehicle::Commander by) override;
+  base::Result<> yield_control(vehicle::VehicleId const& id, vehicle::Commander by) override;
+  base::Result<> keep_control(vehicle::VehicleId const& id, vehicle::Commander by) override;
+  void forget(vehicle::Commander const& by) override;
+  [[nodiscard]] std::uint64_t revision() const override { return revision_; }
+
+ private:
+  struct Running {
+    std::uint64_t number = 0;
+    base::Task<> task;
+  };
+
+  void give(vehicle::CommandRecord& record, vehicle::VehicleId const& id, bool takes_over);
+  [[nodiscard]] base::Result<> let_through(Craft& craft, vehicle::CommandRecord const& record, bool takes_over);
+  base::Task<> carry(Craft& craft, std::uint64_t number, vehicle::VehicleCommand command, base::TimePoint expires);
+  void finish(Craft& craft, std::uint64_t number, base::Result<> const& ended, base::TimePoint expires);
+  void supersede(vehicle::VehicleId const& id, std::string const& reason);
+  void show(std::uint64_t number, vehicle::VehicleId const& id, vehicle::CommandState state, std::string reason);
+  void take_late_arming(mavlink::Received const& received);
+  base::Task<> take_back(Craft& craft);
+
+  Fleet& fleet_;
+  FleetPlatform& platform_;
+  Options options_;
+  base::Logger log_;
+  std::uint64_t revision_ = 0;
+  std::uint64_t last_number_ = 0;
+  std::deque<vehicle::CommandRecord> records_;
+  std::map<vehicle::VehicleId, Running> running_;
+  Emergency emergency_;
+  OtherStations others_;
+  mavlink::Subscription acknowledgements_;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,281 @@
+#include "fleet/control.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "fleet/test_control.hpp"
+
+namespace lapwing::fleet {
+namespace {
+
+using namespace std::chrono_literals;
+using mavlink::MavCmd;
+using mavlink::MavType;
+using vehicle::Action;
+using vehicle::CommandState;
+using vehicle::VehicleId;
+
+TestAutopilot::Options rover(std::uint8_t system_id) {
+  return {.address = {system_id, 1}, .type = MavType::ground_rover};
+}
+
+TEST(Control, ShowsACommandFromWaitingToConfirmed) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  auto const number = world.give({.action = Action::arm});
+  EXPECT_EQ(world.outcome(number).state, CommandState::waiting);
+  EXPECT_TRUE(world.comes_to(number, CommandState::accepted));
+  EXPECT_TRUE(world.comes_to(number, CommandState::confirmed));
+  EXPECT_TRUE(copter.is_armed);
+  EXPECT_EQ(world.control->commands().back().by, "operator 1");
+}
+
+TEST(Control, GivesEachVehicleItsOwnOutcome) {
+  ControlWorld world;
+  world.add({.address = {1, 1}});
+  auto& refusing = world.add({.address = {2, 1}});
+  auto& silent = world.add({.address = {3, 1}});
+  refusing.arming_refusal = "Arm: Throttle too high";
+  silent.ignored_commands.insert(MavCmd::component_arm_disarm);
+  world.run_for(4s);
+  auto const number = world.give({.action = Action::arm}, {"1", "2", "3", "9", "1"});
+  ASSERT_EQ(world.control->commands().back().outcomes.size(), 4u) << "a vehicle that is named twice gets it once";
+  EXPECT_EQ(world.end_of(number, 0), CommandState::confirmed);
+  EXPECT_EQ(world.end_of(number, 1), CommandState::refused);
+  EXPECT_EQ(world.outcome(number, 1).reason, "arming refused: Arm: Throttle too high");
+  EXPECT_EQ(world.end_of(number, 2), CommandState::timed_out);
+  EXPECT_EQ(world.outcome(number, 3).reason, "there is no vehicle 9");
+}
+
+TEST(Control, IsFastForManyVehicles) {
+  ControlWorld world;
+  std::vector<std::string> ids;
+  for (std::uint8_t id = 1; id <= 50; ++id) {
+    world.add({.address = {id, 1}});
+    ids.push_back(std::to_string(id));
+  }
+  world.run_for(5s);
+  auto const begun = world.loop.now();
+  auto const number = world.give({.action = Action::arm}, ids);
+  for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(world.end_of(number, i), CommandState::confirmed) << i;
+  EXPECT_LT(world.loop.now() - begun, 3s);
+}
+
+TEST(Control, TakesOff) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  auto const number = world.give({.action = Action::take_off, .height_m = 15.0});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_TRUE(copter.is_flying);
+  EXPECT_EQ(copter.mode, copter_mode::guided);
+}
+
+TEST(Control, SendsAVehicleToAPlaceWithoutLosingPrecision) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  auto const there = geo::Wgs84::from_degrees(40.0012345, -8.0012345, 0.0);
+  auto const number = world.give({.action = Action::go_to, .height_m = 25.0, .place = there});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  auto const found = std::ranges::find_if(copter.heard, [](auto const& message) {
+    auto const* sent = std::get_if<mavlink::CommandInt>(&message);
+    return sent && sent->command == MavCmd::do_reposition;
+  });
+  ASSERT_NE(found, copter.heard.end());
+  auto const& sent = std::get<mavlink::CommandInt>(*found);
+  EXPECT_NEAR(sent.place.lat_rad, there.lat_rad, 1e-9);
+  EXPECT_EQ(sent.place.z_m, 25.0);
+  EXPECT_EQ(sent.frame, mavlink::MavFrame::global_relative_alt);
+}
+
+TEST(Control, RefusesWhatAVehicleCannotDo) {
+  ControlWorld world;
+  world.add(rover(2));
+  world.add_ready();
+  auto const rovers = world.give({.action = Action::take_off}, {"2"});
+  EXPECT_EQ(world.end_of(rovers), CommandState::refused);
+  EXPECT_EQ(world.outcome(rovers).reason, "rover 2 does not fly");
+  auto const lands = world.give({.action = Action::land}, {"2"});
+  EXPECT_EQ(world.outcome(lands).reason, "rover 2 cannot land by itself");
+  auto const mode = world.give({.action = Action::set_mode, .mode = "SIDEWAYS"});
+  EXPECT_EQ(world.outcome(mode).reason, "copter 1 has no mode SIDEWAYS");
+  auto const on_ground = world.give({.action = Action::go_to, .place = TestAutopilot::home});
+  EXPECT_EQ(world.outcome(on_ground).reason, "copter 1 is on the ground: take off first");
+  auto const resumed = world.give({.action = Action::resume_mission});
+  EXPECT_EQ(world.outcome(resumed).reason, "copter 1 is not armed: start the mission instead");
+}
+
+TEST(Control, RefusesCommandsWithoutWhatTheyNeed) {
+  ControlWorld world;
+  world.add_ready();
+  std::vector<VehicleId> const one{{"1"}};
+  EXPECT_FALSE(world.control->command({.action = Action::go_to}, one, "operator 1", false));
+  EXPECT_FALSE(world.control->command({.action = Action::set_mode}, one, "operator 1", false));
+  EXPECT_FALSE(world.control->command({.action = Action::take_off, .height_m = -5.0}, one, "operator 1", false));
+  EXPECT_FALSE(world.control->command({.action = Action::hold}, {}, "operator 1", false));
+  EXPECT_TRUE(world.control->commands().empty());
+}
+
+TEST(Control, SetsModesByName) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  auto const number = world.give({.action = Action::set_mode, .mode = "guided"});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_EQ(copter.mode, copter_mode::guided);
+  EXPECT_EQ(world.outcome(number).reason, "GUIDED");
+}
+
+TEST(Control, StartsPausesAndResumesAMission) {
+  ControlWorld world;
+  auto& vehicle = world.add_ready(rover(1));
+  vehicle.mission.resize(4);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::start_mission})), CommandState::confirmed);
+  EXPECT_EQ(vehicle.mode, rover_mode::automatic);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::pause_mission})), CommandState::confirmed);
+  EXPECT_EQ(vehicle.mode, rover_mode::hold);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::resume_mission})), CommandState::confirmed);
+  EXPECT_EQ(vehicle.mode, rover_mode::automatic);
+}
+
+TEST(Control, LetsALaterCommandReplaceAnEarlierOne) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  auto const first = world.give({.action = Action::arm});
+  world.run_for(1s);
+  auto const arms = copter.commands_heard(MavCmd::component_arm_disarm);
+  auto const second = world.give({.action = Action::hold});
+  EXPECT_EQ(world.outcome(first).state, CommandState::superseded);
+  EXPECT_EQ(world.end_of(second), CommandState::confirmed);
+  world.run_for(15s);
+  EXPECT_EQ(copter.commands_heard(MavCmd::component_arm_disarm), arms) << "nothing of it follows";
+}
+
+// ---- late commands
+
+TEST(Control, SendsNoArmingIntoALinkThatStalls) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  world.way->begin();
+  world.run_for(5s);
+  auto const number = world.give({.action = Action::arm});
+  EXPECT_EQ(world.end_of(number), CommandState::expired);
+  world.way->end();
+  world.run_for(10s);
+  EXPECT_EQ(copter.commands_heard(MavCmd::component_arm_disarm), 0);
+  EXPECT_FALSE(copter.is_armed);
+}
+
+TEST(Control, CarriesOutWhatTheLinkLetsThroughInTime) {
+  ControlWorld world;
+  world.add_ready();
+  world.way->begin();
+  world.run_for(5s);
+  auto const number = world.give({.action = Action::arm});
+  world.run_for(5s);
+  world.way->end();
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+}
+
+TEST(Control, TakesBackAnArmingThatTheLinkDeliversLate) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  world.way->begin();
+  auto const number = world.give({.action = Action::arm});
+  EXPECT_EQ(world.end_of(number), CommandState::expired) << world.outcome(number).reason;
+  world.run_for(20s);
+  EXPECT_FALSE(copter.is_armed);
+  world.way->end();
+  EXPECT_TRUE(world.run_until([&] { return world.has_logged("an arming that came too late"); }));
+  EXPECT_TRUE(world.run_until([&] { return !copter.is_armed; }, 3s));
+  world.run_for(5s);
+  EXPECT_FALSE(copter.is_armed);
+}
+
+TEST(Control, LeavesAnArmingOfSomebodyElseAlone) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.is_armed = true;  // by its pilot's sticks
+  copter.is_flying = true;
+  world.run_for(10s);
+  EXPECT_TRUE(copter.is_armed);
+}
+
+TEST(Control, SendsNothingThatMovesToALostVehicle) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.is_silent = true;
+  world.run_for(25s);
+  auto const number = world.give({.action = Action::arm});
+  EXPECT_EQ(world.outcome(number).state, CommandState::refused);
+  EXPECT_EQ(world.outcome(number).reason, "copter 1 is not heard: nothing that moves it is sent");
+}
+
+// ---- beside a script
+
+struct WithScript : ControlWorld {
+  WithScript() {
+    copter = &add({});
+    run_for(4s);
+    run = platform->start(task_of(mission_ending_with(MavCmd::nav_loiter_unlim)), VehicleId{"1"});
+  }
+  bool is_flying() {
+    return run_until([this] { return run->progress().find("item") != std::string::npos; });
+  }
+  TestAutopilot* copter = nullptr;
+  std::unique_ptr<tasks::TaskRun> run;
+};
+
+TEST(Control, KeepsItsHandsOffAVehicleThatAScriptCommands) {
+  WithScript world;
+  ASSERT_TRUE(world.is_flying());
+  EXPECT_EQ(world.state().control.commander, "script");
+  auto const number = world.give({.action = Action::go_to, .place = TestAutopilot::home});
+  EXPECT_EQ(world.outcome(number).reason, "copter 1 is commanded by script");
+  EXPECT_EQ(world.run->state(), tasks::RunState::in_progress);
+}
+
+TEST(Control, TakesAVehicleOverFromAScript) {
+  WithScript world;
+  ASSERT_TRUE(world.is_flying());
+  auto const number = world.give({.action = Action::return_home}, {"1"}, "operator 1", true);
+  EXPECT_EQ(world.run->state(), tasks::RunState::failed);
+  EXPECT_EQ(world.run->error(), "operator 1 took copter 1 over");
+  EXPECT_EQ(world.state().control.commander, "operator 1");
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_EQ(world.copter->modes_commanded().back(), copter_mode::rtl) << "the script's end sends nothing after it";
+  auto const again = world.platform->start(task_of(mission_ending_with(MavCmd::nav_land)), VehicleId{"1"});
+  EXPECT_EQ(again->error(), "copter 1 is commanded by operator 1");
+}
+
+TEST(Control, LetsAStopThroughWhoeverCommands) {
+  WithScript world;
+  ASSERT_TRUE(world.is_flying());
+  auto const number = world.give({.action = Action::hold});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_EQ(world.copter->mode, copter_mode::brake);
+  EXPECT_EQ(world.run->state(), tasks::RunState::failed);
+}
+
+TEST(Control, StopsInTheMiddleOfAnUpload) {
+  WithScript world;
+  ASSERT_TRUE(world.run_until([&] { return world.run->progress().find("uploading") != std::string::npos; }));
+  auto const number = world.give({.action = Action::hold});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_TRUE(world.copter->was_upload_cancelled());
+  world.run_for(20s);
+  EXPECT_EQ(world.copter->commands_heard(MavCmd::component_arm_disarm), 0);
+}
+
+TEST(Control, GivesVehiclesBackWhenTheScriptHasEnded) {
+  WithScript world;
+  ASSERT_TRUE(world.is_flying());
+  world.run->stop();
+  world.loop.run_until_done(world.platform->settle());
+  EXPECT_EQ(world.state().control.commander, "");
+}
+
+}  // namespace
+}  // namespace lapwing::fleet

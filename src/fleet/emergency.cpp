@@ -1,0 +1,158 @@
+#include "fleet/emergency.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fleet/operator_actions.hpp"
+#include "mavlink/command.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using vehicle::Commander;
+using vehicle::StopAction;
+using vehicle::StopOutcome;
+
+namespace {
+
+constexpr base::Duration pause = 500ms;            // between two tries
+constexpr base::Duration late_commands_end = 10s;  // what leaves the stop within that obeys an older command
+
+/// What the vehicle shows in the state in which it was stopped.
+struct Rest {
+  std::uint32_t custom_mode;
+  bool is_armed;
+};
+
+bool has_left(Rest const& rest, Craft const& craft) {
+  if (craft.is_armed && !rest.is_armed) return true;
+  return craft.is_armed && craft.custom_mode != rest.custom_mode;
+}
+
+std::string posture(Craft const& craft) {
+  return fmt::format("{}, {}", mode_name(craft, craft.custom_mode), craft.is_armed ? "armed" : "disarmed");
+}
+
+}  // namespace
+
+Emergency::Emergency(Fleet& fleet, std::function<void()> changed, base::Logger log)
+    : fleet_(fleet), changed_(std::move(changed)), log_(std::move(log)) {
+  fleet_.connection().set_send_guard(
+      [this](mavlink::Address target, mavlink::Message const& message) -> base::Result<> {
+        if (!state_.is_latched) return {};
+        auto const* craft = std::as_const(fleet_).find(vehicle::VehicleId{std::to_string(target.system)});
+        if (!craft || !is_moving(*craft, message)) return {};
+        return base::fail(base::ErrorKind::refused, fmt::format("emergency stop by {}", state_.by),
+                          "release the emergency stop first");
+      });
+}
+
+Emergency::~Emergency() {
+  fleet_.connection().set_send_guard({});
+}
+
+void Emergency::latch(StopAction action, Commander by) {
+  log_.error(fmt::format("EMERGENCY STOP ({}) by {}: latched until an operator releases it", to_string(action), by));
+  bool const goes_on = state_.is_latched;
+  if (!goes_on) state_ = {.is_latched = true, .since = fleet_.loop().utc_now()};
+  state_.action = action;
+  state_.by = std::move(by);
+  state_.vehicles.clear();
+  pursuits_.clear();
+  for (auto const* craft : fleet_.all()) join(*fleet_.find(craft->id()));
+  if (!goes_on) {
+    welcome_ = welcome();
+    welcome_.start();
+  }
+  changed_();
+}
+
+void Emergency::release(Commander const& by) {
+  if (!std::exchange(state_.is_latched, false)) return;
+  pursuits_.clear();
+  welcome_ = {};
+  log_.warn(fmt::format("emergency stop released by {}: vehicles stay as they are until somebody commands them", by));
+  changed_();
+}
+
+void Emergency::leave_to_operator(vehicle::VehicleId const& id) {
+  auto const found = pursuits_.find(id);
+  if (!state_.is_latched || found == pursuits_.end()) return;
+  pursuits_.erase(found);
+  auto const* craft = std::as_const(fleet_).find(id);
+  tell(*craft, "left to the operator's command");
+}
+
+void Emergency::join(Craft& craft) {
+  state_.vehicles.push_back({.vehicle = craft.id()});
+  auto& pursuit = pursuits_[craft.id()] = pursue(craft);
+  pursuit.start();
+}
+
+base::Task<> Emergency::welcome() {
+  for (;;) {
+    co_await fleet_.registry().membership_changed().wait();
+    for (auto const* craft : fleet_.all()) {
+      if (std::ranges::find(state_.vehicles, craft->id(), &StopOutcome::vehicle) != state_.vehicles.end()) continue;
+      join(*fleet_.find(craft->id()));
+      changed_();
+    }
+  }
+}
+
+base::Task<bool> Emergency::stop_once(Craft& craft) {
+  auto& connection = fleet_.connection();
+  ++outcome(craft).tries;
+  std::function<void()> const on_accepted = [this, &craft] {
+    outcome(craft).is_acknowledged = true;
+    changed_();
+  };
+  auto const stopped = co_await stop_at_once(connection, craft, state_.action, on_accepted);
+  if (stopped) co_return true;
+  // Two vehicles under one id: neither can be told apart from the other, so both are stopped.
+  if (connection.conflict(craft.address.system) && state_.action != StopAction::terminate) {
+    auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::hold).value_or(0);
+    auto const command = mavlink::set_mode(craft.mav_autopilot, hold);
+    connection.send_to_all(
+        mavlink::CommandLong{.target = craft.address, .command = command.id, .params = command.params});
+  }
+  tell(craft, stopped.error().message);
+  co_return false;
+}
+
+base::Task<> Emergency::pursue(Craft& craft) {
+  auto& loop = fleet_.loop();
+  for (;;) {
+    bool const stopped = co_await stop_once(craft);
+    if (!stopped) {
+      co_await loop.sleep(pause);
+      continue;
+    }
+    outcome(craft).is_confirmed = true;
+    tell(craft, posture(craft));
+    Rest const rest{craft.custom_mode, craft.is_armed};
+    auto const since = loop.now();
+    while (!has_left(rest, craft)) co_await craft.changed.wait();
+    outcome(craft).is_confirmed = false;
+    tell(craft, fmt::format("left its stop: {}", posture(craft)));
+    if (loop.now() - since > late_commands_end) co_return;
+  }
+}
+
+StopOutcome& Emergency::outcome(Craft const& craft) {
+  return *std::ranges::find(state_.vehicles, craft.id(), &StopOutcome::vehicle);
+}
+
+void Emergency::tell(Craft const& craft, std::string detail) {
+  auto& shown = outcome(craft);
+  if (shown.detail == detail) return;
+  auto line = fmt::format("{}: {}", craft.state.name, detail);
+  shown.is_confirmed ? log_.warn("stopped: " + line) : log_.error("not stopped yet: " + line);
+  shown.detail = std::move(detail);
+  changed_();
+}
+
+}  // namespace lapwing::fleet

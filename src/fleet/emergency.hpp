@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "base/log.hpp"
+#include "base/scope.hpp"
+#include "fleet/fleet.hpp"
+#include "vehicle/control.hpp"
+
+namespace lapwing::fleet {
+
+/// The latched stop of a whole fleet: sends every vehicle its stop until the vehicle has acknowledged it and shows it,
+/// those that appear while it is latched too, and holds back every other message that would move one.
+///
+/// A vehicle that stood and leaves its stop within seconds carries out what was sent before: it is stopped again. Later
+/// than that its pilot has taken it, who knows better; that is only told. Thread-bound.
+class Emergency {
+ public:
+  /// `changed` is called after every change of the state. The fleet outlives this.
+  Emergency(Fleet& fleet, std::function<void()> changed, base::Logger log);
+  ~Emergency();
+  Emergency(Emergency const&) = delete;
+  Emergency& operator=(Emergency const&) = delete;
+
+  void latch(vehicle::StopAction action, vehicle::Commander by);
+  void release(vehicle::Commander const& by);
+  /// The operator commands this vehicle another kind of stop: it is no longer pursued with this one.
+  void leave_to_operator(vehicle::VehicleId const& id);
+  [[nodiscard]] vehicle::EmergencyStop const& state() const { return state_; }
+
+ private:
+  void join(Craft& craft);
+  base::Task<> welcome();
+  base::Task<> pursue(Craft& craft);
+  base::Task<bool> stop_once(Craft& craft);
+  [[nodiscard]] vehicle::StopOutcome& outcome(Craft const& craft);
+  void tell(Craft const& craft, std::string detail);
+
+  Fleet& fleet_;
+  std::function<void()> changed_;
+  base::Logger log_;
+  vehicle::EmergencyStop state_;
+  std::map<vehicle::VehicleId, base::Task<>> pursuits_;
+  base::Task<> welcome_;
+};
+
+}  // namespace lapwing::fleet

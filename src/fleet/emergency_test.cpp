@@ -1,0 +1,216 @@
+#include "fleet/emergency.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fleet/test_control.hpp"
+#include "mavlink/command.hpp"
+
+namespace lapwing::fleet {
+namespace {
+
+using namespace std::chrono_literals;
+using mavlink::MavCmd;
+using mavlink::MavType;
+using vehicle::Action;
+using vehicle::CommandState;
+using vehicle::StopAction;
+using vehicle::VehicleId;
+
+bool all_confirmed(ControlWorld const& world) {
+  auto const& vehicles = world.control->emergency().vehicles;
+  return !vehicles.empty() && std::ranges::all_of(vehicles, &vehicle::StopOutcome::is_confirmed);
+}
+
+TEST(EmergencyStop, StopsEveryVehicleInItsOwnWay) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  auto& rover = world.add({.address = {2, 1}, .type = MavType::ground_rover});
+  auto& standing = world.add({.address = {3, 1}});
+  rover.is_armed = true;
+  rover.change_mode(rover_mode::automatic);
+  world.run_for(4s);
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+  EXPECT_TRUE(copter.is_flying);
+  EXPECT_EQ(rover.mode, rover_mode::hold);
+  EXPECT_FALSE(rover.is_armed);
+  EXPECT_EQ(standing.commands_heard(MavCmd::component_arm_disarm), 1) << "an arming may be on its way to it";
+  EXPECT_TRUE(world.stop_of("1").is_acknowledged);
+  EXPECT_EQ(world.stop_of("1").detail, "BRAKE, armed");
+}
+
+TEST(EmergencyStop, DoesWhatItIsSetTo) {
+  for (auto const& [action, mode] :
+       {std::pair{StopAction::land, copter_mode::land}, std::pair{StopAction::return_home, copter_mode::rtl}}) {
+    ControlWorld world;
+    auto& copter = world.add_flying();
+    world.control->emergency_stop(action, "operator 1");
+    EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+    EXPECT_EQ(copter.mode, mode);
+  }
+}
+
+TEST(EmergencyStop, StopsMotorsInTheAirOnlyWhenAskedTo) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  world.control->emergency_stop(StopAction::terminate, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_FALSE(copter.is_armed);
+}
+
+TEST(EmergencyStop, IsRepeatedUntilItIsConfirmed) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.ignored_commands.insert(MavCmd::do_set_mode);
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(100s);
+  EXPECT_FALSE(world.stop_of("1").is_acknowledged);
+  EXPECT_FALSE(world.stop_of("1").is_confirmed);
+  EXPECT_GT(world.stop_of("1").tries, 1);
+  copter.ignored_commands.clear();
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+}
+
+TEST(EmergencyStop, ReachesVehiclesThatComeLater) {
+  ControlWorld world;
+  world.add_flying();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  auto& late = world.add({.address = {7, 1}});
+  late.is_armed = late.is_flying = true;
+  late.change_mode(copter_mode::automatic);
+  EXPECT_TRUE(world.run_until([&] { return world.stop_of("7").is_confirmed; }, 20s));
+  EXPECT_EQ(late.mode, copter_mode::brake);
+}
+
+TEST(EmergencyStop, ReachesAVehicleThatIsBack) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.is_silent = true;
+  world.run_for(30s);
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(60s);
+  EXPECT_FALSE(world.stop_of("1").is_confirmed);
+  copter.is_silent = false;
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 20s));
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+}
+
+TEST(EmergencyStop, LetsNothingMoveAVehicleWhileItIsLatched) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_EQ(world.latched_with, "emergency stop by operator 1") << "scripts are told";
+  for (auto const action : {Action::arm, Action::take_off, Action::start_mission, Action::resume_mission}) {
+    auto const number = world.give({.action = action}, {"1"}, "operator 2", true);
+    EXPECT_EQ(world.outcome(number).state, CommandState::refused) << to_string(action);
+    EXPECT_EQ(world.outcome(number).reason, "emergency stop by operator 1: release it first");
+  }
+  auto const run = world.platform->start(task_of(mission_ending_with(MavCmd::nav_land)), VehicleId{"1"});
+  EXPECT_EQ(run->error(), "emergency stop by operator 1: release it first");
+  std::vector<tasks::MessageField> const fields{{"command", std::int64_t{400}}, {"param1", 1.0}};
+  EXPECT_FALSE(world.platform->send_message(VehicleId{"1"}, "COMMAND_LONG", fields));
+  mavlink::SetPositionTargetGlobalInt const setpoint{};
+  EXPECT_FALSE(world.connection.send({1, 1}, setpoint));
+  EXPECT_FALSE(world.connection.send({1, 1}, mavlink::SetMode{1, 1, copter_mode::automatic}));
+  EXPECT_TRUE(world.connection.send({1, 1}, mavlink::ParamRequestList{}));
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+}
+
+TEST(EmergencyStop, EndsWhatIsUnderWay) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  auto const arming = world.give({.action = Action::arm});
+  world.run_for(1s);
+  world.control->emergency_stop(std::nullopt, "operator 2");
+  EXPECT_EQ(world.outcome(arming).state, CommandState::superseded);
+  EXPECT_EQ(world.outcome(arming).reason, "emergency stop by operator 2");
+  copter.heard.clear();
+  copter.ignored_commands.clear();
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  for (auto const& message : copter.heard) {
+    auto const* command = std::get_if<mavlink::CommandLong>(&message);
+    EXPECT_FALSE(command && mavlink::is_hazardous({command->command, command->params}));
+  }
+}
+
+TEST(EmergencyStop, EndsARunWithAClearReason) {
+  ControlWorld world;
+  world.add_ready();
+  auto const run = world.platform->start(task_of(mission_ending_with(MavCmd::nav_loiter_unlim)), VehicleId{"1"});
+  ASSERT_TRUE(world.run_until([&] { return run->progress().find("item") != std::string::npos; }));
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_EQ(run->error(), "emergency stop by operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+}
+
+TEST(EmergencyStop, StopsAgainWhatAnEarlierCommandMoves) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  copter.change_mode(copter_mode::automatic);  // what a link delivered late
+  world.run_for(5s);
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+  EXPECT_TRUE(world.stop_of("1").is_confirmed);
+}
+
+TEST(EmergencyStop, DoesNotFightAPilot) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  world.run_for(30s);
+  copter.change_mode(copter_mode::stabilize);
+  world.run_for(10s);
+  EXPECT_EQ(copter.mode, copter_mode::stabilize);
+  EXPECT_FALSE(world.stop_of("1").is_confirmed);
+  EXPECT_EQ(world.stop_of("1").detail, "left its stop: STABILIZE, armed");
+}
+
+TEST(EmergencyStop, LetsAnOperatorBringAVehicleDown) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  auto const number = world.give({.action = Action::land});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  world.run_for(10s);
+  EXPECT_EQ(copter.mode, copter_mode::land);
+  EXPECT_EQ(world.stop_of("1").detail, "left to the operator's command");
+}
+
+TEST(EmergencyStop, IsReleasedByAnOperatorOnly) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  world.run_for(3600s);
+  EXPECT_TRUE(world.control->emergency().is_latched);
+  world.control->release_emergency_stop("operator 2");
+  EXPECT_FALSE(world.control->emergency().is_latched);
+  world.run_for(10s);
+  EXPECT_EQ(copter.mode, copter_mode::brake) << "a release moves nothing";
+  EXPECT_EQ(world.end_of(world.give({.action = Action::set_mode, .mode = "GUIDED"})), CommandState::confirmed);
+}
+
+TEST(EmergencyStop, StopsBothVehiclesOfOneId) {
+  ControlWorld world;
+  auto& first = world.add_flying();
+  auto& second = world.add({});
+  second.is_armed = second.is_flying = true;
+  second.change_mode(copter_mode::automatic);
+  ASSERT_TRUE(world.run_until([&] { return world.connection.conflict(1).has_value(); }));
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(10s);
+  EXPECT_EQ(first.mode, copter_mode::brake);
+  EXPECT_EQ(second.mode, copter_mode::brake);
+  EXPECT_FALSE(world.stop_of("1").is_confirmed) << "which of them shows it cannot be told";
+}
+
+}  // namespace
+}  // namespace lapwing::fleet

@@ -1,0 +1,222 @@
+#include "fleet/operator_actions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mavlink/command.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using base::ErrorKind;
+using base::fail;
+using base::Result;
+using base::Task;
+using mavlink::ModeRole;
+using vehicle::Action;
+using vehicle::Autopilot;
+using vehicle::Family;
+using vehicle::StopAction;
+
+namespace {
+
+constexpr base::Duration airborne_wait = 20s;  // spool-up and the climb of a plane's launch
+constexpr base::Duration effect_wait = 3s;
+constexpr double airborne_m = 1.0;
+
+bool flies(Family family) {
+  return family == Family::copter || family == Family::plane || family == Family::vtol;
+}
+
+std::unexpected<base::Error> unable(Craft const& craft, std::string_view what) {
+  return fail(ErrorKind::invalid_input, fmt::format("{} {}", craft.state.name, what));
+}
+
+Task<Result<>> go_into(mavlink::Connection& connection, Craft& craft, std::optional<std::uint32_t> mode,
+                       std::string_view without, ActionOptions how) {
+  if (!mode) co_return unable(craft, without);
+  ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .how = how};
+  co_return co_await change_mode(connection, craft, change);
+}
+
+Task<Result<>> go_into_role(mavlink::Connection& connection, Craft& craft, ModeRole role, std::string_view without,
+                            ActionOptions how) {
+  auto const mode = mavlink::mode_for(craft.state.autopilot, craft.state.family, role);
+  co_return co_await go_into(connection, craft, mode, without, how);
+}
+
+/// What takes off by a mode of its own: planes of ArduPilot, everything of PX4.
+std::optional<std::uint32_t> take_off_mode(Craft const& craft) {
+  auto const autopilot = craft.state.autopilot;
+  auto const by_name = [&](std::string_view name) { return mavlink::mode_number(autopilot, craft.state.family, name); };
+  if (autopilot == Autopilot::px4) return by_name("AUTO.TAKEOFF");
+  return craft.state.family == Family::copter ? std::nullopt : by_name("TAKEOFF");
+}
+
+Task<Result<>> leave_the_ground(mavlink::Connection& connection, Craft& craft, double height_m, ActionOptions how) {
+  ActionOptions const before{.not_after = how.not_after};
+  if (auto const mode = take_off_mode(craft)) {
+    auto changed = co_await go_into(connection, craft, mode, "", before);
+    if (!changed) co_return changed;
+    co_return co_await arm(connection, craft, how);
+  }
+  auto guided = co_await go_into_role(connection, craft, ModeRole::guided, "cannot take off by itself", before);
+  if (!guided) co_return guided;
+  if (auto armed = co_await arm(connection, craft, before); !armed) co_return armed;
+  auto const since = connection.loop().now();
+  auto const command = mavlink::take_off(height_m);
+  mavlink::CommandOptions const options{.not_after = how.not_after};
+  auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
+  if (!asked && asked.error().kind == ErrorKind::refused)
+    co_return fail(ErrorKind::refused, fmt::format("{} {}", asked.error().message, given_reason(craft, since)));
+  if (asked && how.on_accepted) how.on_accepted();
+  co_return asked;
+}
+
+Task<Result<>> take_off(mavlink::Connection& connection, Craft& craft, double height_m, ActionOptions how) {
+  if (!flies(craft.state.family)) co_return unable(craft, "does not fly");
+  if (craft.state.landed.value == false) co_return unable(craft, "is in the air already");
+  auto left = co_await leave_the_ground(connection, craft, height_m, how);
+  if (!left) co_return left;
+  std::function<bool()> is_up = [&craft] {
+    return craft.state.landed.value == false || craft.state.relative_alt_m.value.value_or(0.0) > airborne_m;
+  };
+  if (co_await craft.changed.wait_for(std::move(is_up), airborne_wait)) co_return Result<>{};
+  co_return fail(ErrorKind::timed_out, "accepted, but it has not left the ground");
+}
+
+/// Autopilots go there in their guided mode, which shows that they do.
+Task<Result<>> go_to(mavlink::Connection& connection, Craft& craft, vehicle::VehicleCommand command,
+                     ActionOptions how) {
+  if (!command.place) co_return unable(craft, "was told no place to go to");
+  if (flies(craft.state.family) && craft.state.landed.value.value_or(false))
+    co_return unable(craft, "is on the ground: take off first");
+  if (!craft.is_armed) co_return unable(craft, "is not armed");
+  auto const height_m = command.height_m ? command.height_m : craft.state.relative_alt_m.value;
+  if (flies(craft.state.family) && !height_m) co_return unable(craft, "has not told its height: give one");
+  auto const there = mavlink::reposition({.frame = mavlink::MavFrame::global_relative_alt,
+                                          .lat_rad = command.place->lat_rad,
+                                          .lon_rad = command.place->lon_rad,
+                                          .z_m = height_m.value_or(0.0)});
+  auto const guided = mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::guided);
+  auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::hold);
+  auto const mode = guided ? guided : hold;  // PX4 goes there in AUTO.LOITER
+  craft.asked_mode = mode;
+  craft.mode_asked = connection.loop().now();
+  mavlink::CommandOptions const options{.not_after = how.not_after, .takes_int = craft.takes_command_int()};
+  auto const asked = co_await mavlink::run_command(connection, craft.address, there, options);
+  if (!asked) co_return asked;
+  if (how.on_accepted) how.on_accepted();
+  std::function<bool()> shown = [&craft, mode] { return !mode || craft.custom_mode == *mode; };
+  if (co_await craft.changed.wait_for(std::move(shown), effect_wait)) co_return Result<>{};
+  co_return fail(ErrorKind::timed_out, fmt::format("accepted, but it is in {}", mode_name(craft, craft.custom_mode)));
+}
+
+Task<Result<>> resume(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
+  if (!craft.is_armed) co_return unable(craft, "is not armed: start the mission instead");
+  co_return co_await go_into_role(connection, craft, ModeRole::mission, "has no mission mode", how);
+}
+
+}  // namespace
+
+Task<Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle::VehicleCommand command,
+                         ActionOptions how) {
+  constexpr double usual_height_m = 10.0;
+  switch (command.action) {
+    case Action::arm: co_return co_await arm(connection, craft, how);
+    case Action::disarm: co_return co_await disarm(connection, craft, how);
+    case Action::take_off:
+      co_return co_await take_off(connection, craft, command.height_m.value_or(usual_height_m), how);
+    case Action::land: co_return co_await go_into_role(connection, craft, ModeRole::land, "cannot land by itself", how);
+    case Action::return_home:
+      co_return co_await go_into_role(connection, craft, ModeRole::rtl, "has no mode to return in", how);
+    case Action::hold:
+    case Action::pause_mission:
+      co_return co_await go_into_role(connection, craft, ModeRole::hold, "has no mode to hold in", how);
+    case Action::go_to: co_return co_await go_to(connection, craft, command, how);
+    case Action::set_mode: {
+      auto const mode = mavlink::mode_number(craft.state.autopilot, craft.state.family, command.mode);
+      auto const without = fmt::format("has no mode {}", command.mode);
+      co_return co_await go_into(connection, craft, mode, without, how);
+    }
+    case Action::start_mission: co_return co_await arm_and_start(connection, craft, how);
+    case Action::resume_mission: co_return co_await resume(connection, craft, how);
+  }
+  co_return unable(craft, "was told nothing that it knows");
+}
+
+namespace {
+
+Task<Result<>> stop_motors(mavlink::Connection& connection, Craft& craft, std::function<void()> on_accepted) {
+  auto const command = mavlink::force_disarm();
+  mavlink::CommandOptions const options{.tries = 2, .ack_timeout = 500ms, .is_urgent = true};
+  auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
+  if (asked && on_accepted) on_accepted();
+  std::function<bool()> shown = [&craft] { return !craft.is_armed; };
+  if (co_await craft.changed.wait_for(std::move(shown), effect_wait)) co_return Result<>{};
+  if (!asked) co_return asked;
+  co_return fail(ErrorKind::timed_out, "accepted, but it still reports armed");
+}
+
+OnStop on_stop_of(StopAction action) {
+  if (action == StopAction::land) return OnStop::land;
+  return action == StopAction::return_home ? OnStop::rtl : OnStop::loiter;
+}
+
+/// Modes in which a vehicle comes to rest or home.
+bool is_stop_mode(Craft const& craft, std::uint32_t custom_mode) {
+  constexpr std::array roles{ModeRole::hold, ModeRole::land, ModeRole::rtl};
+  return std::ranges::any_of(roles, [&](ModeRole role) {
+    return mavlink::mode_for(craft.state.autopilot, craft.state.family, role) == custom_mode;
+  });
+}
+
+bool is_moving(Craft const& craft, mavlink::Command const& command) {
+  using mavlink::MavCmd;
+  auto const& p = command.params;
+  switch (command.id) {
+    case MavCmd::do_set_mode: {
+      auto const whole = static_cast<std::uint32_t>(p[1]);
+      bool const is_px4 = craft.state.autopilot == Autopilot::px4;
+      return !is_stop_mode(craft, is_px4 ? whole << 16U | static_cast<std::uint32_t>(p[2]) << 24U : whole);
+    }
+    case MavCmd::nav_return_to_launch:
+    case MavCmd::nav_land:
+    case MavCmd::nav_loiter_unlim:
+    case MavCmd::do_flight_termination: return false;
+    case MavCmd::do_pause_continue: return p[0] != 0.0F;
+    default: return mavlink::is_hazardous(command);
+  }
+}
+
+}  // namespace
+
+Task<Result<>> stop_at_once(mavlink::Connection& connection, Craft& craft, StopAction action,
+                            std::function<void()> on_accepted) {
+  if (action == StopAction::terminate) co_return co_await stop_motors(connection, craft, on_accepted);
+  ActionOptions const how{.is_urgent = true, .on_accepted = on_accepted};
+  if (!craft.is_armed) co_return co_await disarm(connection, craft, how);
+  auto stopped = co_await bring_to_rest(connection, craft, on_stop_of(action), on_accepted);
+  if (!stopped) co_return stopped;
+  // Wheels stand without a motor; boats and subs would drift.
+  if (craft.state.family == Family::rover && action == StopAction::hold)
+    co_return co_await disarm(connection, craft, how);
+  co_return Result<>{};
+}
+
+bool is_moving(Craft const& craft, mavlink::Message const& message) {
+  if (auto const* as_long = std::get_if<mavlink::CommandLong>(&message))
+    return is_moving(craft, mavlink::Command{as_long->command, as_long->params});
+  if (auto const* as_int = std::get_if<mavlink::CommandInt>(&message)) {
+    auto const& p = as_int->params;
+    return is_moving(craft, mavlink::Command{as_int->command, {p[0], p[1], p[2], p[3]}});
+  }
+  if (auto const* mode = std::get_if<mavlink::SetMode>(&message)) return !is_stop_mode(craft, mode->custom_mode);
+  return std::holds_alternative<mavlink::SetPositionTargetGlobalInt>(message);
+}
+
+}  // namespace lapwing::fleet

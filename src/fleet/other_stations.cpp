@@ -1,0 +1,129 @@
+#include "fleet/other_stations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "fleet/vehicle_actions.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using mavlink::Address;
+using mavlink::MavCmd;
+
+namespace {
+
+constexpr base::Duration asked_recently = 15s;  // a mode that was commanded may take that long to show
+constexpr base::Duration station_is_here = 10s;
+constexpr base::Duration same_again = 10s;
+
+std::string name_of(Address station) {
+  return fmt::format("station {}/{}", station.system, station.component);
+}
+
+/// Commands that change nothing about a vehicle but what it sends.
+bool only_asks(MavCmd command) {
+  constexpr std::array asking{
+      MavCmd::set_message_interval,     MavCmd::get_message_interval,           MavCmd::request_message,
+      MavCmd::request_protocol_version, MavCmd::request_autopilot_capabilities, MavCmd::get_home_position};
+  return std::ranges::find(asking, command) != asking.end();
+}
+
+std::string_view plan_word(mavlink::MissionType type) {
+  switch (type) {
+    case mavlink::MissionType::fence: return "fence";
+    case mavlink::MissionType::rally: return "rally points";
+    default: return "mission";
+  }
+}
+
+}  // namespace
+
+OtherStations::OtherStations(Fleet& fleet, base::Logger log)
+    : fleet_(fleet),
+      log_(std::move(log)),
+      subscription_(fleet.connection().subscribe([this](mavlink::Received const& received) { take(received); })) {}
+
+Craft* OtherStations::craft_of(std::uint8_t system_id) {
+  return fleet_.find(vehicle::VehicleId{std::to_string(system_id)});
+}
+
+void OtherStations::take(mavlink::Received const& received) {
+  if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message))
+    return take_heartbeat(received, *heartbeat);
+  if (auto const* command = std::get_if<mavlink::CommandLong>(&received.message))
+    return note_command(received.source, command->target, command->command, "");
+  if (auto const* command = std::get_if<mavlink::CommandInt>(&received.message))
+    return note_command(received.source, command->target, command->command, "");
+  take_answer(received);
+}
+
+void OtherStations::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat) {
+  if (heartbeat.type == mavlink::MavType::gcs) {
+    bool const is_new = !stations_.contains(received.source);
+    stations_[received.source] = received.at;
+    if (is_new) log_.info(fmt::format("another ground station is on the link: {}", name_of(received.source)));
+    return;
+  }
+  if (received.source.component != mavlink::autopilot_component) return;
+  auto* const craft = craft_of(received.source.system);
+  if (!craft) return;
+  auto const [entry, is_first] = modes_.try_emplace(received.source.system, heartbeat.custom_mode);
+  auto const before = std::exchange(entry->second, heartbeat.custom_mode);
+  if (!is_first && before != heartbeat.custom_mode) note_mode(*craft, before);
+}
+
+/// What a vehicle answers to somebody else.
+void OtherStations::take_answer(mavlink::Received const& received) {
+  auto const target = mavlink::target_of(received.message);
+  if (!target || target->system == 0 || mavlink::addresses(*target, fleet_.connection().self())) return;
+  if (auto const* ack = std::get_if<mavlink::CommandAck>(&received.message)) {
+    if (ack->result == mavlink::MavResult::in_progress) return;
+    return note_command(*target, received.source, ack->command, mavlink::to_string(ack->result));
+  }
+  auto const* ack = std::get_if<mavlink::MissionAck>(&received.message);
+  auto* const craft = craft_of(received.source.system);
+  if (!ack || !craft || ack->result != mavlink::MavMissionResult::accepted) return;
+  tell(*craft, fmt::format("{} changed or read its {}", name_of(*target), plan_word(ack->type)));
+}
+
+void OtherStations::note_command(Address by, Address target, MavCmd command, std::string_view outcome) {
+  auto* const craft = craft_of(target.system);
+  if (!craft || only_asks(command)) return;
+  tell(*craft,
+       fmt::format("{} commanded {}{}{}", name_of(by), to_string(command), outcome.empty() ? "" : ": ", outcome));
+}
+
+/// A mode that this station did not ask for: a failsafe, the end of a mission, a pilot's switch, another station.
+void OtherStations::note_mode(Craft& craft, std::uint32_t before) {
+  auto const now = fleet_.loop().now();
+  bool const is_ours =
+      craft.asked_mode == std::as_const(modes_).at(craft.address.system) && now - craft.mode_asked <= asked_recently;
+  if (is_ours) return;
+  tell(craft, fmt::format("{} to {}, not asked for here{}", mode_name(craft, before),
+                          mode_name(craft, modes_.at(craft.address.system)), suspects()));
+}
+
+std::string OtherStations::suspects() const {
+  std::vector<std::string> here;
+  for (auto const& [station, heard] : stations_)
+    if (fleet_.loop().now() - heard <= station_is_here) here.push_back(name_of(station));
+  return here.empty() ? "" : fmt::format("; {} is on the link", fmt::join(here, ", "));
+}
+
+void OtherStations::tell(Craft& craft, std::string what) {
+  auto const now = fleet_.loop().now();
+  auto& told = craft.state.foreign_change;
+  if (told.value == what && now - told.heard < same_again) return;
+  log_.warn(fmt::format("{}: {}", craft.state.name, what));
+  told.set(std::move(what), now);
+  fleet_.registry().touch(craft.id());
+}
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "base/log.hpp"
+#include "fleet/fleet.hpp"
+
+namespace lapwing::fleet {
+
+/// Notices what other ground stations do to the vehicles of a fleet: their heartbeats, their commands and what vehicles
+/// answer to them, plans that they have changed, and modes that nobody here asked for. Tells it in the log and in the
+/// vehicle's `foreign_change`. Thread-bound.
+class OtherStations {
+ public:
+  /// The fleet outlives this.
+  OtherStations(Fleet& fleet, base::Logger log);
+  OtherStations(OtherStations const&) = delete;
+  OtherStations& operator=(OtherStations const&) = delete;
+
+ private:
+  void take(mavlink::Received const& received);
+  void take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
+  void take_answer(mavlink::Received const& received);
+  void note_command(mavlink::Address by, mavlink::Address target, mavlink::MavCmd command, std::string_view outcome);
+  void note_mode(Craft& craft, std::uint32_t before);
+  void tell(Craft& craft, std::string what);
+  [[nodiscard]] Craft* craft_of(std::uint8_t system_id);
+  [[nodiscard]] std::string suspects() const;
+
+  Fleet& fleet_;
+  base::Logger log_;
+  std::map<mavlink::Address, base::TimePoint> stations_;  ///< heard, and when last
+  std::map<std::uint8_t, std::uint32_t> modes_;           ///< of the last heartbeat, by system
+  mavlink::Subscription subscription_;
+};
+
+}  // namespace lapwing::fleet

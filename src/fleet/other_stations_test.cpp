@@ -1,0 +1,69 @@
+#include "fleet/other_stations.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fleet/test_control.hpp"
+
+namespace lapwing::fleet {
+namespace {
+
+using namespace std::chrono_literals;
+using mavlink::Address;
+using mavlink::MavCmd;
+using vehicle::Action;
+
+constexpr Address other{252, 190};
+
+TEST(OtherStations, NameWhoCommandedAVehicle) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.send(mavlink::CommandAck{.target = other, .command = MavCmd::component_arm_disarm});
+  world.run_for(100ms);
+  EXPECT_EQ(world.state().foreign_change.value, "station 252/190 commanded COMPONENT_ARM_DISARM: accepted");
+}
+
+TEST(OtherStations, AreNotBlamedForAskingForMessages) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.send(mavlink::CommandAck{.target = other, .command = MavCmd::set_message_interval});
+  copter.send(mavlink::CommandAck{.target = {255, 190}, .command = MavCmd::component_arm_disarm});
+  world.run_for(100ms);
+  EXPECT_FALSE(world.state().foreign_change.known());
+}
+
+TEST(OtherStations, ShowInCommandsThatAreForwarded) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.send_as(other, mavlink::CommandLong{.target = {1, 1}, .command = MavCmd::mission_start});
+  world.run_for(100ms);
+  EXPECT_EQ(world.state().foreign_change.value, "station 252/190 commanded MISSION_START");
+}
+
+TEST(OtherStations, ShowInPlansThatChange) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.send(mavlink::MissionAck{.target = other, .type = mavlink::MissionType::fence});
+  world.run_for(100ms);
+  EXPECT_EQ(world.state().foreign_change.value, "station 252/190 changed or read its fence");
+}
+
+TEST(OtherStations, AreSuspectedWhenAModeChangesByItself) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.send_as(other, mavlink::Heartbeat{.type = mavlink::MavType::gcs, .autopilot = mavlink::MavAutopilot::invalid});
+  copter.change_mode(copter_mode::rtl);
+  world.run_for(2s);
+  EXPECT_EQ(world.state().foreign_change.value, "STABILIZE to RTL, not asked for here; station 252/190 is on the link");
+  EXPECT_TRUE(world.has_logged("another ground station is on the link: station 252/190"));
+}
+
+TEST(OtherStations, HaveNothingToDoWithOurOwnModes) {
+  ControlWorld world;
+  world.add_ready();
+  EXPECT_EQ(world.end_of(world.give({.action = Action::set_mode, .mode = "GUIDED"})), vehicle::CommandState::confirmed);
+  world.run_for(2s);
+  EXPECT_FALSE(world.state().foreign_change.known());
+}
+
+}  // namespace
+}  // namespace lapwing::fleet
