@@ -1,22 +1,16 @@
 #include "station/messages.hpp"
 
-#include <chrono>
-
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "station/json.hpp"
+#include "station/internal/json_parts.hpp"
 
 namespace lapwing::station {
 namespace {
 
-/// ISO 8601 in UTC with milliseconds.
-std::string to_text(base::UtcTime time) {
-  auto const since_epoch = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
-  auto const seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(static_cast<std::time_t>(seconds.count())),
-                     (since_epoch - seconds).count());
-}
+using internal::parse_object;
+using internal::text_member;
+using internal::to_text;
+using internal::wrong;
 
 Json to_json(std::vector<base::DiagnosticRecord> const& records);
 
@@ -59,31 +53,6 @@ void add_hello(Json& json, Hello const& hello) {
   if (!hello.site.tiles.empty()) json["site"]["tiles"] = hello.site.tiles;
 }
 
-std::unexpected<base::Error> wrong(std::string message) {
-  return base::fail(base::ErrorKind::invalid_input, std::move(message), "See docs/reference/station-messages.md.");
-}
-
-/// Nesting is bounded by the parser's own stack use only, so refuse what no message of ours needs.
-base::Result<Json> parse_object(std::string_view text) {
-  constexpr int deepest = 8;
-  bool too_deep = false;
-  auto const check_depth = [&](int depth, Json::parse_event_t, Json&) {
-    too_deep = too_deep || depth > deepest;
-    return !too_deep;
-  };
-  auto json = Json::parse(text.begin(), text.end(), check_depth, false);
-  if (too_deep || json.is_discarded() || !json.is_object()) return wrong("This is no JSON object.");
-  return json;
-}
-
-/// A member that is text, or `fallback` when it is absent; an error when it is something else.
-base::Result<std::string> text_member(Json const& object, char const* key, std::string fallback) {
-  auto const found = object.find(key);
-  if (found == object.end()) return fallback;
-  if (!found->is_string()) return wrong(fmt::format("\"{}\" must be text.", key));
-  return found->get<std::string>();
-}
-
 base::Result<StartScript> start_script_from(Json const& object) {
   if (!object.contains("source")) return wrong("\"source\", the script's text, is missing.");
   auto source = text_member(object, "source", "");
@@ -102,6 +71,7 @@ Json reply(std::string_view request_id, bool ok) {
 std::string hello_message(Hello const& hello) {
   Json json{{"type", "hello"}};
   add_hello(json, hello);
+  if (!hello.commander.empty()) json["operator"] = hello.commander;
   return dump(json);
 }
 
@@ -183,6 +153,11 @@ base::Result<ClientRequest> parse_client_request(std::string_view text) {
   if (!type) return std::unexpected(type.error());
   if (*type == "ping") return ClientRequest{std::move(*id), Ping{}};
   if (*type == "stop_script") return ClientRequest{std::move(*id), StopScript{}};
+  if (is_control_request(*type)) {
+    auto control = parse_control_request(*type, text);
+    if (!control) return std::unexpected(control.error());
+    return ClientRequest{std::move(*id), std::move(*control)};
+  }
   if (*type != "start_script") return wrong(fmt::format("There is no request of type \"{}\".", *type));
   auto start = start_script_from(*object);
   if (!start) return std::unexpected(start.error());

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "geo/position.hpp"
+#include "station/control_messages.hpp"
 #include "station/script_control.hpp"
 #include "tasks/task_view.hpp"
 
@@ -40,6 +41,7 @@ struct Hello {
   std::string program_version;
   Site site;
   base::UtcTime server_time{};
+  std::string commander = {};  ///< what this viewer is called where it commands vehicles; empty over HTTP
 };
 
 // ---- station to client
@@ -82,7 +84,7 @@ struct Ping {};
 
 struct ClientRequest {
   std::string id;  ///< chosen by the client, comes back in the answer; may be empty
-  std::variant<StartScript, StopScript, Ping> what;
+  std::variant<StartScript, StopScript, Ping, ControlRequest> what;
 };
 
 /// Reads what a client sent; says what is wrong with it.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "station/control_routes.hpp"
 #include "station/openapi.hpp"
 #include "station/script_folder.hpp"
 
@@ -49,9 +50,9 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
   });
   server_->set_router(make_router());
   server_->set_websocket({
-      .opened = [this](SessionId session) { viewers_[session].is_behind = !server_->send(session, whole_state()); },
+      .opened = [this](SessionId session) { open_session(session); },
       .received = [this](SessionId session, std::string_view text) { receive(session, text); },
-      .closed = [this](SessionId session) { viewers_.erase(session); },
+      .closed = [this](SessionId session) { close_session(session); },
   });
   server_->every(options_.period, [this] { send_news(); });
 }
@@ -63,7 +64,7 @@ void Station::send_news() {
   auto const messages = news();
   for (auto& [session, viewer] : viewers_) {
     if (viewer.is_behind && server_->backlog_bytes(session) > 0) continue;
-    viewer.is_behind = !server_->send(session, viewer.is_behind ? whole_state() : messages);
+    viewer.is_behind = !server_->send(session, viewer.is_behind ? whole_state(viewer.name) : messages);
   }
 }
 
@@ -79,15 +80,24 @@ std::vector<Station::Message> Station::news() {
   add_if_changed(last_tasks_, tasks_message(script_.task_trees()));
   auto const lines = log_after(std::exchange(last_log_, history_->last_sequence));
   if (!lines.empty()) messages.push_back(shared(log_message(lines)));
+  if (auto const* control = options_.control; control && control->revision() != last_control_) {
+    last_control_ = control->revision();
+    messages.push_back(shared(emergency_message(control->emergency())));
+    messages.push_back(shared(commands_message(control->commands())));
+  }
   return messages;
 }
 
-std::vector<Station::Message> Station::whole_state() const {
-  std::vector<Message> messages{shared(hello_message(hello()))};
+std::vector<Station::Message> Station::whole_state(std::string const& commander) const {
+  std::vector<Message> messages{shared(hello_message(hello(commander)))};
   for (auto& text : feed_.snapshot(loop_.now())) messages.push_back(shared(std::move(text)));
   messages.push_back(shared(script_message(script_.status())));
   messages.push_back(shared(tasks_message(script_.task_trees())));
   messages.push_back(shared(log_message(log_after(0))));
+  if (auto const* control = options_.control) {
+    messages.push_back(shared(emergency_message(control->emergency())));
+    messages.push_back(shared(commands_message(control->commands())));
+  }
   return messages;
 }
 
@@ -100,10 +110,32 @@ std::vector<LogLine> Station::log_after(std::uint64_t sequence) const {
 // ---- from the viewers
 // --------------------------------------------------------------------------------------------------
 
+void Station::open_session(SessionId session) {
+  auto& viewer = viewers_[session];
+  if (options_.control) viewer.name = fmt::format("operator {}", ++sessions_);
+  viewer.is_behind = !server_->send(session, whole_state(viewer.name));
+}
+
+/// Whoever closes the page cannot be asked any more.
+void Station::close_session(SessionId session) {
+  auto const viewer = viewers_.extract(session);
+  if (options_.control && !viewer.empty()) options_.control->forget(viewer.mapped().name);
+}
+
+void Station::obey_viewer(SessionId session, std::string const& request_id, ControlRequest request) {
+  auto const done = obey(options_.control, std::move(request), viewers_[session].name);
+  if (!done) return reply(session, refused_message(request_id, {done.error(), {}}));
+  reply(session, accepted_message(request_id));
+}
+
 void Station::receive(SessionId session, std::string_view text) {
   auto request = parse_client_request(text);
   if (!request) return reply(session, refused_message("", {request.error(), {}}));
   if (std::holds_alternative<Ping>(request->what)) return reply(session, pong_message(request->id, loop_.utc_now()));
+  if (auto* const control = std::get_if<ControlRequest>(&request->what)) {
+    control->by.clear();  // a viewer has its name
+    return obey_viewer(session, request->id, std::move(*control));
+  }
   if (auto* const start = std::get_if<StartScript>(&request->what)) {
     log_.info(fmt::format("start asked for by a viewer script={}", start->name));
     auto const started = script_.start(std::move(start->name), std::move(start->source));
@@ -139,6 +171,7 @@ Router Station::make_router() {
   router.add("GET", "/api/v1/tasks",
              [this](auto const&) { return HttpResponse{.body = tasks_message(script_.task_trees())}; });
   router.add("POST", "/api/v1/stop", [this](auto const&) { return post_stop(); });
+  add_control_routes(router, options_.control, log_);
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
   router.add("GET", "/api/openapi.yaml", [](auto const&) {
     return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};
@@ -146,8 +179,8 @@ Router Station::make_router() {
   return router;
 }
 
-Hello Station::hello() const {
-  return {options_.program_version, options_.site, loop_.utc_now()};
+Hello Station::hello(std::string commander) const {
+  return {options_.program_version, options_.site, loop_.utc_now(), std::move(commander)};
 }
 
 HttpResponse Station::get_status() const {

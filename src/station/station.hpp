@@ -14,6 +14,7 @@
 #include "station/messages.hpp"
 #include "station/script_control.hpp"
 #include "station/vehicle_feed.hpp"
+#include "vehicle/control.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::station {
@@ -30,7 +31,8 @@ class Station {
     std::size_t log_history = 500;          ///< lines kept for viewers that connect later
     std::string program_version = "0";
     Site site = {};
-    std::filesystem::path scripts = {};  ///< folder of scripts that viewers may choose from; empty: none
+    std::filesystem::path scripts = {};          ///< folder of scripts that viewers may choose from; empty: none
+    vehicle::VehicleControl* control = nullptr;  ///< outlives the station; null: vehicles are only shown
   };
 
   /// Listens at once. `vehicles`, `script` and `loop` must outlive the station; `hub` may go first or last.
@@ -58,12 +60,15 @@ class Station {
 
   void send_news();
   [[nodiscard]] std::vector<Message> news();
-  [[nodiscard]] std::vector<Message> whole_state() const;
+  [[nodiscard]] std::vector<Message> whole_state(std::string const& commander) const;
+  void open_session(SessionId session);
+  void close_session(SessionId session);
+  void obey_viewer(SessionId session, std::string const& request_id, ControlRequest request);
   [[nodiscard]] std::vector<LogLine> log_after(std::uint64_t sequence) const;
   void receive(SessionId session, std::string_view text);
   void reply(SessionId session, std::string text);
 
-  [[nodiscard]] Hello hello() const;
+  [[nodiscard]] Hello hello(std::string commander = {}) const;
   [[nodiscard]] HttpResponse get_status() const;
   [[nodiscard]] HttpResponse post_script(HttpRequest const& request);
   [[nodiscard]] HttpResponse post_stop();
@@ -80,8 +85,11 @@ class Station {
   std::string last_script_;
   std::string last_tasks_;
   std::uint64_t last_log_ = 0;
+  std::uint64_t last_control_ = 0;
+  int sessions_ = 0;  ///< ever opened: numbers the operators
   struct Viewer {
-    bool is_behind = false;  ///< missed something: gets the whole state when its backlog is gone
+    vehicle::Commander name = {};  ///< "operator 3", where it commands vehicles
+    bool is_behind = false;        ///< missed something: gets the whole state when its backlog is gone
   };
   std::map<SessionId, Viewer> viewers_;
   std::unique_ptr<HttpServer> server_;  // last: ends first, so that no call-back finds half a station

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "station/openapi.hpp"
+#include "station/testing/fake_control.hpp"
 #include "station/testing/http_client.hpp"
 
 namespace lapwing::station {
@@ -189,6 +190,29 @@ TEST_F(StationTest, ObeysViewers) {
   EXPECT_EQ(next(*viewer, "reply")["ok"], false);
 }
 
+TEST_F(StationTest, LetsViewersCommandVehicles) {
+  testing::FakeControl vehicles;
+  open({.control = &vehicles});
+  auto viewer = watch();
+  ASSERT_TRUE(viewer);
+  EXPECT_EQ(next(*viewer, "hello")["operator"], "operator 1");
+  EXPECT_EQ(next(*viewer, "emergency")["latched"], false);
+  viewer->send(R"({"type":"command","id":"a","vehicles":["1"],"action":"land","operator":"somebody else"})");
+  EXPECT_EQ(next(*viewer, "reply")["ok"], true);
+  EXPECT_EQ(vehicles.records.back().by, "operator 1");
+  EXPECT_EQ(next(*viewer, "commands")["commands"][0]["action"], "land");
+  viewer->send(R"({"type":"emergency_stop","id":"b"})");
+  while (next(*viewer, "emergency")["latched"] != true) {
+  }
+  viewer->send(R"({"type":"command","id":"c","vehicles":["1"],"action":"jump"})");
+  EXPECT_EQ(next(*viewer, "reply")["ok"], false);
+  auto const second = watch();
+  EXPECT_EQ(next(*second, "hello")["operator"], "operator 2");
+  viewer.reset();
+  EXPECT_TRUE(run_until(loop, [&] { return !vehicles.said.empty(); }));
+  EXPECT_EQ(vehicles.said, std::vector<std::string>{"forget operator 1"});
+}
+
 TEST_F(StationTest, BringsASlowViewerUpToDate) {
   open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
   auto const viewer = watch();
@@ -267,6 +291,7 @@ TEST_F(StationTest, AsksForItsTokenOverHttpAndWebSocket) {
   EXPECT_EQ(get("/api/v1/status").status, 401);
   EXPECT_EQ(get("/api/v1/scripts").status, 401);
   EXPECT_EQ(post("/api/v1/stop", "{}").status, 401);
+  EXPECT_EQ(post("/api/v1/emergency-stop", "{}").status, 401);
   auto const with = [&](std::string token) {
     return ask(loop, station->port(),
                {.target = "/api/v1/status", .headers = {{"Authorization", "Bearer " + std::move(token)}}})

@@ -179,6 +179,16 @@ void add_components(Fields& fields, VehicleState const& state) {
   fields["components"] = {std::move(list), {}};
 }
 
+/// The same clock as the message's `time_s`.
+void add_control(Fields& fields, vehicle::ControlState const& control) {
+  Json json{{"commander", control.commander}};
+  if (!control.asked_for_by.empty()) {
+    json["asked_for_by"] = control.asked_for_by;
+    json["granted_at_s"] = rounded(base::to_seconds(control.granted_at.time_since_epoch()), 3);
+  }
+  fields["control"] = {std::move(json), {}};
+}
+
 void add_identity(Fields& fields, VehicleState const& state) {
   fields["system_id"] = {state.system_id, {}};
   fields["name"] = {state.name, {}};
@@ -225,6 +235,8 @@ Fields fields_of(VehicleState const& state) {
   add_components(fields, state);
   add(fields, "pictures", state.pictures, json);
   add_texts(fields, "texts", state.recent_texts);
+  add_control(fields, state.control);
+  add(fields, "foreign_change", state.foreign_change);
   return fields;
 }
 

@@ -114,6 +114,16 @@ TEST_F(VehicleFeedTest, SendsEachPictureOnce) {
   EXPECT_EQ(newcomer["pictures"].size(), 2U);
 }
 
+TEST_F(VehicleFeedTest, TellsWhoCommandsAVehicle) {
+  auto& state = edit("7");
+  state.control = {.commander = "anna", .asked_for_by = "ben", .granted_at = at(12s)};
+  state.foreign_change.set("station 252/190 commanded MISSION_START", at(9s));
+  auto const vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  EXPECT_EQ(vehicle["control"], json({{"commander", "anna"}, {"asked_for_by", "ben"}, {"granted_at_s", 12.0}}));
+  EXPECT_EQ(vehicle["foreign_change"], "station 252/190 commanded MISSION_START");
+  EXPECT_EQ(vehicle["age_s"]["foreign_change"], 1.0);
+}
+
 TEST_F(VehicleFeedTest, LeavesOutWhatWasNeverHeard) {
   edit("1");
   auto const vehicle = json::parse(feed.vehicles_message(at(1s)))["vehicles"].at(0);
