@@ -26,12 +26,14 @@ mavlink::Connection::Options connection_options(fleet::Fleet::Options const& fle
 }  // namespace
 
 Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options,
-               tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> signing_key)
+               tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> signing_key,
+               vehicle::StopAction emergency_action)
     : loop(on),
       connection(on, connection_options(fleet_options, signing_key), log.named("link")),
       registry(on),
       fleet(connection, registry, std::move(fleet_options), log.named("fleet")),
-      platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")) {}
+      platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")),
+      control(fleet, platform, {.stop_action = emergency_action}, log) {}
 
 base::Result<> Ground::open(std::vector<std::string> const& urls) {
   std::vector<std::unique_ptr<link::ByteLink>> links;

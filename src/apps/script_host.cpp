@@ -52,6 +52,8 @@ std::expected<void, station::StartFailure> ScriptHost::start(std::string name, s
     auto const message = fmt::format("{} is still running", status_.name);
     return std::unexpected(station::StartFailure{{base::ErrorKind::refused, message, "stop it first"}, {}});
   }
+  if (auto const reason = bar_ ? bar_() : std::nullopt)
+    return std::unexpected(station::StartFailure{{base::ErrorKind::refused, *reason, {}}, {}});
   auto const file = std::make_shared<base::SourceFile const>(name, source);
   base::Diagnostics diagnostics(*file);
   auto const builders = platform_.builders();

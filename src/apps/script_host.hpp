@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ class ScriptHost final : public station::ScriptControl {
   [[nodiscard]] std::expected<void, station::StartFailure> start(std::string name, std::string source) override;
   void stop() override;
 
+  /// Asked before a script starts: a reason refuses it.
+  void set_bar(std::function<std::optional<std::string>()> bar) { bar_ = std::move(bar); }
   /// Like `stop`, for another reason than the operator's wish; the outcome then is halted, with that reason.
   void halt(std::string reason);
   /// Halts the script when it still runs after so much of the loop's time. Cancelling this calls it off.
@@ -55,6 +58,7 @@ class ScriptHost final : public station::ScriptControl {
   station::ScriptStatus status_;
   std::string rendered_;
   std::vector<tasks::TaskView> finished_trees_;
+  std::function<std::optional<std::string>()> bar_;
   std::optional<std::string> halt_reason_;
   std::optional<dolphin::Outcome> outcome_;
   base::UtcTime started_{};

@@ -36,11 +36,17 @@ base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
                     "use loiter (hold in place, the default), rtl (return to launch) or land");
 }
 
+base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text) {
+  if (auto const action = vehicle::stop_action_from(text)) return *action;
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("--emergency-stop {} is not known", text),
+                    "use hold (stay in place, the default), land, rtl or terminate (motors off at once)");
+}
+
 Session::Session(Options const& options)
     : loop(pace_of(options)),
       log(hub, "lapwing"),
       ground(loop, options.on_stop, log, {.payload = options.payload, .asks_for_messages = !options.listens_only},
-             options.plans.library, options.signing_key),
+             options.plans.library, options.signing_key, options.emergency_action),
       console(make_console(loop, log)),
       host(
           loop, ground.platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
@@ -48,6 +54,8 @@ Session::Session(Options const& options)
       on_stop_(options.on_stop),
       events_(options.events) {
   hub.add_sink(terminal_sink(options.log_level));
+  ground.control.set_on_latched([this](std::string const& reason) { host.halt(reason); });
+  host.set_bar([this] { return ground.fleet.authority().barred(); });
   auto const plans = log.named("plans");
   for (auto const& note : options.plans.notes) plans.info(note);
   for (auto const& mistake : options.plans.mistakes) plans.warn(mistake.message);
@@ -80,6 +88,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.program_version = LAPWING_VERSION;
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
+  options.control = script ? nullptr : &ground.control;
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);

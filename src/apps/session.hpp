@@ -26,6 +26,7 @@ class Session {
   struct Options {
     double speedup = 1.0;  ///< 0: as fast as the machine computes
     fleet::OnStop on_stop = fleet::OnStop::loiter;
+    vehicle::StopAction emergency_action = vehicle::StopAction::hold;
     LoadedPlans plans = {};
     Equipment payload = {};
     EventFile const* events = nullptr;  ///< outlives the session
@@ -44,6 +45,7 @@ class Session {
   [[nodiscard]] base::Result<> record(std::string const& folder);
   /// Serves the map and tells its addresses on standard error; the token is in them, and nowhere else.
   /// `script`: what the map shows and starts; null: the host's.
+  /// Vehicles can be commanded from it, unless `script` is somebody else's.
   [[nodiscard]] base::Result<> open_map(WebAccess const& access, MapContent const& content,
                                         station::ScriptControl* script = nullptr);
 
@@ -70,6 +72,8 @@ class Session {
   EventFile const* events_;
 };
 
+/// Values of --emergency-stop.
+[[nodiscard]] base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text);
 /// Values of --on-stop.
 [[nodiscard]] base::Result<fleet::OnStop> parse_on_stop(std::string const& text);
 

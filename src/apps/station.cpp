@@ -22,6 +22,7 @@ struct StationArguments {
   std::vector<std::string> payload;
   std::string plans;
   std::optional<std::string> on_stop;
+  std::optional<std::string> emergency_stop;
   std::optional<std::string> scripts;
   std::optional<std::string> record;
   std::optional<std::string> signing_key;
@@ -57,6 +58,11 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
     if (!on_stop) return std::unexpected(on_stop.error());
     config->on_stop = *on_stop;
   }
+  if (arguments.emergency_stop) {
+    auto const action = parse_emergency_stop(*arguments.emergency_stop);
+    if (!action) return std::unexpected(action.error());
+    config->emergency_action = *action;
+  }
   if (arguments.tiles) {
     if (auto checked = check_tiles(*arguments.tiles); !checked) return std::unexpected(checked.error());
     config->map.tiles = *arguments.tiles;
@@ -75,8 +81,11 @@ int serve(StationArguments const& arguments) {
   if (!plans) return refuse(plans.error());
   auto const key = read_signing_key(config->signing_key);
   if (!key) return refuse(key.error());
-  Session session(
-      {.on_stop = config->on_stop, .plans = *std::move(plans), .payload = config->payload, .signing_key = *key});
+  Session session({.on_stop = config->on_stop,
+                   .emergency_action = config->emergency_action,
+                   .plans = *std::move(plans),
+                   .payload = config->payload,
+                   .signing_key = *key});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
   }
@@ -112,6 +121,8 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");
   verb->add_option("--on-stop", arguments->on_stop,
                    "What a vehicle does when its task is stopped: loiter (default), rtl or land");
+  verb->add_option("--emergency-stop", arguments->emergency_stop,
+                   "What the emergency stop does: hold (default), land, rtl or terminate");
   verb->callback([arguments, &exit_code] { exit_code = serve(*arguments); });
 }
 

@@ -63,6 +63,20 @@ void read_on_stop(ConfigReader& root, Diagnostics& diagnostics, StationConfig& c
                      hint.empty() ? "use loiter (hold in place, the default), rtl (return to launch) or land" : hint);
 }
 
+void read_emergency_stop(ConfigReader& root, Diagnostics& diagnostics, StationConfig& config) {
+  auto const text = root.text("emergency_stop");
+  if (!text) return;
+  if (auto const action = parse_emergency_stop(text->value)) {
+    config.emergency_action = *action;
+    return;
+  }
+  constexpr std::array<std::string_view, 4> actions{"hold", "land", "rtl", "terminate"};
+  auto hint = base::did_you_mean(text->value, actions);
+  diagnostics.report(base::config_kinds::invalid_value, text->span,
+                     fmt::format("emergency_stop cannot be \"{}\"", text->value),
+                     hint.empty() ? "use hold (stay in place, the default), land, rtl or terminate" : hint);
+}
+
 void read_web(ConfigReader web, base::SourceFile const& source, Diagnostics& diagnostics, WebAccess& access) {
   if (auto const bind = web.text("bind")) access.bind = bind->value;
   if (auto const port = web.integer("port", 0, 65535)) access.port = static_cast<int>(port->value);
@@ -127,6 +141,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   read_links(root, diagnostics, config);
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
+  read_emergency_stop(root, diagnostics, config);
   if (auto const file = root.text("signing_key")) config.signing_key = beside(source, file->value).string();
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);

@@ -10,6 +10,7 @@
 #include "base/diagnostic.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "geo/position.hpp"
+#include "vehicle/control.hpp"
 
 namespace lapwing::apps {
 
@@ -26,6 +27,7 @@ struct StationConfig {
   std::vector<std::string> links;  ///< empty: the default link
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
+  vehicle::StopAction emergency_action = vehicle::StopAction::hold;
   std::string signing_key = {};  ///< file; empty: nothing is signed
   std::string record = {};       ///< folder for recordings; empty: none are made
   WebAccess web;

@@ -41,6 +41,7 @@ TEST(StationConfig, OfAnEmptyFileIsLoopbackAlone) {
 TEST(StationConfig, ReadsEverySetting) {
   Read const read(R"(links = ["udpin://0.0.0.0:14550", "serial:///dev/ttyUSB0:57600"]
 on_stop = "rtl"
+emergency_stop = "land"
 [web]
 bind = "0.0.0.0"
 port = 0
@@ -56,6 +57,7 @@ scripts = "."
   EXPECT_EQ(read.complaints(), "");
   EXPECT_EQ(read.config.links.size(), 2U);
   EXPECT_EQ(read.config.on_stop, fleet::OnStop::rtl);
+  EXPECT_EQ(read.config.emergency_action, vehicle::StopAction::land);
   EXPECT_EQ(read.config.web.bind, "0.0.0.0");
   EXPECT_EQ(read.config.web.port, 0);
   EXPECT_EQ(read.config.web.token_file, LAPWING_SOURCE_DIR "/examples/secret") << "beside the file";
@@ -96,6 +98,8 @@ TEST(StationConfig, RefusesWrongTypes) {
 }
 
 TEST(StationConfig, RefusesBadValuesWithTheirPlace) {
+  EXPECT_EQ(first_complaint("emergency_stop = \"holt\""),
+            "1:18 emergency_stop cannot be \"holt\" | did you mean hold?");
   EXPECT_EQ(first_complaint("on_stop = \"lioter\""), "1:11 on_stop cannot be \"lioter\" | did you mean loiter?");
   EXPECT_EQ(first_complaint("[web]\nport = 65536").substr(0, 4), "2:8 ");
   EXPECT_EQ(first_complaint("links = [\n  \"udpin://127.0.0.1:1\",\n  \"udp:14550\",\n]").substr(0, 4), "3:3 ");

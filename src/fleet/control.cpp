@@ -99,7 +99,6 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   if (auto through = let_through(*craft, record, takes_over); !through)
     return show(record.number, id, CommandState::refused, through.error().message);
   supersede(id, fmt::format("{} by {} came after it", to_string(record.command.action), record.by));
-  craft->may_arm_late = false;
   // A stop is not given up while there is a chance; what makes a vehicle move must not come late.
   auto const patience = is_stop(record.command.action) ? 3 * options_.expiry : options_.expiry;
   auto& running = running_[id];
@@ -143,7 +142,7 @@ void Control::finish(Craft& craft, std::uint64_t number, Result<> const& ended, 
   bool const was_accepted = outcome->state == CommandState::accepted;
   auto const state = state_after(ended, was_accepted, fleet_.loop().now() >= expires);
   // An arming that nobody answered may still be on its way.
-  craft.may_arm_late = may_arm(record->command.action) && !ended && !craft.is_armed;
+  if (may_arm(record->command.action) && !ended && !craft.is_armed) craft.may_arm_late = true;
   show(number, craft.id(), state, ended ? mode_name(craft, craft.custom_mode) : ended.error().message);
 }
 
@@ -157,7 +156,8 @@ void Control::supersede(VehicleId const& id, std::string const& reason) {
   if (record == records_.end()) return;
   auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
   if (vehicle::is_over(outcome->state)) return;
-  if (may_have_armed && may_arm(record->command.action)) fleet_.find(id)->may_arm_late = true;
+  auto* const craft = fleet_.find(id);
+  if (may_have_armed && may_arm(record->command.action) && !craft->is_armed) craft->may_arm_late = true;
   show(number, id, CommandState::superseded, reason);
 }
 
@@ -186,7 +186,11 @@ void Control::take_late_arming(mavlink::Received const& received) {
   scope_.spawn(take_back(*craft));
 }
 
+/// The acknowledgement does not tell an arming from a disarming; the next heartbeat does.
 base::Task<> Control::take_back(Craft& craft) {
+  constexpr base::Duration heartbeats = std::chrono::seconds(3);
+  std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
+  if (!co_await craft.changed.wait_for(std::move(is_armed), heartbeats)) co_return;
   log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
   ActionOptions const how{.is_urgent = true};
   auto const disarmed = co_await disarm(fleet_.connection(), craft, how);
@@ -205,7 +209,7 @@ void Control::emergency_stop(std::optional<vehicle::StopAction> action, Commande
   }
   platform_.yield_all(reason);
   emergency_.latch(action.value_or(options_.stop_action), std::move(by));
-  if (options_.on_latched) options_.on_latched(reason);
+  if (on_latched_) on_latched_(reason);
 }
 
 void Control::release_emergency_stop(Commander by) {

@@ -23,15 +23,19 @@ namespace lapwing::fleet {
 class Control final : public vehicle::VehicleControl {
  public:
   struct Options {
-    vehicle::StopAction stop_action = vehicle::StopAction::hold;     ///< of an emergency stop that names none
-    base::Duration expiry = std::chrono::seconds(10);                ///< of commands that make a vehicle move
-    base::Duration answer_timeout = std::chrono::seconds(10);        ///< of who is asked for a vehicle
-    std::function<void(std::string const& reason)> on_latched = {};  ///< scripts are to be halted
+    vehicle::StopAction stop_action = vehicle::StopAction::hold;  ///< of an emergency stop that names none
+    base::Duration expiry = std::chrono::seconds(10);             ///< of commands that make a vehicle move
+    base::Duration answer_timeout = std::chrono::seconds(10);     ///< of who is asked for a vehicle
   };
   /// `fleet` and `platform` outlive this.
   Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log);
   Control(Control const&) = delete;
   Control& operator=(Control const&) = delete;
+
+  /// Called with the reason when the emergency stop is latched: scripts are to be halted.
+  void set_on_latched(std::function<void(std::string const& reason)> on_latched) {
+    on_latched_ = std::move(on_latched);
+  }
 
   base::Result<std::uint64_t> command(vehicle::VehicleCommand command, std::span<vehicle::VehicleId const> vehicles,
                                       vehicle::Commander by, bool takes_over) override;
@@ -63,6 +67,7 @@ class Control final : public vehicle::VehicleControl {
   Fleet& fleet_;
   FleetPlatform& platform_;
   Options options_;
+  std::function<void(std::string const& reason)> on_latched_;
   base::Logger log_;
   std::uint64_t revision_ = 0;
   std::uint64_t last_number_ = 0;

@@ -192,6 +192,28 @@ TEST(Control, TakesBackAnArmingThatTheLinkDeliversLate) {
   EXPECT_FALSE(copter.is_armed);
 }
 
+TEST(Control, DoesNotTakeADisarmingForALateArming) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  EXPECT_EQ(world.end_of(world.give({.action = Action::disarm})), CommandState::confirmed);
+  world.run_for(10s);
+  EXPECT_FALSE(world.has_logged("came too late"));
+}
+
+TEST(Control, LeavesAnArmingAloneThatIsWantedAgain) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  EXPECT_EQ(world.end_of(world.give({.action = Action::take_off})), CommandState::confirmed);
+  world.run_for(10s);
+  EXPECT_TRUE(copter.is_armed);
+}
+
 TEST(Control, LeavesAnArmingOfSomebodyElseAlone) {
   ControlWorld world;
   auto& copter = world.add_ready();

@@ -121,7 +121,7 @@ void OtherStations::tell(Craft& craft, std::string what) {
   auto const now = fleet_.loop().now();
   auto& told = craft.state.foreign_change;
   if (told.value == what && now - told.heard < same_again) return;
-  log_.warn(fmt::format("{}: {}", craft.state.name, what));
+  log_.info(fmt::format("{}: {}", craft.state.name, what));
   told.set(std::move(what), now);
   fleet_.registry().touch(craft.id());
 }

@@ -11,8 +11,8 @@ namespace lapwing::fleet {
 /// A ground station with an operator's hand on it, in virtual time.
 struct ControlWorld : TestWorld {
   explicit ControlWorld(Control::Options options = {}) {
-    options.on_latched = [this](std::string const& reason) { latched_with = reason; };
     control = std::make_unique<Control>(*fleet, *platform, options, base::Logger(log, "fleet"));
+    control->set_on_latched([this](std::string const& reason) { latched_with = reason; });
   }
 
   /// A copter that is heard and knows where it is.

@@ -10,6 +10,7 @@
 #include "base/scope.hpp"
 #include "geo/position.hpp"
 #include "station/station.hpp"
+#include "station/testing/demo_control.hpp"
 
 /// Test equipment for the browser app: a real station over made-up vehicles, so that web/e2e can show every state
 /// (moving, lost, conflict, low battery) at will. usage: station_demo PORT WEB_FOLDER
@@ -201,7 +202,9 @@ void update(vehicle::VehicleState& state, Traveller const& traveller, base::Time
 }
 
 /// Moves everything ten times a second; vehicle 5 goes silent after 5 s.
-base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScript& script, base::Logger log) {
+base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScript& script,
+                         testing::DemoControl& control, base::Logger log) {
+  for (auto const* id : {"1", "4"}) registry.edit({id}).control.commander = "script";
   auto const all = travellers();
   bool told = false;
   for (;;) {
@@ -216,6 +219,7 @@ base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScri
       if (is_lost && !std::exchange(told, true)) log.error("rover 5 is lost: nothing heard for 5 s");
     }
     script.advance();
+    control.advance();
     co_await loop.sleep(100ms);
   }
 }
@@ -227,7 +231,9 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   base::Logger const log(hub, "demo");
   vehicle::Registry registry(loop);
   DemoScript script(loop, log.named("script"));
+  testing::DemoControl control(loop, registry);
   Station::Options options;
+  options.control = &control;
   options.http.port = port;
   options.http.static_root = web_folder;
   options.program_version = "0.1.0";
@@ -244,7 +250,7 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   log.info("five vehicles found");
   log.named("vehicle 2").warn("battery at 27 %");
   base::Scope scope(loop);
-  scope.spawn(animate(loop, registry, script, log));
+  scope.spawn(animate(loop, registry, script, control, log));
   loop.run();
   return 0;
 }
