@@ -48,6 +48,7 @@ int main_of(int argc, char** argv) {
   add_sim(program, exit_code);
   add_replay(program, exit_code);
   add_station(program, exit_code);
+  add_param(program, exit_code);
   add_doctor(program, exit_code);
 
   if (auto const wrong = unknown_verb(program, argc, argv); !wrong.empty()) {

@@ -37,6 +37,7 @@ void add_lsp(CLI::App& program, int& exit_code);
 void add_sim(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);
 void add_station(CLI::App& program, int& exit_code);
+void add_param(CLI::App& program, int& exit_code);
 void add_doctor(CLI::App& program, int& exit_code);
 
 }  // namespace lapwing::apps

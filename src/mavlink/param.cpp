@@ -161,6 +161,7 @@ base::Task<base::Result<ParamChange>> set_param(Connection& connection, Address 
   Parameter const wanted{.name = name, .value = value, .type = before->type};
   auto const wire = encode_param(wanted, options.encoding);
   if (!wire) co_return std::unexpected(wire.error());
+  if (same_value(*before, wanted)) co_return ParamChange{*before, *before};
   Message const request = ParamSet{.name = name, .value = *wire, .type = wanted.type};
   auto after = co_await ask(connection, target, name, request, options);
   if (!after) co_return std::unexpected(after.error());

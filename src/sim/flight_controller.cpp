@@ -97,7 +97,7 @@ MissionStore::Ports FlightController::mission_ports() {
 }
 
 ReportView FlightController::view() const {
-  return {autopilot_, site_, wind_m_s_, loop_.utc_now(), memory_.plans.mission.size()};
+  return {autopilot_, site_, wind_m_s_, loop_.utc_now(), memory_.plans.mission.size(), connection_.self().system};
 }
 
 double FlightController::utc_day_s() const {

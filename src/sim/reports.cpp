@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 namespace lapwing::sim {
 
@@ -211,6 +212,15 @@ Wind wind(ReportView const& view) {
   return {.from_rad = geo::wrap_two_pi(std::atan2(w.east, w.north) + pi), .speed_m_s = std::hypot(w.north, w.east)};
 }
 
+/// What tells one board from another is made of the system id: it is the same after every start.
+AutopilotVersion version(ReportView const& view) {
+  AutopilotVersion version{.capabilities = 0xFBEF, .flight_sw_version = 0x04060000};
+  constexpr std::string_view maker = "lapwing-sim";
+  std::ranges::copy(maker, version.uid2.begin());
+  version.uid2.back() = view.system_id;
+  return version;
+}
+
 }  // namespace
 
 std::optional<Message> report(MessageId id, ReportView const& view) {
@@ -244,7 +254,7 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
     case MessageId::gps_global_origin:
       if (!autopilot.home()) return std::nullopt;
       return GpsGlobalOrigin{view.site.anchor()};
-    case MessageId::autopilot_version: return AutopilotVersion{.capabilities = 0xFBEF, .flight_sw_version = 0x04060000};
+    case MessageId::autopilot_version: return version(view);
     default: return std::nullopt;
   }
 }

@@ -15,6 +15,7 @@ struct ReportView {
   geo::Ned wind_m_s;
   base::UtcTime utc;
   std::size_t mission_items = 0;  ///< home included
+  std::uint8_t system_id = 1;
 };
 
 /// The vehicle's present state as that message; nothing when it does not send such a message now (before the estimator

@@ -1,0 +1,402 @@
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/files.hpp"
+#include "apps/ground.hpp"
+#include "apps/param_jobs.hpp"
+#include "apps/secret_file.hpp"
+#include "apps/signals.hpp"
+#include "apps/verb.hpp"
+#include "base/log.hpp"
+#include "link/byte_link.hpp"
+#include "link/url.hpp"
+#include "mavlink/modes.hpp"
+#include "parameters/parameter_file.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+using parameters::Parameter;
+using parameters::Wanted;
+
+struct ParamArguments {
+  std::vector<std::string> links;
+  std::vector<int> vehicles;
+  double wait_s = 10.0;
+  bool json = false;
+  bool cached = false;
+  bool everything = false;
+  bool only_tell = false;
+  std::string signing_key;
+  std::string file;
+  std::vector<std::string> names;  ///< names, patterns or NAME=VALUE, by the verb
+  std::vector<std::string> sides;  ///< of a comparison: ids and files
+  int from = 0;
+  std::vector<int> to;
+};
+
+/// What all of `param` need: the links, and the parameters of what is on them.
+struct ParamGround {
+  explicit ParamGround(std::optional<mavlink::SigningKey> key)
+      : log(hub, "param"),
+        connection(loop, {.signing_key = key}, log.named("link")),
+        service(connection,
+                parameters::Cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME"))), log) {
+    hub.add_sink(base::standard_error_sink(base::LogLevel::warn));
+  }
+  base::Result<> open(std::vector<std::string> const& urls) {
+    for (auto const& text : urls) {
+      auto const url = link::parse_url(text);
+      if (!url) return std::unexpected(url.error());
+      auto link = link::open(loop, *url);
+      if (!link) return std::unexpected(link.error());
+      connection.add_link(std::move(*link));
+    }
+    return {};
+  }
+
+  base::Loop loop;
+  base::LogHub hub;
+  base::Logger log;
+  mavlink::Connection connection;
+  parameters::ParameterService service;
+};
+
+using Job = std::function<base::Task<int>(ParamGround&, ParamArguments const&)>;
+
+base::Task<> finish(base::Task<int> job, int& code, base::Loop& loop) {
+  code = co_await job;
+  loop.stop();
+}
+
+/// Runs `job` on the vehicles' links to its end, or to an interrupt.
+int run_job(ParamArguments const& arguments, Job const& job) {
+  auto const key = read_signing_key(arguments.signing_key);
+  if (!key) return refuse(key.error());
+  ParamGround ground(*key);
+  auto const urls = arguments.links.empty() ? std::vector<std::string>{default_link} : arguments.links;
+  if (auto opened = ground.open(urls); !opened) return refuse(opened.error());
+  int code = exit_interrupted;
+  base::Scope scope(ground.loop);
+  StopSignals const signals(ground.loop, [&ground] { ground.loop.stop(); });
+  scope.spawn(finish(job(ground, arguments), code, ground.loop));
+  ground.loop.run();
+  return code;
+}
+
+void print(std::string const& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+std::vector<std::uint8_t> ids_of(std::vector<int> const& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+base::Task<base::Result<std::vector<std::uint8_t>>> wanted_vehicles(ParamGround& ground, ParamArguments const& of) {
+  auto const timeout = base::from_seconds(of.wait_s);
+  std::vector<std::uint8_t> const wanted = ids_of(of.vehicles);
+  co_return co_await find_vehicles(ground.loop, ground.service, wanted, timeout);
+}
+
+/// For verbs that concern one vehicle.
+base::Task<base::Result<std::uint8_t>> the_vehicle(ParamGround& ground, ParamArguments const& of) {
+  auto const ids = co_await wanted_vehicles(ground, of);
+  if (!ids) co_return std::unexpected(ids.error());
+  if (ids->size() == 1) co_return ids->front();
+  co_return base::fail(base::ErrorKind::invalid_input,
+                       fmt::format("several vehicles were heard: {}", fmt::join(*ids, ", ")),
+                       "say which one: --vehicle ID");
+}
+
+/// For verbs that change something: nothing is changed on vehicles that nobody named.
+base::Task<base::Result<std::vector<std::uint8_t>>> named_vehicles(ParamGround& ground, ParamArguments const& of) {
+  if (!of.vehicles.empty()) co_return co_await wanted_vehicles(ground, of);
+  auto const one = co_await the_vehicle(ground, of);
+  if (!one) co_return std::unexpected(one.error());
+  co_return std::vector<std::uint8_t>{*one};
+}
+
+base::Task<int> list(ParamGround& ground, ParamArguments const& of) {
+  auto const ids = co_await wanted_vehicles(ground, of);
+  if (!ids) co_return refuse(ids.error());
+  auto const wanted = of.cached ? Wanted::cached_too : Wanted::confirmed;
+  std::vector<std::uint8_t> const which = *ids;
+  std::vector<std::string> const patterns = of.names;
+  auto const listings = co_await list_parameters(ground.loop, ground.service, which, wanted, patterns);
+  if (!listings) co_return refuse(listings.error());
+  print(of.json ? listing_json(*listings) : listing_text(*listings));
+  co_return exit_done;
+}
+
+base::Task<int> get(ParamGround& ground, ParamArguments const& of) {
+  auto const ids = co_await wanted_vehicles(ground, of);
+  if (!ids) co_return refuse(ids.error());
+  std::vector<ParamListing> listings;
+  bool is_whole = true;
+  for (auto const id : *ids) {
+    std::vector<std::string> const names = of.names;
+    listings.push_back(co_await read_parameters(ground.service, id, names));
+    listings.back().taken = ground.loop.utc_now();
+    for (auto const& error : listings.back().errors) fmt::print(stderr, "lapwing: {}\n", error);
+    is_whole = is_whole && listings.back().errors.empty();
+  }
+  print(of.json ? listing_json(listings) : listing_text(listings));
+  co_return is_whole ? exit_done : exit_failed;
+}
+
+base::Result<std::vector<Parameter>> assignments(std::vector<std::string> const& texts) {
+  std::vector<Parameter> values;
+  for (auto const& text : texts) {
+    auto const equals = text.find('=');
+    Parameter value{.name = text.substr(0, equals)};
+    auto const* begin = text.data() + std::min(equals, text.size() - 1) + 1;
+    auto const* end = text.data() + text.size();
+    auto const [stopped, error] = std::from_chars(begin, end, value.value);
+    if (equals == std::string::npos || equals == 0 || error != std::errc() || stopped != end)
+      return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' sets no parameter", text),
+                        "write NAME=VALUE, e.g. RTL_ALT=3000");
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+/// The same values on every vehicle, one vehicle after the other; then the report.
+base::Task<int> apply(ParamGround& ground, ParamArguments const& of, std::vector<std::uint8_t> ids,
+                      std::vector<Parameter> values, ApplyOptions options) {
+  std::vector<ParamChanges> all;
+  bool is_good = true;
+  for (auto const id : ids) {
+    auto const changes = co_await apply_parameters(ground.loop, ground.service, id, values, options);
+    if (!changes) co_return refuse(changes.error());
+    is_good = is_good && changes->failed.empty();
+    all.push_back(*changes);
+  }
+  print(of.json ? changes_json(all) : changes_text(all));
+  co_return is_good ? exit_done : exit_failed;
+}
+
+base::Task<int> set(ParamGround& ground, ParamArguments const& of) {
+  auto const values = assignments(of.names);
+  if (!values) co_return refuse(values.error());
+  auto const ids = co_await named_vehicles(ground, of);
+  if (!ids) co_return refuse(ids.error());
+  std::vector<std::uint8_t> const which = *ids;
+  std::vector<Parameter> const what = *values;
+  // Who names a parameter means it.
+  co_return co_await apply(ground, of, which, what, ApplyOptions{.leave_out_own = false});
+}
+
+base::Result<std::vector<Parameter>> read_file(std::string const& path) {
+  auto const text = read_script(path);
+  if (!text) return std::unexpected(text.error());
+  auto file = parameters::read_parameter_file(path, *text);
+  if (!file) return std::unexpected(file.error());
+  if (file->of_other_components > 0)
+    fmt::print(stderr, "{}: {} parameters of other components than the autopilot are left out\n", path,
+               file->of_other_components);
+  return std::move(file->parameters);
+}
+
+std::vector<Parameter> chosen(std::vector<Parameter> const& from, std::vector<std::string> const& patterns) {
+  std::vector<Parameter> fitting;
+  std::ranges::copy_if(from, std::back_inserter(fitting),
+                       [&](Parameter const& value) { return parameters::fits_any(value.name, patterns); });
+  return fitting;
+}
+
+base::Task<int> load(ParamGround& ground, ParamArguments const& of) {
+  auto const all = read_file(of.file);
+  if (!all) co_return refuse(all.error());
+  auto const ids = co_await named_vehicles(ground, of);
+  if (!ids) co_return refuse(ids.error());
+  std::vector<std::uint8_t> const which = *ids;
+  auto const values = chosen(*all, of.names);
+  co_return co_await apply(ground, of, which, values,
+                           ApplyOptions{.leave_out_own = !of.everything, .only_tell = of.only_tell});
+}
+
+parameters::FileHeader header_for(ParamGround const& ground, ParamListing const& listing) {
+  parameters::FileHeader header{.system_id = listing.system_id, .version = listing.firmware};
+  for (auto const& vehicle : ground.service.vehicles()) {
+    if (vehicle.address.system != listing.system_id) continue;
+    auto const autopilot = mavlink::autopilot_of(vehicle.autopilot);
+    if (autopilot == vehicle::Autopilot::ardupilot) header.stack = "ArduPilot";
+    if (autopilot == vehicle::Autopilot::px4) header.stack = "PX4";
+    header.vehicle = to_string(mavlink::family_of(vehicle.type));
+  }
+  return header;
+}
+
+base::Task<int> save(ParamGround& ground, ParamArguments const& of) {
+  auto const id = co_await the_vehicle(ground, of);
+  if (!id) co_return refuse(id.error());
+  std::vector<std::uint8_t> const which{*id};
+  std::vector<std::string> const patterns = of.names;
+  auto const listings = co_await list_parameters(ground.loop, ground.service, which, Wanted::confirmed, patterns);
+  if (!listings) co_return refuse(listings.error());
+  auto const& listing = listings->front();
+  bool const is_plain = of.file.ends_with(".param") || of.file.ends_with(".parm");
+  auto const text = is_plain ? parameters::mission_planner_text(listing.parameters)
+                             : parameters::qgroundcontrol_text(listing.parameters, header_for(ground, listing));
+  if (auto const written = write_file(of.file, text); !written) co_return refuse(written.error());
+  fmt::print(stderr, "{} parameters of vehicle {} written to {}\n", listing.parameters.size(), *id, of.file);
+  co_return exit_done;
+}
+
+/// The number of a vehicle, or nothing: then it is a file's name.
+std::optional<int> vehicle_number(std::string const& text) {
+  int number = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+base::Task<base::Result<std::vector<Parameter>>> side(ParamGround& ground, std::string text) {
+  auto const number = vehicle_number(text);
+  if (!number) co_return read_file(text);
+  std::vector<std::uint8_t> const which{static_cast<std::uint8_t>(*number)};
+  std::vector<std::string> const patterns;
+  auto const listings = co_await list_parameters(ground.loop, ground.service, which, Wanted::confirmed, patterns);
+  if (!listings) co_return std::unexpected(listings.error());
+  co_return listings->front().parameters;
+}
+
+std::string title(std::string const& text) {
+  return vehicle_number(text) ? "vehicle " + text : text;
+}
+
+base::Task<int> compare(ParamGround& ground, ParamArguments const& of) {
+  auto sides = of.sides;
+  auto search = of;
+  for (auto const& text : sides)
+    if (auto const number = vehicle_number(text)) search.vehicles.push_back(*number);
+  if (sides.size() == 1) {
+    auto const id = co_await the_vehicle(ground, search);
+    if (!id) co_return refuse(id.error());
+    sides.insert(sides.begin(), std::to_string(*id));
+  } else if (!search.vehicles.empty()) {
+    if (auto const found = co_await wanted_vehicles(ground, search); !found) co_return refuse(found.error());
+  }
+  std::vector<std::vector<Parameter>> both;
+  for (auto const& text : sides) {
+    auto all = co_await side(ground, text);
+    if (!all) co_return refuse(all.error());
+    both.push_back(chosen(*all, of.names));
+    if (of.everything) continue;
+    std::erase_if(both.back(), [](auto const& value) { return parameters::belongs_to_one_vehicle(value.name); });
+  }
+  auto const found = parameters::differences(both[0], both[1]);
+  print(of.json ? differences_json(title(sides[0]), title(sides[1]), found)
+                : differences_text(title(sides[0]), title(sides[1]), found));
+  co_return found.empty() ? exit_done : exit_failed;
+}
+
+base::Task<int> copy(ParamGround& ground, ParamArguments const& of) {
+  auto search = of;
+  search.vehicles = of.to;
+  search.vehicles.push_back(of.from);
+  if (auto const found = co_await wanted_vehicles(ground, search); !found) co_return refuse(found.error());
+  std::vector<std::uint8_t> const source{static_cast<std::uint8_t>(of.from)};
+  std::vector<std::string> const patterns = of.names;
+  auto const listings = co_await list_parameters(ground.loop, ground.service, source, Wanted::confirmed, patterns);
+  if (!listings) co_return refuse(listings.error());
+  std::vector<std::uint8_t> const targets = ids_of(of.to);
+  std::vector<Parameter> const values = listings->front().parameters;
+  co_return co_await apply(ground, of, targets, values,
+                           ApplyOptions{.leave_out_own = !of.everything, .only_tell = of.only_tell});
+}
+
+// ---- options
+// -----------------------------------------------------------------------------------------------------------
+
+using Arguments = std::shared_ptr<ParamArguments>;
+
+CLI::App* add_verb(CLI::App& param, Arguments const& arguments, int& exit_code, std::string const& name,
+                   std::string const& help, Job job) {
+  auto* verb = param.add_subcommand(name, help);
+  verb->add_option("--link", arguments->links,
+                   "Where vehicles are (may be repeated); default " + std::string(default_link))
+      ->allow_extra_args(false);
+  verb->add_option("--wait", arguments->wait_s, "Seconds to wait for vehicles")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  verb->add_flag("--json", arguments->json, "Write JSON");
+  verb->add_option("--signing-key", arguments->signing_key, signing_key_help);
+  verb->callback([arguments, job = std::move(job), &exit_code] { exit_code = run_job(*arguments, job); });
+  return verb;
+}
+
+void add_vehicle(CLI::App& verb, Arguments const& arguments) {
+  verb.add_option("--vehicle", arguments->vehicles, "System id (may be repeated); default: those that are heard")
+      ->check(CLI::Range(1, 255))
+      ->allow_extra_args(false);
+}
+
+constexpr auto all_help = "Also what belongs to one vehicle: system id, calibration, counters";
+constexpr auto pattern_help = "Only names that fit, e.g. 'WPNAV_*' (* any letters, ? one)";
+
+void add_readers(CLI::App& param, Arguments const& arguments, int& exit_code) {
+  auto* verb = add_verb(param, arguments, exit_code, "list", "All parameters of vehicles", list);
+  verb->add_option("pattern", arguments->names, pattern_help);
+  verb->add_flag("--cached", arguments->cached,
+                 "Values of an earlier list do, marked with its time; nothing is asked of the vehicle if there is one");
+  add_vehicle(*verb, arguments);
+  verb = add_verb(param, arguments, exit_code, "get", "Some parameters, asked of the vehicle one by one", get);
+  verb->add_option("name", arguments->names, "Names")->required();
+  add_vehicle(*verb, arguments);
+  verb = add_verb(param, arguments, exit_code, "save", "Write a vehicle's parameters to a file", save);
+  verb->add_option("file", arguments->file, "QGroundControl's format; Mission Planner's for .param and .parm")
+      ->required();
+  verb->add_option("pattern", arguments->names, pattern_help);
+  add_vehicle(*verb, arguments);
+  verb = add_verb(param, arguments, exit_code, "compare",
+                  "Differences of two vehicles, a vehicle and a file, or two files", compare);
+  verb->add_option("side", arguments->sides, "Vehicle ids or files; one alone is compared with the vehicle")
+      ->required()
+      ->expected(1, 2);
+  verb->add_option("--only", arguments->names, pattern_help)->allow_extra_args(false);
+  verb->add_flag("--all", arguments->everything, all_help);
+  add_vehicle(*verb, arguments);
+}
+
+void add_writers(CLI::App& param, Arguments const& arguments, int& exit_code) {
+  auto* verb = add_verb(param, arguments, exit_code, "set", "Set parameters and make sure that they were stored", set);
+  verb->add_option("assignment", arguments->names, "NAME=VALUE, several if you like")->required();
+  add_vehicle(*verb, arguments);
+  verb = add_verb(param, arguments, exit_code, "load", "Set what a file says and the vehicle does not have yet", load);
+  verb->add_option("file", arguments->file,
+                   "QGroundControl's .params, or Mission Planner's or MAVProxy's .param or .parm")
+      ->required();
+  add_vehicle(*verb, arguments);
+  auto* copying = add_verb(param, arguments, exit_code, "copy", "Set on vehicles what another one has", copy);
+  copying->add_option("from", arguments->from, "System id of the vehicle to read")
+      ->required()
+      ->check(CLI::Range(1, 255));
+  copying->add_option("to", arguments->to, "System ids of the vehicles to set")->required()->check(CLI::Range(1, 255));
+  for (auto* writer : {verb, copying}) {
+    writer->add_option("--only", arguments->names, pattern_help)->allow_extra_args(false);
+    writer->add_flag("--all", arguments->everything, all_help);
+    writer->add_flag("--dry-run", arguments->only_tell, "Change nothing; tell what would be");
+  }
+}
+
+}  // namespace
+
+void add_param(CLI::App& program, int& exit_code) {
+  auto const arguments = std::make_shared<ParamArguments>();
+  auto* param = program.add_subcommand("param", "Parameters of vehicles: list, get, set, save, load, compare, copy");
+  param->require_subcommand(1);
+  add_readers(*param, arguments, exit_code);
+  add_writers(*param, arguments, exit_code);
+}
+
+}  // namespace lapwing::apps
