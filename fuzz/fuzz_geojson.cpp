@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "plan/fence_geojson.hpp"
+#include "plan/plan_file.hpp"
 #include "require.hpp"
 
 namespace {
@@ -29,7 +29,12 @@ void check_fence(Fence const& fence) {
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   std::string_view const text(reinterpret_cast<char const*>(data), size);
-  auto const fence = read_fence(text, lapwing::geo::Wgs84::from_degrees(41.0, -8.0, 90.0));
+  auto const read = read_plan("fuzz.geojson", text);
+  if (!read) {
+    require(!read.error().message.empty());
+    return 0;
+  }
+  auto const fence = level(read->plan.fence, lapwing::geo::Wgs84::from_degrees(41.0, -8.0, 90.0));
   if (!fence) {
     require(!fence.error().message.empty());
     return 0;

@@ -18,7 +18,7 @@
 #include "dryrun/json.hpp"
 #include "dryrun/svg.hpp"
 #include "dryrun/text.hpp"
-#include "plan/fence_geojson.hpp"
+#include "plan/plan_file.hpp"
 #include "tasks/mission_builder.hpp"
 
 namespace lapwing::apps {
@@ -104,7 +104,9 @@ base::Result<plan::Fence> read_fence_file(std::string const& path, geo::Wgs84 ho
   if (path.empty()) return plan::Fence{};
   auto const text = read_script(path);
   if (!text) return std::unexpected(text.error());
-  auto fence = plan::read_fence(*text, home);
+  auto const read = plan::read_plan(path, *text);
+  if (!read) return std::unexpected(read.error());
+  auto fence = plan::level(read->plan.fence, home);
   if (!fence) fence.error().message = fmt::format("{}: {}", path, fence.error().message);
   return fence;
 }
@@ -149,7 +151,8 @@ void add_plan(CLI::App& program, int& exit_code) {
                    "What and how many, e.g. copter:2,rover:1; default: what the script picks");
   verb->add_option("--home", options->home,
                    "Where they stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the script's first home");
-  verb->add_option("--fence", options->fence, "GeoJSON file of the areas to stay in or out of; a breach exits with 1");
+  verb->add_option("--fence", options->fence,
+                   "File of the areas to stay in or out of (GeoJSON, .plan, KML); a breach exits with 1");
   verb->add_option("--plans", options->plans, plans_help);
   verb->add_option("--wind", options->wind, "How the air moves: NORTH,EAST in m/s");
   verb->add_option("--svg", options->svg, "Draw the flight, map and time lines, to this file");

@@ -34,10 +34,22 @@ base::Result<std::vector<fs::path>> plan_files(std::string const& directory) {
   return files;
 }
 
-base::Result<plan::PlanFile> read(fs::path const& path) {
+base::Result<plan::Plan> read(fs::path const& path) {
   auto const text = read_script(path.string());
   if (!text) return std::unexpected(text.error());
-  return plan::read_plan(path.string(), *text);
+  auto read = plan::read_plan(path.string(), *text);
+  if (!read) return std::unexpected(read.error());
+  if (auto const flown = plan::mission_to_fly(path.string(), read->plan); !flown) return std::unexpected(flown.error());
+  return std::move(read->plan);
+}
+
+/// A script flies the mission alone.
+std::vector<std::string> notes_on(plan::Plan const& plan) {
+  std::vector<std::string> notes;
+  auto const zones = plan.fence.zones.size();
+  if (zones > 0) notes.push_back(fmt::format("its geofence ({} polygons and circles) is not uploaded", zones));
+  if (!plan.rally.empty()) notes.push_back(fmt::format("its {} rally points are not uploaded", plan.rally.size()));
+  return notes;
 }
 
 }  // namespace
@@ -59,7 +71,7 @@ base::Result<LoadedPlans> load_plans(std::string const& directory) {
       plans.library.emplace(name, std::unexpected(plan.error()));
       continue;
     }
-    for (auto const& note : plan->notes) plans.notes.push_back(fmt::format("{}: {}", path.string(), note));
+    for (auto const& note : notes_on(*plan)) plans.notes.push_back(fmt::format("{}: {}", path.string(), note));
     plans.library.emplace(name, std::move(plan->mission));
   }
   return plans;

@@ -46,6 +46,17 @@ TEST_F(Plans, ThatAreWrongAreKeptAsTheirErrors) {
   EXPECT_FALSE(tasks::find_plan(plans->library, "bad"));
 }
 
+TEST_F(Plans, NoteWhatIsNotFlown) {
+  write("a.plan", R"({"fileType": "Plan", "mission": {"items": [{"type": "SimpleItem", "command": 16, "frame": 3,
+    "params": [0, 0, 0, 0, 41, -8, 30]}]}, "geoFence": {"circles": [{"circle": {"center": [41, -8], "radius": 9}}]},
+    "rallyPoints": {"points": [[1, 2, 3]]}})");
+  auto const plans = load();
+  ASSERT_TRUE(plans);
+  ASSERT_EQ(plans->notes.size(), 2u);
+  EXPECT_TRUE(plans->notes[0].ends_with("a.plan: its geofence (1 polygons and circles) is not uploaded"));
+  EXPECT_TRUE(plans->notes[1].ends_with("a.plan: its 1 rally points are not uploaded"));
+}
+
 TEST_F(Plans, OfOneNameAreRefused) {
   write("north.waypoints", way_points);
   write("north.plan", "{}");

@@ -1,6 +1,8 @@
 #include "plan/plan_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -60,6 +62,63 @@ mavlink::ItemPlace to_plain_place(std::array<double, 7> const& values) {
 
 }  // namespace
 
+bool is_placed(mavlink::MissionItem const& item) {
+  return mavlink::has_place(item.command) && item.frame != mavlink::MavFrame::mission;
+}
+
+double file_degrees(double degrees) {
+  constexpr double scale = 1e9;
+  return std::round(degrees * scale) / scale + 0.0;  // no negative zero
+}
+
+std::optional<double> number_in(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  auto const [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+FileItem from_item(mavlink::MissionItem const& item) {
+  FileItem to{.command = static_cast<double>(item.command),
+              .frame = static_cast<double>(item.frame),
+              .params = {},
+              .autocontinue = item.autocontinue};
+  // The shortest decimal that is the same float: 0.1, not 0.10000000149.
+  for (std::size_t i = 0; i < item.params.size(); ++i)
+    to.params[i] = number_in(fmt::format("{}", item.params[i])).value_or(std::nan(""));
+  auto const place = position_of(item);
+  to.params[4] = is_placed(item) ? file_degrees(place.lat_deg()) : item.place.x;
+  to.params[5] = is_placed(item) ? file_degrees(place.lon_deg()) : item.place.y;
+  to.params[6] = item.place.z_m;
+  return to;
+}
+
+Result<FileItem> way_point_at(double lat_deg, double lon_deg, std::optional<double> alt_m, mavlink::MavFrame frame,
+                              PlanReadOptions const& options) {
+  if (!alt_m && !options.altitude_m)
+    return fail(ErrorKind::invalid_input, "this place has no height to fly at",
+                "say one: --altitude METRES above home");
+  FileItem item{.command = static_cast<double>(mavlink::MavCmd::nav_waypoint),
+                .frame = static_cast<double>(alt_m ? frame : mavlink::MavFrame::global_relative_alt)};
+  item.params[3] = std::nan("");
+  item.params[4] = lat_deg;
+  item.params[5] = lon_deg;
+  item.params[6] = alt_m ? *alt_m : *options.altitude_m;
+  return item;
+}
+
+Result<> FenceBudget::take_zone(std::string_view where) {
+  if (++zones > max_fence_zones) return wrong(where, fmt::format("more than {} zones", max_fence_zones));
+  return {};
+}
+
+Result<> FenceBudget::take_corners(std::string_view where, std::size_t count) {
+  corners += count;
+  if (corners > max_fence_corners) return wrong(where, fmt::format("more than {} corners", max_fence_corners));
+  return {};
+}
+
 Result<mavlink::MissionItem> to_item(FileItem const& from) {
   if (!is_whole(from.command, 65535.0))
     return fail(ErrorKind::invalid_input, fmt::format("{} is no command", from.command));
@@ -98,20 +157,73 @@ std::string plan_name(std::string_view file) {
   return std::string(dot == std::string_view::npos || dot == 0 ? file : file.substr(0, dot));
 }
 
-Result<PlanFile> read_plan(std::string_view file, std::string_view text) {
+Result<PlanFormat> format_of(std::string_view file) {
+  using enum PlanFormat;
+  constexpr std::array<std::pair<std::string_view, PlanFormat>, 7> endings{{{".plan", qgc_plan},
+                                                                            {".waypoints", way_points},
+                                                                            {".txt", way_points},
+                                                                            {".kml", kml},
+                                                                            {".kmz", kmz},
+                                                                            {".geojson", geojson},
+                                                                            {".json", geojson}}};
+  for (auto const& [ending, format] : endings)
+    if (file.ends_with(ending)) return format;
+  return fail(ErrorKind::invalid_input, fmt::format("{}: the ending is that of no plan file", file),
+              "endings are .plan, .waypoints, .kml, .kmz and .geojson");
+}
+
+Result<PlanFile> read_plan(std::string_view file, std::string_view text, PlanReadOptions const& options) {
   if (text.size() > max_plan_bytes)
     return internal::wrong(
         file, fmt::format("{} MB is too large for a plan (limit {} MB)", text.size() >> 20, max_plan_bytes >> 20));
+  std::string unzipped;
+  if (text.starts_with("PK\x03\x04")) {
+    auto kml = internal::unzip_kml(file, text);
+    if (!kml) return std::unexpected(kml.error());
+    unzipped = *std::move(kml);
+    text = unzipped;
+  }
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   auto const first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return internal::wrong(file, "the file is empty");
-  auto plan = text.substr(first).starts_with("QGC WPL") ? internal::read_way_points(file, text)
-                                                        : internal::read_qgc_plan(file, text);
-  if (!plan) return plan;
-  plan->mission.name = plan_name(file);
-  if (plan->mission.items.empty()) return internal::wrong(file, "the plan has no items");
-  return plan;
+  Result<PlanFile> read;
+  if (text.substr(first).starts_with("QGC WPL"))
+    read = internal::read_way_points(file, text);
+  else if (text[first] == '<')
+    read = internal::read_kml(file, text, options);
+  else
+    read = internal::read_json_plan(file, text, options);
+  if (read) read->plan.mission.name = plan_name(file);
+  return read;
+}
+
+Result<Mission> mission_to_fly(std::string_view file, Plan const& plan) {
+  if (std::ranges::any_of(plan.patterns, [](auto const& pattern) { return pattern.count == 0; }))
+    return internal::wrong(file, "a complex item of the plan (a structure scan?) holds no items to fly",
+                           "save the mission as way points (\"QGC WPL 110\"), or draw this part with a survey");
+  if (plan.mission.items.empty()) return internal::wrong(file, "the plan has no items");
+  return plan.mission;
+}
+
+Result<WrittenPlan> write_plan(Plan const& plan, PlanFormat format) {
+  using enum PlanFormat;
+  auto reduced = reduce(plan, format);
+  auto const& left = reduced.plan;
+  bool const is_empty = left.mission.items.empty() && left.patterns.empty() && left.fence.empty() && left.rally.empty();
+  if (is_empty && !reduced.lost.empty())
+    return fail(ErrorKind::invalid_input, fmt::format("nothing of the plan can be written: {}", reduced.lost.front()));
+  WrittenPlan written{.text = {}, .lost = std::move(reduced.lost)};
+  if (format == qgc_plan) written.text = internal::write_qgc_plan(left);
+  if (format == way_points) written.text = internal::write_way_points(left);
+  if (format == geojson) written.text = internal::write_geojson(left);
+  if (format == kml || format == kmz) written.text = internal::write_kml(left);
+  if (format == kmz) {
+    auto zipped = internal::zip_kml(written.text);
+    if (!zipped) return std::unexpected(zipped.error());
+    written.text = *std::move(zipped);
+  }
+  return written;
 }
 
 }  // namespace lapwing::plan

@@ -13,14 +13,17 @@ namespace {
 using enum mavlink::MavCmd;
 using mavlink::MavFrame;
 
-PlanFile read(std::string_view file, std::string_view text) {
-  auto plan = read_plan(file, text);
-  EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
-  return plan ? *plan : PlanFile{};
+Plan read(std::string_view file, std::string_view text) {
+  auto const read = read_plan(file, text);
+  EXPECT_TRUE(read) << (read ? "" : read.error().message);
+  return read ? read->plan : Plan{};
 }
+/// Why it is not flown.
 std::string message_of(std::string_view file, std::string_view text) {
-  auto const plan = read_plan(file, text);
-  return plan ? "it is read" : plan.error().message;
+  auto const read = read_plan(file, text);
+  if (!read) return read.error().message;
+  auto const mission = mission_to_fly(file, read->plan);
+  return mission ? "it is read" : mission.error().message;
 }
 
 // ---- way points
@@ -116,7 +119,6 @@ TEST(QgcPlan, OfSimpleItemsIsRead) {
   auto const plan = read("area.plan", plan_of(items));
   EXPECT_EQ(plan.mission.name, "area");
   EXPECT_EQ(plan.mission.planned_home, geo::Wgs84::from_degrees(41.0, -8.5, 90.0));
-  EXPECT_TRUE(plan.notes.empty());
   ASSERT_EQ(plan.mission.items.size(), 3u);
   EXPECT_TRUE(std::isnan(plan.mission.items[0].params[3]));
   EXPECT_EQ(plan.mission.items[1].frame, MavFrame::mission);
@@ -160,12 +162,47 @@ TEST(QgcPlan, FliesALandingPattern) {
   EXPECT_EQ(read("a.plan", plan_of(pattern("vtolLandingPattern"))).mission.items[3].command, nav_vtol_land);
 }
 
-TEST(QgcPlan, NotesWhatItDoesNotFly) {
-  auto const plan = read("a.plan", plan_of(simple(16, "0,0,0,0,41,-8,30", 1),
-                                           R"(, "geoFence": {"circles": [{}], "polygons": [{}, {}], "version": 2},
-                                               "rallyPoints": {"points": [[1, 2, 3]], "version": 2})"));
-  EXPECT_EQ(plan.notes, (std::vector<std::string>{"its geofence (3 polygons and circles) is not uploaded",
-                                                  "its 1 rally points are not uploaded"}));
+TEST(QgcPlan, HoldsAFenceAndRallyPoints) {
+  auto const more = R"(, "geoFence": {"version": 2, "breachReturn": [41.2, -8.5, 40],
+      "circles": [{"circle": {"center": [41.1, -8.4], "radius": 30.5}, "inclusion": false, "version": 1}],
+      "polygons": [{"inclusion": true, "polygon": [[41, -8], [41, -7], [42, -7]], "version": 1}]},
+    "rallyPoints": {"points": [[41, -8.6, 25]], "version": 2})";
+  auto const plan = read("a.plan", plan_of(simple(16, "0,0,0,0,41,-8,30", 1), more));
+  ASSERT_EQ(plan.fence.zones.size(), 2u);
+  EXPECT_EQ(plan.fence.zones[0].kind, Zone::Kind::inclusion);
+  EXPECT_EQ(std::get<std::vector<GeoPolygon>>(plan.fence.zones[0].area)[0].rings[0].size(), 3u);
+  auto const& circle = std::get<GeoCircle>(plan.fence.zones[1].area);
+  EXPECT_EQ(plan.fence.zones[1].kind, Zone::Kind::exclusion);
+  EXPECT_EQ(circle.radius_m, 30.5);
+  EXPECT_NEAR(circle.center.lat_deg(), 41.1, 1e-12);
+  EXPECT_EQ(plan.fence.breach_return->alt_m, 40.0);
+  ASSERT_EQ(plan.rally.size(), 1u);
+  EXPECT_EQ(plan.rally[0].place.alt_m, 25.0);
+  EXPECT_EQ(plan.cruise_speed_m_s, 15.0);
+  EXPECT_EQ(plan.firmware_type, 3);
+}
+
+TEST(QgcPlan, RefusesAFenceThatIsNone) {
+  auto const with_fence = [](std::string_view fence) {
+    return message_of("a.plan", plan_of(simple(16, "0,0,0,0,41,-8,30", 1), fmt::format(", \"geoFence\": {}", fence)));
+  };
+  EXPECT_EQ(with_fence(R"({"polygons": [{"polygon": [[1, 2], [3, 4]]}]})"),
+            "a.plan: geoFence.polygons[0].polygon: a polygon needs at least three corners");
+  EXPECT_EQ(with_fence(R"({"polygons": [{"polygon": [[1, 2], [95, 4], [5, 6]]}]})"),
+            "a.plan: geoFence.polygons[0].polygon[1]: latitude 95 is beyond 90 degrees");
+  EXPECT_EQ(with_fence(R"({"circles": [{"circle": {"center": [1, 2], "radius": -1}}]})"),
+            "a.plan: geoFence.circles[0].circle: -1 m is no radius");
+  EXPECT_EQ(with_fence(R"({"circles": {}})"), "a.plan: geoFence.circles: a list [ ... ] was expected");
+}
+
+TEST(QgcPlan, KeepsWhatAPatternWasDrawnFrom) {
+  auto const plan =
+      read("a.plan", plan_of(simple(22, "0,0,0,0,41,-8,30", 1) +
+                             R"(, {"type": "ComplexItem", "complexItemType": "StructureScan", "Layers": 3})"));
+  ASSERT_EQ(plan.patterns.size(), 1u);
+  EXPECT_EQ(plan.patterns[0].first, 1u);
+  EXPECT_EQ(plan.patterns[0].count, 0u);
+  EXPECT_NE(plan.patterns[0].json.find("\"Layers\":3"), std::string::npos);
 }
 
 TEST(QgcPlan, OfTheFirstVersionHoldsPlacesApart) {
@@ -188,7 +225,7 @@ TEST(QgcPlan, ThatIsWrongNamesThePath) {
   EXPECT_EQ(with_item(R"({"type": "Item"})"),
             "a.plan: mission.items[0]: an item's type is SimpleItem or ComplexItem, not 'Item'");
   EXPECT_EQ(with_item(R"({"type": "ComplexItem", "complexItemType": "StructureScan"})"),
-            "a.plan: mission.items[0]: a complex item of type 'StructureScan' holds no items to fly");
+            "a.plan: a complex item of the plan (a structure scan?) holds no items to fly");
   EXPECT_EQ(with_item("7"), "a.plan: mission.items[0]: an item's type is SimpleItem or ComplexItem, not ''");
   EXPECT_EQ(with_item(""), "a.plan: the plan has no items");
 }
@@ -196,15 +233,36 @@ TEST(QgcPlan, ThatIsWrongNamesThePath) {
 TEST(QgcPlan, ThatIsNoPlanSaysSo) {
   EXPECT_EQ(message_of("a.plan", ""), "a.plan: the file is empty");
   EXPECT_EQ(message_of("a.plan", "{\n \"a\": ]"), "a.plan:2:7: this is no JSON");
-  EXPECT_EQ(message_of("a.plan", "[]"), "a.plan: this is no plan: \"fileType\" is not \"Plan\"");
+  EXPECT_EQ(message_of("a.plan", "[]"),
+            "a.plan: this is no plan: neither \"fileType\" is \"Plan\" nor is there a GeoJSON \"type\"");
   EXPECT_EQ(message_of("a.plan", R"({"fileType": "Plan"})"), "a.plan: \"mission\" is missing");
   EXPECT_EQ(message_of("a.plan", R"({"fileType": "Plan", "mission": 7})"),
             "a.plan: mission: an object { ... } was expected");
   EXPECT_EQ(message_of("a.plan", R"({"fileType": "Plan", "mission": {"items": {}}})"),
             "a.plan: mission.items: a list [ ... ] was expected");
   EXPECT_EQ(message_of("a.plan", std::string(max_plan_bytes + 1, ' ')),
-            "a.plan: 8 MB is too large for a plan (limit 8 MB)");
+            "a.plan: 16 MB is too large for a plan (limit 16 MB)");
   EXPECT_NE(message_of("a.plan", std::string(1'000'000, '[')), "it is read");
+}
+
+TEST(WayPoints, CanBeAFenceOrRallyPoints) {
+  auto const fence = read("f.waypoints",
+                          "QGC WPL 110\n0 0 0 5001 3 0 0 0 41 -8 0 1\n1 0 0 5001 3 0 0 0 41 -7 0 1\n"
+                          "2 0 0 5001 3 0 0 0 42 -7 0 1\n3 0 0 5004 50 0 0 0 41.5 -7.5 0 1\n");
+  EXPECT_TRUE(fence.mission.items.empty());
+  ASSERT_EQ(fence.fence.zones.size(), 2u);
+  EXPECT_EQ(std::get<GeoCircle>(fence.fence.zones[1].area).radius_m, 50.0);
+  auto const rally = read("r.waypoints", "QGC WPL 110\n0 1 0 16 0 0 0 0 41 -8 9 1\n1 0 3 5100 0 0 0 0 41 -8 25 1\n");
+  ASSERT_EQ(rally.rally.size(), 1u);
+  EXPECT_EQ(rally.mission.planned_home->alt_m, 9.0);
+  EXPECT_EQ(message_of("m.waypoints", "QGC WPL 120\n0 0 3 16 0 0 0 0 41 -8 25 1\n1 0 3 5100 0 0 0 0 41 -8 25 1\n"),
+            "m.waypoints: item 0 (NAV_WAYPOINT): this is no rally point");
+}
+
+TEST(PlanFormat, IsToldByTheEnding) {
+  EXPECT_EQ(format_of("a/b.plan"), PlanFormat::qgc_plan);
+  EXPECT_EQ(format_of("b.kmz"), PlanFormat::kmz);
+  EXPECT_EQ(format_of("b.doc").error().message, "b.doc: the ending is that of no plan file");
 }
 
 TEST(PlanName, IsTheFilesWithoutFolderAndEnding) {

@@ -1,90 +1,18 @@
 // QGroundControl's plan files: JSON, described in its developer guide under "Plan file format".
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "plan/internal/plan_reader.hpp"
+#include "plan/internal/json_node.hpp"
 
 namespace lapwing::plan::internal {
 namespace {
 
 using base::Result;
 using mavlink::MavCmd;
-using nlohmann::json;
-
-constexpr double unset = std::numeric_limits<double>::quiet_NaN();
-
-/// A value with its path for messages: "a.plan: mission.items[3]".
-class Node {
- public:
-  Node(json const& value, std::string path, bool is_root = false)
-      : value_(&value), path_(std::move(path)), is_root_(is_root) {}
-
-  [[nodiscard]] std::string const& path() const { return path_; }
-  [[nodiscard]] std::size_t size() const { return value_->size(); }
-  [[nodiscard]] bool has(char const* key) const { return value_->is_object() && value_->contains(key); }
-  [[nodiscard]] Node item(std::size_t index) const { return {(*value_)[index], fmt::format("{}[{}]", path_, index)}; }
-  [[nodiscard]] Result<Node> member(char const* key) const {
-    if (!value_->is_object()) return wrong(path_, "an object { ... } was expected");
-    auto const found = value_->find(key);
-    if (found == value_->end()) return wrong(path_, fmt::format("\"{}\" is missing", key));
-    return Node(*found, join(key));
-  }
-  [[nodiscard]] Result<Node> list(char const* key) const {
-    auto found = member(key);
-    if (found && !found->value_->is_array()) return wrong(found->path_, "a list [ ... ] was expected");
-    return found;
-  }
-  [[nodiscard]] Result<double> number(char const* key) const {
-    auto const found = member(key);
-    if (!found) return std::unexpected(found.error());
-    if (!found->value_->is_number()) return wrong(found->path_, "a number was expected");
-    return found->value_->get<double>();
-  }
-  [[nodiscard]] double number_or(char const* key, double otherwise) const {
-    return has(key) && (*value_)[key].is_number() ? (*value_)[key].get<double>() : otherwise;
-  }
-  [[nodiscard]] bool flag_or(char const* key, bool otherwise) const {
-    return has(key) && (*value_)[key].is_boolean() ? (*value_)[key].get<bool>() : otherwise;
-  }
-  [[nodiscard]] std::string text_or(char const* key, std::string otherwise) const {
-    return has(key) && (*value_)[key].is_string() ? (*value_)[key].get<std::string>() : std::move(otherwise);
-  }
-  /// A list of numbers; null stands for NaN.
-  [[nodiscard]] Result<std::vector<double>> numbers(char const* key, std::size_t most) const {
-    auto const found = list(key);
-    if (!found) return std::unexpected(found.error());
-    if (found->size() > most) return wrong(found->path_, fmt::format("at most {} numbers were expected", most));
-    std::vector<double> values;
-    for (std::size_t i = 0; i < found->size(); ++i) {
-      auto const& value = (*found->value_)[i];
-      if (!value.is_number() && !value.is_null()) return wrong(found->item(i).path_, "a number was expected");
-      values.push_back(value.is_null() ? unset : value.get<double>());
-    }
-    return values;
-  }
-  /// Latitude, longitude and height.
-  [[nodiscard]] Result<geo::Wgs84> place(char const* key) const {
-    auto const values = numbers(key, 3);
-    if (!values) return std::unexpected(values.error());
-    if (values->size() < 2) return wrong(join(key), "latitude, longitude and height were expected");
-    auto const place = to_place((*values)[0], (*values)[1], values->size() == 3 ? (*values)[2] : 0.0);
-    if (!place) return wrong(join(key), place.error().message);
-    return place;
-  }
-
- private:
-  [[nodiscard]] std::string join(char const* key) const {
-    return fmt::format("{}{}{}", path_, is_root_ ? ": " : ".", key);
-  }
-  json const* value_;
-  std::string path_;
-  bool is_root_;
-};
 
 /// Gathers the items, with the numbers by which jumps name them.
 class Assembly {
@@ -97,6 +25,7 @@ class Assembly {
     paths_.push_back(node.path());
     return {};
   }
+  [[nodiscard]] std::size_t size() const { return items_.size(); }
   /// The item added next is the plan's number `id`.
   void number_next(double id) { numbers_.emplace(id, items_.size() + 1); }
 
@@ -196,79 +125,145 @@ Result<> add_complex(Node const& node, Assembly& assembly) {
   if (node.has("TransectStyleComplexItem")) return add_stored_items(node, assembly);
   if (kind == "fwLandingPattern") return add_landing(node, MavCmd::nav_land, assembly);
   if (kind == "vtolLandingPattern") return add_landing(node, MavCmd::nav_vtol_land, assembly);
-  return wrong(node.path(), fmt::format("a complex item of type '{}' holds no items to fly", kind),
-               "save the mission as way points (\"QGC WPL 110\"), or draw this part with a survey");
+  return {};  // kept, not flown
 }
 
-Result<> add_item(Node const& node, Assembly& assembly) {
+/// Keys of a simple item whose meaning is in its other keys.
+bool is_plain(Json const& item) {
+  constexpr std::array known{
+      "AMSLAltAboveTerrain", "Altitude", "AltitudeMode", "MISSION_ITEM_ID", "autoContinue", "command",
+      "coordinate",          "doJumpId", "frame",        "params",          "type"};
+  constexpr int computed_above_terrain = 3;
+  bool const all_known = std::ranges::all_of(
+      item.items(), [&](auto const& entry) { return std::ranges::find(known, entry.key()) != known.end(); });
+  return all_known && item.value("AltitudeMode", Json(0)) != computed_above_terrain;
+}
+
+Result<> add_item(Node const& node, Assembly& assembly, std::vector<Pattern>& patterns) {
   auto const type = node.text_or("type", "");
-  if (type == "SimpleItem") return add_simple(node, assembly);
-  if (type == "ComplexItem") return add_complex(node, assembly);
-  return wrong(node.path(), fmt::format("an item's type is SimpleItem or ComplexItem, not '{}'", type));
-}
-
-std::size_t count_of(json const& plan, char const* part, char const* list) {
-  auto const found = plan.find(part);
-  if (found == plan.end() || !found->is_object()) return 0;
-  auto const items = found->find(list);
-  return items != found->end() && items->is_array() ? items->size() : 0;
-}
-
-std::vector<std::string> notes_on(json const& plan) {
-  std::vector<std::string> notes;
-  auto const zones = count_of(plan, "geoFence", "polygons") + count_of(plan, "geoFence", "circles");
-  auto const points = count_of(plan, "rallyPoints", "points");
-  if (zones > 0) notes.push_back(fmt::format("its geofence ({} polygons and circles) is not uploaded", zones));
-  if (points > 0) notes.push_back(fmt::format("its {} rally points are not uploaded", points));
-  return notes;
-}
-
-/// "line 3, column 7", from the number of bytes read.
-std::string position_in(std::string_view text, std::size_t bytes) {
-  auto const read = text.substr(0, bytes > 0 ? bytes - 1 : 0);
-  auto const line_begin = read.rfind('\n');
-  return fmt::format("{}:{}", 1 + std::ranges::count(read, '\n'),
-                     read.size() - (line_begin == std::string_view::npos ? 0 : line_begin + 1) + 1);
-}
-
-Result<json> parse(std::string_view file, std::string_view text) {
-  // The library reports errors by exceptions; they end here.
-  try {
-    return json::parse(text);
-  } catch (json::parse_error const& error) {
-    return wrong(fmt::format("{}:{}", file, position_in(text, error.byte)), "this is no JSON",
-                 "a plan is a file of QGroundControl (.plan), or of way points beginning with QGC WPL 110");
-  } catch (json::exception const&) {
-    return wrong(file, "a number in it is too large");
+  auto const first = assembly.size();
+  Result<> added;
+  bool is_pattern = true;
+  if (type == "SimpleItem") {
+    is_pattern = !is_plain(node.json());
+    added = add_simple(node, assembly);
+  } else if (type == "ComplexItem") {
+    added = add_complex(node, assembly);
+  } else {
+    return wrong(node.path(), fmt::format("an item's type is SimpleItem or ComplexItem, not '{}'", type));
   }
+  if (added && is_pattern)
+    patterns.push_back({.first = first, .count = assembly.size() - first, .json = node.json().dump()});
+  return added;
 }
 
-}  // namespace
-
-Result<PlanFile> read_qgc_plan(std::string_view file, std::string_view text) {
-  auto const parsed = parse(file, text);
-  if (!parsed) return std::unexpected(parsed.error());
-  Node const root(*parsed, std::string(file), true);
-  if (root.text_or("fileType", "") != "Plan")
-    return wrong(file, "this is no plan: \"fileType\" is not \"Plan\"", "save it with QGroundControl's plan view");
-  auto const mission = root.member("mission");
-  if (!mission) return std::unexpected(mission.error());
-  PlanFile plan{.mission = {}, .notes = notes_on(*parsed)};
-  if (mission->has("plannedHomePosition")) {
-    auto const home = mission->place("plannedHomePosition");
+Result<> read_mission(Node const& mission, Plan& plan) {
+  if (mission.has("plannedHomePosition")) {
+    auto const home = mission.place("plannedHomePosition");
     if (!home) return std::unexpected(home.error());
-    plan.mission.planned_home = *home;
+    if (home->lat_rad != 0.0 || home->lon_rad != 0.0) plan.mission.planned_home = *home;
   }
-  auto const items = mission->list("items");
+  auto const speed = [&](char const* key) {
+    return mission.has(key) ? std::optional(mission.number_or(key, 0.0)) : std::nullopt;
+  };
+  constexpr double most_kinds = 255.0;
+  plan.cruise_speed_m_s = speed("cruiseSpeed");
+  plan.hover_speed_m_s = speed("hoverSpeed");
+  plan.firmware_type = static_cast<int>(std::clamp(mission.number_or("firmwareType", 0.0), 0.0, most_kinds));
+  plan.vehicle_type = static_cast<int>(std::clamp(mission.number_or("vehicleType", 0.0), 0.0, most_kinds));
+  auto const items = mission.list("items");
   if (!items) return std::unexpected(items.error());
   Assembly assembly;
   for (std::size_t i = 0; i < items->size(); ++i) {
-    if (auto added = add_item(items->item(i), assembly); !added) return std::unexpected(added.error());
+    if (auto added = add_item(items->item(i), assembly, plan.patterns); !added) return added;
   }
   auto finished = assembly.finish();
   if (!finished) return std::unexpected(finished.error());
   plan.mission.items = *std::move(finished);
-  return plan;
+  return {};
+}
+
+Zone::Kind kind_of(Node const& node) {
+  return node.flag_or("inclusion", true) ? Zone::Kind::inclusion : Zone::Kind::exclusion;
+}
+
+Result<> read_polygon(Node const& node, GeoFence& fence, FenceBudget& budget) {
+  auto const corners = node.list("polygon");
+  if (!corners) return std::unexpected(corners.error());
+  if (auto fits = budget.take_corners(corners->path(), corners->size()); !fits) return fits;
+  GeoRing ring;
+  for (std::size_t i = 0; i < corners->size(); ++i) {
+    auto const corner = corners->item(i).place();
+    if (!corner) return std::unexpected(corner.error());
+    ring.push_back({corner->lat_rad, corner->lon_rad, 0.0});
+  }
+  if (ring.size() < 3) return wrong(corners->path(), "a polygon needs at least three corners");
+  fence.zones.push_back({.kind = kind_of(node), .area = std::vector<GeoPolygon>{{{std::move(ring)}}}});
+  return {};
+}
+
+Result<> read_circle(Node const& node, GeoFence& fence) {
+  auto const circle = node.member("circle");
+  if (!circle) return std::unexpected(circle.error());
+  auto const center = circle->place("center");
+  if (!center) return std::unexpected(center.error());
+  auto const radius_m = circle->number("radius");
+  if (!radius_m) return std::unexpected(radius_m.error());
+  if (!(*radius_m > 0.0) || *radius_m > max_fence_distance_m)
+    return wrong(circle->path(), fmt::format("{} m is no radius", *radius_m));
+  fence.zones.push_back({.kind = kind_of(node), .area = GeoCircle{{center->lat_rad, center->lon_rad, 0.0}, *radius_m}});
+  return {};
+}
+
+Result<> read_fence(Node const& node, GeoFence& fence) {
+  FenceBudget budget;
+  auto const polygons = node.list_or_none("polygons");
+  if (!polygons) return std::unexpected(polygons.error());
+  for (std::size_t i = 0; i < polygons->size(); ++i) {
+    if (auto fits = budget.take_zone(polygons->path()); !fits) return fits;
+    if (auto read = read_polygon(polygons->item(i), fence, budget); !read) return read;
+  }
+  auto const circles = node.list_or_none("circles");
+  if (!circles) return std::unexpected(circles.error());
+  for (std::size_t i = 0; i < circles->size(); ++i) {
+    if (auto fits = budget.take_zone(circles->path()); !fits) return fits;
+    if (auto read = read_circle(circles->item(i), fence); !read) return read;
+  }
+  if (!node.has("breachReturn")) return {};
+  auto const place = node.place("breachReturn");
+  if (!place) return std::unexpected(place.error());
+  fence.breach_return = *place;
+  return {};
+}
+
+Result<> read_rally(Node const& node, std::vector<RallyPoint>& rally) {
+  auto const points = node.list_or_none("points");
+  if (!points) return std::unexpected(points.error());
+  if (points->size() > max_mission_items) return wrong(points->path(), "more rally points than a vehicle can hold");
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    auto const place = points->item(i).place();
+    if (!place) return std::unexpected(place.error());
+    rally.push_back({.place = *place});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PlanFile> read_qgc_plan(std::string_view file, Json const& json) {
+  Node const root(json, std::string(file), true);
+  auto const mission = root.member("mission");
+  if (!mission) return std::unexpected(mission.error());
+  PlanFile read{.plan = {}};
+  if (auto done = read_mission(*mission, read.plan); !done) return std::unexpected(done.error());
+  if (root.has("geoFence")) {
+    if (auto done = read_fence(*root.member("geoFence"), read.plan.fence); !done) return std::unexpected(done.error());
+  }
+  if (root.has("rallyPoints")) {
+    if (auto done = read_rally(*root.member("rallyPoints"), read.plan.rally); !done)
+      return std::unexpected(done.error());
+  }
+  return read;
 }
 
 }  // namespace lapwing::plan::internal
