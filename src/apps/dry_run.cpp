@@ -152,7 +152,7 @@ std::vector<dryrun::Sample> DryRun::look() const {
     sample.place_m = world_.site().ned_from(vehicle->place());
     if (vehicle->running()) {
       auto const& autopilot = vehicle->autopilot();
-      bool const flies = plan::flies(vehicle->options().family);
+      bool const flies = plan::flies(vehicle->options().kind.family);
       sample.mode = autopilot.mode().name;
       sample.remaining = autopilot.battery().remaining();
       sample.used_mah = autopilot.battery().used_mah();

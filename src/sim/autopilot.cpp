@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/px4_modes.hpp"
+
 namespace lapwing::sim {
 
 using mavlink::MavResult;
@@ -12,14 +14,16 @@ using mavlink::MavState;
 using vehicle::Family;
 
 Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, Plans const& plans)
-    : airframe_(airframe_of(setup.family)),
+    : kind_{airframe_of(setup.kind.family).family, setup.kind.firmware},
+      words_(words_of(kind_)),
+      airframe_(airframe_of(setup.kind.family)),
       site_(site),
       parameters_(parameters),
       plans_(plans),
       mission_(plans.mission),
       start_up_(setup.boot),
       battery_(setup.battery),
-      mode_(&initial_mode(setup.family)),
+      mode_(&initial_mode(setup.kind)),
       home_(setup.start) {
   body_.position_m = setup.start;
   body_.attitude.yaw_rad = geo::wrap_pi(setup.heading_rad);
@@ -27,15 +31,15 @@ Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& par
 }
 
 FlightContext Autopilot::context(double utc_day_s) const {
-  return {body_, airframe_, site_, pace_, tuning_, plans_.rally, home_, now_, utc_day_s};
+  return {body_, airframe_, site_, pace_, tuning_, plans_.rally, home_, now_, utc_day_s, !kind_.is_px4()};
 }
 
 void Autopilot::read_parameters() {
   if (parameters_read_ != parameters_.revision()) {
     parameters_read_ = parameters_.revision();
-    pace_ = pace_from(airframe_.family, parameters_);
-    tuning_ = tuning_from(airframe_.family, parameters_);
-    safety_ = safety_from(airframe_.family, parameters_);
+    pace_ = pace_from(kind_, parameters_);
+    tuning_ = tuning_from(kind_, parameters_);
+    safety_ = safety_from(kind_, parameters_);
     if (speed_override_) pace_.speed_m_s = *speed_override_;
   }
 }
@@ -45,17 +49,18 @@ MavResult Autopilot::arm(bool force) {
   auto const refusal = arming_refusal({*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, tuning_.arm_in_auto,
                                        plans_.mission.size() > 1, fence_.breached() != 0, arming_fault_});
   if (refusal && !force) {
-    outbox_.say(MavSeverity::critical, "Arm: " + *refusal);
+    outbox_.say(MavSeverity::critical, fmt::format("{}{}", words_.arming_refused, *refusal));
     return MavResult::failed;
   }
   armed_ = true;
+  has_flown_ = !body_.on_ground;
   idle_since_.reset();
   lift_at_.reset();
   if (!home_locked_ && navigation_.position_ok) {
     home_ = body_.position_m;
   }
   outbox_.home_changed = true;
-  outbox_.say(MavSeverity::info, "Arming motors");
+  outbox_.say(MavSeverity::info, std::string(words_.armed));
   enter(*mode_);
   return MavResult::accepted;
 }
@@ -63,11 +68,11 @@ MavResult Autopilot::arm(bool force) {
 MavResult Autopilot::disarm(bool force) {
   if (!armed_) return MavResult::accepted;
   if (!body_.on_ground && !force) return MavResult::failed;
-  do_disarm();
+  do_disarm(words_.disarmed_by_command);
   return MavResult::accepted;
 }
 
-void Autopilot::do_disarm() {
+void Autopilot::do_disarm(std::string_view words) {
   armed_ = false;
   take_off_allowed_ = false;
   fence_took_over_ = false;
@@ -76,7 +81,7 @@ void Autopilot::do_disarm() {
   goal_ = StandStill{};
   mission_.disarmed();
   outbox_.mission_current_changed = true;
-  outbox_.say(MavSeverity::info, "Disarming motors");
+  outbox_.say(MavSeverity::info, std::string(words));
 }
 
 bool Autopilot::may_enter(FlightMode const& mode) {
@@ -87,6 +92,10 @@ bool Autopilot::may_enter(FlightMode const& mode) {
     return false;
   };
   if (mode.needs_position && !position) return refuse("requires position");
+  if (kind_.is_px4()) {
+    auto const objection = px4_objection(mode);
+    return objection ? refuse(*objection) : true;
+  }
   if (mode.behaviour != Behaviour::mission || airframe_.family == Family::plane) return true;
   if (plans_.mission.size() <= 1) {
     if (airframe_.family == Family::rover) outbox_.say(MavSeverity::notice, "No Mission. Can't set AUTO.");
@@ -100,10 +109,19 @@ bool Autopilot::may_enter(FlightMode const& mode) {
   return true;
 }
 
+/// PX4 goes into no mode of which it knows that it could not stay there (its mode requirements).
+std::optional<std::string_view> Autopilot::px4_objection(FlightMode const& mode) const {
+  if (mode.behaviour == Behaviour::manual) return "no manual control";
+  if (mode.behaviour == Behaviour::mission && plans_.mission.size() <= 1) return "no valid mission";
+  bool const guided_from_outside = setpoint_heard_ && now_ - *setpoint_heard_ <= tuning_.guided_timeout;
+  if (mode.number == px4_offboard && !guided_from_outside) return "no offboard signal";
+  return std::nullopt;
+}
+
 MavResult Autopilot::set_mode(std::uint32_t number) {
   bool const recovers = fence_took_over_ && safety_.fence.holds_mode && fence_.breached() != 0 && armed_;
   if (recovers && !body_.on_ground && number != mode_->number) {
-    auto const* wanted = find_mode(airframe_.family, number);
+    auto const* wanted = find_mode(kind_, number);
     outbox_.say(MavSeverity::warning,
                 fmt::format("Mode change to {} failed: in fence recovery", wanted ? wanted->name : "?"));
     return MavResult::failed;
@@ -114,7 +132,7 @@ MavResult Autopilot::set_mode(std::uint32_t number) {
 }
 
 MavResult Autopilot::change_mode(std::uint32_t number) {
-  auto const* mode = find_mode(airframe_.family, number);
+  auto const* mode = find_mode(kind_, number);
   if (!mode) {
     outbox_.say(MavSeverity::warning, fmt::format("No such mode {}", number));
     return MavResult::failed;
@@ -150,7 +168,10 @@ Autopilot::Logic Autopilot::logic_for(FlightMode const& mode) const {
     case Behaviour::return_home: return ReturnHome();
     case Behaviour::circle: return Circle{rest, airframe_.family == Family::plane ? pace_.loiter_radius_m : 10.0};
     case Behaviour::hold: return HoldAt{rest};
-    case Behaviour::take_off: return TakeOff{here, parameters_.value("TKOFF_ALT", 50.0), body_.attitude.yaw_rad};
+    case Behaviour::take_off: {
+      double const above_home_m = take_off_height_m_.value_or(tuning_.take_off_height_m);
+      return TakeOff{here, kind_.is_px4() ? above_home_m - home_.down : above_home_m, body_.attitude.yaw_rad};
+    }
     default: return std::monostate{};
   }
 }
@@ -161,6 +182,10 @@ Guided& Autopilot::guided() {
 }
 
 MavResult Autopilot::take_off(double height_m) {
+  if (kind_.is_px4()) {
+    take_off_height_m_ = std::isfinite(height_m) ? std::optional(height_m) : std::nullopt;
+    return change_mode(mode_for(kind_, Behaviour::take_off).number);
+  }
   bool const may = airframe_.family == Family::copter && mode_->behaviour == Behaviour::guided && armed_ &&
                    body_.on_ground && height_m > 0.0;
   if (!may) return MavResult::failed;
@@ -169,7 +194,7 @@ MavResult Autopilot::take_off(double height_m) {
 }
 
 MavResult Autopilot::start_mission() {
-  auto const& mission_mode = mode_for(airframe_.family, Behaviour::mission);
+  auto const& mission_mode = mode_for(kind_, Behaviour::mission);
   if (mode_ != &mission_mode) {
     auto const result = set_mode(mission_mode.number);
     if (result != MavResult::accepted) return result;
@@ -177,13 +202,13 @@ MavResult Autopilot::start_mission() {
     mission_.resume();
   }
   take_off_allowed_ = armed_;
-  return MavResult::accepted;
+  return kind_.is_px4() ? arm(false) : MavResult::accepted;
 }
 
 MavResult Autopilot::reposition(geo::Ned point, bool change_mode, double radius_m) {
   if (mode_->behaviour != Behaviour::guided) {
     if (!change_mode) return MavResult::denied;
-    auto const result = set_mode(mode_for(airframe_.family, Behaviour::guided).number);
+    auto const result = set_mode(mode_for(kind_, Behaviour::guided).number);
     if (result != MavResult::accepted) return MavResult::denied;
   }
   bool const reachable = airframe_.family != Family::copter || fence_.allows(point, home_, safety_.fence);
@@ -246,15 +271,25 @@ std::uint8_t Autopilot::base_mode() const {
   return static_cast<std::uint8_t>(mode_->base_mode | (armed_ ? mavlink::mode_flag::safety_armed : 0U));
 }
 
+bool Autopilot::failsafe_active() const {
+  bool const battery = battery_watch_.active() && (!kind_.is_px4() || safety_.on_critical_battery);
+  return ground_station_.active() || battery || estimate_failed_;
+}
+
 MavState Autopilot::system_status() const {
   bool const booting = now_ < start_up_.timeline().standby;
+  if (kind_.is_px4()) {
+    if (booting) return MavState::uninit;
+    if (!armed_) return MavState::standby;
+    return failsafe_active() || fence_took_over_ ? MavState::critical : MavState::active;
+  }
   if (airframe_.family == Family::rover) {
     if (booting) return MavState::calibrating;
-    if (ground_station_.active() || battery_watch_.active() || estimate_failed_) return MavState::critical;
+    if (failsafe_active()) return MavState::critical;
     return mode_->name == "HOLD" ? MavState::standby : MavState::active;
   }
   if (booting) return MavState::active;
-  if (ground_station_.active() || battery_watch_.active() || estimate_failed_) return MavState::critical;
+  if (failsafe_active()) return MavState::critical;
   return body_.on_ground ? MavState::standby : MavState::active;
 }
 

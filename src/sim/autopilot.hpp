@@ -14,17 +14,18 @@
 #include "sim/return_home.hpp"
 #include "sim/safety.hpp"
 #include "sim/tuning.hpp"
+#include "sim/words.hpp"
 
 namespace lapwing::sim {
 
-/// The flight logic of one ArduPilot vehicle with its body and battery: modes, arming, missions, failsafes. No protocol
-/// in it.
+/// The flight logic of one ArduPilot or PX4 vehicle with its body and battery: modes, arming, missions, failsafes. No
+/// protocol in it.
 ///
 /// Time is counted from power-on and only moves with `step`. What happened is left in `outbox()`.
 class Autopilot {
  public:
   struct Setup {
-    vehicle::Family family = vehicle::Family::copter;
+    Kind kind;
     geo::Ned start;  ///< on the ground
     double heading_rad = 0.0;
     BootTimeline boot;
@@ -40,6 +41,7 @@ class Autopilot {
   mavlink::MavResult arm(bool force);
   mavlink::MavResult disarm(bool force);
   mavlink::MavResult set_mode(std::uint32_t number);
+  /// To a height above home; PX4's changes the mode for it and takes its own height if none is given (NaN).
   mavlink::MavResult take_off(double height_m);
   mavlink::MavResult start_mission();
   /// Guided flight to a point; `change_mode` allows leaving another mode for it. A radius makes a plane circle there.
@@ -54,6 +56,8 @@ class Autopilot {
   void enable_fence(bool enabled) { fence_.order(enabled); }
   void plan_changed() { mission_.plan_changed(outbox_); }
   void plan_cleared() { mission_.plan_cleared(); }
+  /// A setpoint came: PX4 goes by them in OFFBOARD, which it enters and stays in only while they come.
+  void setpoint_heard() { setpoint_heard_ = now_; }
   void ground_station_heard() { ground_station_.heard(now_); }
 
   // Faults.
@@ -64,6 +68,7 @@ class Autopilot {
   [[nodiscard]] BatteryPack& battery() { return battery_; }
 
   [[nodiscard]] Body const& body() const { return body_; }
+  [[nodiscard]] Kind const& kind() const { return kind_; }
   [[nodiscard]] Airframe const& airframe() const { return airframe_; }
   [[nodiscard]] Navigation const& navigation() const { return navigation_; }
   [[nodiscard]] BatteryPack const& battery() const { return battery_; }
@@ -95,7 +100,11 @@ class Autopilot {
   void enter(FlightMode const& mode);
   [[nodiscard]] Logic logic_for(FlightMode const& mode) const;
   Guided& guided();
-  void do_disarm();
+  void do_disarm(std::string_view words);
+  [[nodiscard]] std::optional<std::string_view> px4_objection(FlightMode const& mode) const;
+  [[nodiscard]] bool failsafe_active() const;
+  void leave_take_off();
+  void watch_setpoints();
 
   Goal fly(FlightContext const& flight);
   Goal fly_mission(FlightContext const& flight);
@@ -113,6 +122,8 @@ class Autopilot {
   void notice_touch_down();
   void repeat_prearm_fault();
 
+  Kind kind_;  ///< a boat's family is `rover`, as the airframe's
+  Words const& words_;
   Airframe airframe_;
   Site const& site_;
   Parameters const& parameters_;
@@ -136,10 +147,13 @@ class Autopilot {
   bool home_locked_ = false;
   bool armed_ = false;
   bool take_off_allowed_ = false;  ///< stands for the raised throttle stick in AUTO
+  bool has_flown_ = false;         ///< since it was armed
   bool estimate_failed_ = false;
   bool gps_is_cut_off_ = false;
   bool fence_took_over_ = false;  ///< the mode is what a breach made of it
   std::optional<double> speed_override_;
+  std::optional<double> take_off_height_m_;  ///< above home, asked for by command
+  std::optional<base::Duration> setpoint_heard_;
   std::optional<base::Duration> lift_at_;
   std::optional<base::Duration> idle_since_;
   base::Duration next_prearm_text_{};

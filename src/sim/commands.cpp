@@ -23,6 +23,7 @@ MessageId message_id(float parameter) {
 }  // namespace
 
 MavResult FlightController::perform(CommandInt const& command, Address from) {
+  if (is_px4()) return perform_on_px4(command, from);
   auto const& p = command.params;
   if (command.command == battery_reset_command) return battery_reset(command);
   switch (command.command) {
@@ -31,10 +32,10 @@ MavResult FlightController::perform(CommandInt const& command, Address from) {
     case MavCmd::nav_takeoff: return autopilot_.take_off(command.place.z_m);
     case MavCmd::nav_return_to_launch:
       if (autopilot_.airframe().family == vehicle::Family::sub) return MavResult::unsupported;
-      return autopilot_.set_mode(sim::mode_for(autopilot_.airframe().family, Behaviour::return_home).number);
+      return autopilot_.set_mode(sim::mode_for(autopilot_.kind(), Behaviour::return_home).number);
     case MavCmd::nav_land:
       if (autopilot_.airframe().family != vehicle::Family::copter) return MavResult::unsupported;
-      return autopilot_.set_mode(sim::mode_for(vehicle::Family::copter, Behaviour::land).number);
+      return autopilot_.set_mode(sim::mode_for(autopilot_.kind(), Behaviour::land).number);
     case MavCmd::nav_loiter_unlim: {
       auto const family = autopilot_.airframe().family;
       auto const loiter = family == vehicle::Family::plane ? 12U : family == vehicle::Family::sub ? 16U : 5U;
@@ -146,13 +147,14 @@ MavResult FlightController::set_interval(CommandInt const& command) {
   std::chrono::microseconds const interval(std::llround(command.params[1]));
   if (telemetry_.set_interval(id, interval, since_power_on()) == Telemetry::Answer::accepted)
     return MavResult::accepted;
-  say(MavSeverity::warning, "No ap_message for mavlink id (" + std::to_string(static_cast<unsigned>(id)) + ")");
+  if (!is_px4())
+    say(MavSeverity::warning, "No ap_message for mavlink id (" + std::to_string(static_cast<unsigned>(id)) + ")");
   return MavResult::denied;
 }
 
 MavResult FlightController::get_interval(CommandInt const& command, Address from) {
   auto const id = message_id(command.params[0]);
-  if (!Telemetry::knows(id)) return MavResult::denied;
+  if (!telemetry_.knows(id)) return MavResult::denied;
   MessageInterval answer{.message = id, .interval = {}};
   if (auto const interval = telemetry_.interval(id)) {
     answer.interval = std::chrono::duration_cast<std::chrono::microseconds>(*interval);

@@ -17,6 +17,8 @@ struct Tuning {
   double rtl_height_m = 15.0;              ///< above home: where a return is flown
   base::Duration rtl_loiter_time{};        ///< above home, before the descent
   base::Duration disarm_delay{};           ///< on the ground with nothing to do; zero: never
+  base::Duration disarm_delay_landed{};    ///< the same after a flight
+  double take_off_height_m = 50.0;         ///< of a take-off that names none
   base::Duration guided_timeout{};         ///< a velocity setpoint is good for this long
   bool arm_in_auto = false;                ///< AUTO_OPTIONS bit 0
   bool take_off_without_throttle = false;  ///< AUTO_OPTIONS bit 1
@@ -36,6 +38,8 @@ struct FlightContext {
   geo::Ned home;
   base::Duration now{};    ///< since boot
   double utc_day_s = 0.0;  ///< seconds since UTC midnight
+  /// ArduPilot tells every item of its mission in a text.
+  bool tells_items = true;
 
   [[nodiscard]] vehicle::Family family() const { return airframe.family; }
 };

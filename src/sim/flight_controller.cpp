@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include "sim/px4_modes.hpp"
 
 namespace lapwing::sim {
 
@@ -16,6 +19,7 @@ constexpr base::Duration timesync_period = 10s;
 constexpr base::Duration runtime_period = 30s;
 /// 75 a step of 50 ms: the 1500 a second of ArduPilot.
 constexpr std::size_t parameters_a_step = 75;
+constexpr std::string_view hash_name = "_HASH_CHECK";
 
 struct StreamRate {
   std::string_view parameter;
@@ -57,8 +61,8 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       memory_(memory),
       powered_on_(setup.powered_on),
       autopilot_(setup.autopilot, site, memory.parameters, memory.plans),
-      telemetry_(setup.autopilot.boot.first_heartbeat),
-      missions_(memory.plans, mission_ports(), autopilot_.airframe().family),
+      telemetry_(setup.autopilot.kind, setup.autopilot.boot.first_heartbeat),
+      missions_(memory.plans, mission_ports(), autopilot_.kind()),
       connection_(loop, connection_options(setup), std::move(log)),
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
   connection_.add_link(std::move(link));
@@ -128,6 +132,7 @@ base::TimePoint FlightController::next_due_between(base::Duration step) const {
 void FlightController::send_regular() {
   auto const now = since_power_on();
   if (now < autopilot_.boot().first_heartbeat) return;
+  if (is_px4()) return;
   if (now >= next_timesync_) {
     next_timesync_ = now + timesync_period;
     broadcast(Timesync{.tc1 = {}, .ts1 = now});
@@ -139,8 +144,9 @@ void FlightController::send_regular() {
   }
 }
 
-/// The texts and the noise of an autopilot that starts.
+/// The texts and the noise of an ArduPilot that starts.
 void FlightController::announce_start() {
+  if (is_px4()) return;
   struct Line {
     base::Duration at;
     std::string_view text;
@@ -178,7 +184,7 @@ void FlightController::drain_outbox() {
     broadcast_report(MessageId::home_position);
     broadcast_report(MessageId::gps_global_origin);
   }
-  if (out.reached) broadcast(MissionItemReached{static_cast<std::uint16_t>(*out.reached)});
+  if (out.reached) broadcast(MissionItemReached{wire_seq(autopilot_.kind(), *out.reached)});
   if (out.mission_current_changed && telemetry_.interval(MessageId::mission_current)) {
     broadcast_report(MessageId::mission_current);
   }
@@ -214,8 +220,8 @@ void FlightController::receive(Received const& received) {
 void FlightController::dispatch(Message const& message, Address from) {
   auto const now = since_power_on();
   if (missions_.handle(message, from, now)) return;
-  if (std::holds_alternative<Heartbeat>(message)) {
-    if (from.system == static_cast<int>(memory_.parameters.value("SYSID_MYGCS"))) autopilot_.ground_station_heard();
+  if (auto const* heartbeat = std::get_if<Heartbeat>(&message)) {
+    if (comes_from_the_ground_station(*heartbeat, from)) autopilot_.ground_station_heard();
   } else if (auto const* command_int = std::get_if<CommandInt>(&message)) {
     on(*command_int, from);
   } else if (auto const* command = std::get_if<CommandLong>(&message)) {
@@ -223,12 +229,13 @@ void FlightController::dispatch(Message const& message, Address from) {
   } else if (auto const* mode = std::get_if<SetMode>(&message)) {
     if (mode->base_mode & mode_flag::custom_mode_enabled) (void)autopilot_.set_mode(mode->custom_mode);
   } else if (auto const* stream = std::get_if<RequestDataStream>(&message)) {
-    telemetry_.set_stream(stream->stream, stream->start ? stream->rate_hz : 0, now);
+    if (!is_px4()) telemetry_.set_stream(stream->stream, stream->start ? stream->rate_hz : 0, now);
   } else if (auto const* timesync = std::get_if<Timesync>(&message)) {
     if (timesync->tc1 == base::Duration{}) send(from, Timesync{.tc1 = now, .ts1 = timesync->ts1});
   } else if (auto const* seq = std::get_if<MissionSetCurrent>(&message)) {
     // A bad number gets no answer.
-    if (autopilot_.set_current_item(seq->seq)) broadcast_report(MessageId::mission_current);
+    if (autopilot_.set_current_item(plan_index(autopilot_.kind(), seq->seq)))
+      broadcast_report(MessageId::mission_current);
   } else if (auto const* position = std::get_if<SetPositionTargetGlobalInt>(&message)) {
     on(*position);
   } else if (auto const* read = std::get_if<ParamRequestRead>(&message)) {
@@ -238,6 +245,7 @@ void FlightController::dispatch(Message const& message, Address from) {
   } else if (std::holds_alternative<ParamRequestList>(message)) {
     list_reader_ = from;
     list_next_ = 0;
+    if (is_px4()) return send_parameter_hash(from);
     say(MavSeverity::info, "ArduPilot V4.6.0 (Lapwing simulator)");
     say(MavSeverity::info,
         fmt::format("Lapwing sim {} {}", vehicle::to_string(autopilot_.airframe().family), connection_.self().system));
@@ -253,6 +261,8 @@ void FlightController::on(SetPositionTargetGlobalInt const& target) {
   constexpr std::uint16_t position_ignored = 0b000000000111;
   constexpr std::uint16_t velocity_ignored = 0b000000111000;
   auto const& setpoint = target.setpoint;
+  autopilot_.setpoint_heard();
+  if (is_px4() && autopilot_.mode().number != px4_offboard) return;
   if ((setpoint.ignore & position_ignored) == 0) {
     MissionItem item;
     item.frame = setpoint.frame;
@@ -276,7 +286,7 @@ void FlightController::send_parameter(std::size_t index, bool in_a_list, Address
   auto const& all = memory_.parameters.all();
   auto const& parameter = all[index];
   ParamValue const value{.name = parameter.name,
-                         .value = parameter.value,
+                         .value = is_px4() ? bytewise(parameter) : parameter.value,
                          .type = parameter.type,
                          .count = static_cast<std::uint16_t>(all.size()),
                          .index = static_cast<std::uint16_t>(in_a_list ? index : 65535)};
@@ -285,6 +295,19 @@ void FlightController::send_parameter(std::size_t index, bool in_a_list, Address
   } else {
     broadcast(value);
   }
+}
+
+/// PX4's stands before its list and may be asked for by name.
+void FlightController::send_parameter_hash(Address to) {
+  send(to, ParamValue{.name = std::string(hash_name),
+                      .value = std::bit_cast<float>(memory_.parameters.hash()),
+                      .type = MavParamType::uint32,
+                      .count = static_cast<std::uint16_t>(memory_.parameters.all().size())});
+}
+
+bool FlightController::comes_from_the_ground_station(Heartbeat const& heartbeat, Address from) const {
+  if (is_px4()) return heartbeat.type == MavType::gcs;
+  return from.system == static_cast<int>(memory_.parameters.value("SYSID_MYGCS"));
 }
 
 void FlightController::send_parameter_list() {
@@ -301,17 +324,27 @@ void FlightController::on(ParamRequestRead const& request, Address from) {
   if (request.index >= 0) {
     auto const index = static_cast<std::size_t>(request.index);
     if (index < memory_.parameters.all().size()) send_parameter(index, true, &from);
+  } else if (is_px4() && request.name == hash_name) {
+    send_parameter_hash(from);
   } else if (auto const index = memory_.parameters.index_of(request.name)) {
     send_parameter(*index, false, &from);
   }
 }
 
 void FlightController::on(ParamSet const& set) {
-  if (!memory_.parameters.set(set.name, set.value)) return;
+  auto const index = memory_.parameters.index_of(set.name);
+  // A ground station that has the same already returns the hash, so that the list need not be sent.
+  bool const knows_all =
+      is_px4() && set.name == hash_name && std::bit_cast<std::uint32_t>(set.value) == memory_.parameters.hash();
+  if (knows_all) list_reader_.reset();
+  if (!index) return;
+  auto const type = memory_.parameters.all()[*index].type;
+  if (is_px4() && set.type != type) return say(MavSeverity::error, "param types mismatch param: " + set.name);
+  if (!memory_.parameters.set(set.name, is_px4() ? from_bytewise(set.value, type) : set.value)) return;
   for (auto const& [name, stream] : stream_rates) {
     if (set.name == name) follow_stream_rate(name, stream);
   }
-  send_parameter(*memory_.parameters.index_of(set.name), false, nullptr);
+  send_parameter(*index, false, nullptr);
 }
 
 bool FlightController::pilot_sets_mode(std::uint32_t number) {

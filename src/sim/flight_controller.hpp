@@ -68,8 +68,11 @@ class FlightController {
   /// Sends a stream at the rate of the parameter of that name (SR0_...), if there is one.
   void follow_stream_rate(std::string_view name, int stream);
 
-  // Commands, in commands.cpp.
+  // Commands, in commands.cpp and commands_px4.cpp.
   Result perform(mavlink::CommandInt const& command, mavlink::Address from);
+  Result perform_on_px4(mavlink::CommandInt const& command, mavlink::Address from);
+  Result px4_set_mode(mavlink::CommandInt const& command);
+  Result px4_take_off(mavlink::CommandInt const& command);
   Result perform_request(mavlink::CommandInt const& command, mavlink::Address from);
   Result set_mode(mavlink::CommandInt const& command);
   Result arm_disarm(mavlink::CommandInt const& command);
@@ -90,10 +93,13 @@ class FlightController {
   void say(mavlink::MavSeverity severity, std::string text);
   void send_parameter(std::size_t index, bool in_a_list, mavlink::Address const* to);
   void send_parameter_list();
+  void send_parameter_hash(mavlink::Address to);
   void announce_start();
   void send_boot_noise();
   void drain_outbox();
   void send_regular();
+  [[nodiscard]] bool is_px4() const { return autopilot_.kind().is_px4(); }
+  [[nodiscard]] bool comes_from_the_ground_station(mavlink::Heartbeat const& heartbeat, mavlink::Address from) const;
   [[nodiscard]] bool silent() const { return loop_.now() < silent_until_; }
   [[nodiscard]] ReportView view() const;
   [[nodiscard]] double utc_day_s() const;

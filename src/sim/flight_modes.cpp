@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/px4_modes.hpp"
+
 namespace lapwing::sim {
 
 namespace {
@@ -69,31 +71,54 @@ constexpr std::array sub_modes{
     FlightMode{16, "POSHOLD", hold, true, true, 0x59},
 };
 
+// PX4: the same for every kind of vehicle. The first is where it is after the start without a remote control. Base
+// modes as its HEARTBEAT stream makes them of control flags: AUTO 0x04, stabilize and guided in the automatic modes.
+constexpr std::array px4_modes{
+    FlightMode{px4_mode(4, 3), "AUTO.LOITER", guided, true, true, 0x1D},
+    FlightMode{px4_mode(4, 2), "AUTO.TAKEOFF", take_off, true, true, 0x1D},
+    FlightMode{px4_mode(4, 4), "AUTO.MISSION", mission, true, true, 0x1D},
+    FlightMode{px4_mode(4, 5), "AUTO.RTL", return_home, false, true, 0x1D},
+    FlightMode{px4_mode(4, 6), "AUTO.LAND", land, false, false, 0x1D},
+    FlightMode{px4_offboard, "OFFBOARD", guided, true, true, 0x1D},
+    FlightMode{px4_mode(1), "MANUAL", manual, true, false, 0x51},
+    FlightMode{px4_mode(2), "ALTCTL", manual, true, false, 0x51},
+    FlightMode{px4_mode(3), "POSCTL", manual, true, true, 0x51},
+    FlightMode{px4_mode(5), "ACRO", manual, true, false, 0x41},
+    FlightMode{px4_mode(7), "STABILIZED", manual, true, false, 0x51},
+};
+
+/// The behaviour that stands in for one that a vehicle has no mode for.
+Behaviour instead_of(Behaviour behaviour) {
+  if (behaviour == hold) return guided;
+  return behaviour == land ? return_home : land;
+}
+
 }  // namespace
 
-std::span<FlightMode const> flight_modes(vehicle::Family family) {
-  if (family == vehicle::Family::plane) return plane_modes;
-  if (family == vehicle::Family::rover || family == vehicle::Family::boat) return rover_modes;
-  if (family == vehicle::Family::sub) return sub_modes;
+std::span<FlightMode const> flight_modes(Kind const& kind) {
+  using enum vehicle::Family;
+  if (kind.is_px4()) return px4_modes;
+  if (kind.family == plane) return plane_modes;
+  if (kind.family == rover || kind.family == boat) return rover_modes;
+  if (kind.family == sub) return sub_modes;
   return copter_modes;
 }
 
-FlightMode const* find_mode(vehicle::Family family, std::uint32_t number) {
-  auto const modes = flight_modes(family);
+FlightMode const* find_mode(Kind const& kind, std::uint32_t number) {
+  auto const modes = flight_modes(kind);
   auto const found = std::ranges::find(modes, number, &FlightMode::number);
   return found == modes.end() ? nullptr : &*found;
 }
 
-FlightMode const& mode_for(vehicle::Family family, Behaviour behaviour) {
+FlightMode const& mode_for(Kind const& kind, Behaviour behaviour) {
   // The rover's HOLD and the plane's LOITER are the first rows that hold; the copter's is BRAKE.
-  auto const modes = flight_modes(family);
+  auto const modes = flight_modes(kind);
   auto const found = std::ranges::find(modes, behaviour, &FlightMode::behaviour);
-  if (found == modes.end() && behaviour == return_home) return mode_for(family, land);
-  return *found;
+  return found == modes.end() ? mode_for(kind, instead_of(behaviour)) : *found;
 }
 
-FlightMode const& initial_mode(vehicle::Family family) {
-  return flight_modes(family).front();
+FlightMode const& initial_mode(Kind const& kind) {
+  return flight_modes(kind).front();
 }
 
 }  // namespace lapwing::sim

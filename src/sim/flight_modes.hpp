@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "vehicle/vehicle_state.hpp"
+#include "sim/kind.hpp"
 
 namespace lapwing::sim {
 
@@ -21,7 +21,7 @@ enum class Behaviour {
   take_off,  ///< an aeroplane's automatic take-off
 };
 
-/// One row of ArduPilot's mode table.
+/// One row of an autopilot's mode table.
 struct FlightMode {
   std::uint32_t number;  ///< HEARTBEAT.custom_mode
   std::string_view name;
@@ -32,13 +32,14 @@ struct FlightMode {
 };
 
 /// The modes of a copter, plane, rover, boat or underwater vehicle that this build of the autopilot knows.
-[[nodiscard]] std::span<FlightMode const> flight_modes(vehicle::Family family);
+[[nodiscard]] std::span<FlightMode const> flight_modes(Kind const& kind);
 /// Null when there is no such mode.
-[[nodiscard]] FlightMode const* find_mode(vehicle::Family family, std::uint32_t number);
-/// The first mode with that behaviour; for a return home where there is none, the one that lands or surfaces.
+[[nodiscard]] FlightMode const* find_mode(Kind const& kind, std::uint32_t number);
+/// The first mode with that behaviour. Where there is none: for a return home the one that lands or surfaces, for
+/// holding the one that goes where the ground says (PX4's AUTO.LOITER does both), for landing the return (a plane's).
 /// Precondition: the family has one.
-[[nodiscard]] FlightMode const& mode_for(vehicle::Family family, Behaviour behaviour);
+[[nodiscard]] FlightMode const& mode_for(Kind const& kind, Behaviour behaviour);
 /// The mode after power-on.
-[[nodiscard]] FlightMode const& initial_mode(vehicle::Family family);
+[[nodiscard]] FlightMode const& initial_mode(Kind const& kind);
 
 }  // namespace lapwing::sim

@@ -137,6 +137,14 @@ mavlink::MissionItem normalised(mavlink::MissionItem item) {
   return item;
 }
 
+std::uint16_t wire_seq(Kind const& kind, int index) {
+  return static_cast<std::uint16_t>(kind.is_px4() ? std::max(index - 1, 0) : index);
+}
+
+int plan_index(Kind const& kind, int seq) {
+  return kind.is_px4() ? seq + 1 : seq;
+}
+
 namespace {
 
 bool may_leave_yaw(MavCmd command) {
@@ -173,12 +181,13 @@ MavMissionResult check_place(mavlink::MissionItem const& item) {
 
 }  // namespace
 
-MavMissionResult refusal(mavlink::MissionItem const& item, vehicle::Family family, int total) {
-  auto const checked = check_params(item);
+MavMissionResult refusal(mavlink::MissionItem const& item, Kind const& kind, int total) {
+  auto const checked = kind.is_px4() ? MavMissionResult::accepted : check_params(item);
   if (checked != MavMissionResult::accepted) return checked;
-  auto const how = plan::handling(vehicle::Autopilot::ardupilot, family, item.command);
+  auto const how = plan::handling(kind.firmware, kind.family, item.command);
   if (how != plan::Handling::carried_out && how != plan::Handling::skipped) return MavMissionResult::unsupported;
-  if (item.command == MavCmd::do_jump && !(item.params[0] >= 1.0F && item.params[0] < static_cast<float>(total)))
+  if (item.command == MavCmd::do_jump &&
+      !(item.params[0] >= (kind.is_px4() ? 0.0F : 1.0F) && item.params[0] < static_cast<float>(total)))
     return MavMissionResult::error;
   if (!mavlink::has_place(item.command)) return MavMissionResult::accepted;
   if (item.frame != MavFrame::mission && !mavlink::is_global(item.frame)) return MavMissionResult::unsupported_frame;

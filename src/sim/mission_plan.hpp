@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "mavlink/messages.hpp"
+#include "sim/kind.hpp"
 #include "sim/site.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::sim {
 
-/// What the vehicle holds to fly, in the form in which ArduPilot stores it (`normalised`). Item 0 is home, the first
-/// real item is 1.
+/// What the vehicle holds to fly, in the form in which it stores it (`normalised`). Item 0 is home, the first real item
+/// is 1, also where the wire begins with the first real item (PX4): `wire_seq`.
 using MissionPlan = std::vector<mavlink::MissionItem>;
 
 /// All that a vehicle holds; outlives a reboot.
@@ -38,7 +39,12 @@ struct Plans {
 /// for dropped.
 [[nodiscard]] mavlink::MissionItem normalised(mavlink::MissionItem item);
 
-/// Why ArduPilot would not store the item in a mission of `total` items, item 0 included; `accepted` when it would.
-[[nodiscard]] mavlink::MavMissionResult refusal(mavlink::MissionItem const& item, vehicle::Family family, int total);
+/// The number under which a vehicle speaks of the item `index` of its mission, and back.
+[[nodiscard]] std::uint16_t wire_seq(Kind const& kind, int index);
+[[nodiscard]] int plan_index(Kind const& kind, int seq);
+
+/// Why the vehicle would not store the item in a mission of `total` items, as numbered on the wire; `accepted` when it
+/// would.
+[[nodiscard]] mavlink::MavMissionResult refusal(mavlink::MissionItem const& item, Kind const& kind, int total);
 
 }  // namespace lapwing::sim

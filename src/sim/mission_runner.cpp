@@ -141,7 +141,7 @@ bool MissionRunner::advance(FlightContext const& context, Outbox& out) {
   for (int index = next_; index < static_cast<int>(plan_.size()) && hops < 200; ++hops) {
     auto const command = plan_[static_cast<std::size_t>(index)].command;
     if (command == do_jump) {
-      if (!jump(index, out)) ++index;
+      if (!jump(index, context, out)) ++index;
       continue;
     }
     if (can_fly(context.family(), command)) {
@@ -157,7 +157,7 @@ bool MissionRunner::advance(FlightContext const& context, Outbox& out) {
   return false;
 }
 
-bool MissionRunner::jump(int& index, Outbox& out) {
+bool MissionRunner::jump(int& index, FlightContext const& context, Outbox& out) {
   auto const& item = plan_[static_cast<std::size_t>(index)];
   int const target = static_cast<int>(item.params[0]);
   int const times = static_cast<int>(item.params[1]);
@@ -165,10 +165,9 @@ bool MissionRunner::jump(int& index, Outbox& out) {
   if (target < 1 || target >= static_cast<int>(plan_.size())) return false;
   if (times >= 0 && done >= times) return false;
   ++done;
-  if (times < 0) {
-    out.say(MavSeverity::info, fmt::format("Mission: {} Jump {}/unlimited", index, done));
-  } else {
-    out.say(MavSeverity::info, fmt::format("Mission: {} Jump {}/{}", index, done, times));
+  if (context.tells_items) {
+    auto const of = times < 0 ? std::string("unlimited") : std::to_string(times);
+    out.say(MavSeverity::info, fmt::format("Mission: {} Jump {}/{}", index, done, of));
   }
   index = target;
   return true;
@@ -176,7 +175,7 @@ bool MissionRunner::jump(int& index, Outbox& out) {
 
 void MissionRunner::begin(int index, FlightContext const& context, Outbox& out) {
   auto const& item = plan_[static_cast<std::size_t>(index)];
-  out.say(MavSeverity::info, fmt::format("Mission: {} {}", index, short_name(item.command)));
+  if (context.tells_items) out.say(MavSeverity::info, fmt::format("Mission: {} {}", index, short_name(item.command)));
   out.mission_current_changed = out.mission_current_changed || current_ != index;
   current_ = index;
   next_ = index + 1;
@@ -218,7 +217,7 @@ void MissionRunner::finish(FlightContext const& context, Outbox& out) {
 void MissionRunner::perform(int index, FlightContext const& context, Outbox& out) {
   auto const& item = plan_[static_cast<std::size_t>(index)];
   auto const& p = item.params;
-  out.say(MavSeverity::info, fmt::format("Mission: {} {}", index, short_name(item.command)));
+  if (context.tells_items) out.say(MavSeverity::info, fmt::format("Mission: {} {}", index, short_name(item.command)));
   out.reached = index;
   switch (item.command) {
     case do_change_speed:
@@ -300,7 +299,7 @@ Goal MissionRunner::fly_to_point(FlightContext const& context, Outbox& out, bool
   // A plane does not wait at waypoints.
   double const hold_s = context.family() == vehicle::Family::plane ? 0.0 : static_cast<double>(run.item.params[0]);
   done = run.arrived && base::to_seconds(context.now - *run.arrived) >= hold_s;
-  if (done) {
+  if (done && context.tells_items) {
     bool const copter = context.family() == vehicle::Family::copter;
     double const off =
         std::hypot(run.point.north - context.body.position_m.north, run.point.east - context.body.position_m.east);

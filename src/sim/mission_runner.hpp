@@ -73,7 +73,7 @@ class MissionRunner {
   };
 
   bool advance(FlightContext const& context, Outbox& out);
-  bool jump(int& index, Outbox& out);
+  bool jump(int& index, FlightContext const& context, Outbox& out);
   void begin(int index, FlightContext const& context, Outbox& out);
   void perform(int index, FlightContext const& context, Outbox& out);
   [[nodiscard]] bool goes_on_after(int index) const;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr base::Duration repeat_after = 1s;
 constexpr base::Duration give_up_after = 8s;
+constexpr base::Duration px4_repeats_after = 250ms;
+constexpr base::Duration px4_gives_up_after = 5s;
 constexpr int most_items = 650;  // of the ArduCopter build that was observed
 
 std::string_view words(MissionType type) {
@@ -79,7 +81,7 @@ void MissionStore::on(mavlink::MissionCount const& count, Address from, base::Du
     return acknowledge(from, MavMissionResult::accepted, count.type);
   }
   // Not atomic: the old mission is cut to the new length at once, then overwritten item by item.
-  if (count.type == MissionType::mission && plan->size() > count.count) {
+  if (!is_staged(count.type) && plan->size() > count.count) {
     plan->resize(count.count);
     ports_.mission_changed();
   }
@@ -88,6 +90,7 @@ void MissionStore::on(mavlink::MissionCount const& count, Address from, base::Du
 
 void MissionStore::on(mavlink::MissionWritePartialList const& partial, Address from, base::Duration now) {
   if (transfer_ && transfer_->peer != from) return acknowledge(from, MavMissionResult::denied, partial.type);
+  if (kind_.is_px4()) return;
   if (partial.type != MissionType::mission) return acknowledge(from, MavMissionResult::unsupported, partial.type);
   int const size = static_cast<int>(plans_.mission.size());
   if (partial.start < 0 || partial.start >= size || partial.end >= size || partial.end < partial.start) {
@@ -105,27 +108,34 @@ void MissionStore::begin(Transfer transfer, base::Duration now) {
 
 void MissionStore::request(base::Duration now) {
   transfer_->requested = now;
-  ports_.send(transfer_->peer, mavlink::MissionRequest{.target = transfer_->peer,
-                                                       .seq = static_cast<std::uint16_t>(transfer_->next),
-                                                       .type = transfer_->type});
+  auto const seq = static_cast<std::uint16_t>(transfer_->next);
+  if (kind_.is_px4()) {
+    ports_.send(transfer_->peer,
+                mavlink::MissionRequestInt{.target = transfer_->peer, .seq = seq, .type = transfer_->type});
+  } else {
+    ports_.send(transfer_->peer,
+                mavlink::MissionRequest{.target = transfer_->peer, .seq = seq, .type = transfer_->type});
+  }
 }
 
 void MissionStore::tick(base::Duration now) {
   if (!transfer_) return;
-  if (now - transfer_->progressed >= give_up_after) {
+  if (now - transfer_->progressed >= (kind_.is_px4() ? px4_gives_up_after : give_up_after)) {
     ports_.say(MavSeverity::warning, fmt::format("{} upload timeout", words(transfer_->type)));
     acknowledge(transfer_->peer, MavMissionResult::operation_cancelled, transfer_->type);
     transfer_.reset();
-  } else if (now - transfer_->requested >= repeat_after) {
+  } else if (now - transfer_->requested >= (kind_.is_px4() ? px4_repeats_after : repeat_after)) {
     request(now);
   }
 }
 
 void MissionStore::on(mavlink::MissionItem const& item, Address from, base::Duration now) {
+  bool const wanted = transfer_ && transfer_->type == item.type && transfer_->next == item.seq;
+  if (kind_.is_px4() && !wanted) return;
   if (item.type == MissionType::mission && item.current == 2) return acknowledge(from, ports_.go_to(item), item.type);
   if (!transfer_ || transfer_->type != item.type) return acknowledge(from, MavMissionResult::error, item.type);
   if (transfer_->peer != from) return acknowledge(from, MavMissionResult::denied, item.type);
-  if (item.form == mavlink::ItemForm::floating && !warned_of_item_) {
+  if (item.form == mavlink::ItemForm::floating && !warned_of_item_ && !kind_.is_px4()) {
     warned_of_item_ = true;
     ports_.say(MavSeverity::warning, "got MISSION_ITEM; GCS should send MISSION_ITEM_INT");
   }
@@ -144,13 +154,28 @@ void MissionStore::on(mavlink::MissionItem const& item, Address from, base::Dura
 
 MavMissionResult MissionStore::check(mavlink::MissionItem const& item) const {
   if (refused_seq_ == item.seq) return refused_with_;
-  if (item.type == MissionType::mission) return refusal(item, family_, transfer_->end);
+  if (item.type == MissionType::mission) return refusal(item, kind_, transfer_->end);
   return zone_refusal(item);
 }
 
+bool MissionStore::is_staged(MissionType type) const {
+  return type != MissionType::mission || kind_.is_px4();
+}
+
+std::size_t MissionStore::count_of(MissionType type) const {
+  auto const& plan = type == MissionType::mission ? plans_.mission
+                     : type == MissionType::fence ? plans_.fence
+                                                  : plans_.rally;
+  bool const without_home = type == MissionType::mission && kind_.is_px4() && !plan.empty();
+  return plan.size() - (without_home ? 1 : 0);
+}
+
 void MissionStore::store(mavlink::MissionItem const& item) {
-  if (item.type != MissionType::mission) {
-    transfer_->staged.push_back(normalised_zone(item));
+  if (is_staged(item.type)) {
+    transfer_->staged.push_back(item.type == MissionType::mission ? item : normalised_zone(item));
+    auto& kept = transfer_->staged.back();
+    if (item.type == MissionType::mission && kept.command == mavlink::MavCmd::do_jump)
+      kept.params[0] += 1.0F;  // the plan counts from home
     return;
   }
   auto& plan = plans_.mission;
@@ -173,34 +198,44 @@ void MissionStore::complete() {
       ports_.say(MavSeverity::warning, *problem);
       return acknowledge(done.peer, MavMissionResult::error, done.type);
     }
-    ports_.say(MavSeverity::info, "Fence Indexed OK");
+    if (!kind_.is_px4()) ports_.say(MavSeverity::info, "Fence Indexed OK");
   }
-  if (done.type != MissionType::mission) *plan_of(done.type) = done.staged;
+  if (is_staged(done.type)) take_over(done);
   acknowledge(done.peer, MavMissionResult::accepted, done.type);
-  if (done.type == MissionType::mission) ports_.say(MavSeverity::info, "Flight plan received");
+  if (done.type == MissionType::mission && !kind_.is_px4()) ports_.say(MavSeverity::info, "Flight plan received");
+}
+
+void MissionStore::take_over(Transfer done) {
+  if (done.type == MissionType::mission) done.staged.insert(done.staged.begin(), item_zero());
+  *plan_of(done.type) = std::move(done.staged);
+  if (done.type != MissionType::mission) return;
+  ports_.mission_cleared();  // PX4 begins a new mission at its begin
+  ports_.mission_changed();
 }
 
 void MissionStore::on(mavlink::MissionRequestList const& request_list, Address from) {
   if (transfer_) return acknowledge(from, MavMissionResult::denied, request_list.type);
-  auto const* plan = plan_of(request_list.type);
-  if (!plan) return acknowledge(from, MavMissionResult::unsupported, request_list.type);
-  ports_.send(from, mavlink::MissionCount{
-                        .target = from, .count = static_cast<std::uint16_t>(plan->size()), .type = request_list.type});
+  if (!plan_of(request_list.type)) return acknowledge(from, MavMissionResult::unsupported, request_list.type);
+  auto const count = static_cast<std::uint16_t>(count_of(request_list.type));
+  ports_.send(from, mavlink::MissionCount{.target = from, .count = count, .type = request_list.type});
 }
 
 void MissionStore::on_request(int seq, MissionType type, Address from, mavlink::ItemForm form) {
   auto const* plan = plan_of(type);
   if (!plan) return acknowledge(from, MavMissionResult::unsupported, type);
-  if (form == mavlink::ItemForm::floating && !warned_of_request_) {
+  if (form == mavlink::ItemForm::floating && !warned_of_request_ && !kind_.is_px4()) {
     warned_of_request_ = true;
     ports_.say(MavSeverity::warning, "got MISSION_REQUEST; use MISSION_REQUEST_INT!");
   }
-  if (seq >= static_cast<int>(plan->size())) {
-    ports_.send(from,
-                mavlink::MissionCount{.target = from, .count = static_cast<std::uint16_t>(plan->size()), .type = type});
+  auto const count = static_cast<std::uint16_t>(count_of(type));
+  if (seq >= count) {
+    if (!kind_.is_px4()) ports_.send(from, mavlink::MissionCount{.target = from, .count = count, .type = type});
     return acknowledge(from, MavMissionResult::error, type);
   }
-  auto item = type == MissionType::mission && seq == 0 ? item_zero() : (*plan)[static_cast<std::size_t>(seq)];
+  bool const is_mission = type == MissionType::mission;
+  auto const index = static_cast<std::size_t>(is_mission ? plan_index(kind_, seq) : seq);
+  auto item = is_mission && index == 0 ? item_zero() : (*plan)[index];
+  if (is_mission && kind_.is_px4() && item.command == mavlink::MavCmd::do_jump) item.params[0] -= 1.0F;
   item.target = from;
   item.seq = static_cast<std::uint16_t>(seq);
   item.form = form;
@@ -219,6 +254,10 @@ mavlink::MissionItem MissionStore::item_zero() const {
 }
 
 void MissionStore::on(mavlink::MissionClearAll const& clear_all, Address from) {
+  if (clear_all.type == MissionType::all && kind_.is_px4()) {
+    for (auto const type : {MissionType::mission, MissionType::fence, MissionType::rally}) clear(type);
+    return acknowledge(from, MavMissionResult::accepted, clear_all.type);
+  }
   if (!plan_of(clear_all.type)) return acknowledge(from, MavMissionResult::unsupported, clear_all.type);
   if (transfer_) return acknowledge(from, MavMissionResult::error, clear_all.type);
   clear(clear_all.type);

@@ -11,8 +11,10 @@
 
 namespace lapwing::sim {
 
-/// The vehicle's plans (mission, fence, rally points) and its side of the mission protocol, as ArduPilot 4.6 does it:
-/// asks with MISSION_REQUEST, overwrites in place, repeats after 1 s, gives up after 8 s.
+/// The vehicle's plans (mission, fence, rally points) and its side of the mission protocol. ArduPilot 4.6 asks with
+/// MISSION_REQUEST, overwrites a mission in place, repeats after 1 s, gives up after 8 s. PX4 asks with
+/// MISSION_REQUEST_INT, has no home item, takes a mission over whole, repeats after 250 ms, gives up after 5 s and says
+/// nothing to an item that it did not ask for (MavlinkMissionManager).
 class MissionStore {
  public:
   /// What the store needs of the vehicle round it.
@@ -30,8 +32,8 @@ class MissionStore {
   /// The plans outlive a reboot; transfers do not.
   using Plans = sim::Plans;
 
-  MissionStore(Plans& plans, Ports ports, vehicle::Family family = vehicle::Family::copter)
-      : plans_(plans), ports_(std::move(ports)), family_(family) {}
+  MissionStore(Plans& plans, Ports ports, Kind const& kind = {})
+      : plans_(plans), ports_(std::move(ports)), kind_(kind) {}
 
   /// True when the message belonged to the mission protocol.
   bool handle(mavlink::Message const& message, mavlink::Address from, base::Duration now);
@@ -50,7 +52,7 @@ class MissionStore {
     int end = 0;  ///< one past the last item
     base::Duration requested{};
     base::Duration progressed{};
-    MissionPlan staged;  ///< a fence or rally list, which is taken over whole
+    MissionPlan staged;  ///< what is taken over whole: a fence or rally list, PX4's missions
   };
 
   void on(mavlink::MissionCount const& count, mavlink::Address from, base::Duration now);
@@ -64,6 +66,9 @@ class MissionStore {
   void begin(Transfer transfer, base::Duration now);
   void request(base::Duration now);
   void store(mavlink::MissionItem const& item);
+  void take_over(Transfer done);
+  [[nodiscard]] std::size_t count_of(mavlink::MissionType type) const;
+  [[nodiscard]] bool is_staged(mavlink::MissionType type) const;
   void complete();
   mavlink::MavMissionResult check(mavlink::MissionItem const& item) const;
   void acknowledge(mavlink::Address to, mavlink::MavMissionResult result, mavlink::MissionType type);
@@ -72,7 +77,7 @@ class MissionStore {
 
   Plans& plans_;
   Ports ports_;
-  vehicle::Family family_;
+  Kind kind_;
   std::optional<Transfer> transfer_;
   std::optional<int> refused_seq_;
   mavlink::MavMissionResult refused_with_ = mavlink::MavMissionResult::error;

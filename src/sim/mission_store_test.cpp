@@ -235,7 +235,7 @@ TEST(MissionUpload, RefusesJumpsThatLeadNowhereAndHeightsBeyondTheSky) {
 TEST(MissionUpload, OfASplineIsRefusedByPlanesAlone) {
   for (auto const family : {vehicle::Family::copter, vehicle::Family::rover, vehicle::Family::plane}) {
     auto const item = ItemMaker{geo::Wgs84::from_degrees(41.0, -8.0, 90.0)}.at(MavCmd::nav_spline_waypoint, {});
-    EXPECT_EQ(refusal(item, family, 2), family == vehicle::Family::plane ? unsupported : accepted);
+    EXPECT_EQ(refusal(item, Kind{family}, 2), family == vehicle::Family::plane ? unsupported : accepted);
   }
 }
 

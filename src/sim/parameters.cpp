@@ -1,6 +1,8 @@
 #include "sim/parameters.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <span>
@@ -214,7 +216,67 @@ constexpr Default equipment[] = {
     {"TELEM_DELAY", 0, int8},
 };
 
-std::span<Default const> own_defaults(vehicle::Family family) {
+// Of PX4's main branch, its generic copter with what planes and rovers add; whole numbers are int32.
+constexpr Default px4[] = {
+    {"BAT1_CAPACITY", 5000},
+    {"BAT1_N_CELLS", 3, int32},
+    {"BAT_CRIT_THR", 0.07F},
+    {"BAT_EMERGEN_THR", 0.05F},
+    {"BAT_LOW_THR", 0.15F},
+    {"CAL_ACC0_ID", 1310988, int32},
+    {"COM_ARM_WO_GPS", 1, int32},
+    {"COM_DISARM_LAND", 2},
+    {"COM_DISARM_PRFLT", 10},
+    {"COM_DL_LOSS_T", 10, int32},
+    {"COM_LOW_BAT_ACT", 0, int32},
+    {"COM_OF_LOSS_T", 1},
+    {"COM_RCL_EXCEPT", 0, int32},
+    {"COM_RC_IN_MODE", 3, int32},
+    {"EKF2_GPS_CTRL", 7, int32},
+    {"EKF2_HGT_REF", 1, int32},
+    {"FW_AIRSPD_MIN", 10},
+    {"FW_AIRSPD_TRIM", 15},
+    {"FW_T_CLMB_MAX", 5},
+    {"FW_T_SINK_MAX", 5},
+    {"GF_ACTION", 2, int32},
+    {"GF_MAX_HOR_DIST", 0},
+    {"GF_MAX_VER_DIST", 0},
+    {"GND_SPEED_TRIM", 3},
+    {"MAV_COMP_ID", 1, int32},
+    {"MAV_SYS_ID", 1, int32},
+    {"MAV_TYPE", 2, int32},
+    {"MIS_DIST_1WP", 10000},
+    {"MIS_TAKEOFF_ALT", 2.5F},
+    {"MIS_TKO_LAND_REQ", 0, int32},
+    {"MPC_ACC_HOR", 3},
+    {"MPC_LAND_SPEED", 0.7F},
+    {"MPC_XY_CRUISE", 5},
+    {"MPC_XY_VEL_MAX", 12},
+    {"MPC_Z_V_AUTO_DN", 1.5F},
+    {"MPC_Z_V_AUTO_UP", 3},
+    {"NAV_ACC_RAD", 10},
+    {"NAV_DLL_ACT", 0, int32},
+    {"NAV_LOITER_RAD", 80},
+    {"NAV_MC_ALT_RAD", 0.8F},
+    {"NAV_RCL_ACT", 2, int32},
+    {"RTL_DESCEND_ALT", 30},
+    {"RTL_LAND_DELAY", 0},
+    {"RTL_MIN_DIST", 10},
+    {"RTL_RETURN_ALT", 60},
+    {"RTL_TYPE", 0, int32},
+    {"SDLOG_MODE", 0, int32},
+    {"SIM_GPS_USED", 10, int32},
+    {"SYS_AUTOSTART", 4001, int32},
+};
+
+std::span<Default const> common_defaults(Kind const& kind) {
+  if (kind.is_px4()) return px4;
+  return common;
+}
+
+std::span<Default const> own_defaults(Kind const& kind) {
+  if (kind.is_px4()) return {};
+  auto const family = kind.family;
   if (family == vehicle::Family::plane) return plane;
   if (family == vehicle::Family::rover || family == vehicle::Family::boat) return rover;
   if (family == vehicle::Family::sub) return underwater;
@@ -223,19 +285,21 @@ std::span<Default const> own_defaults(vehicle::Family family) {
 
 }  // namespace
 
-Parameters::Parameters(vehicle::Family family, int system_id) {
-  auto const own = own_defaults(family);
-  table_.reserve(std::size(common) + own.size());
-  for (auto const& row : common) table_.push_back({std::string(row.name), row.value, row.type});
+Parameters::Parameters(Kind const& kind, int system_id) {
+  auto const shared = common_defaults(kind);
+  auto const own = own_defaults(kind);
+  table_.reserve(shared.size() + own.size());
+  for (auto const& row : shared) table_.push_back({std::string(row.name), row.value, row.type});
   for (auto const& row : own) table_.push_back({std::string(row.name), row.value, row.type});
-  for (auto const& row : equipment) table_.push_back({std::string(row.name), row.value, row.type});
+  if (!kind.is_px4())
+    for (auto const& row : equipment) table_.push_back({std::string(row.name), row.value, row.type});
   // Of two rows of one name the first counts: a family's own goes before what every board has.
   std::ranges::stable_sort(table_, {}, &Parameter::name);
   auto const again = std::ranges::unique(table_, {}, &Parameter::name);
   table_.erase(again.begin(), again.end());
   // No two compasses are alike.
   set("COMPASS_OFS_X", 5.0F + static_cast<float>(system_id));
-  set("SYSID_THISMAV", static_cast<float>(system_id));
+  set(kind.is_px4() ? "MAV_SYS_ID" : "SYSID_THISMAV", static_cast<float>(system_id));
 }
 
 std::optional<std::size_t> Parameters::index_of(std::string_view name) const {
@@ -255,6 +319,40 @@ bool Parameters::set(std::string_view name, float value) {
   table_[*index].value = value;
   ++revision_;
   return true;
+}
+
+namespace {
+
+/// CRC-32 with the common reflected polynomial, begun with 0 and not inverted at the end, as PX4 has it.
+std::uint32_t crc_over(std::uint32_t crc, std::span<std::uint8_t const> bytes) {
+  constexpr std::uint32_t polynomial = 0xEDB88320U;
+  for (auto const byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1U ^ polynomial : crc >> 1U;
+  }
+  return crc;
+}
+
+}  // namespace
+
+std::uint32_t Parameters::hash() const {
+  std::uint32_t crc = 0;
+  for (auto const& parameter : table_) {
+    crc = crc_over(crc, {reinterpret_cast<std::uint8_t const*>(parameter.name.data()), parameter.name.size()});
+    auto const bits = std::bit_cast<std::array<std::uint8_t, 4>>(bytewise(parameter));
+    crc = crc_over(crc, bits);
+  }
+  return crc;
+}
+
+float bytewise(Parameter const& parameter) {
+  if (parameter.type == real32) return parameter.value;
+  return std::bit_cast<float>(static_cast<std::int32_t>(parameter.value));
+}
+
+float from_bytewise(float on_the_wire, mavlink::MavParamType type) {
+  if (type == real32) return on_the_wire;
+  return static_cast<float>(std::bit_cast<std::int32_t>(on_the_wire));
 }
 
 base::Result<ParameterSetting> parse_parameter(std::string_view text) {

@@ -37,9 +37,9 @@ MavType type_of(Airframe const& airframe) {
 
 Heartbeat heartbeat(Autopilot const& autopilot) {
   bool const is_rover = autopilot.airframe().family == vehicle::Family::rover;
-  bool const initialising = is_rover && autopilot.now() < autopilot.boot().standby;
+  bool const initialising = is_rover && !autopilot.kind().is_px4() && autopilot.now() < autopilot.boot().standby;
   return {.type = type_of(autopilot.airframe()),
-          .autopilot = MavAutopilot::ardupilotmega,
+          .autopilot = autopilot.kind().is_px4() ? MavAutopilot::px4 : MavAutopilot::ardupilotmega,
           .base_mode = autopilot.base_mode(),
           .custom_mode = initialising ? 16U : autopilot.mode().number,
           .system_status = autopilot.system_status()};
@@ -163,7 +163,7 @@ std::optional<Message> position_target_report(ReportView const& view) {
 MissionCurrent mission_current(ReportView const& view) {
   auto const& mission = view.autopilot.mission();
   bool const in_auto = view.autopilot.mode().behaviour == Behaviour::mission;
-  return {.seq = static_cast<std::uint16_t>(mission.current()),
+  return {.seq = wire_seq(view.autopilot.kind(), mission.current()),
           .total = static_cast<std::uint16_t>(view.mission_items > 0 ? view.mission_items - 1 : 0),
           .state = mission.state(),
           .mission_mode = static_cast<std::uint8_t>(in_auto ? 1 : 2)};
@@ -207,6 +207,34 @@ FenceStatus fence_status(Autopilot const& autopilot) {
           .breach_time = fence.breached_at()};
 }
 
+EstimatorStatus estimator_status(Autopilot const& autopilot) {
+  // The flags of both autopilots mean the same (ESTIMATOR_STATUS_FLAGS, EKF_STATUS_FLAGS).
+  float const ratio = autopilot.navigation().position_ok ? 0.05F : 1.5F;
+  float const accuracy_m = autopilot.navigation().position_ok ? 0.5F : 50.0F;
+  return {.flags = autopilot.navigation().ekf_flags,
+          .velocity_ratio = ratio,
+          .position_horizontal_ratio = ratio,
+          .position_vertical_ratio = 0.1F,
+          .position_horizontal_accuracy_m = accuracy_m,
+          .position_vertical_accuracy_m = 0.8F};
+}
+
+/// MAV_PROTOCOL_CAPABILITY of PX4: missions, fences and rally points, COMMAND_INT, bytewise parameters, FTP, setpoints,
+/// termination, MAVLink 2.
+AutopilotVersion capabilities(Kind const& kind) {
+  if (!kind.is_px4()) return {.capabilities = 0xFBEF, .flight_sw_version = 0x04060000};
+  constexpr std::uint64_t missions = 1U << 0U | 1U << 2U;
+  constexpr std::uint64_t command_int = 1U << 3U;
+  constexpr std::uint64_t bytewise_parameters = 1U << 4U;
+  constexpr std::uint64_t ftp_and_setpoints = 1U << 5U | 1U << 6U | 1U << 7U | 1U << 8U;
+  constexpr std::uint64_t termination = 1U << 11U;
+  constexpr std::uint64_t mavlink_2 = 1U << 13U;
+  constexpr std::uint64_t fences_and_rally_points = 1U << 14U | 1U << 15U;
+  return {.capabilities = missions | command_int | bytewise_parameters | ftp_and_setpoints | termination | mavlink_2 |
+                          fences_and_rally_points,
+          .flight_sw_version = 0x010F00FF};
+}
+
 Wind wind(ReportView const& view) {
   auto const& w = view.wind_m_s;
   return {.from_rad = geo::wrap_two_pi(std::atan2(w.east, w.north) + pi), .speed_m_s = std::hypot(w.north, w.east)};
@@ -214,7 +242,7 @@ Wind wind(ReportView const& view) {
 
 /// What tells one board from another is made of the system id: it is the same after every start.
 AutopilotVersion version(ReportView const& view) {
-  AutopilotVersion version{.capabilities = 0xFBEF, .flight_sw_version = 0x04060000};
+  auto version = capabilities(view.autopilot.kind());
   constexpr std::string_view maker = "lapwing-sim";
   std::ranges::copy(maker, version.uid2.begin());
   version.uid2.back() = view.system_id;
@@ -242,10 +270,17 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
     case MessageId::vfr_hud: return vfr_hud(view);
     case MessageId::nav_controller_output: return nav_output(autopilot);
     case MessageId::mission_current: return mission_current(view);
-    case MessageId::ekf_status_report: return ekf_status(autopilot);
-    case MessageId::wind: return wind(view);
+    case MessageId::ekf_status_report:
+      if (autopilot.kind().is_px4()) return std::nullopt;
+      return ekf_status(autopilot);
+    case MessageId::estimator_status:
+      if (!autopilot.kind().is_px4()) return std::nullopt;
+      return estimator_status(autopilot);
+    case MessageId::wind:
+      if (autopilot.kind().is_px4()) return std::nullopt;
+      return wind(view);
     case MessageId::fence_status:
-      if (!autopilot.fence_enabled()) return std::nullopt;
+      if (!autopilot.fence_enabled() || autopilot.kind().is_px4()) return std::nullopt;
       return fence_status(autopilot);
     case MessageId::extended_sys_state: return ExtendedSysState{.landed_state = autopilot.landed_state()};
     case MessageId::home_position:

@@ -83,9 +83,44 @@ void watch_estimate(Safety& safety, Family family, Parameters const& parameters)
   }
 }
 
+/// GF_ACTION and NAV_DLL_ACT: 1 only warns, 2 hold, 3 return, 5 land; termination is not simulated.
+Action px4_action(int number) {
+  if (number == 2) return Behaviour::hold;
+  if (number == 3) return Behaviour::return_home;
+  if (number == 5) return Behaviour::land;
+  return std::nullopt;
+}
+
+Safety px4_safety(Parameters const& parameters) {
+  constexpr unsigned height_circle_and_areas = 7;
+  auto const number = [&](std::string_view name) { return static_cast<int>(parameters.value(name)); };
+  double const capacity_mah = parameters.value("BAT1_CAPACITY");
+  Safety safety{.battery = {.low_mah = parameters.value("BAT_LOW_THR") * capacity_mah,
+                            .critical_mah = parameters.value("BAT_CRIT_THR") * capacity_mah}};
+  // COM_LOW_BAT_ACT: 0 warns, 2 lands at the critical level, 3 returns there and lands at the emergency level.
+  int const low_battery = number("COM_LOW_BAT_ACT");
+  if (low_battery == 2) safety.on_critical_battery = Behaviour::land;
+  if (low_battery == 3) safety.on_critical_battery = Behaviour::return_home;
+  safety.on_ground_station_lost = px4_action(number("NAV_DLL_ACT"));
+  safety.watches_ground_station = number("NAV_DLL_ACT") != 0;
+  safety.ground_station_patience = base::from_seconds(parameters.value("COM_DL_LOSS_T"));
+  safety.on_estimate_lost = Behaviour::land;
+  safety.fence = {.enabled = number("GF_ACTION") != 0,
+                  .watched = height_circle_and_areas,
+                  .radius_m = parameters.value("GF_MAX_HOR_DIST"),
+                  .highest_m = parameters.value("GF_MAX_VER_DIST"),
+                  .any_inclusion = false,
+                  .action = px4_action(number("GF_ACTION"))};
+  constexpr int satellites_for_a_fix = 4;
+  safety.gps_is_cut_off = number("SIM_GPS_USED") < satellites_for_a_fix;
+  return safety;
+}
+
 }  // namespace
 
-Safety safety_from(Family family, Parameters const& parameters) {
+Safety safety_from(Kind const& kind, Parameters const& parameters) {
+  if (kind.is_px4()) return px4_safety(parameters);
+  auto const family = kind.family;
   Safety safety{.battery = {.low_v = parameters.value("BATT_LOW_VOLT"),
                             .low_mah = parameters.value("BATT_LOW_MAH"),
                             .critical_v = parameters.value("BATT_CRT_VOLT"),

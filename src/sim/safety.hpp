@@ -35,6 +35,6 @@ struct Safety {
   FenceSettings fence{};
   bool gps_is_cut_off = false;  ///< SIM_GPS_DISABLE, as in ArduPilot's simulator
 };
-[[nodiscard]] Safety safety_from(vehicle::Family family, Parameters const& parameters);
+[[nodiscard]] Safety safety_from(Kind const& kind, Parameters const& parameters);
 
 }  // namespace lapwing::sim

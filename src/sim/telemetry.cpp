@@ -14,40 +14,59 @@ constexpr base::Duration heartbeat_interval = 1s;
 constexpr base::Duration shortest_interval = 3ms;
 constexpr MessageId position_target{87};
 
+enum class Sender { both, ardupilot, px4 };
 struct Row {
   MessageId id;
-  int stream;  ///< MAV_DATA_STREAM; 0: in none
+  int stream;           ///< MAV_DATA_STREAM, ArduPilot's; 0: in none
+  double px4_hz = 0.0;  ///< what PX4 sends unasked (its "normal" mode); 0: nothing
+  Sender sender = Sender::both;
 };
 constexpr std::array rows{
-    Row{MessageId::heartbeat, 0},
-    Row{MessageId::sys_status, 2},
-    Row{MessageId::mission_current, 2},
-    Row{MessageId::gps_raw_int, 2},
+    Row{MessageId::heartbeat, 0, 1.0},
+    Row{MessageId::sys_status, 2, 1.0},
+    Row{MessageId::mission_current, 2, 1.0},
+    Row{MessageId::gps_raw_int, 2, 1.0},
     Row{MessageId::nav_controller_output, 2},
-    Row{MessageId::fence_status, 2},
-    Row{position_target, 2},
-    Row{MessageId::global_position_int, 6},
-    Row{MessageId::local_position_ned, 6},
-    Row{MessageId::attitude, 10},
-    Row{MessageId::vfr_hud, 11},
-    Row{MessageId::system_time, 12},
-    Row{MessageId::wind, 12},
-    Row{MessageId::battery_status, 12},
-    Row{MessageId::ekf_status_report, 12},
-    Row{MessageId::extended_sys_state, 0},
-    Row{MessageId::home_position, 0},
-    Row{MessageId::gps_global_origin, 0},
+    Row{MessageId::fence_status, 2, 0.0, Sender::ardupilot},
+    Row{position_target, 2, 1.5},
+    Row{MessageId::global_position_int, 6, 5.0},
+    Row{MessageId::local_position_ned, 6, 1.0},
+    Row{MessageId::attitude, 10, 15.0},
+    Row{MessageId::vfr_hud, 11, 4.0},
+    Row{MessageId::system_time, 12, 1.0},
+    Row{MessageId::wind, 12, 0.0, Sender::ardupilot},
+    Row{MessageId::battery_status, 12, 0.5},
+    Row{MessageId::ekf_status_report, 12, 0.0, Sender::ardupilot},
+    Row{MessageId::estimator_status, 0, 0.5, Sender::px4},
+    Row{MessageId::extended_sys_state, 0, 1.0},
+    Row{MessageId::home_position, 0, 0.5},
+    Row{MessageId::gps_global_origin, 0, 0.1},
 };
+
+bool sends(Kind const& kind, Row const& row) {
+  return row.sender == Sender::both || (row.sender == Sender::px4) == kind.is_px4();
+}
+
+/// What the vehicle sends when nobody asks for anything.
+std::optional<base::Duration> unasked(Kind const& kind, MessageId id) {
+  if (id == MessageId::heartbeat) return heartbeat_interval;
+  auto const row = std::ranges::find(rows, id, &Row::id);
+  if (!kind.is_px4() || row == rows.end() || row->px4_hz <= 0.0) return std::nullopt;
+  return base::from_seconds(1.0 / row->px4_hz);
+}
 
 }  // namespace
 
-Telemetry::Telemetry(base::Duration first_heartbeat) {
-  entries_.push_back({MessageId::heartbeat, heartbeat_interval, first_heartbeat});
+Telemetry::Telemetry(Kind const& kind, base::Duration first_heartbeat) : kind_(kind) {
+  for (auto const& row : rows) {
+    if (auto const interval = unasked(kind_, row.id)) entries_.push_back({row.id, *interval, first_heartbeat});
+  }
   find_next();
 }
 
-bool Telemetry::knows(MessageId id) {
-  return std::ranges::find(rows, id, &Row::id) != rows.end();
+bool Telemetry::knows(MessageId id) const {
+  auto const row = std::ranges::find(rows, id, &Row::id);
+  return row != rows.end() && sends(kind_, *row);
 }
 
 Telemetry::Answer Telemetry::set_interval(MessageId id, std::chrono::microseconds interval, base::Duration now) {
@@ -55,7 +74,7 @@ Telemetry::Answer Telemetry::set_interval(MessageId id, std::chrono::microsecond
   if (interval.count() < 0) {
     schedule(id, std::nullopt, now);
   } else if (interval.count() == 0) {
-    schedule(id, id == MessageId::heartbeat ? std::optional(heartbeat_interval) : std::nullopt, now);
+    schedule(id, unasked(kind_, id), now);
   } else {
     schedule(id, std::max<base::Duration>(interval, shortest_interval), now);
   }

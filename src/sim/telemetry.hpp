@@ -6,22 +6,23 @@
 
 #include "base/time.hpp"
 #include "mavlink/enums.hpp"
+#include "sim/kind.hpp"
 
 namespace lapwing::sim {
 
-/// Which messages a vehicle sends by itself, and when. After power-on: HEARTBEAT once a second, nothing else.
+/// Which messages a vehicle sends by itself, and when. ArduPilot after power-on: HEARTBEAT once a second, nothing else.
 class Telemetry {
  public:
   enum class Answer { accepted, unknown_message };
 
-  explicit Telemetry(base::Duration first_heartbeat);
+  /// ArduPilot sends what it is asked for; PX4 sends a good deal unasked.
+  Telemetry(Kind const& kind, base::Duration first_heartbeat);
 
-  /// SET_MESSAGE_INTERVAL: shorter than 3 ms is taken as 3 ms; negative stops; zero is the default (off but for
-  /// HEARTBEAT).
+  /// SET_MESSAGE_INTERVAL: shorter than 3 ms is taken as 3 ms; negative stops; zero is the default.
   Answer set_interval(mavlink::MessageId id, std::chrono::microseconds interval, base::Duration now);
   /// Nothing when the vehicle does not send it; `known` tells whether it could.
   [[nodiscard]] std::optional<base::Duration> interval(mavlink::MessageId id) const;
-  [[nodiscard]] static bool knows(mavlink::MessageId id);
+  [[nodiscard]] bool knows(mavlink::MessageId id) const;
   /// REQUEST_DATA_STREAM: every message of the stream (0: of all) at that rate, or none.
   void set_stream(int stream, int rate_hz, base::Duration now);
 
@@ -39,6 +40,7 @@ class Telemetry {
   void schedule(mavlink::MessageId id, std::optional<base::Duration> interval, base::Duration now);
   void find_next();
 
+  Kind kind_;
   std::vector<Entry> entries_;
   base::Duration next_due_{};
 };

@@ -6,10 +6,43 @@ namespace lapwing::sim {
 
 namespace {
 constexpr double m_per_cm = 0.01;
+
+Pace px4_pace(vehicle::Family family, Parameters const& parameters) {
+  Pace pace;
+  pace.speed_m_s = parameters.value(family == vehicle::Family::plane   ? "FW_AIRSPD_TRIM"
+                                    : family == vehicle::Family::rover ? "GND_SPEED_TRIM"
+                                                                       : "MPC_XY_CRUISE");
+  bool const wing = family == vehicle::Family::plane;
+  pace.climb_m_s = parameters.value(wing ? "FW_T_CLMB_MAX" : "MPC_Z_V_AUTO_UP");
+  pace.sink_m_s = parameters.value(wing ? "FW_T_SINK_MAX" : "MPC_Z_V_AUTO_DN");
+  pace.land_m_s = parameters.value("MPC_LAND_SPEED");
+  pace.land_slow_below_m = 5.0;  // MPC_LAND_ALT2
+  pace.accel_m_s2 = family == vehicle::Family::rover ? 2.0 : std::max(0.5, parameters.value("MPC_ACC_HOR"));
+  pace.loiter_radius_m = parameters.value("NAV_LOITER_RAD");
+  return pace;
 }
 
-Pace pace_from(vehicle::Family family, Parameters const& parameters) {
+Tuning px4_tuning(vehicle::Family family, Parameters const& parameters) {
+  using base::from_seconds;
+  Tuning tuning;
+  // A rotorcraft goes through its waypoints as closely as NAV_ACC_RAD's least useful value; a wing needs all of it.
+  tuning.waypoint_radius_m = family == vehicle::Family::plane ? parameters.value("NAV_ACC_RAD") : 2.0;
+  tuning.rtl_height_m = parameters.value("RTL_RETURN_ALT");
+  tuning.rtl_loiter_time = from_seconds(std::max(0.0, parameters.value("RTL_LAND_DELAY")));
+  tuning.disarm_delay = from_seconds(parameters.value("COM_DISARM_PRFLT"));
+  tuning.disarm_delay_landed = from_seconds(parameters.value("COM_DISARM_LAND"));
+  tuning.guided_timeout = from_seconds(parameters.value("COM_OF_LOSS_T"));
+  tuning.take_off_height_m = parameters.value("MIS_TAKEOFF_ALT");
+  tuning.take_off_without_throttle = true;
+  return tuning;
+}
+
+}  // namespace
+
+Pace pace_from(Kind const& kind, Parameters const& parameters) {
   using enum vehicle::Family;
+  auto const family = kind.family;
+  if (kind.is_px4()) return px4_pace(family, parameters);
   auto const cm = [&](std::string_view name) { return parameters.value(name) * m_per_cm; };
   Pace pace;
   if (family == plane) {
@@ -32,8 +65,10 @@ Pace pace_from(vehicle::Family family, Parameters const& parameters) {
   return pace;
 }
 
-Tuning tuning_from(vehicle::Family family, Parameters const& parameters) {
+Tuning tuning_from(Kind const& kind, Parameters const& parameters) {
   using enum vehicle::Family;
+  auto const family = kind.family;
+  if (kind.is_px4()) return px4_tuning(family, parameters);
   using base::from_seconds;
   Tuning tuning;
   tuning.restart_mission = parameters.value("MIS_RESTART") != 0.0;
@@ -55,6 +90,8 @@ Tuning tuning_from(vehicle::Family family, Parameters const& parameters) {
     tuning.arm_in_auto = (options & 1U) != 0;
     tuning.take_off_without_throttle = (options & 2U) != 0;
   }
+  tuning.disarm_delay_landed = tuning.disarm_delay;
+  tuning.take_off_height_m = parameters.value("TKOFF_ALT", 50.0);
   return tuning;
 }
 

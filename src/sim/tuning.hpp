@@ -6,8 +6,8 @@
 namespace lapwing::sim {
 
 /// The speeds that the parameters ask for, in SI.
-[[nodiscard]] Pace pace_from(vehicle::Family family, Parameters const& parameters);
+[[nodiscard]] Pace pace_from(Kind const& kind, Parameters const& parameters);
 /// The distances and times that the parameters ask for, in SI.
-[[nodiscard]] Tuning tuning_from(vehicle::Family family, Parameters const& parameters);
+[[nodiscard]] Tuning tuning_from(Kind const& kind, Parameters const& parameters);
 
 }  // namespace lapwing::sim

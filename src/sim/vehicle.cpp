@@ -21,14 +21,15 @@ Vehicle::Vehicle(base::Loop& loop, Options options, Site const& site, OpenLink o
       site_(site),
       open_link_(std::move(open_link)),
       log_(std::move(log)),
-      memory_{Parameters(options.family, options.system_id), {}},
+      memory_{Parameters(options.kind, options.system_id), {}},
       gusts_(options.wind_m_s, options.gust_m_s, options.seed),
       battery_(options.battery_capacity_mah, options.battery_remaining),
       scope_(loop) {
   body_.position_m = options.start;
   body_.position_m.down = 0.0;
   body_.attitude.yaw_rad = geo::wrap_pi(options.heading_rad);
-  memory_.parameters.set("BATT_CAPACITY", static_cast<float>(options.battery_capacity_mah));
+  auto const* const capacity = options.kind.is_px4() ? "BAT1_CAPACITY" : "BATT_CAPACITY";
+  memory_.parameters.set(capacity, static_cast<float>(options.battery_capacity_mah));
 }
 
 base::Result<> Vehicle::power_on() {
@@ -42,7 +43,7 @@ base::Result<> Vehicle::switch_on() {
   if (!link) return std::unexpected(link.error());
   FlightController::Setup const setup{
       .system_id = options_.system_id,
-      .autopilot = {.family = options_.family,
+      .autopilot = {.kind = options_.kind,
                     .start = {body_.position_m.north, body_.position_m.east, 0.0},
                     .heading_rad = body_.attitude.yaw_rad,
                     .boot = options_.boot,

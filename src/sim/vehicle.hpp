@@ -19,7 +19,7 @@ namespace lapwing::sim {
 class Vehicle {
  public:
   struct Options {
-    vehicle::Family family = vehicle::Family::copter;
+    Kind kind;
     std::uint8_t system_id = 1;
     geo::Ned start;  ///< on the ground, in the site's frame
     double heading_rad = 0.0;

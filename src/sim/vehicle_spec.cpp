@@ -24,6 +24,24 @@ std::optional<Family> family_named(std::string_view name) {
   return std::nullopt;
 }
 
+/// What a name stands for: kind and autopilot.
+std::optional<VehicleGroup> group_named(std::string_view name) {
+  constexpr std::string_view px4 = "px4";
+  VehicleGroup group;
+  if (name.starts_with(px4)) {
+    group.firmware = vehicle::Autopilot::px4;
+    name.remove_prefix(px4.size());
+    if (name.empty()) name = "-copter";
+    if (!name.starts_with('-')) return std::nullopt;
+    name.remove_prefix(1);
+    if (name == "boat" || name == "sub") return std::nullopt;  // PX4's are of no use to anybody
+  }
+  auto const family = family_named(name);
+  if (!family) return std::nullopt;
+  group.family = *family;
+  return group;
+}
+
 std::optional<int> whole_number(std::string_view text) {
   int number = 0;
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -38,17 +56,16 @@ std::string_view trimmed(std::string_view text) {
 }
 
 base::Result<VehicleGroup> parse_group(std::string_view text) {
-  VehicleGroup group;
   auto const at = text.find('@');
   auto const head = text.substr(0, at);
   auto const colon = head.find(':');
   auto const name = head.substr(0, colon);
-  auto const family = family_named(name);
-  if (!family) {
+  auto const named = group_named(name);
+  if (!named) {
     return fail(ErrorKind::invalid_input, fmt::format("'{}' is no kind of vehicle that can be simulated", name),
-                "kinds are copter, plane, rover, boat and sub");
+                "kinds are copter, plane, rover, boat and sub, and with PX4 px4, px4-plane and px4-rover");
   }
-  group.family = *family;
+  auto group = *named;
   if (colon != std::string_view::npos) {
     auto const count = whole_number(head.substr(colon + 1));
     if (!count || *count < 1 || *count > most_vehicles) {

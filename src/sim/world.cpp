@@ -35,7 +35,7 @@ void World::park(VehicleGroup const& group, int system_id) {
   auto const place = static_cast<int>(vehicles_.size());
   auto const seed = options_.seed * 1000003 + static_cast<std::uint64_t>(system_id);
   Vehicle::Options const options{
-      .family = group.family,
+      .kind = {group.family, group.firmware},
       .system_id = static_cast<std::uint8_t>(system_id),
       .start = {parking_spacing_m * (place / parking_columns), parking_spacing_m * (place % parking_columns), 0.0},
       .heading_rad = options_.heading_rad,
