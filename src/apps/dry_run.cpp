@@ -122,8 +122,9 @@ void DryRun::add_standstill() {
   for (auto const& vehicle : world_.vehicles()) {
     if (!vehicle->running() || vehicle->autopilot().armed()) return;
     auto const& options = vehicle->options();
-    batteries += fmt::format("{}{} {} at {:.0f} %", batteries.empty() ? "" : ", ", vehicle::to_string(options.family),
-                             options.system_id, 100.0 * vehicle->autopilot().battery().remaining());
+    batteries +=
+        fmt::format("{}{} {} at {:.0f} %", batteries.empty() ? "" : ", ", vehicle::to_string(options.kind.family),
+                    options.system_id, 100.0 * vehicle->autopilot().battery().remaining());
   }
   if (batteries.empty()) return;
   auto line = fmt::format("every vehicle stands disarmed; batteries: {}", batteries);
@@ -137,8 +138,8 @@ std::vector<dryrun::VehicleRecord> DryRun::crew() const {
     auto const& options = vehicle->options();
     dryrun::VehicleRecord record;
     record.id = std::to_string(options.system_id);
-    record.name = fmt::format("{} {}", vehicle::to_string(options.family), options.system_id);
-    record.family = options.family;
+    record.name = fmt::format("{} {}", vehicle::to_string(options.kind.family), options.system_id);
+    record.family = options.kind.family;
     vehicles.push_back(std::move(record));
   }
   return vehicles;
