@@ -25,6 +25,8 @@ struct SimOptions {
   double loss = 0.0;
   double delay_s = 0.0;
   double duplication = 0.0;
+  double jitter_s = 0.0;
+  std::string wind;
   std::uint64_t seed = 1;
   int first_id = 1;
   bool realistic_boot = false;
@@ -50,6 +52,13 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   world.impairment.loss = options.loss;
   world.impairment.delay = base::from_seconds(options.delay_s);
   world.impairment.duplication = options.duplication;
+  world.impairment.jitter = base::from_seconds(options.jitter_s);
+  if (!options.wind.empty()) {
+    auto const wind = parse_wind(options.wind);
+    if (!wind) return std::unexpected(wind.error());
+    world.wind_m_s = wind->air_m_s;
+    world.gust_m_s = wind->gust_m_s;
+  }
   for (auto const& text : options.parameters) {
     auto const parameter = sim::parse_parameter(text);
     if (!parameter) return std::unexpected(parameter.error());
@@ -84,7 +93,7 @@ int simulate(SimOptions const& options) {
 void add_sim(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<SimOptions>();
   auto* verb = program.add_subcommand("sim", "Simulated vehicles that speak MAVLink, for any ground station");
-  verb->add_option("--vehicles", options->vehicles, "What and how many: copter:2,plane:1,rover:1,boat:1,sub:1")
+  verb->add_option("--vehicles", options->vehicles, "What and how many: copter:2,plane:1,rover:1,boat:1,sub:1,px4:1")
       ->capture_default_str();
   verb->add_option("--home", options->home, "LAT,LON,ALT[,HEADING] in degrees and metres")->capture_default_str();
   verb->add_option("--out", options->out, "Where the vehicles send")->capture_default_str();
@@ -96,6 +105,9 @@ void add_sim(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0.0, 60.0));
   verb->add_option("--duplicate", options->duplication, "Share of packets that arrive twice")
       ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--jitter", options->jitter_s, "Up to so many seconds later still: packets overtake each other")
+      ->check(CLI::Range(0.0, 60.0));
+  verb->add_option("--wind", options->wind, "SPEED,FROM[,GUST]: m/s, degrees from which it blows, strength of gusts");
   verb->add_option("--seed", options->seed, "The same seed gives the same noise and losses")
       ->check(not_negative())
       ->capture_default_str();

@@ -1,10 +1,12 @@
 #include "apps/simulation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,25 +14,53 @@
 
 namespace lapwing::apps {
 
+namespace {
+
+/// Numbers between commas, at most four; nothing where something else stands.
+std::optional<std::vector<double>> numbers(std::string const& text) {
+  constexpr std::size_t most = 4;
+  std::vector<double> values;
+  for (std::size_t at = 0; at <= text.size();) {
+    auto const comma = std::min(text.find(',', at), text.size());
+    auto const part = text.substr(at, comma - at);
+    char* end = nullptr;
+    double const value = std::strtod(part.c_str(), &end);
+    if (values.size() == most || part.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
+    values.push_back(value);
+    at = comma + 1;
+  }
+  return values;
+}
+
+}  // namespace
+
 base::Result<HomePlace> parse_home(std::string const& text) {
   auto const refuse = [&] {
     return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is not a place", text),
                       "write LAT,LON,ALT or LAT,LON,ALT,HEADING in degrees and metres: 41.1780,-8.5980,90");
   };
+  auto const read = numbers(text);
+  if (!read) return refuse();
+  auto const count = read->size();
   std::array<double, 4> values{};
-  std::size_t count = 0;
-  for (std::size_t at = 0; at <= text.size();) {
-    auto const comma = std::min(text.find(',', at), text.size());
-    if (count == values.size()) return refuse();
-    char* end = nullptr;
-    auto const part = text.substr(at, comma - at);
-    values[count] = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(values[count])) return refuse();
-    ++count;
-    at = comma + 1;
-  }
+  std::ranges::copy(*read, values.begin());
   if (count < 3 || std::abs(values[0]) > 90.0 || std::abs(values[1]) > 180.0) return refuse();
   return HomePlace{geo::Wgs84::from_degrees(values[0], values[1], values[2]), values[3] * std::numbers::pi / 180.0};
+}
+
+base::Result<SimulatedWind> parse_wind(std::string const& text) {
+  constexpr double strongest_m_s = 50.0;
+  auto const read = numbers(text);
+  bool const is_wind = read && (read->size() == 2 || read->size() == 3) && read->front() >= 0.0 &&
+                       read->front() <= strongest_m_s && read->back() >= 0.0 && (*read)[1] <= 360.0;
+  if (!is_wind || (read->size() == 3 && read->back() > strongest_m_s)) {
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no wind", text),
+                      "write SPEED,FROM or SPEED,FROM,GUST in m/s (up to 50) and degrees: 6,270 or 6,270,2");
+  }
+  double const from = (*read)[1] * std::numbers::pi / 180.0;
+  SimulatedWind wind{.air_m_s = {-read->front() * std::cos(from), -read->front() * std::sin(from), 0.0}};
+  if (read->size() == 3) wind.gust_m_s = read->back();
+  return wind;
 }
 
 base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::WorldOptions options,

@@ -16,6 +16,14 @@ struct HomePlace {
 };
 [[nodiscard]] base::Result<HomePlace> parse_home(std::string const& text);
 
+/// How the air moves at each vehicle.
+struct SimulatedWind {
+  geo::Ned air_m_s;       ///< where the air goes
+  double gust_m_s = 0.0;  ///< standard deviation of each component
+};
+/// "SPEED,FROM[,GUST]": m/s, degrees clockwise from north from which it blows, m/s. Errors: invalid_input.
+[[nodiscard]] base::Result<SimulatedWind> parse_wind(std::string const& text);
+
 /// For --swap-batteries of every verb that simulates.
 inline constexpr auto swap_help =
     "A simulated vehicle that has stood disarmed for so many seconds gets a full battery; default: none ever does";

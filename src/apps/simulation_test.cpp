@@ -37,6 +37,26 @@ TEST(ParseHome, RefusesWhatIsNoPlace) {
   }
 }
 
+TEST(ParseWind, BlowsFromWhereItIsSaid) {
+  auto const west = parse_wind("6,270");
+  ASSERT_TRUE(west);
+  EXPECT_NEAR(west->air_m_s.north, 0.0, 1e-9);
+  EXPECT_NEAR(west->air_m_s.east, 6.0, 1e-9);
+  EXPECT_EQ(west->gust_m_s, 0.0);
+  auto const north = parse_wind("3,0,1.5");
+  ASSERT_TRUE(north);
+  EXPECT_NEAR(north->air_m_s.north, -3.0, 1e-9);
+  EXPECT_EQ(north->gust_m_s, 1.5);
+}
+
+TEST(ParseWind, RefusesWhatIsNone) {
+  for (auto const* text : {"", "6", "6,", "-1,0", "6,400", "60,0", "6,0,-1", "6,0,80", "6,0,1,2", "a,b"}) {
+    auto const wind = parse_wind(text);
+    ASSERT_FALSE(wind) << text;
+    EXPECT_NE(wind.error().hint.find("SPEED,FROM"), std::string::npos);
+  }
+}
+
 TEST(PaceFor, TakesZeroForAsFastAsPossible) {
   EXPECT_TRUE(pace_for(0).unpaced);
   EXPECT_FALSE(pace_for(4).unpaced);
