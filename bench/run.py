@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [language] [upload]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [fleet] [language] [upload] [lossy]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -244,6 +244,19 @@ def resident_mb(pid: int) -> float:
     return 0.0
 
 
+def fleet() -> dict:
+    os.environ.setdefault("LAPWING", str(LAPWING))
+    import fleet as whole_fleet
+
+    return whole_fleet.measure(say)
+
+
+def lossy() -> list:
+    import lossy as bad_links
+
+    return bad_links.measure(ROOT, BENCH_BIN, simulator, free_udp_port, say)
+
+
 def language() -> dict:
     import language as beside_the_original
 
@@ -266,12 +279,12 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "start", "scale", "language", "upload"]
+    wanted = sys.argv[1:] or ["decode", "start", "scale", "fleet", "language", "upload", "lossy"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "language": language}[name]()
+        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy, "language": language}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
