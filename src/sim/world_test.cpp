@@ -126,6 +126,24 @@ TEST(World, ParksVehiclesApartAndNumbersThem) {
   EXPECT_EQ(ground.world.find(14), nullptr);
 }
 
+TEST(World, Holds250VehiclesThatAllReportTenTimesASecond) {
+  WorldOptions options;
+  for (auto const* stream : {"SR0_EXT_STAT", "SR0_POSITION", "SR0_EXTRA1", "SR0_EXTRA2", "SR0_EXTRA3"})
+    options.parameters.push_back({stream, 10.0F});
+  TestGround ground("copter:200,px4:25,rover:25", std::move(options));
+  ground.run_for(1s);
+  auto const from = ground.heard.size();
+  ground.run_for(2s);
+  std::vector<int> attitudes(256);
+  for (auto i = from; i < ground.heard.size(); ++i) {
+    if (std::holds_alternative<Attitude>(ground.heard[i].message)) ++attitudes[ground.heard[i].system];
+  }
+  for (int system = 1; system <= 250; ++system) {
+    bool const is_px4 = system > 200 && system <= 225;  // which sends 15 unasked
+    EXPECT_NEAR(attitudes[static_cast<std::size_t>(system)], is_px4 ? 30 : 20, 2) << system;
+  }
+}
+
 TEST(World, RefusesSystemIdsThatDoNotExist) {
   base::Loop loop(quick_pace);
   WorldOptions options;

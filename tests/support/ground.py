@@ -41,18 +41,28 @@ class Viewer:
         taken, self._data = self._data[:count], self._data[count:]
         return taken
 
+    def _frame(self) -> tuple[int, bool, bytes]:
+        """Kind, whether the message ends with it, and what is in it. Servers do not mask."""
+        first, length = self._take(2)
+        if length == 126:
+            length = struct.unpack(">H", self._take(2))[0]
+        elif length == 127:
+            length = struct.unpack(">Q", self._take(8))[0]
+        return first & 0x0F, bool(first & 0x80), self._take(length)
+
     def message(self, seconds: float = 10.0) -> dict:
-        """The next message; TimeoutError when none comes. Servers send frames unmasked and these whole."""
+        """The next message; TimeoutError when none comes."""
+        ping, pong = 9, 10
         self._socket.settimeout(seconds)
+        text = b""
         while True:
-            first, length = self._take(2)
-            if length == 126:
-                length = struct.unpack(">H", self._take(2))[0]
-            elif length == 127:
-                length = struct.unpack(">Q", self._take(8))[0]
-            body = self._take(length)
-            if first & 0x0F == 1:
-                return json.loads(body)
+            kind, is_last, part = self._frame()
+            if kind == ping:  # a mask of zeros leaves the echo as it is
+                self._socket.sendall(bytes([0x80 | pong, 0x80 | len(part)]) + bytes(4) + part)
+            elif kind < 8:
+                text += part
+                if is_last:
+                    return json.loads(text)
 
 
 class Station:
