@@ -54,10 +54,9 @@ MavResult FlightController::perform(CommandInt const& command, Address from) {
     case MavCmd::do_fence_enable: return enable_fence(command);
     case MavCmd::preflight_reboot_shutdown: return reboot(command);
     case MavCmd::run_prearm_checks: return autopilot_.armed() ? MavResult::temporarily_rejected : MavResult::accepted;
-    case MavCmd::image_start_capture:
-    case MavCmd::image_stop_capture:
-    case MavCmd::do_digicam_control: return MavResult::accepted;
-    default: return perform_request(command, from);
+    default:
+      if (auto const result = perform_payload(command)) return *result;
+      return perform_request(command, from);
   }
 }
 
@@ -71,6 +70,12 @@ MavResult FlightController::perform_request(CommandInt const& command, Address f
     case MavCmd::set_message_interval: return set_interval(command);
     case MavCmd::get_message_interval: return get_interval(command, from);
     case MavCmd::request_message: return request_message(command, from);
+    case MavCmd::request_camera_image_capture: {
+      auto const message = payload_report(MessageId::camera_image_captured, command.params[0]);
+      if (!message) return MavResult::failed;
+      send(from, *message);
+      return MavResult::accepted;
+    }
     case MavCmd::request_autopilot_capabilities:
       if (auto const version = report(MessageId::autopilot_version, view())) send(from, *version);
       return MavResult::accepted;
@@ -164,7 +169,9 @@ MavResult FlightController::get_interval(CommandInt const& command, Address from
 }
 
 MavResult FlightController::request_message(CommandInt const& command, Address from) {
-  auto const message = report(message_id(command.params[0]), view());
+  auto const id = message_id(command.params[0]);
+  auto message = report(id, view());
+  if (!message) message = payload_report(id, command.params[1]);
   if (!message) return MavResult::failed;
   send(from, *message);
   return MavResult::accepted;

@@ -54,6 +54,7 @@ struct Outbox {
   std::optional<int>
       reached;  ///< MISSION_ITEM_REACHED; a later one in the same step replaces an earlier, as in ArduPilot
   bool mission_current_changed = false;
+  std::vector<mavlink::MissionItem> payload;  ///< commands of the mission for cameras and gimbals
   bool mode_changed = false;
   bool home_changed = false;
 

@@ -115,6 +115,7 @@ void FlightController::step(base::Duration dt, geo::Ned wind_m_s) {
   announce_start();
   missions_.tick(since_power_on());
   drain_outbox();
+  step_payload(dt);
   send_parameter_list();
   send_regular();
   send_due();
@@ -179,6 +180,7 @@ void FlightController::send_boot_noise() {
 void FlightController::drain_outbox() {
   auto const out = std::exchange(autopilot_.outbox(), {});
   for (auto const& text : out.texts) say(text.severity, text.text);
+  for (auto const& item : out.payload) perform_payload(item);
   if (out.mode_changed) broadcast_report(MessageId::heartbeat);
   if (out.home_changed && autopilot_.home()) {
     broadcast_report(MessageId::home_position);
@@ -191,7 +193,8 @@ void FlightController::drain_outbox() {
 }
 
 void FlightController::broadcast_report(MessageId id) {
-  if (auto const message = report(id, view())) broadcast(*message);
+  if (auto const message = report(id, view())) return broadcast(*message);
+  if (auto const message = payload_report(id, 0.0F)) broadcast(*message);
 }
 
 void FlightController::broadcast(Message const& message) {

@@ -7,6 +7,8 @@
 #include "base/log.hpp"
 #include "mavlink/connection.hpp"
 #include "sim/autopilot.hpp"
+#include "sim/camera.hpp"
+#include "sim/gimbal.hpp"
 #include "sim/mission_store.hpp"
 #include "sim/parameters.hpp"
 #include "sim/reports.hpp"
@@ -55,6 +57,8 @@ class FlightController {
   [[nodiscard]] Autopilot& autopilot() { return autopilot_; }
   [[nodiscard]] Autopilot const& autopilot() const { return autopilot_; }
   [[nodiscard]] MissionStore& missions() { return missions_; }
+  [[nodiscard]] Camera const& camera() const { return camera_; }
+  [[nodiscard]] Gimbal const& gimbal() const { return gimbal_; }
 
  private:
   using Result = mavlink::MavResult;
@@ -86,6 +90,16 @@ class FlightController {
   Result reboot(mavlink::CommandInt const& command);
   mavlink::MavMissionResult go_to_item(mavlink::MissionItem const& item);
 
+  // Cameras and gimbals, in payload.cpp.
+  std::optional<Result> perform_payload(mavlink::CommandInt const& command);
+  void perform_payload(mavlink::MissionItem const& item);
+  void step_payload(base::Duration dt);
+  [[nodiscard]] std::optional<mavlink::Message> payload_report(mavlink::MessageId id, float argument) const;
+  [[nodiscard]] mavlink::CameraImageCaptured captured(Camera::Shot const& shot) const;
+  [[nodiscard]] mavlink::CameraFeedback feedback(Camera::Shot const& shot) const;
+  [[nodiscard]] int camera_type() const;
+  [[nodiscard]] bool has_gimbal() const;
+
   MissionStore::Ports mission_ports();
   void send(mavlink::Address to, mavlink::Message const& message);
   void broadcast(mavlink::Message const& message);
@@ -110,6 +124,8 @@ class FlightController {
   base::TimePoint powered_on_;
   Autopilot autopilot_;
   Telemetry telemetry_;
+  Camera camera_;
+  Gimbal gimbal_;
   MissionStore missions_;
   mavlink::Connection connection_;
   mavlink::Subscription subscription_;

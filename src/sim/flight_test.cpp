@@ -111,7 +111,7 @@ TEST(CopterFlight, PerformsEveryKindOfItemOfTheLanguage) {
   ground.command(MavCmd::mission_start);
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 300s));
   EXPECT_TRUE(ground.pilot().mission().complete());
-  EXPECT_EQ(ground.pilot().mission().captures(), 3);
+  EXPECT_EQ(ground.all<CameraFeedback>().size(), 3u);
   EXPECT_EQ(ground.said("Mission: 9 Jump 1/1"), 1);
   EXPECT_EQ(ground.said("Mission: 8 WP"), 2);
 }

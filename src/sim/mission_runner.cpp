@@ -57,7 +57,6 @@ void MissionRunner::resume() {
 void MissionRunner::suspend() {
   running_ = false;
   run_.reset();
-  capturing_ = {};
 }
 
 bool MissionRunner::set_current(int seq) {
@@ -114,7 +113,6 @@ bool MissionRunner::starts_with_take_off() const {
 }
 
 Goal MissionRunner::update(FlightContext const& context, Outbox& out) {
-  take_pictures(context);
   // A bounded number of items can be passed in one step; a circle of jumps and "do" commands cannot stop the world.
   for (int i = 0; i < 100; ++i) {
     if (!run_ && !advance(context, out)) return after_the_end(context);
@@ -229,21 +227,16 @@ void MissionRunner::perform(int index, FlightContext const& context, Outbox& out
       break;
     case condition_yaw: yaw_rad_ = geo::wrap_pi(p[0] * std::numbers::pi / 180.0); break;
     case image_start_capture:
-      capturing_ = {context.now, base::from_seconds(std::max(0.1, static_cast<double>(p[1]))),
-                    p[2] > 0.0F ? static_cast<int>(p[2]) : -1};
-      break;
-    case image_stop_capture: capturing_ = {}; break;
-    case do_digicam_control: ++captures_; break;
+    case image_stop_capture:
+    case do_digicam_control:
+    case do_set_cam_trigg_dist:
+    case do_mount_control:
+    case do_gimbal_manager_pitchyaw:
+    case do_set_roi:
+    case do_set_roi_location:
+    case do_set_roi_none: out.payload.push_back(item); break;
     case do_fence_enable: fence_ = p[0] == 1.0F; break;
     default: break;
-  }
-}
-
-void MissionRunner::take_pictures(FlightContext const& context) {
-  while (capturing_.left != 0 && context.now >= capturing_.next) {
-    ++captures_;
-    if (capturing_.left > 0) --capturing_.left;
-    capturing_.next += capturing_.period;
   }
 }
 

@@ -51,8 +51,6 @@ class MissionRunner {
   /// A plane leaves AUTO for RTL when the mission says "return to launch"; the others fly that item within AUTO.
   [[nodiscard]] bool take_return() { return std::exchange(wants_return_, false); }
   [[nodiscard]] std::optional<double> yaw_rad() const { return yaw_rad_; }
-  /// Pictures taken so far by capture commands.
-  [[nodiscard]] int captures() const { return captures_; }
 
  private:
   struct Run {
@@ -66,12 +64,6 @@ class MissionRunner {
     double last_bearing_rad = 0.0;
     std::variant<std::monostate, Landing, ReturnHome> descent = {};
   };
-  struct Captures {
-    base::Duration next{};
-    base::Duration period{};
-    int left = 0;  ///< negative: until stopped
-  };
-
   bool advance(FlightContext const& context, Outbox& out);
   bool jump(int& index, FlightContext const& context, Outbox& out);
   void begin(int index, FlightContext const& context, Outbox& out);
@@ -83,7 +75,6 @@ class MissionRunner {
   Goal loiter(FlightContext const& context, bool& done);
   Goal take_off(FlightContext const& context, bool& done);
   void count_turns(FlightContext const& context);
-  void take_pictures(FlightContext const& context);
   [[nodiscard]] bool at_point(FlightContext const& context, double radius_m) const;
   [[nodiscard]] Goal after_the_end(FlightContext const& context) const;
 
@@ -101,8 +92,6 @@ class MissionRunner {
   std::optional<bool> fence_;
   std::optional<double> yaw_rad_;
   bool wants_return_ = false;
-  Captures capturing_;
-  int captures_ = 0;
 };
 
 }  // namespace lapwing::sim

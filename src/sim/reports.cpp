@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string_view>
 
 namespace lapwing::sim {
@@ -249,6 +250,16 @@ AutopilotVersion version(ReportView const& view) {
   return version;
 }
 
+/// A transmitter that nobody touches: sticks centred, throttle down, as ArduPilot's own simulation has it.
+RcChannels rc_channels(Autopilot const& autopilot) {
+  RcChannels channels{.since_boot = autopilot.now(), .count = 16, .rssi = 1.0};
+  channels.pulses_us.fill(0);
+  for (auto& pulse : std::span(channels.pulses_us).first(4)) pulse = 1500;
+  channels.pulses_us[2] = 1000;
+  for (auto& pulse : std::span(channels.pulses_us).subspan(4, 12)) pulse = 1800;
+  return channels;
+}
+
 }  // namespace
 
 std::optional<Message> report(MessageId id, ReportView const& view) {
@@ -279,6 +290,7 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
     case MessageId::wind:
       if (autopilot.kind().is_px4()) return std::nullopt;
       return wind(view);
+    case MessageId::rc_channels: return rc_channels(autopilot);
     case MessageId::fence_status:
       if (!autopilot.fence_enabled() || autopilot.kind().is_px4()) return std::nullopt;
       return fence_status(autopilot);

@@ -37,6 +37,8 @@ constexpr std::array rows{
     Row{MessageId::wind, 12, 0.0, Sender::ardupilot},
     Row{MessageId::battery_status, 12, 0.5},
     Row{MessageId::ekf_status_report, 12, 0.0, Sender::ardupilot},
+    Row{MessageId::rc_channels, 3, 1.0},
+    Row{MessageId::gimbal_device_attitude_status, 12, 5.0},
     Row{MessageId::estimator_status, 0, 0.5, Sender::px4},
     Row{MessageId::extended_sys_state, 0, 1.0},
     Row{MessageId::home_position, 0, 0.5},

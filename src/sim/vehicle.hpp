@@ -62,6 +62,7 @@ class Vehicle {
   [[nodiscard]] bool running() const { return controller_ != nullptr; }
   /// Precondition: running().
   [[nodiscard]] Autopilot const& autopilot() const { return controller_->autopilot(); }
+  [[nodiscard]] Gimbal const& gimbal() const { return controller_->gimbal(); }
   [[nodiscard]] Parameters& parameters() { return memory_.parameters; }
   [[nodiscard]] MissionPlan const& mission() const { return memory_.plans.mission; }
   [[nodiscard]] Plans& plans() { return memory_.plans; }
