@@ -26,6 +26,25 @@ test('shows every vehicle, and they move', async ({ open }) => {
   );
 });
 
+for (const size of [{ width: 1280, height: 800 }, { width: 900, height: 800 }, { width: 390, height: 844 }]) {
+  test(`tells of the selected vehicle's health at ${size.width} px`, async ({ open }) => {
+    const page = await open({ size });
+    await row(page, 'copter 1').click();
+    const details = page.locator('#vehicles .details');
+    await details.getByText('about', { exact: false }).waitFor();
+    const text = await details.innerText();
+    for (const part of [/RTK fixed, 14 satellites/, /compass 0\.6/, /Maker M1, standby/, /90° down, towards 046°/, /EKF3 compass variance/]) assert.match(text, part);
+    assert.doesNotMatch(await details.locator('dd', { hasText: 'active' }).first().innerText(), /ago/);
+    await details.locator('dd', { hasText: 'Maker M1' }).getByText(/1\d s ago/).waitFor();
+    const panel = await page.locator('#vehicles').boundingBox();
+    const inside = await details.boundingBox();
+    assert.ok(inside.x >= panel.x && inside.x + inside.width <= panel.x + panel.width + 1, 'the details fit the panel');
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), size.width);
+    await page.keyboard.press('Escape');
+    await details.waitFor({ state: 'detached' });
+  });
+}
+
 test('tells a lost vehicle by word, sign and age', async ({ open }) => {
   const page = await open();
   await row(page, 'link lost').waitFor();

@@ -201,12 +201,47 @@ void update(vehicle::VehicleState& state, Traveller const& traveller, base::Time
   }
 }
 
+/// What vehicle 1 tells beyond its position: it takes a picture every two seconds and has a camera that fell silent.
+void update_health(vehicle::VehicleState& state, base::TimePoint now, base::TimePoint begun) {
+  state.gps.set({.fix = 6, .satellites = 14, .hdop = 0.71}, now);
+  state.estimator.set({.velocity = 0.05, .position_horizontal = 0.04, .position_vertical = 0.02, .compass = 0.62}, now);
+  state.hud.set({.airspeed_m_s = 8.2, .climb_m_s = 0.1, .throttle = 0.46}, now);
+  state.wind.set({.from_rad = 4.1, .speed_m_s = 3.2}, now);
+  state.remote_control.set({.is_lost = true, .channels = 0, .pulses_us = {}, .rssi = {}}, now);
+  state.radio.set({.rssi = 182,
+                   .remote_rssi = 176,
+                   .noise = 41,
+                   .remote_noise = 38,
+                   .transmit_buffer_free = 0.96,
+                   .receive_errors = 0},
+                  now);
+  state.waypoint_distance_m.set(34.0, now);
+  state.mission.value->state = "active";
+  state.gimbal.set({.roll_rad = 0.0, .pitch_rad = -std::numbers::pi / 2, .yaw_rad = 0.8, .yaw_is_from_north = true},
+                   now);
+  state.components = {{.id = 100, .kind = "camera", .state = "standby", .model = "Maker M1", .heard = begun},
+                      {.id = 191, .kind = "companion computer", .state = "active", .model = {}, .heard = now}};
+  auto& battery = *state.battery.value;
+  battery.consumed_ah = 1.31;
+  battery.time_left = std::chrono::seconds(static_cast<int>(battery.remaining * 1200.0));
+  battery.time_left_is_estimate = true;
+  auto pictures = state.pictures.value.value_or(vehicle::Pictures{});
+  if (state.position.value && (!state.pictures.known() || now - state.pictures.heard >= 2s)) {
+    pictures.recent.push_back({++pictures.taken, *state.position.value, 20.0});
+    state.pictures.set(std::move(pictures), now);
+  }
+  if (state.recent_texts.empty())
+    state.recent_texts = {{.severity = 6, .text = "Mission: 1 Takeoff", .heard = begun},
+                          {.severity = 4, .text = "EKF3 compass variance", .heard = begun}};
+}
+
 /// Moves everything ten times a second; vehicle 5 goes silent after 5 s.
 base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScript& script,
                          testing::DemoControl& control, base::Logger log) {
   for (auto const* id : {"1", "4"}) registry.edit({id}).control.commander = "script";
   auto const all = travellers();
   bool told = false;
+  auto const begun = loop.now();
   for (;;) {
     auto const now = loop.now();
     for (auto const& traveller : all) {
@@ -214,6 +249,7 @@ base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScri
       auto& state = registry.edit(id);
       bool const is_lost = id.text == "5" && now.time_since_epoch() > 5s;
       if (!is_lost) update(state, traveller, now, script.status().state != ScriptState::running);
+      if (id.text == "1") update_health(state, now, begun);
       state.connection = is_lost ? vehicle::Connection::lost : vehicle::Connection::ok;
       registry.touch(id);
       if (is_lost && !std::exchange(told, true)) log.error("rover 5 is lost: nothing heard for 5 s");

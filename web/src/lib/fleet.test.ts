@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { ageOf, compareIds, extendTrail, groundSpeed, mergeUpdates, TRAIL_LIMIT, type Vehicle } from './fleet';
+import { addPictures, ageOf, compareIds, extendTrail, groundSpeed, mergeUpdates, TRAIL_LIMIT, type Vehicle } from './fleet';
 import type { Position } from './protocol';
 
 const at = (lat_deg: number, lon_deg: number): Position => ({ lat_deg, lon_deg, alt_m: 0 });
@@ -68,4 +68,13 @@ describe('extendTrail', () => {
     expect(trail).toHaveLength(TRAIL_LIMIT);
     expect(trail[0]?.lat_deg).toBeCloseTo(0.005);
   });
+});
+
+it('adds pictures behind those that it has, each once', () => {
+  const picture = (number: number) => ({ number, lat_deg: 1, lon_deg: 2, alt_m: 3, relative_alt_m: 20 });
+  let known = addPictures(new Map(), '1', [picture(1), picture(2)], true);
+  known = addPictures(known, '1', [picture(2), picture(3)], false);
+  expect(known.get('1')!.map(({ number }) => number)).toEqual([1, 2, 3]);
+  known = addPictures(known, '1', [picture(1)], true); // the station was started anew
+  expect(known.get('1')).toHaveLength(1);
 });

@@ -1,4 +1,4 @@
-import type { Position, VehicleFields, VehicleUpdate } from './protocol';
+import type { Picture, Position, VehicleFields, VehicleUpdate } from './protocol';
 
 /** One vehicle as this browser knows it. `heardAt` is in ms of this browser's own clock, so ages need no common one. */
 export interface Vehicle {
@@ -46,6 +46,16 @@ export function extendTrail(trail: Position[], position: Position): Position[] {
   const last = trail.at(-1);
   if (last && roughDistance(last, position) < TRAIL_STEP_M) return trail;
   return [...trail.slice(Math.max(0, trail.length + 1 - TRAIL_LIMIT)), position];
+}
+
+export const PICTURE_LIMIT = 2000;
+
+/** The pictures with those of a message behind them, the oldest going first; a full message forgets those before. */
+export function addPictures(known: Map<string, Picture[]>, vehicle: string, fresh: Picture[], full: boolean): Map<string, Picture[]> {
+  const before = full ? [] : (known.get(vehicle) ?? []);
+  const newest = before.at(-1)?.number ?? 0;
+  const all = [...before, ...fresh.filter(({ number }) => number > newest)];
+  return new Map(known).set(vehicle, all.slice(-PICTURE_LIMIT));
 }
 
 function roughDistance(a: Position, b: Position): number {

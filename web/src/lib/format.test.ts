@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { age, clock, heading, latitude, linkSummary, linkTitle, longitude, metres, percent, speed } from './format';
+import { age, clock, heading, latitude, linkSummary, linkTitle, longitude, metres, percent, span, speed } from './format';
 
 describe('format', () => {
   it('shows what is unknown as a dash, never as 0', () => {
@@ -36,4 +36,12 @@ describe('format', () => {
     expect(clock('2026-01-01T12:34:56.789Z')).toMatch(/^\d\d:34:56$/);
     expect(clock('rubbish')).toBe('–');
   });
+});
+
+it.each([
+  [40, '40 s'],
+  [720, '12 min'],
+  [3900, '1 h 5 min'],
+])('%d s last %s', (seconds, text) => {
+  expect(span(seconds)).toBe(text);
 });

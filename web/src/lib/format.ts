@@ -45,6 +45,13 @@ export function linkTitle(links: LinkQuality[] | undefined): string | undefined 
     .join('\n');
 }
 
+/** How long something lasts: "40 s", "12 min", "1 h 5 min". */
+export function span(seconds: number): string {
+  if (seconds < 90) return `${Math.round(seconds)} s`;
+  const minutes = Math.round(seconds / 60);
+  return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}
+
 export function heading(radians: number | undefined): string {
   if (radians === undefined) return UNKNOWN;
   const degrees = ((Math.round((radians * 180) / Math.PI) % 360) + 360) % 360;

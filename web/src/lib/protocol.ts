@@ -22,6 +22,25 @@ export interface LinkQuality {
   used: boolean;
 }
 
+export interface Battery {
+  /** Not for the first one. */
+  id?: number;
+  remaining: number;
+  voltage_v?: number;
+  current_a?: number;
+  consumed_ah?: number;
+  time_left_s?: number;
+  time_left_is_estimate?: boolean;
+}
+
+/** What else is aboard; its age is that of the key component_ID. */
+export interface Component {
+  id: number;
+  kind: string;
+  state?: string;
+  model?: string;
+}
+
 /** What may be known about a vehicle; a key that is missing was never heard. */
 export interface VehicleFields {
   system_id?: number;
@@ -42,17 +61,36 @@ export interface VehicleFields {
   velocity_m_s?: { north: number; east: number; down: number };
   attitude_rad?: { roll: number; pitch: number; yaw: number };
   heading_rad?: number;
-  battery?: { remaining: number; voltage_v?: number; current_a?: number };
+  battery?: Battery;
+  further_batteries?: Battery[];
+  gps?: { fix: string; satellites?: number; hdop?: number };
+  estimator?: { velocity: number; position_horizontal: number; position_vertical: number; compass?: number };
+  unhealthy?: string[];
+  arming_reasons?: string[];
+  remote_control?: { lost: boolean; channels: number; rssi?: number; pulses_us: number[] };
+  radio?: { rssi?: number; remote_rssi?: number; noise: number; remote_noise: number; buffer_free: number; receive_errors: number };
+  hud?: { airspeed_m_s: number; climb_m_s: number; throttle: number };
+  wind?: { from_rad: number; speed_m_s: number };
+  fence?: { breached: boolean; breaches: number; type?: string };
   health?: { position_ok: boolean; prearm_ok: boolean };
   home?: Position;
-  mission?: { current: number; total: number; complete: boolean };
-  texts?: { severity: number; text: string }[];
+  mission?: { current: number; total: number; complete: boolean; state?: string };
+  waypoint_distance_m?: number;
+  gimbal?: { roll_rad: number; pitch_rad: number; yaw_rad: number; yaw_is_from_north: boolean };
+  components?: Component[];
+  pictures?: { taken: number; lost: number };
+  texts?: { severity: number; text: string; component?: number }[];
 }
 
 export interface VehicleUpdate extends VehicleFields {
   id: string;
   /** Seconds since each key was heard, at the moment the message was made. */
   age_s?: Record<string, number>;
+}
+
+export interface Picture extends Position {
+  number: number;
+  relative_alt_m: number;
 }
 
 export type TaskState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
@@ -121,6 +159,7 @@ export type ServerMessage =
   | Hello
   | { type: 'vehicles'; time_s: number; full: boolean; vehicles: VehicleUpdate[] }
   | { type: 'plan'; vehicle: string; path: Position[] }
+  | { type: 'pictures'; vehicle: string; full: boolean; pictures: Picture[] }
   | { type: 'tasks'; trees: Task[] }
   | ({ type: 'script' } & Script)
   | { type: 'log'; lines: LogLine[] }

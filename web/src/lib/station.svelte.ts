@@ -1,7 +1,7 @@
 import { Connection } from './connection';
-import { extendTrail, mergeUpdates, type Fleet } from './fleet';
+import { addPictures, extendTrail, mergeUpdates, type Fleet } from './fleet';
 import { appendLines } from './log';
-import { PROTOCOL, type Diagnostic, type LogLine, type Position, type Reply, type Script, type ServerMessage, type Task } from './protocol';
+import { PROTOCOL, type Diagnostic, type LogLine, type Picture, type Position, type Reply, type Script, type ServerMessage, type Task } from './protocol';
 import { rememberToken, socketUrl, takeToken } from './token';
 
 /** locked: the station is there and asks for a token that this browser does not have. */
@@ -18,6 +18,8 @@ class Station {
   fleet = $state.raw<Fleet>(new Map());
   trails = $state.raw<Map<string, Position[]>>(new Map());
   plans = $state.raw<Map<string, Position[]>>(new Map());
+  /** Where each vehicle has taken pictures. */
+  pictures = $state.raw<Map<string, Picture[]>>(new Map());
   trees = $state.raw<Task[]>([]);
   script = $state.raw<Script>({ name: '', state: 'idle', message: '', source: '', diagnostics: [] });
   log = $state.raw<LogLine[]>([]);
@@ -142,6 +144,9 @@ class Station {
         break;
       case 'plan':
         this.plans = new Map(this.plans).set(message.vehicle, message.path);
+        break;
+      case 'pictures':
+        this.pictures = addPictures(this.pictures, message.vehicle, message.pictures, message.full);
         break;
       case 'tasks':
         this.trees = message.trees;

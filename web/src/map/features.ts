@@ -17,6 +17,14 @@ export function pathFeatures(paths: Map<string, Position[]>, colourOf: (id: stri
   return { type: 'FeatureCollection', features };
 }
 
+/** One dot a place, coloured as its vehicle is. */
+export function pointFeatures(places: Map<string, Position[]>, colourOf: (id: string) => string): FeatureCollection {
+  const features = [...places].flatMap(([id, points]) =>
+    points.map((point): Feature => ({ type: 'Feature', properties: { colour: colourOf(id) }, geometry: { type: 'Point', coordinates: lonLat(point) } })),
+  );
+  return { type: 'FeatureCollection', features };
+}
+
 export function gridFeatures(view: Bounds, origin: Position | undefined): FeatureCollection {
   const features = gridLines(view, origin, 12).map(({ points, label, major }): Feature => ({
     type: 'Feature',

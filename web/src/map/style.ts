@@ -21,6 +21,7 @@ export function mapStyle(colours: MapColours, tiles: string): StyleSpecification
       grid: { type: 'geojson', data: EMPTY },
       plans: { type: 'geojson', data: EMPTY },
       trails: { type: 'geojson', data: EMPTY, tolerance: 0.1 },
+      pictures: { type: 'geojson', data: EMPTY },
       ...(tiles && { tiles: { type: 'raster', tiles: [tiles], tileSize: 256, maxzoom: 19 } }),
     },
     layers: [
@@ -28,6 +29,7 @@ export function mapStyle(colours: MapColours, tiles: string): StyleSpecification
       ...(tiles ? [{ id: 'tiles', type: 'raster', source: 'tiles' } satisfies LayerSpecification] : []),
       ...gridLayers(colours, tiles !== ''),
       ...pathLayers(),
+      pictureLayer(colours),
     ],
   };
 }
@@ -88,4 +90,19 @@ function pathLayers(): LayerSpecification[] {
       paint: { 'line-color': colour, 'line-width': 3, 'line-opacity': 0.55 },
     },
   ];
+}
+
+function pictureLayer(colours: MapColours): LayerSpecification {
+  return {
+    id: 'pictures',
+    type: 'circle',
+    source: 'pictures',
+    minzoom: 13,
+    paint: {
+      'circle-radius': 2.6,
+      'circle-color': colours.ground,
+      'circle-stroke-color': ['get', 'colour'] as unknown as string,
+      'circle-stroke-width': 1.4,
+    },
+  };
 }

@@ -1,0 +1,181 @@
+import { ageOf, type Vehicle } from './fleet';
+import { heading, metres, percent, span, speed } from './format';
+import type { Battery, Component, VehicleFields } from './protocol';
+import { EMPTY_BATTERY, LOW_BATTERY } from './status';
+
+/** One line about a vehicle. `age` is set only when it is old enough to be told. */
+export interface Detail {
+  label: string;
+  value: string;
+  level?: 'warning' | 'critical';
+  age?: number;
+}
+
+export interface DetailGroup {
+  title: string;
+  rows: Detail[];
+}
+
+/** Younger than this, a value is as good as present: the slowest of them comes every two seconds. */
+export const OLD_S = 10;
+const TEXTS_SHOWN = 5;
+const DEGREES = 180 / Math.PI;
+
+/** What is known of a vehicle beyond its line in the table; groups without anything to tell are left out. */
+export function detailsOf(vehicle: Vehicle, now: number): DetailGroup[] {
+  const { fields } = vehicle;
+  const row = (label: string, key: string, value: string | undefined, level?: Detail['level']): Detail[] => {
+    if (value === undefined) return [];
+    const age = ageOf(vehicle, key, now);
+    return [{ label, value, ...(level && { level }), ...(age !== undefined && age >= OLD_S && { age }) }];
+  };
+  const groups: DetailGroup[] = [
+    { title: 'Cannot arm', rows: (fields.arming_reasons ?? []).flatMap((reason) => row('', 'arming_reasons', withoutPrefix(reason), 'warning')) },
+    { title: 'Battery', rows: batteryRows(fields, row) },
+    {
+      title: 'Position',
+      rows: [
+        ...row('GPS', 'gps', gpsText(fields.gps), (fields.gps?.fix ?? '3D') === 'no fix' || fields.gps?.fix === 'no GPS' ? 'warning' : undefined),
+        ...row('Estimate', 'estimator', estimatorText(fields.estimator), estimatorLevel(fields.estimator)),
+        ...row('Sick', 'unhealthy', fields.unhealthy?.length ? fields.unhealthy.join(', ') : undefined, 'warning'),
+      ],
+    },
+    {
+      title: 'Flight',
+      rows: [
+        ...row('Airspeed', 'hud', fields.hud && speed(fields.hud.airspeed_m_s)),
+        ...row('Climb', 'hud', fields.hud && speed(fields.hud.climb_m_s)),
+        ...row('Throttle', 'hud', fields.hud && percent(fields.hud.throttle)),
+        ...row('Wind', 'wind', fields.wind && `${speed(fields.wind.speed_m_s)} from ${heading(fields.wind.from_rad)}`),
+        ...row('Fence', 'fence', fields.fence?.breached ? `breached: ${fields.fence.type ?? 'fence'}` : undefined, 'critical'),
+      ],
+    },
+    {
+      title: 'Mission',
+      rows: [
+        ...row('State', 'mission', fields.mission?.total ? fields.mission.state : undefined),
+        ...row('To go', 'waypoint_distance_m', fields.mission?.state === 'active' ? metres(fields.waypoint_distance_m) : undefined),
+      ],
+    },
+    {
+      title: 'Links',
+      rows: [
+        ...row('Radio', 'radio', radioText(fields.radio), fields.radio && fields.radio.buffer_free < 0.3 ? 'warning' : undefined),
+        ...row('Remote', 'remote_control', remoteText(fields.remote_control), fields.remote_control?.lost ? 'warning' : undefined),
+      ],
+    },
+    {
+      title: 'Aboard',
+      rows: [
+        ...row('Gimbal', 'gimbal', gimbalText(fields.gimbal)),
+        ...row('Pictures', 'pictures', picturesText(fields.pictures)),
+        ...(fields.components ?? []).flatMap((part) => row(capital(part.kind), `component_${part.id}`, componentText(part), componentLevel(part))),
+      ],
+    },
+    {
+      title: 'Said',
+      rows: (fields.texts ?? [])
+        .slice(-TEXTS_SHOWN)
+        .reverse()
+        .map(({ severity, text, component }) => ({
+          label: component === undefined ? '' : String(component),
+          value: text,
+          ...(severity <= 3 ? { level: 'critical' as const } : severity === 4 ? { level: 'warning' as const } : {}),
+        })),
+    },
+  ];
+  return groups.filter(({ rows }) => rows.length > 0);
+}
+
+type Row = (label: string, key: string, value: string | undefined, level?: Detail['level']) => Detail[];
+
+function batteryRows({ battery, further_batteries }: VehicleFields, row: Row): Detail[] {
+  const rows = battery ? [...row('Left', 'battery', timeLeft(battery)), ...row('Power', 'battery', powerText(battery))] : [];
+  for (const other of further_batteries ?? []) {
+    const text = [percent(other.remaining), timeLeft(other), powerText(other)].filter(Boolean).join(', ');
+    const level = other.remaining < EMPTY_BATTERY ? 'critical' : other.remaining < LOW_BATTERY ? 'warning' : undefined;
+    rows.push(...row(`Battery ${(other.id ?? 0) + 1}`, 'further_batteries', text, level));
+  }
+  return rows;
+}
+
+function timeLeft({ time_left_s, time_left_is_estimate }: Battery): string | undefined {
+  if (time_left_s === undefined) return undefined;
+  return time_left_is_estimate ? `about ${span(time_left_s)} (estimate)` : span(time_left_s);
+}
+
+function powerText({ voltage_v, current_a, consumed_ah }: Battery): string | undefined {
+  const parts = [
+    voltage_v !== undefined ? `${voltage_v.toFixed(1)} V` : '',
+    current_a !== undefined ? `${current_a.toFixed(1)} A` : '',
+    consumed_ah !== undefined ? `${consumed_ah.toFixed(2)} Ah used` : '',
+  ].filter(Boolean);
+  return parts.length > 0 ? parts.join(', ') : undefined;
+}
+
+function gpsText(gps: VehicleFields['gps']): string | undefined {
+  if (!gps) return undefined;
+  const parts = [gps.fix, gps.satellites !== undefined ? `${gps.satellites} satellites` : '', gps.hdop !== undefined ? `HDOP ${gps.hdop.toFixed(1)}` : ''];
+  return parts.filter(Boolean).join(', ');
+}
+
+/** The worst of its innovations, by the name of what disagrees. */
+function worst(estimator: NonNullable<VehicleFields['estimator']>): [string, number] {
+  const named: [string, number][] = [
+    ['velocity', estimator.velocity],
+    ['horizontal position', estimator.position_horizontal],
+    ['height', estimator.position_vertical],
+    ['compass', estimator.compass ?? 0],
+  ];
+  return named.reduce((a, b) => (b[1] > a[1] ? b : a));
+}
+
+function estimatorText(estimator: VehicleFields['estimator']): string | undefined {
+  if (!estimator) return undefined;
+  const [name, value] = worst(estimator);
+  return value < 0.5 ? 'good' : `${name} ${value.toFixed(1)}`;
+}
+
+function estimatorLevel(estimator: VehicleFields['estimator']): Detail['level'] {
+  const value = estimator ? worst(estimator)[1] : 0;
+  return value >= 1 ? 'critical' : value >= 0.5 ? 'warning' : undefined;
+}
+
+function radioText(radio: VehicleFields['radio']): string | undefined {
+  if (!radio) return undefined;
+  return `signal ${radio.rssi ?? '–'} / ${radio.remote_rssi ?? '–'}, noise ${radio.noise} / ${radio.remote_noise}, buffer ${percent(radio.buffer_free)} free`;
+}
+
+function remoteText(remote: VehicleFields['remote_control']): string | undefined {
+  if (!remote) return undefined;
+  if (remote.lost) return remote.channels === 0 ? 'none' : 'lost';
+  return remote.rssi === undefined ? `${remote.channels} channels` : `${remote.channels} channels, signal ${percent(remote.rssi)}`;
+}
+
+function gimbalText(gimbal: VehicleFields['gimbal']): string | undefined {
+  if (!gimbal) return undefined;
+  const pitch = Math.round(gimbal.pitch_rad * DEGREES);
+  const tilt = pitch === 0 ? 'level' : `${Math.abs(pitch)}° ${pitch < 0 ? 'down' : 'up'}`;
+  return gimbal.yaw_is_from_north ? `${tilt}, towards ${heading(gimbal.yaw_rad)}` : `${tilt}, ${heading(gimbal.yaw_rad)} of the nose`;
+}
+
+function picturesText(pictures: VehicleFields['pictures']): string | undefined {
+  if (!pictures) return undefined;
+  return pictures.lost > 0 ? `${pictures.taken}, of ${pictures.lost} the place is not known` : String(pictures.taken);
+}
+
+function componentText({ model, state, id }: Component): string {
+  return [model || `number ${id}`, state].filter(Boolean).join(', ');
+}
+
+function componentLevel({ state }: Component): Detail['level'] {
+  return state === 'critical' || state === 'emergency' ? 'critical' : undefined;
+}
+
+function withoutPrefix(reason: string): string {
+  return reason.replace(/^(PreArm|Arm|Preflight Fail): /, '');
+}
+
+function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
