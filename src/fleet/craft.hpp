@@ -14,6 +14,7 @@
 #include "fleet/pictures.hpp"
 #include "fleet/questions.hpp"
 #include "fleet/status_text.hpp"
+#include "fleet/thrift.hpp"
 #include "mavlink/connection.hpp"
 #include "vehicle/vehicle_state.hpp"
 
@@ -85,7 +86,9 @@ struct Craft {
   bool is_questioning = false;
 
   std::optional<MessageRates> rates;
-  bool is_asking = false;  ///< message intervals are being asked for
+  bool is_asking = false;    ///< message intervals are being asked for
+  int intervals_untold = 0;  ///< times in a row that it refused to tell an interval
+  Thrift thrift;
 
   base::Notifier changed;
 

@@ -11,7 +11,6 @@
 #include "fleet/telemetry.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "fleet/vehicle_kind.hpp"
-#include "mavlink/message_interval.hpp"
 #include "mavlink/modes.hpp"
 
 namespace lapwing::fleet {
@@ -145,6 +144,8 @@ void Fleet::let_age(Craft& craft) {
 }
 
 void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat) {
+  if (heartbeat.type == mavlink::MavType::gcs && received.source != connection_.self())
+    other_ground_heard_[received.from] = received.at;
   if (is_camera(received.source, heartbeat)) note_camera(received.source.system);
   auto const kind = kind_of(received.source, heartbeat);
   if (!kind) return;
@@ -289,30 +290,13 @@ base::Task<> Fleet::watch() {
       bool const is_one = !connection_.is_contested(system_id);
       if (!options_.asks_for_messages || !craft->is_connected() || !is_one) continue;
       if (!craft->questions.empty() && !craft->is_questioning) scope_.spawn(ask_questions(*craft));
-      if (craft->is_asking) continue;
+      if (craft->is_asking || is_giving_back_) continue;
       if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
+      spare_slow_link(*craft);
       auto due = craft->rates->due(loop().now());
       if (!due.empty()) scope_.spawn(ask_for_messages(*craft, std::move(due)));
     }
   }
-}
-
-/// One after the other: acknowledgements name the command only, not the message that was asked for.
-base::Task<> Fleet::ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted) {
-  craft.is_asking = true;
-  int const boots = craft.boots;
-  for (auto const& message : wanted) {
-    if (!craft.is_connected()) break;
-    mavlink::CommandOptions const options{.tries = 3, .ack_timeout = 1s};
-    auto const asked =
-        co_await mavlink::set_message_interval(connection_, craft.address, message.id, message.interval, options);
-    if (craft.boots != boots) break;
-    if (asked || asked.error().kind != base::ErrorKind::refused) continue;
-    craft.rates->denied(message.id, loop().now());
-    log_.debug(fmt::format("{} will not send message {}: {}", craft.state.name, std::to_underlying(message.id),
-                           asked.error().message));
-  }
-  craft.is_asking = false;
 }
 
 }  // namespace lapwing::fleet

@@ -42,6 +42,14 @@ class Fleet {
 
   /// Who commands which vehicle.
   [[nodiscard]] Authority& authority() { return authority_; }
+
+  /// Gives the message rates that were changed back to every connected vehicle, and asks for none any more. For the end
+  /// of a program; takes three seconds at most.
+  ///
+  /// A rate is given back when it is known what it was before, when it still is as we set it, and when no other ground
+  /// station was heard over the vehicle's link lately, which might have come to depend on it.
+  base::Task<> give_back_rates();
+
   [[nodiscard]] vehicle::Registry& registry() const { return registry_; }
   [[nodiscard]] mavlink::Connection& connection() const { return connection_; }
   [[nodiscard]] base::Loop& loop() const { return connection_.loop(); }
@@ -63,15 +71,21 @@ class Fleet {
   base::Task<> ask_questions(Craft& craft);
   base::Task<> ask_for_picture(Craft& craft, Question question);
   base::Task<> ask_for_modes(Craft& craft, Question question);
+  void spare_slow_link(Craft& craft);
   base::Task<> ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted);
+  base::Task<bool> ask_for_message(Craft& craft, WantedMessage message);
+  base::Task<> give_back_rates_of(Craft& craft, base::TimePoint deadline);
+  [[nodiscard]] bool others_may_depend_on(Craft const& craft) const;
 
   mavlink::Connection& connection_;
   vehicle::Registry& registry_;
   Options options_;
   base::Logger log_;
-  std::map<std::uint8_t, std::unique_ptr<Craft>> crafts_;  // pointers: craft addresses must not change
-  std::set<std::uint8_t> cameras_;                         ///< systems that were heard to carry one
+  std::map<std::uint8_t, std::unique_ptr<Craft>> crafts_;           // pointers: craft addresses must not change
+  std::set<std::uint8_t> cameras_;                                  ///< systems that were heard to carry one
+  std::map<mavlink::PeerRef, base::TimePoint> other_ground_heard_;  ///< heartbeats of other ground stations
   Authority authority_;
+  bool is_giving_back_ = false;
   mavlink::Subscription subscription_;
   base::Scope scope_;
 };

@@ -260,5 +260,58 @@ TEST(Fleet, ForgetsReasonsAgainstArmingThatAreNotRepeated) {
   EXPECT_TRUE(world.state().arming_reasons.empty());
 }
 
+TEST(Fleet, GivesTheRatesBackThatItChanged) {
+  TestWorld world;
+  auto& copter = world.add();
+  copter.stream(MessageId::attitude, 2s);  // too slow for us
+  copter.stream(MessageId::sys_status, 500ms);
+  world.run_for(10s);
+  ASSERT_EQ(copter.interval(MessageId::attitude), 250ms);
+  ASSERT_EQ(copter.interval(MessageId::global_position_int), 200ms);
+  world.loop.run_until_done(world.fleet->give_back_rates());
+  EXPECT_EQ(copter.interval(MessageId::attitude), 2s);
+  EXPECT_EQ(copter.interval(MessageId::global_position_int), std::nullopt);
+  EXPECT_EQ(copter.interval(MessageId::sys_status), 500ms);
+  world.run_for(30s);  // and asks for nothing any more
+  EXPECT_EQ(copter.interval(MessageId::global_position_int), std::nullopt);
+}
+
+TEST(Fleet, LeavesRatesThatSomebodyElseSetMeanwhile) {
+  TestWorld world;
+  auto& copter = world.add();
+  world.run_for(10s);
+  copter.stream(MessageId::attitude, 100ms);
+  world.loop.run_until_done(world.fleet->give_back_rates());
+  EXPECT_EQ(copter.interval(MessageId::attitude), 100ms);
+}
+
+TEST(Fleet, LeavesItsRatesToAnotherGroundStationOnTheLink) {
+  TestWorld world;
+  auto& copter = world.add();
+  world.run_for(10s);
+  copter.send_as({252, 190}, heartbeat(MavType::gcs, mavlink::MavAutopilot::invalid));
+  world.run_for(1s);
+  world.loop.run_until_done(world.fleet->give_back_rates());
+  EXPECT_EQ(copter.interval(MessageId::attitude), 250ms);
+}
+
+TEST(Fleet, GivesBackWithinThreeSecondsThoughNobodyAnswers) {
+  TestWorld world;
+  auto& copter = world.add();
+  world.run_for(10s);
+  copter.is_silent = true;
+  auto const begun = world.loop.now();
+  world.loop.run_until_done(world.fleet->give_back_rates());
+  EXPECT_LE(world.loop.now() - begun, 3100ms);
+}
+
+TEST(Fleet, NeverLowersARateThatTheLinkLoses) {
+  TestWorld world;
+  auto& copter = world.add({}, {.loss = 0.7});
+  copter.stream(MessageId::attitude, 150ms);
+  world.run_for(30s);
+  EXPECT_EQ(copter.interval(MessageId::attitude), 150ms);
+}
+
 }  // namespace
 }  // namespace lapwing::fleet

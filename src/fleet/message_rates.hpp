@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,14 +13,22 @@ namespace lapwing::fleet {
 struct WantedMessage {
   mavlink::MessageId id{};
   base::Duration interval{};
-  bool may_wait = false;  ///< a slow link carries less of it
+  bool may_wait =
+      false;  ///< for people: a slow link carries less of it, and a vehicle that lacks it is not asked for long
+};
+
+/// A rate that we changed.
+struct ChangedRate {
+  mavlink::MessageId id{};
+  base::Duration set{};
+  std::optional<base::Duration> before{};  ///< nothing: it was not sent
 };
 
 /// Decides which messages to ask a vehicle for: only those that do not come by themselves, often enough.
 ///
 /// Other ground stations may have set the rates; what already arrives is left alone. Lost requests and reboots show as
-/// missing messages and are asked for again; a vehicle that says no is left in peace for a while. No clock inside: pass
-/// the time.
+/// missing messages and are asked for again; a vehicle that says no is left in peace for a while. Remembers what was
+/// changed, so that it can be given back. No clock inside: pass the time.
 class MessageRates {
  public:
   MessageRates(std::span<WantedMessage const> wanted, base::TimePoint now);
@@ -32,19 +41,37 @@ class MessageRates {
   [[nodiscard]] std::vector<WantedMessage> due(base::TimePoint now);
   /// The vehicle will not send it: do not ask again soon.
   void denied(mavlink::MessageId id, base::TimePoint now);
+  /// The vehicle sends it as often as wanted or oftener, so that it is the link which loses it: asking would lower a
+  /// rate that somebody else may need.
+  void leave_alone(mavlink::MessageId id, base::TimePoint now);
   /// The vehicle restarted and has forgotten every rate: look anew.
   void restart(base::TimePoint now);
+  /// What may wait is wanted `factor` times less often than in the beginning. What we have set otherwise is due at
+  /// once.
+  void set_thrift(int factor, base::TimePoint now);
+
+  /// The vehicle took the rate. `before` as it told; the outer nothing: it did not tell, and then nobody can give it
+  /// back.
+  void changed(WantedMessage const& message, std::optional<std::optional<base::Duration>> before);
+  [[nodiscard]] bool is_ours(mavlink::MessageId id) const;
+  /// Those of which is known what they were before.
+  [[nodiscard]] std::vector<ChangedRate> changes() const;
 
  private:
   struct Watched {
-    WantedMessage wanted;
-    int count = 0;            ///< arrivals since `since`
-    base::TimePoint since{};  ///< begin of the present look
-    base::TimePoint look_until{};
-    int asked = 0;  ///< requests in a row that did not help
+    WantedMessage wanted;                                      ///< thrift included
+    base::Duration usual{};                                    ///< the interval without thrift
+    int count = 0;                                             ///< arrivals since `since`
+    base::TimePoint since{};                                   ///< begin of the present look
+    base::TimePoint look_until{};                              ///< when it ends
+    int asked = 0;                                             ///< requests in a row that did not help
+    std::optional<base::Duration> set = {};                    ///< by us
+    std::optional<std::optional<base::Duration>> before = {};  ///< we changed it
   };
   void look(Watched& watched, base::TimePoint now, base::Duration time) const;
+  Watched* find(mavlink::MessageId id);
 
+  int thrift_ = 1;
   std::vector<Watched> watched_;
 };
 

@@ -77,5 +77,50 @@ TEST(MessageRates, AsksARestartedVehicleAnew) {
   EXPECT_EQ(ids(rates.due(at(12s))), std::vector{position});
 }
 
+TEST(MessageRates, RemembersWhatWasBeforeTheFirstChangeOnly) {
+  MessageRates rates(wanted, at(0s));
+  EXPECT_TRUE(rates.changes().empty());
+  rates.changed(wanted[0], std::optional<base::Duration>(1s));
+  rates.changed({position, 500ms}, std::optional<base::Duration>(250ms));
+  rates.changed(wanted[1], std::nullopt);  // it did not tell
+  ASSERT_EQ(rates.changes().size(), 1u);
+  EXPECT_EQ(rates.changes()[0].before, 1s);
+  EXPECT_EQ(rates.changes()[0].set, 500ms);
+  EXPECT_TRUE(rates.is_ours(attitude));
+  rates.restart(at(10s));
+  EXPECT_TRUE(rates.changes().empty());
+  EXPECT_FALSE(rates.is_ours(attitude));
+}
+
+TEST(MessageRates, WantsLessOnASlowLinkOfWhatMayWait) {
+  std::array<WantedMessage, 2> const some{WantedMessage{position, 250ms, true}, WantedMessage{attitude, 500ms}};
+  MessageRates rates(some, at(0s));
+  rates.changed(some[0], std::optional<base::Duration>());
+  rates.changed(some[1], std::optional<base::Duration>());
+  hear(rates, position, 8);
+  hear(rates, attitude, 4);
+  EXPECT_TRUE(rates.due(at(2s)).empty());
+  hear(rates, position, 2);
+  rates.set_thrift(4, at(2500ms));
+  auto const asks = rates.due(at(2500ms));
+  ASSERT_EQ(ids(asks), std::vector{position});
+  EXPECT_EQ(asks[0].interval, 1s);
+  rates.changed(asks[0], std::nullopt);
+  hear(rates, position, 3);
+  hear(rates, attitude, 8);
+  EXPECT_TRUE(rates.due(at(6s)).empty());
+  rates.set_thrift(1, at(7s));
+  EXPECT_EQ(rates.due(at(7s))[0].interval, 250ms);
+}
+
+TEST(MessageRates, GivesUpOnWhatIsOnlyShownWhenItNeverComes) {
+  std::array<WantedMessage, 1> const shown{WantedMessage{position, 250ms, true}};
+  MessageRates rates(shown, at(0s));
+  std::vector<int> asked_at;
+  for (int second = 0; second <= 200; ++second)
+    if (!rates.due(at(second * 1s)).empty()) asked_at.push_back(second);
+  EXPECT_EQ(asked_at, (std::vector{2, 4, 8, 16}));
+}
+
 }  // namespace
 }  // namespace lapwing::fleet

@@ -174,7 +174,18 @@ MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& par
     case MavCmd::set_message_interval: {
       auto const id = static_cast<MessageId>(params[0]);
       if (denied_intervals.contains(id)) return MavResult::denied;
-      intervals_[id] = {std::chrono::microseconds(static_cast<long long>(params[1])), loop_.now()};
+      if (params[1] < 0.0F) intervals_.erase(id);
+      if (params[1] > 0.0F)
+        intervals_[id] = {std::chrono::microseconds(static_cast<long long>(params[1])), loop_.now()};
+      return MavResult::accepted;
+    }
+    case MavCmd::get_message_interval: {
+      auto const id = static_cast<MessageId>(params[0]);
+      if (denied_intervals.contains(id)) return MavResult::denied;
+      mavlink::MessageInterval answer{.message = id, .interval = std::nullopt};
+      if (auto const rate = interval(id))
+        answer.interval = std::chrono::duration_cast<std::chrono::microseconds>(*rate);
+      send(answer);
       return MavResult::accepted;
     }
     case MavCmd::do_set_home: return MavResult::accepted;

@@ -88,6 +88,10 @@ class TestAutopilot {
   [[nodiscard]] int commands_heard(mavlink::MavCmd command) const;
   [[nodiscard]] std::vector<std::uint32_t> modes_commanded() const;
   [[nodiscard]] std::vector<mavlink::MessageId> messages_asked_for() const;
+  [[nodiscard]] std::optional<base::Duration> interval(mavlink::MessageId message) const {
+    auto const found = intervals_.find(message);
+    return found == intervals_.end() ? std::nullopt : std::optional(found->second.interval);
+  }
   [[nodiscard]] bool was_upload_cancelled() const { return upload_cancelled_; }
   [[nodiscard]] geo::Wgs84 position() const;
 
