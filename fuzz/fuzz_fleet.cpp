@@ -13,13 +13,16 @@ using namespace lapwing;
 
 namespace {
 
+/// Two vehicles, what one of them carries, and a radio.
+constexpr auto senders = std::to_array<mavlink::Address>({{1, 1}, {1, 100}, {1, 154}, {2, 1}, {51, 68}});
+
 base::Task<void> send(base::Loop& loop, link::ByteLink& peer, std::span<std::uint8_t const> input) {
   auto const& samples = fuzz::sample_frames();
   std::uint8_t seq = 0;
   while (input.size() >= 2) {
     auto frame = samples[input[0] % samples.size()];
     auto const length = std::min<std::size_t>(input[1], input.size() - 2);
-    frame.source = {static_cast<std::uint8_t>(1 + input[0] / samples.size()), 1};
+    frame.source = senders[input[0] / samples.size() % senders.size()];
     frame.seq = seq++;
     frame.payload.fill(0);
     std::ranges::copy(input.subspan(2, length), frame.payload.begin());
@@ -42,5 +45,9 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   fleet::Fleet fleet(connection, registry, {}, {});
   loop.run_until_done(send(loop, *pipe.b, {data, size}));
   fuzz::require(fleet.all().size() <= 255);
+  for (auto const* state : registry.all()) {
+    fuzz::require(state->components.size() <= 32 && state->arming_reasons.size() <= 20);
+    fuzz::require(!state->pictures.value || state->pictures.value->recent.size() <= 2000);
+  }
   return 0;
 }
