@@ -1,4 +1,4 @@
-// Takes pictures of the app for a person to look at. usage: node e2e/pictures.mjs FOLDER
+// Takes pictures of the app for a person to look at. usage: node e2e/pictures.mjs FOLDER [NAME]
 import { mkdirSync } from 'node:fs';
 import path from 'node:path';
 import { startBrowser, startStation } from './harness.mjs';
@@ -11,13 +11,33 @@ const SHOTS = [
   { name: 'dark', scheme: 'dark' },
   { name: 'light', scheme: 'light' },
   { name: 'phone', scheme: 'dark', size: { width: 360, height: 740 } },
+  { name: 'command', scheme: 'dark', size: { width: 1280, height: 800 }, before: command },
+  { name: 'command-900', scheme: 'light', size: { width: 900, height: 800 }, before: command },
+  { name: 'emergency', scheme: 'dark', size: { width: 1280, height: 800 }, before: stopAll },
 ];
+/** Several vehicles commanded, with what each made of it. */
+async function command(page) {
+  const row = (name) => page.locator('#vehicles tbody tr', { hasText: name });
+  await row('copter 2').click();
+  for (const name of ['plane 3', 'rover 5']) await row(name).click({ modifiers: ['Shift'] });
+  await page.locator('#command').getByRole('button', { name: 'Arm', exact: true }).hover();
+  await page.mouse.down();
+  await page.waitForTimeout(1000);
+  await page.mouse.up();
+  await page.waitForTimeout(2500);
+}
+async function stopAll(page) {
+  await page.getByRole('button', { name: 'E-STOP' }).click();
+  await page.waitForTimeout(1500);
+}
+
 try {
   const pages = [];
-  for (const shot of SHOTS) pages.push({ ...shot, ...(await browser.open(station.url, shot)) });
+  for (const shot of SHOTS.filter(({ name }) => name.includes(process.argv[3] ?? ''))) pages.push({ ...shot, ...(await browser.open(station.url, shot)) });
   await pages[0].page.waitForTimeout(Number(process.env.WAIT_S ?? 20) * 1000); // trails grow
-  for (const { name, page, complaints } of pages) {
+  for (const { name, page, complaints, before } of pages) {
     await page.bringToFront();
+    await before?.(page);
     await page.keyboard.press('f');
     await page.waitForTimeout(1500);
     await page.screenshot({ path: path.join(folder, `${name}.png`) });

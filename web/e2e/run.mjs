@@ -8,6 +8,12 @@ const test = (name, run, options) => tests.push({ name, run, options });
 
 const row = (page, name) => page.locator('#vehicles tbody tr', { hasText: name });
 const scriptState = (page, state) => page.locator('#script .chip', { hasText: state }).waitFor();
+const hold = async (page, button) => {
+  await button.hover();
+  await page.mouse.down();
+  await page.waitForTimeout(1000);
+  await page.mouse.up();
+};
 const live = (page) => page.locator('header .phase', { hasText: 'live' }).waitFor();
 
 test('shows every vehicle, and they move', async ({ open }) => {
@@ -61,7 +67,7 @@ test('shows the task tree and the line that runs', async ({ open }) => {
 test('stops the script with the button and starts it again', async ({ open }) => {
   const page = await open();
   await scriptState(page, 'running');
-  await page.getByRole('button', { name: 'STOP' }).click();
+  await page.getByRole('button', { name: 'STOP', exact: true }).click();
   await scriptState(page, 'stopping');
   await scriptState(page, 'idle');
   await row(page, 'LOITER').first().waitFor();
@@ -76,10 +82,93 @@ test('stops the script with the keyboard alone', async ({ open }) => {
   await scriptState(page, 'idle');
 });
 
+test('commands several vehicles and shows what each made of it', async ({ open }) => {
+  const page = await open();
+  await row(page, 'link lost').waitFor();
+  await row(page, 'copter 2').click();
+  await row(page, 'plane 3').click({ modifiers: ['Shift'] });
+  await row(page, 'rover 5').click({ modifiers: ['Shift'] });
+  const arm = page.locator('#command').getByRole('button', { name: 'Arm', exact: true });
+  await arm.click();
+  assert.equal(await page.locator('#command details').count(), 0, 'a short click commands nothing');
+  await hold(page, arm);
+  const outcome = (name) => page.locator('#command details tr', { hasText: name });
+  await outcome('copter 2').getByText('confirmed').waitFor();
+  assert.match(await outcome('plane 3').innerText(), /refused[\s\S]*Throttle too high/);
+  await outcome('rover 5').getByText('expired').waitFor();
+  await page.locator('#command summary', { hasText: '1 of 3 confirmed, 2 failed' }).waitFor();
+});
+
+test('confirms with the keyboard, and stops without confirmation', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 2').click();
+  await page.locator('#command').getByRole('button', { name: 'Take off' }).focus();
+  await page.keyboard.down('Enter');
+  await page.locator('#command summary', { hasText: 'Take off, 10 m' }).waitFor();
+  await page.keyboard.up('Enter');
+  await page.locator('#command').getByRole('button', { name: 'Hold' }).click();
+  await page.locator('#command details[open] tr', { hasText: 'copter 2' }).getByText('confirmed').waitFor();
+});
+
+test('sends a vehicle to a place on the map', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 2').click();
+  await page.getByRole('button', { name: 'Go to…' }).click();
+  await page.locator('.maplibregl-canvas').click({ position: { x: 700, y: 700 } });
+  await page.getByRole('img', { name: 'the chosen place' }).waitFor();
+  await hold(page, page.getByRole('button', { name: 'Go there' }));
+  await page.locator('#command summary', { hasText: 'Go to, 10 m' }).waitFor();
+});
+
+test('stops everything until it is released, for every viewer', async ({ open }) => {
+  const page = await open();
+  const other = await open();
+  await row(page, 'link lost').waitFor();
+  await page.getByRole('button', { name: 'E-STOP' }).click();
+  const banner = other.getByRole('region', { name: 'Emergency stop' });
+  await banner.getByText('4 of 5 stopped').waitFor();
+  assert.match(await banner.innerText(), /rover 5\s+… try \d+/);
+  await row(page, 'copter 2').click();
+  assert.ok(await page.locator('#command').getByRole('button', { name: 'Arm', exact: true }).isDisabled());
+  assert.ok(await page.locator('#command').getByRole('button', { name: 'Land' }).isEnabled());
+  await hold(other, banner.getByRole('button', { name: 'Release' }));
+  await banner.waitFor({ state: 'detached' });
+  await page.getByRole('region', { name: 'Emergency stop' }).waitFor({ state: 'detached' });
+});
+
+test('stops everything with the keyboard alone', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 1').waitFor();
+  await page.keyboard.press('Control+Shift+S');
+  const banner = page.getByRole('region', { name: 'Emergency stop' });
+  await banner.waitFor();
+  await hold(page, banner.getByRole('button', { name: 'Release' }));
+});
+
+test('hands a vehicle over to who asks for it', async ({ open }) => {
+  const holder = await open();
+  const other = await open();
+  await row(holder, 'plane 3').click();
+  await hold(holder, holder.locator('#command').getByRole('button', { name: 'Resume' }));
+  await holder.getByText('You command plane 3').waitFor();
+  await row(other, 'plane 3').click();
+  await other.getByRole('button', { name: 'Ask for it' }).click();
+  await holder.getByRole('group', { name: /asks for plane 3/ }).getByRole('button', { name: 'Hand over' }).click();
+  await other.getByText('You command plane 3').waitFor();
+});
+
+test('says whose vehicle it takes over', async ({ open }) => {
+  const page = await open();
+  await row(page, 'copter 1').click();
+  await page.getByText('copter 1 is commanded by script').waitFor();
+  await hold(page, page.getByRole('button', { name: 'Take over: Resume' }));
+  await page.getByText('You command copter 1').waitFor();
+});
+
 test('shows what is wrong with a script and leads there', async ({ open }) => {
   const page = await open();
   await scriptState(page, 'running');
-  await page.getByRole('button', { name: 'STOP' }).click();
+  await page.getByRole('button', { name: 'STOP', exact: true }).click();
   await scriptState(page, 'idle');
   await page.getByRole('button', { name: 'Edit' }).click();
   await page.getByLabel('Script text').fill(`${'// above\n'.repeat(40)}m = mission {\n  takeOf here\n}\n${'// below\n'.repeat(40)}`);
@@ -146,7 +235,7 @@ test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
     assert.notEqual(outline, 'none', `focus is not visible on ${names.at(-1)}`);
   }
   assert.equal(names[0], 'Skip to the vehicle table');
-  assert.deepEqual(names.slice(2, 5), ['Settings', 'Help and keys', '■ STOP']);
+  assert.deepEqual(names.slice(2, 6), ['Settings', 'Help and keys', '■ STOP', 'E-STOP']);
   await page.keyboard.press('?');
   await page.getByRole('dialog', { name: 'Help' }).waitFor();
   await page.keyboard.press('Escape');
@@ -232,7 +321,7 @@ test('shows no label over another', async ({ open }) => {
 
 test('opens a script of the station and starts it', async ({ open }) => {
   const page = await open();
-  await page.getByRole('button', { name: 'STOP' }).click();
+  await page.getByRole('button', { name: 'STOP', exact: true }).click();
   await scriptState(page, 'idle');
   await page.getByLabel('Open a script').selectOption('listing2.dolphin');
   await page.getByLabel('Script text').waitFor();
@@ -280,7 +369,7 @@ test('tells the state of the script on a phone', async ({ open }) => {
   const page = await open({ size: { width: 390, height: 844 } });
   await page.locator('header .state', { hasText: 'running' }).waitFor();
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
-  for (const tab of ['Tasks', 'Script', 'Log', 'Vehicles']) {
+  for (const tab of ['Command', 'Tasks', 'Script', 'Log', 'Vehicles']) {
     await page.getByRole('button', { name: tab, exact: true }).click();
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, tab);
   }
@@ -319,7 +408,7 @@ test('works 360 px wide', async ({ open }) => {
     return body.scrollWidth - body.clientWidth;
   });
   assert.ok(cut <= 0, `the table is ${cut} px too wide`);
-  const stop = await page.getByRole('button', { name: 'STOP' }).boundingBox();
+  const stop = await page.getByRole('button', { name: 'STOP', exact: true }).boundingBox();
   assert.ok(stop.x + stop.width <= 360 && stop.height >= 44, 'STOP is in sight and large enough for a finger');
   await page.getByRole('button', { name: 'Script' }).click();
   await page.locator('#script li', { hasText: 'north = mission' }).waitFor();

@@ -1,4 +1,4 @@
-import { parseMessage, type ClientMessage, type Reply, type ServerMessage } from './protocol';
+import { parseMessage, type ClientMessage, type Reply, type Request, type ServerMessage } from './protocol';
 
 /** What the connection needs of the browser; tests bring their own. */
 export interface Socket {
@@ -66,7 +66,7 @@ export class Connection {
   }
 
   /** Sends a request and gives the station's reply; a lost station replies with an error too. */
-  request(message: { type: 'start_script'; name: string; source: string } | { type: 'stop_script' }): Promise<Reply> {
+  request(message: Request): Promise<Reply> {
     const id = String(++this.requests);
     if (!this.isOpen) return Promise.resolve(notSent(id));
     return new Promise((resolve) => {

@@ -80,6 +80,8 @@ export interface VehicleFields {
   components?: Component[];
   pictures?: { taken: number; lost: number };
   texts?: { severity: number; text: string; component?: number }[];
+  control?: { commander: string; asked_for_by?: string; granted_at_s?: number };
+  foreign_change?: string;
 }
 
 export interface VehicleUpdate extends VehicleFields {
@@ -139,8 +141,54 @@ export interface LogLine {
   text: string;
 }
 
+export type Action =
+  | 'arm'
+  | 'disarm'
+  | 'take_off'
+  | 'land'
+  | 'rtl'
+  | 'hold'
+  | 'go_to'
+  | 'set_mode'
+  | 'start_mission'
+  | 'pause_mission'
+  | 'resume_mission';
+
+/** What a command needs beside its action and its vehicles. */
+export interface CommandDetails {
+  height_m?: number;
+  lat_deg?: number;
+  lon_deg?: number;
+  mode?: string;
+}
+
+export type CommandState = 'waiting' | 'accepted' | 'confirmed' | 'refused' | 'timed_out' | 'expired' | 'superseded';
+
+export interface Command {
+  number: number;
+  action: Action;
+  by: string;
+  asked: string;
+  height_m?: number;
+  place?: Position;
+  mode?: string;
+  vehicles: { vehicle: string; state: CommandState; reason?: string }[];
+}
+
+export type StopAction = 'hold' | 'land' | 'rtl' | 'terminate';
+
+export interface Emergency {
+  latched: boolean;
+  action: StopAction;
+  by: string;
+  since?: string;
+  vehicles: { vehicle: string; acknowledged: boolean; confirmed: boolean; tries: number; detail: string }[];
+}
+
 export interface Hello {
   type: 'hello';
+  /** What this viewer is called as a commander of vehicles. */
+  operator?: string;
   protocol: number;
   version: string;
   server_time: string;
@@ -163,13 +211,21 @@ export type ServerMessage =
   | { type: 'tasks'; trees: Task[] }
   | ({ type: 'script' } & Script)
   | { type: 'log'; lines: LogLine[] }
+  | ({ type: 'emergency' } & Emergency)
+  | { type: 'commands'; commands: Command[] }
   | Reply
   | { type: 'pong'; id: string; server_time: string };
 
-export type ClientMessage =
-  | { type: 'start_script'; id: string; name: string; source: string }
-  | { type: 'stop_script'; id: string }
-  | { type: 'ping'; id: string };
+/** What the station answers with a reply. */
+export type Request =
+  | { type: 'start_script'; name: string; source: string }
+  | { type: 'stop_script' }
+  | ({ type: 'command'; action: Action; vehicles: string[]; take_over?: boolean } & CommandDetails)
+  | { type: 'emergency_stop'; action?: StopAction }
+  | { type: 'release_emergency_stop' }
+  | { type: 'request_control' | 'yield_control' | 'keep_control'; vehicle: string };
+
+export type ClientMessage = (Request & { id: string }) | { type: 'ping'; id: string };
 
 /** The message in a text frame; nothing for what is none. Types this app does not know come through and match no case. */
 export function parseMessage(text: string): ServerMessage | undefined {

@@ -1,7 +1,22 @@
 import { Connection } from './connection';
 import { addPictures, extendTrail, mergeUpdates, type Fleet } from './fleet';
 import { appendLines } from './log';
-import { PROTOCOL, type Diagnostic, type LogLine, type Picture, type Position, type Reply, type Script, type ServerMessage, type Task } from './protocol';
+import {
+  PROTOCOL,
+  type Action,
+  type Command,
+  type CommandDetails,
+  type Diagnostic,
+  type Emergency,
+  type LogLine,
+  type Picture,
+  type Position,
+  type Reply,
+  type Script,
+  type ServerMessage,
+  type StopAction,
+  type Task,
+} from './protocol';
 import { rememberToken, socketUrl, takeToken } from './token';
 
 /** locked: the station is there and asks for a token that this browser does not have. */
@@ -24,6 +39,12 @@ class Station {
   script = $state.raw<Script>({ name: '', state: 'idle', message: '', source: '', diagnostics: [] });
   log = $state.raw<LogLine[]>([]);
   site = $state.raw<{ name: string; origin?: Position; tiles?: string }>({ name: '' });
+  /** What this viewer is called as a commander; empty where vehicles cannot be commanded. */
+  operator = $state('');
+  commands = $state.raw<Command[]>([]);
+  emergency = $state.raw<Emergency>({ latched: false, action: 'hold', by: '', vehicles: [] });
+  /** Why the last command or handover was refused; empty when it was not. */
+  objection = $state('');
   /** Scripts in the station's folder, by name. */
   scripts = $state.raw<string[]>([]);
   version = $state('');
@@ -33,6 +54,8 @@ class Station {
   refusal = $state.raw<{ message: string; hint: string; diagnostics: Diagnostic[] } | undefined>(undefined);
 
   private lastSeq = 0;
+  /** The station's clock in s at this browser's 0. */
+  private clockOffset_s = 0;
   private token: string | undefined;
   private connection: Connection;
 
@@ -79,6 +102,34 @@ class Station {
 
   async stop(): Promise<boolean> {
     return this.noteRefusal(await this.connection.request({ type: 'stop_script' }));
+  }
+
+  async command(action: Action, vehicles: string[], details: CommandDetails = {}, take_over = false): Promise<boolean> {
+    return this.noteObjection(await this.connection.request({ type: 'command', action, vehicles, ...details, take_over }));
+  }
+
+  /** Without an action: what the station is set to. */
+  async emergencyStop(action?: StopAction): Promise<boolean> {
+    return this.noteObjection(await this.connection.request({ type: 'emergency_stop', ...(action && { action }) }));
+  }
+
+  async releaseEmergencyStop(): Promise<boolean> {
+    return this.noteObjection(await this.connection.request({ type: 'release_emergency_stop' }));
+  }
+
+  async changeControl(type: 'request_control' | 'yield_control' | 'keep_control', vehicle: string): Promise<boolean> {
+    return this.noteObjection(await this.connection.request({ type, vehicle }));
+  }
+
+  /** Seconds until the station's clock shows `time_s`, not less than 0. */
+  secondsUntil(time_s: number): number {
+    return Math.max(0, time_s - (this.clockOffset_s + this.now / 1000));
+  }
+
+  private noteObjection(reply: Reply): boolean {
+    this.objection = reply.ok ? '' : [reply.error?.message, reply.error?.hint].filter(Boolean).join(' ');
+    if (this.objection) this.alert = this.objection;
+    return reply.ok;
   }
 
   /** The text of a script in the station's folder; nothing when it cannot be had, which `refusal` then explains. */
@@ -136,9 +187,11 @@ class Station {
         this.phase = 'live';
         this.site = message.site;
         this.version = message.version;
+        this.operator = message.operator ?? '';
         void this.listScripts();
         break;
       case 'vehicles':
+        this.clockOffset_s = message.time_s - now / 1000;
         this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, now);
         this.growTrails();
         break;
@@ -157,7 +210,19 @@ class Station {
       case 'log':
         this.addLog(message.lines);
         break;
+      case 'emergency':
+        this.noteEmergency(message);
+        break;
+      case 'commands':
+        this.commands = message.commands;
+        break;
     }
+  }
+
+  private noteEmergency(emergency: Emergency): void {
+    if (emergency.latched && !this.emergency.latched) this.alert = `Emergency stop by ${emergency.by}. Nothing moves until it is released.`;
+    if (!emergency.latched && this.emergency.latched) this.alert = `Emergency stop released by ${emergency.by}.`;
+    this.emergency = emergency;
   }
 
   private growTrails(): void {

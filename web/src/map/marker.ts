@@ -36,7 +36,7 @@ export class VehicleMarker {
 
   constructor(
     private readonly map: MapLibreMap,
-    onSelect: () => void,
+    onSelect: (adds: boolean) => void,
   ) {
     this.button.type = 'button';
     this.svg.setAttribute('viewBox', '-2 -2 36 36');
@@ -49,7 +49,7 @@ export class VehicleMarker {
     this.button.append(this.svg, this.badge, this.label);
     this.button.addEventListener('click', (event) => {
       event.stopPropagation();
-      onSelect();
+      onSelect(event.shiftKey || event.ctrlKey || event.metaKey);
     });
     this.marker = new Marker({ element: this.button });
   }
@@ -119,5 +119,14 @@ export function homeMarker(map: MapLibreMap, at: LonLat): Marker {
   element.setAttribute('role', 'img');
   element.setAttribute('aria-label', 'home');
   element.textContent = 'H';
+  return new Marker({ element }).setLngLat(at).addTo(map);
+}
+
+/** Where vehicles are about to be sent. */
+export function targetMarker(map: MapLibreMap, at: LonLat): Marker {
+  const element = document.createElement('div');
+  element.className = 'target';
+  element.setAttribute('role', 'img');
+  element.setAttribute('aria-label', 'the chosen place');
   return new Marker({ element }).setLngLat(at).addTo(map);
 }

@@ -1,0 +1,71 @@
+import { describe, expect, it } from 'vitest';
+import { commandedByOthers, commonModes, isStop, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
+import type { Vehicle } from './fleet';
+import type { Command, VehicleFields } from './protocol';
+
+const vehicle = (id: string, fields: VehicleFields): Vehicle => ({ id, fields, heardAt: {} });
+const command = (rest: Partial<Command>): Command => ({ number: 1, action: 'arm', by: 'me', asked: '', vehicles: [], ...rest });
+
+describe('commands', () => {
+  it('have a title with what they need', () => {
+    expect(titleOf(command({ action: 'take_off', height_m: 15 }))).toBe('Take off, 15 m');
+    expect(titleOf(command({ action: 'set_mode', mode: 'GUIDED' }))).toBe('Set mode GUIDED');
+    expect(titleOf(command({}))).toBe('Arm');
+  });
+
+  it('sum up what vehicles made of them', () => {
+    const states = ['confirmed', 'confirmed', 'refused', 'accepted', 'expired'] as const;
+    const vehicles = states.map((state, index) => ({ vehicle: String(index), state }));
+    expect(summaryOf(command({ vehicles }))).toBe('2 of 5 confirmed, 2 failed, 1 under way');
+    expect(summaryOf(command({ vehicles: [{ vehicle: '1', state: 'confirmed' }] }))).toBe('1 of 1 confirmed');
+  });
+
+  it('have a word and a sign of their own in each state', () => {
+    const all = (['waiting', 'accepted', 'confirmed', 'refused', 'timed_out', 'expired', 'superseded'] as const).map(stateOf);
+    expect(new Set(all.map(({ word }) => word)).size).toBe(all.length);
+  });
+
+  it('need no confirmation when they bring a vehicle to rest', () => {
+    expect((['hold', 'land', 'rtl', 'disarm', 'pause_mission'] as const).every(isStop)).toBe(true);
+    expect((['arm', 'take_off', 'go_to', 'set_mode', 'start_mission', 'resume_mission'] as const).some(isStop)).toBe(false);
+  });
+});
+
+describe('who commands', () => {
+  const fleet = [
+    vehicle('1', { name: 'copter 1', control: { commander: 'me' } }),
+    vehicle('2', { control: { commander: 'script' } }),
+    vehicle('3', { control: { commander: '' } }),
+    vehicle('4', {}),
+  ];
+
+  it('names those whom somebody else commands', () => {
+    expect(commandedByOthers(fleet, 'me')).toEqual([{ id: '2', name: '2', by: 'script' }]);
+  });
+
+  it('finds requests to this operator alone', () => {
+    const asked = [
+      vehicle('1', { name: 'copter 1', control: { commander: 'me', asked_for_by: 'ben', granted_at_s: 12 } }),
+      vehicle('2', { control: { commander: 'anna', asked_for_by: 'ben', granted_at_s: 12 } }),
+    ];
+    expect(requestsTo(asked, 'me')).toEqual([{ id: '1', name: 'copter 1', by: 'ben', granted_at_s: 12 }]);
+    expect(requestsTo(fleet, 'me')).toEqual([]);
+  });
+});
+
+it('counts what has been stopped', () => {
+  const one = { vehicle: '1', acknowledged: true, confirmed: true, tries: 1, detail: '' };
+  const two = { vehicle: '2', acknowledged: true, confirmed: false, tries: 3, detail: '' };
+  expect(stopSummary({ latched: true, action: 'hold', by: 'me', vehicles: [one, two] })).toBe('1 of 2 stopped, 2 acknowledged');
+});
+
+it('offers the modes that all vehicles have', () => {
+  const copter = vehicle('1', { family: 'copter', autopilot: 'ardupilot' });
+  const rover = vehicle('2', { family: 'rover', autopilot: 'ardupilot' });
+  const px4 = vehicle('3', { family: 'copter', autopilot: 'px4' });
+  expect(commonModes([copter])).toContain('BRAKE');
+  expect(commonModes([copter, rover])).toEqual(['LOITER', 'GUIDED', 'AUTO', 'RTL', 'SMART_RTL']);
+  expect(commonModes([px4])).toContain('AUTO.RTL');
+  expect(commonModes([copter, px4])).toEqual([]);
+  expect(commonModes([])).toEqual([]);
+});
