@@ -105,7 +105,8 @@ void OtherStations::note_mode(Craft& craft, std::uint32_t before) {
   auto const now = fleet_.loop().now();
   bool const is_ours =
       craft.asked_mode == std::as_const(modes_).at(craft.address.system) && now - craft.mode_asked <= asked_recently;
-  if (is_ours) return;
+  bool const has_just_booted = mode_name(craft, before) == "INITIALISING";
+  if (is_ours || has_just_booted) return;
   tell(craft, fmt::format("{} to {}, not asked for here{}", mode_name(craft, before),
                           mode_name(craft, modes_.at(craft.address.system)), suspects()));
 }
