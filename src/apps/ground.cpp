@@ -1,9 +1,12 @@
 #include "apps/ground.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "link/byte_link.hpp"
-#include "link/url.hpp"
 
 namespace lapwing::apps {
 
@@ -25,27 +28,60 @@ mavlink::Connection::Options connection_options(fleet::Fleet::Options const& fle
 
 }  // namespace
 
-Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options,
-               tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> signing_key,
+Ground::Network::Network(Ground& ground, fleet::Fleet::Options options)
+    : connection(ground.loop, connection_options(options, ground.signing_key), ground.log.named("link")),
+      fleet(connection, ground.registry, std::move(options), ground.log.named("fleet")) {}
+
+base::Result<NetworkLink> parse_network_link(std::string const& text) {
+  // A name stands before the URL's first colon; a path or an option may have an equals sign, too.
+  auto const equals = text.find('=');
+  bool const has_name = equals != std::string::npos && equals < text.find_first_of(":/");
+  auto url = link::parse_url(has_name ? text.substr(equals + 1) : text);
+  if (!url) return std::unexpected(url.error());
+  auto name = has_name ? text.substr(0, equals) : std::string();
+  auto const is_plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
+  if (has_name && (name.empty() || !std::ranges::all_of(name, is_plain)))
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("link '{}': '{}' is no name of a network", text, name),
+                      "letters, digits, - and _: north=udpin://0.0.0.0:14551");
+  return NetworkLink{std::move(name), *std::move(url)};
+}
+
+Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger to, fleet::Fleet::Options options,
+               tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> key,
                vehicle::StopAction emergency_action)
     : loop(on),
+      log(std::move(to)),
+      fleet_options(std::move(options)),
+      signing_key(key),
       connection(on, connection_options(fleet_options, signing_key), log.named("link")),
       registry(on),
-      fleet(connection, registry, std::move(fleet_options), log.named("fleet")),
+      fleet(connection, registry, fleet_options, log.named("fleet")),
       platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")),
       control(fleet, platform, {.stop_action = emergency_action}, log) {}
 
-base::Result<> Ground::open(std::vector<std::string> const& urls) {
-  std::vector<std::unique_ptr<link::ByteLink>> links;
-  for (auto const& text : urls) {
-    auto const url = link::parse_url(text);
-    if (!url) return std::unexpected(url.error());
-    auto link = link::open(loop, *url);
+base::Result<> Ground::open(std::vector<std::string> const& texts) {
+  std::vector<std::pair<std::string, std::unique_ptr<link::ByteLink>>> links;
+  for (auto const& text : texts) {
+    auto const parsed = parse_network_link(text);
+    if (!parsed) return std::unexpected(parsed.error());
+    auto link = link::open(loop, parsed->url);
     if (!link) return std::unexpected(link.error());
-    links.push_back(std::move(*link));
+    links.emplace_back(parsed->network, std::move(*link));
   }
-  for (auto& link : links) connection.add_link(std::move(link));
+  for (auto& [network, link] : links) connection_of(network).add_link(std::move(link));
   return {};
+}
+
+mavlink::Connection& Ground::connection_of(std::string const& network) {
+  if (network.empty()) return connection;
+  if (auto const found = networks.find(network); found != networks.end()) return found->second.connection;
+  auto options = fleet_options;
+  options.network = network;
+  options.payload.clear();  // told by system id, of the network without a name
+  auto const made = networks.try_emplace(network, *this, std::move(options)).first;
+  platform.add(made->second.fleet);
+  return made->second.connection;
 }
 
 }  // namespace lapwing::apps

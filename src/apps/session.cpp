@@ -68,7 +68,20 @@ base::Result<> Session::simulate(sim::WorldOptions options) {
   return {};
 }
 
+base::Result<> Session::open_links(std::vector<std::string> const& urls) {
+  if (auto opened = ground.open(urls); !opened) return opened;
+  if (record_folder_.empty()) return {};
+  for (auto& [name, network] : ground.networks) {
+    auto begun = Recording::begin(record_folder_, network.connection, log.named("recording"));
+    if (!begun) return std::unexpected(begun.error());
+    log.info(fmt::format("recording network {} to {}", name, (*begun)->file().string()));
+    network_recordings.push_back(std::move(*begun));
+  }
+  return {};
+}
+
 base::Result<> Session::record(std::string const& folder) {
+  record_folder_ = folder;
   auto begun = Recording::begin(folder, ground.connection, log.named("recording"));
   if (!begun) return std::unexpected(begun.error());
   recording = std::move(*begun);

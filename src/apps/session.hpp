@@ -39,9 +39,10 @@ class Session {
   };
   explicit Session(Options const& options);
 
-  [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls) { return ground.open(urls); }
+  [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
-  /// Keeps everything that goes over the links in a new file of this folder, from now on.
+  /// Keeps everything that goes over the links in a new file of this folder, from now on; call before `open_links`.
+  /// Further networks have files of their own.
   [[nodiscard]] base::Result<> record(std::string const& folder);
   /// Serves the map and tells its addresses on standard error; the token is in them, and nowhere else.
   /// `script`: what the map shows and starts; null: the host's.
@@ -59,6 +60,7 @@ class Session {
   base::Logger log;
   Ground ground;
   std::unique_ptr<Recording> recording;
+  std::vector<std::unique_ptr<Recording>> network_recordings;
   std::unique_ptr<dolphin::Output> console;
   ScriptHost host;
   std::unique_ptr<sim::World> world;
@@ -70,6 +72,7 @@ class Session {
 
   fleet::OnStop on_stop_;
   EventFile const* events_;
+  std::string record_folder_;
 };
 
 /// Values of --emergency-stop.

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "apps/ground.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "base/config.hpp"
 #include "base/spelling.hpp"
-#include "link/url.hpp"
 
 namespace lapwing::apps {
 
@@ -36,7 +36,7 @@ void read_links(ConfigReader& root, Diagnostics& diagnostics, StationConfig& con
   auto const links = root.texts("links");
   if (!links) return;
   for (auto const& [text, span] : *links) {
-    if (valid(diagnostics, span, link::parse_url(text))) config.links.push_back(text);
+    if (valid(diagnostics, span, parse_network_link(text))) config.links.push_back(text);
   }
 }
 

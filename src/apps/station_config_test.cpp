@@ -1,5 +1,7 @@
 #include "apps/station_config.hpp"
 
+#include "apps/ground.hpp"
+
 #include <gtest/gtest.h>
 
 #include "apps/files.hpp"
@@ -129,6 +131,19 @@ TEST(StationConfig, ShowsAllMistakesAtOnce) {
 
 TEST(StationConfig, RefusesWhatIsNoToml) {
   EXPECT_EQ(first_complaint("links = [\n").substr(0, 2), "1:") << first_complaint("links = [\n");
+}
+
+TEST(StationConfig, TakesLinksOfSeveralNetworks) {
+  Read const read("links = [\"udpin://0.0.0.0:14550\", \"north=udpin://0.0.0.0:14551\"]\n");
+  EXPECT_EQ(read.config.links.size(), 2U);
+  auto const north = parse_network_link(read.config.links.at(1));
+  ASSERT_TRUE(north);
+  EXPECT_EQ(north->network, "north");
+  EXPECT_EQ(link::to_string(north->url), "udpin://0.0.0.0:14551");
+  EXPECT_EQ(parse_network_link("serial:///dev/ttyUSB0:57600?flow=on")->network, "");
+  EXPECT_EQ(first_complaint("links = [\"no/rth=udpin://0.0.0.0:14551\"]\n").substr(0, 4), "1:10");
+  EXPECT_NE(first_complaint("links = [\"n rth=udpin://0.0.0.0:14551\"]\n").find("no name of a network"),
+            std::string::npos);
 }
 
 }  // namespace

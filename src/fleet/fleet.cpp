@@ -39,7 +39,6 @@ std::string vehicle_name(vehicle::Family family, std::uint8_t system_id) {
 void set_kind(Craft& craft, VehicleKind const& kind, mavlink::MavAutopilot autopilot) {
   craft.state.family = kind.family;
   craft.state.autopilot = kind.autopilot;
-  craft.state.name = vehicle_name(kind.family, craft.address.system);
   craft.type = kind.type;
   craft.mav_autopilot = autopilot;
 }
@@ -79,6 +78,10 @@ Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Optio
       subscription_(connection.subscribe([this](mavlink::Received const& received) { take(received); })),
       scope_(connection.loop()) {
   scope_.spawn(watch());
+}
+
+std::string Fleet::in_network(std::string text) const {
+  return options_.network.empty() ? text : fmt::format("{}/{}", options_.network, text);
 }
 
 Craft* Fleet::find(VehicleId const& id) {
@@ -153,6 +156,7 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
   bool const is_new = found == crafts_.end();
   auto& craft = is_new ? discover(received) : *found->second;
   set_kind(craft, *kind, heartbeat.autopilot);
+  craft.state.name = in_network(vehicle_name(kind->family, craft.address.system));
   bool const is_restarted = heartbeat_tells_restart(craft, has_moved(connection_, craft, received), heartbeat);
   if (!is_new && is_restarted) note_restart(craft, received.at);
   // A vehicle sends each link what was asked for over that link.
@@ -182,7 +186,7 @@ void Fleet::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat
 
 Craft& Fleet::discover(mavlink::Received const& received) {
   auto const system_id = received.source.system;
-  auto& state = registry_.edit(VehicleId{std::to_string(system_id)});
+  auto& state = registry_.edit(VehicleId{in_network(std::to_string(system_id))});
   state.system_id = system_id;
   auto& craft = *crafts_.emplace(system_id, std::make_unique<Craft>(loop(), state)).first->second;
   craft.address = received.source;

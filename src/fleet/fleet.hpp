@@ -28,6 +28,9 @@ class Fleet {
     std::map<int, std::vector<std::string>> payload =
         {};                         ///< system id -> names of its equipment, as scripts ask for them
     bool asks_for_messages = true;  ///< false: only listen
+    /// Where there are several, each with system ids of its own; ids and names begin with it: "north/1", "north/copter
+    /// 1".
+    std::string network = {};
   };
 
   Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log);
@@ -66,6 +69,7 @@ class Fleet {
   void note_restart(Craft& craft, base::TimePoint now);
   void note_camera(std::uint8_t system_id);
   void check_connection(Craft& craft);
+  [[nodiscard]] std::string in_network(std::string text) const;
   void note_links();
   base::Task<> watch();
   base::Task<> ask_questions(Craft& craft);

@@ -80,6 +80,8 @@ class Routes {
   /// When any component of the system was heard last.
   [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
 
+  /// When any component of the system was heard last.
+  [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
   [[nodiscard]] SourceCounters counters(Address source) const;
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
   /// Fills in everything but names and what the link itself knows.
