@@ -109,11 +109,14 @@ class MissionStore {
     if (auto const* count = std::get_if<MissionCount>(&message)) take_count(*count);
     if (auto const* part = std::get_if<MissionWritePartialList>(&message)) take_part(*part);
     if (auto const* item = std::get_if<MissionItem>(&message)) take_item(*item);
-    if (std::get_if<MissionRequestList>(&message))
+    if (std::get_if<MissionRequestList>(&message)) {
+      if (receiving_) return acknowledge(MavMissionResult::denied);
       vehicle_.answer(MissionCount{.count = static_cast<std::uint16_t>(items.size()), .opaque_id = opaque_id});
+    }
     if (auto const* request = std::get_if<MissionRequestInt>(&message); request && request->seq < items.size())
       vehicle_.answer(items[request->seq]);
     if (std::get_if<MissionClearAll>(&message)) {
+      if (receiving_) return acknowledge(MavMissionResult::error);
       items.clear();
       acknowledge(MavMissionResult::accepted);
     }
@@ -121,6 +124,7 @@ class MissionStore {
 
   void take_count(MissionCount const& count) {
     if (refuses_count) return acknowledge(*refuses_count);
+    receiving_ = false;
     // Not atomic: cut to the new length at once, then written over item by item.
     if (items.size() > count.count) items.resize(count.count);
     if (count.count == 0) return acknowledge(MavMissionResult::accepted);

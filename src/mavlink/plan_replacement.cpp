@@ -81,8 +81,9 @@ Task<bool> write_part(Job const& job, std::vector<MissionItem> const& items) {
 /// What the vehicle holds instead of `items`; empty when it holds them.
 Task<Result<std::vector<Difference>>> read_back(Job const& job, std::vector<MissionItem> const& items) {
   auto progress = job.progress("reading back");
-  auto held =
-      co_await download_mission(job.connection, job.target, job.type, job.options.transfer, std::move(progress));
+  HeldPlan none_known;
+  auto held = co_await download_mission(job.connection, job.target, job.type, job.options.transfer, std::move(progress),
+                                        std::move(none_known));
   if (!held) co_return std::unexpected(std::move(held.error()));
   auto differences = compare_readback(items, held->items, job.options.autopilot);
   if (differences.empty()) job.record.held = *std::move(held);
@@ -138,16 +139,27 @@ Task<Result<bool>> fetch_old(Job const& job, std::vector<MissionItem> const& ite
   co_return is_it;
 }
 
-Task<bool> put_back(Job const& job) {
-  if (!job.record.before || job.record.before->items.empty()) co_return false;
-  auto const& old = job.record.before->items;
+/// True when the old plan is there. The vehicle may still be waiting for the rest of the upload that failed, and tells
+/// nothing until that is over: writing begins it anew.
+Task<bool> put_back(Job const& job, std::vector<MissionItem> const& old) {
   auto const compared = co_await read_back(job, old);
   if (compared && compared->empty()) co_return true;
-  // Not even this is answered, or another ground station is at it: nothing that is written now makes it better.
-  if (!compared) co_return false;
+  if (!compared && compared.error().kind != ErrorKind::refused) co_return false;
   (void)co_await write_all(job, old, "putting the old plan back");
   auto const again = co_await read_back(job, old);
   co_return again && again->empty();
+}
+
+/// COUNT 0 is understood in the middle of an upload; CLEAR_ALL is refused there.
+Task<bool> clear(Job const& job) {
+  TransferOptions const brief{.tries = 3, .silence_limit = std::chrono::seconds(2), .restarts = 0};
+  std::vector<MissionItem> nothing;
+  auto progress = job.progress("clearing");
+  auto const emptied =
+      co_await upload_mission(job.connection, job.target, std::move(nothing), job.type, brief, std::move(progress));
+  if (emptied) co_return true;
+  if (emptied.error().kind != ErrorKind::refused) co_return false;
+  co_return (co_await clear_mission(job.connection, job.target, job.type, brief)).has_value();
 }
 
 }  // namespace
@@ -167,15 +179,11 @@ Task<> undo_replacement(Connection& connection, Address target, MissionType type
   if (record.left != PlanLeft::unknown) co_return;
   Job const job{connection, target, type, options, record};
   auto const written = record.written;
-  bool const is_back = co_await put_back(job);
+  bool is_back = false;
+  if (record.before && !record.before->items.empty()) is_back = co_await put_back(job, record.before->items);
   record.written = written;
-  record.left = PlanLeft::unknown;
-  if (is_back) {
-    record.left = PlanLeft::old_one;
-    co_return;
-  }
-  TransferOptions const brief{.tries = 3, .silence_limit = std::chrono::seconds(2), .restarts = 0};
-  if (co_await clear_mission(connection, target, type, brief)) record.left = PlanLeft::none;
+  record.left = is_back ? PlanLeft::old_one : PlanLeft::unknown;
+  if (!is_back && co_await clear(job)) record.left = PlanLeft::none;
 }
 
 Task<Result<>> replace_plan(Connection& connection, Address target, std::vector<MissionItem> items, MissionType type,

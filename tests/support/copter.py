@@ -215,7 +215,10 @@ class Copter:
         return mavlink.MAV_RESULT_ACCEPTED
 
     def mission_message(self, kind: str, message, now: float):
-        if kind == "MISSION_COUNT":
+        if kind == "MISSION_CLEAR_ALL" or (kind == "MISSION_COUNT" and message.count == 0):
+            self.items, self.expected, self.next_request = [], 0, None
+            self.mav.mission_ack_send(*GROUND, mavlink.MAV_MISSION_ACCEPTED, message.mission_type)
+        elif kind == "MISSION_COUNT":
             self.incoming, self.expected, self.complete = [], message.count, False
             self.uploads += 1
             self.next_request = now
