@@ -214,20 +214,12 @@ class Reader {
                       *first - 1.0 >= static_cast<double>(begin) && *first - 1.0 + *count <= items;
     if (!fits) return wrong(properties.path(), "the items of a pattern come before it, and belong to no other pattern");
     Pattern read{.first = static_cast<std::size_t>(*first) - 1, .count = static_cast<std::size_t>(*count), .json = {}};
-    if (!fits_pattern(source->json(), read.count)) return wrong(source->path(), "is no item of a .plan file");
+    auto const stored = count_items(source->json(), source->path());
+    if (!stored) return std::unexpected(stored.error());
+    if (*stored != read.count) return wrong(source->path(), fmt::format("is made of {} items", *stored));
     read.json = source->json().dump();
     plan().patterns.push_back(std::move(read));
     return {};
-  }
-
-  static bool fits_pattern(Json const& source, std::size_t count) {
-    if (!source.is_object()) return false;
-    if (source.value("type", Json()) == "SimpleItem") return count == 1;
-    if (!source.contains("TransectStyleComplexItem")) return source.value("type", Json()) == "ComplexItem";
-    auto const& style = source["TransectStyleComplexItem"];
-    return style.is_object() && style.contains("Items") && style["Items"].is_array() &&
-           style["Items"].size() == count &&
-           std::ranges::all_of(style["Items"], [](auto const& item) { return item.is_object(); });
   }
 
   Result<> check_jumps() {
@@ -315,8 +307,7 @@ class Reader {
     auto zone = zone_of(properties, position.path());
     if (!zone) return std::unexpected(zone.error());
     double const radius_m = properties.number_or("radius_m", 0.0);
-    if (!(radius_m > 0.0) || !(radius_m <= max_fence_distance_m))
-      return wrong(properties.path() + ".radius_m", "is no radius, a number of metres");
+    if (!is_radius(radius_m)) return wrong(properties.path() + ".radius_m", "is no radius, a number of metres");
     auto const center = read_position(position);
     if (!center) return std::unexpected(center.error());
     zone->area = GeoCircle{geo::Wgs84::from_degrees(center->lat_deg, center->lon_deg), radius_m};

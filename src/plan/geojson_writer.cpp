@@ -55,7 +55,7 @@ void add_mission(Plan const& plan, Ordered& features) {
     features.push_back(feature(nullptr, {{"role", "pattern"},
                                          {"first", pattern.first + 1},
                                          {"count", pattern.count},
-                                         {"source", Ordered::parse(pattern.json, nullptr, false)}}));
+                                         {"source", Ordered(pattern_json(plan, pattern))}}));
   }
 }
 

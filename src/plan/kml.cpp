@@ -308,8 +308,7 @@ class Reader {
     auto const radius_m = number(node, data, "radius_m");
     if (!radius_m) return std::unexpected(radius_m.error());
     double const radius = radius_m->value_or(0.0);
-    if (!(radius > 0.0) || radius > max_fence_distance_m)
-      return fail_at(node, "radius_m: is no radius, a number of metres");
+    if (!is_radius(radius)) return fail_at(node, "radius_m: is no radius, a number of metres");
     auto const center = to_place(at.lat_deg, at.lon_deg, 0.0);
     if (!center) return fail_at(node, center.error().message);
     zone->area = GeoCircle{*center, radius};

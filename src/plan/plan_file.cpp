@@ -66,6 +66,11 @@ bool is_placed(mavlink::MissionItem const& item) {
   return mavlink::has_place(item.command) && item.frame != mavlink::MavFrame::mission;
 }
 
+bool is_radius(double radius_m) {
+  constexpr double smallest_m = 0.01;
+  return radius_m >= smallest_m && radius_m <= max_fence_distance_m;
+}
+
 double file_degrees(double degrees) {
   constexpr double scale = 1e9;
   return std::round(degrees * scale) / scale + 0.0;  // no negative zero

@@ -209,8 +209,7 @@ Result<> read_circle(Node const& node, GeoFence& fence) {
   if (!center) return std::unexpected(center.error());
   auto const radius_m = circle->number("radius");
   if (!radius_m) return std::unexpected(radius_m.error());
-  if (!(*radius_m > 0.0) || *radius_m > max_fence_distance_m)
-    return wrong(circle->path(), fmt::format("{} m is no radius", *radius_m));
+  if (!is_radius(*radius_m)) return wrong(circle->path(), fmt::format("{} m is no radius", *radius_m));
   fence.zones.push_back({.kind = kind_of(node), .area = GeoCircle{{center->lat_rad, center->lon_rad, 0.0}, *radius_m}});
   return {};
 }
@@ -249,6 +248,13 @@ Result<> read_rally(Node const& node, std::vector<RallyPoint>& rally) {
 }
 
 }  // namespace
+
+Result<std::size_t> count_items(Json const& item, std::string const& path) {
+  Assembly assembly;
+  std::vector<Pattern> patterns;
+  if (auto added = add_item(Node(item, path), assembly, patterns); !added) return std::unexpected(added.error());
+  return assembly.size();
+}
 
 Result<PlanFile> read_qgc_plan(std::string_view file, Json const& json) {
   Node const root(json, std::string(file), true);

@@ -23,20 +23,6 @@ void write_item(mavlink::MissionItem const& item, std::size_t number, Json& into
   for (double const value : values.params) params.push_back(param_json(value));
 }
 
-/// The pattern as it was, its items numbered anew.
-Json pattern_json(Plan const& plan, Pattern const& pattern) {
-  auto json = Json::parse(pattern.json, nullptr, false);  // it was read by us; text of another kind is written as null
-  auto const& items = plan.mission.items;
-  if (json.value("type", Json()) == "SimpleItem") {
-    write_item(items[pattern.first], pattern.first + 1, json);
-  } else if (json.contains("TransectStyleComplexItem")) {
-    auto& stored = json["TransectStyleComplexItem"]["Items"];
-    for (std::size_t i = 0; i < pattern.count; ++i)
-      write_item(items[pattern.first + i], pattern.first + i + 1, stored[i]);
-  }
-  return json;
-}
-
 Json items_json(Plan const& plan) {
   auto json = Json::array();
   auto pattern = plan.patterns.begin();
@@ -92,6 +78,19 @@ Json fence_json(GeoFence const& fence) {
 }
 
 }  // namespace
+
+Json pattern_json(Plan const& plan, Pattern const& pattern) {
+  auto json = Json::parse(pattern.json, nullptr, false);  // it was read by us; text of another kind is written as null
+  auto const& items = plan.mission.items;
+  if (json.value("type", Json()) == "SimpleItem") {
+    write_item(items[pattern.first], pattern.first + 1, json);
+  } else if (json.contains("TransectStyleComplexItem")) {
+    auto& stored = json["TransectStyleComplexItem"]["Items"];
+    for (std::size_t i = 0; i < pattern.count; ++i)
+      write_item(items[pattern.first + i], pattern.first + i + 1, stored[i]);
+  }
+  return json;
+}
 
 std::string write_qgc_plan(Plan const& plan) {
   auto points = Json::array();

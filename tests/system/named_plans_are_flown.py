@@ -15,7 +15,8 @@ def item(number: int, command: int, lat: float, lon: float, height: float, frame
 def plan_of(*items: dict) -> str:
     return json.dumps({"fileType": "Plan", "version": 1, "groundStation": "QGroundControl",
                        "mission": {"version": 2, "items": items, "plannedHomePosition": [41.178, -8.598, 90]},
-                       "geoFence": {"version": 2, "circles": [{}], "polygons": []}})
+                       "geoFence": {"version": 2, "polygons": [],
+                                    "circles": [{"circle": {"center": [41.178, -8.598], "radius": 500}, "inclusion": True}]}})
 
 
 def expect(text: str, *words: str):

@@ -52,8 +52,13 @@ class Node {
 };
 
 [[nodiscard]] base::Result<PlanFile> read_qgc_plan(std::string_view file, Json const& json);
+/// How many items of a mission an item of a .plan file is. Errors: it is none.
+[[nodiscard]] base::Result<std::size_t> count_items(Json const& item, std::string const& path);
 [[nodiscard]] base::Result<PlanFile> read_geojson(std::string_view file, Json const& json,
                                                   PlanReadOptions const& options);
+
+/// What the pattern was drawn from, with the mission's items in it.
+[[nodiscard]] Json pattern_json(Plan const& plan, Pattern const& pattern);
 
 /// A parameter as JSON: the shortest number that is the same float, null for what is no number.
 [[nodiscard]] Json param_json(double value);

@@ -24,6 +24,8 @@ struct FileItem {
 [[nodiscard]] bool is_placed(mavlink::MissionItem const& item);
 /// Errors when it is no place on earth.
 [[nodiscard]] base::Result<geo::Wgs84> to_place(double lat_deg, double lon_deg, double alt_m);
+/// From a centimetre, which the 32 bits of an item still tell from nothing.
+[[nodiscard]] bool is_radius(double radius_m);
 /// To 1e-9 degrees, a tenth of a millimetre.
 [[nodiscard]] double file_degrees(double degrees);
 /// A number as files have it; the whole of `word`.
