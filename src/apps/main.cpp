@@ -42,6 +42,7 @@ int main_of(int argc, char** argv) {
   add_run(program, exit_code);
   add_demo(program, exit_code);
   add_plan(program, exit_code);
+  add_mission(program, exit_code);
   add_check(program, exit_code);
   add_fmt(program, exit_code);
   add_lsp(program, exit_code);

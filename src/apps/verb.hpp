@@ -31,6 +31,7 @@ void print_error(base::Error const& error);
 void add_run(CLI::App& program, int& exit_code);
 void add_demo(CLI::App& program, int& exit_code);
 void add_plan(CLI::App& program, int& exit_code);
+void add_mission(CLI::App& program, int& exit_code);
 void add_check(CLI::App& program, int& exit_code);
 void add_fmt(CLI::App& program, int& exit_code);
 void add_lsp(CLI::App& program, int& exit_code);

@@ -1,0 +1,364 @@
+#include <unistd.h>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/files.hpp"
+#include "apps/plan_summary.hpp"
+#include "apps/signals.hpp"
+#include "apps/simulation.hpp"
+#include "apps/vehicle_plans.hpp"
+#include "apps/verb.hpp"
+#include "sim/vehicle_spec.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+using base::Result;
+using base::Task;
+
+struct MissionOptions {
+  std::string file;
+  std::string out;
+  std::vector<std::string> links;
+  std::string simulated;
+  std::string home;
+  std::optional<int> vehicle;
+  std::string type = "all";
+  std::optional<double> altitude_m;
+  double wait_s = 10.0;
+  bool json = false;
+  bool is_armed_allowed = false;
+  bool is_strict = false;
+
+  [[nodiscard]] plan::PlanReadOptions reading() const { return {.altitude_m = altitude_m}; }
+};
+
+void say(std::string_view text) {
+  fmt::print(stderr, "lapwing: {}\n", text);
+}
+
+/// One line that is written over on a terminal, one line a phase elsewhere.
+class Progress {
+ public:
+  void show(std::string_view phase, std::size_t done, std::size_t total) {
+    bool const is_new = phase != phase_;
+    phase_ = phase;
+    if (::isatty(STDERR_FILENO) != 1) {
+      if (is_new) fmt::print(stderr, "{} ({} items)\n", phase, total);
+      return;
+    }
+    fmt::print(stderr, "\r\x1b[K{} {}/{}", phase, done, total);
+    std::fflush(stderr);
+    is_open_ = true;
+  }
+  void close() {
+    if (std::exchange(is_open_, false)) fmt::print(stderr, "\r\x1b[K");
+  }
+  ~Progress() { close(); }
+
+ private:
+  std::string phase_;
+  bool is_open_ = false;
+};
+
+/// What a person is told when a file is read or written.
+void tell(std::string_view file, std::string_view what, std::vector<std::string> const& lines) {
+  for (auto const& line : lines) fmt::print(stderr, "{}: {}: {}\n", file, what, line);
+}
+
+Result<plan::Plan> read_plan_file(MissionOptions const& options) {
+  auto const text = read_script(options.file);
+  if (!text) return std::unexpected(text.error());
+  auto read = plan::read_plan(options.file, *text, options.reading());
+  if (!read) return std::unexpected(read.error());
+  tell(options.file, "note", read->notes);
+  return std::move(read->plan);
+}
+
+/// Prints what is lost on the way.
+Result<> write_plan_file(MissionOptions const& options, plan::Plan const& plan) {
+  auto const format = plan::format_of(options.out);
+  if (!format) return std::unexpected(format.error());
+  auto const written = plan::write_plan(plan, *format);
+  if (!written) return std::unexpected(written.error());
+  tell(options.out, "lost", written->lost);
+  if (options.is_strict && !written->lost.empty())
+    return base::fail(base::ErrorKind::refused,
+                      fmt::format("{} was not written: something would be lost", options.out));
+  return write_file(options.out, written->text);
+}
+
+// ---- with a vehicle
+
+/// The ground side for one exchange with one vehicle.
+struct Exchange {
+  explicit Exchange(MissionOptions const& chosen)
+      : options(chosen),
+        loop(pace_for(chosen.simulated.empty() ? 1.0 : 0.0)),
+        ground(loop, fleet::OnStop::loiter, base::Logger(), {.asks_for_messages = false}),
+        settled(loop),
+        scope(loop) {}
+
+  MissionOptions const& options;
+  base::Loop loop;
+  Ground ground;
+  std::unique_ptr<sim::World> world;
+  Progress progress;
+  fleet::Craft const* craft = nullptr;
+  plan::Plan plan;  ///< to upload, or what was downloaded
+  std::vector<ListReport> reports;
+  std::optional<Result<>> result;
+  bool is_interrupted = false;
+  base::Notifier settled;
+  base::Scope scope;
+};
+
+Result<> open(Exchange& exchange) {
+  auto const& options = exchange.options;
+  if (options.simulated.empty())
+    return exchange.ground.open(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
+  if (auto opened = exchange.ground.open(options.links); !opened) return opened;
+  sim::WorldOptions world;
+  auto const vehicles = sim::parse_vehicles(options.simulated);
+  if (!vehicles) return std::unexpected(vehicles.error());
+  world.vehicles = *vehicles;
+  if (auto placed = place(world, options.home, exchange.plan.mission.planned_home); !placed) return placed;
+  auto started = start_simulation(exchange.ground, std::move(world), {});
+  if (!started) return std::unexpected(started.error());
+  exchange.world = *std::move(started);
+  return {};
+}
+
+/// What one of the verbs does once the vehicle is there.
+using Action = Task<Result<>> (*)(Exchange&);
+
+Task<> work(Exchange& exchange, Action action) {
+  auto const patience = base::from_seconds(exchange.options.wait_s);
+  auto const found = co_await find_craft(exchange.ground, exchange.options.vehicle, patience);
+  if (found) {
+    exchange.craft = *found;
+    exchange.result = co_await action(exchange);
+  } else {
+    exchange.result = std::unexpected(found.error());
+  }
+  exchange.settled.notify_all();
+}
+
+/// An upload that is broken off must not leave half a plan.
+Task<> clean_up(Exchange& exchange) {
+  if (!exchange.craft || exchange.reports.empty()) co_return;
+  auto& report = exchange.reports.back();
+  if (report.replacement.left != mavlink::PlanLeft::unknown) co_return;
+  say("interrupted: putting back what the vehicle held (Ctrl-C again leaves it as it is)");
+  mavlink::ReplaceOptions const options{.autopilot = exchange.craft->mav_autopilot};
+  co_await mavlink::undo_replacement(exchange.ground.connection, exchange.craft->address, report.type, options,
+                                     report.replacement);
+  report.error = "interrupted";
+  say(fmt::format("{}: {}", to_string(report.type), to_string(report.replacement.left)));
+}
+
+Task<> until_settled(Exchange& exchange, Action action) {
+  exchange.scope.spawn(work(exchange, action));
+  while (!exchange.result && !exchange.is_interrupted) co_await exchange.settled.wait();
+  exchange.scope.clear();
+  exchange.progress.close();
+  if (!exchange.result) co_await clean_up(exchange);
+}
+
+int finish(Exchange const& exchange) {
+  if (exchange.options.json) fmt::print("{}\n", to_json(exchange.craft, exchange.reports, exchange.plan));
+  if (!exchange.result) return exit_interrupted;
+  if (!*exchange.result) return refuse(exchange.result->error());
+  if (!exchange.options.json)
+    for (auto const& report : exchange.reports) fmt::print("{}", to_text(*exchange.craft, report));
+  return exit_done;
+}
+
+int run_exchange(Exchange& exchange, Action action) {
+  if (auto const types = parse_types(exchange.options.type); !types) return refuse(types.error());
+  if (auto const opened = open(exchange); !opened) return refuse(opened.error());
+  StopSignals const signals(exchange.loop, [&exchange] {
+    exchange.is_interrupted = true;
+    exchange.settled.notify_all();
+  });
+  exchange.loop.run_until_done(until_settled(exchange, action));
+  return finish(exchange);
+}
+
+ShowProgress show_on(Exchange& exchange) {
+  return [&exchange](std::string_view phase, std::size_t done, std::size_t total) {
+    exchange.progress.show(phase, done, total);
+  };
+}
+
+/// What a vehicle flies is not changed under it without being asked for.
+Result<> may_change(Exchange const& exchange) {
+  if (!exchange.craft->is_armed || exchange.options.is_armed_allowed) return {};
+  return base::fail(base::ErrorKind::refused,
+                    fmt::format("vehicle {} is armed: its plans are not changed", exchange.craft->state.system_id),
+                    "--armed does it all the same");
+}
+
+Task<Result<>> upload_action(Exchange& exchange) {
+  if (auto may = may_change(exchange); !may) co_return may;
+  auto const types = *parse_types(exchange.options.type);
+  auto uploads = uploads_for(exchange.options.file, exchange.plan, types, *exchange.craft);
+  if (!uploads) co_return std::unexpected(uploads.error());
+  tell(exchange.options.file, "lost", uploads->lost);
+  auto show = show_on(exchange);
+  co_return co_await upload_lists(exchange.ground, *exchange.craft, std::move(uploads->lists), std::move(show),
+                                  exchange.reports);
+}
+
+Task<Result<>> download_action(Exchange& exchange) {
+  auto types = *parse_types(exchange.options.type);
+  auto show = show_on(exchange);
+  co_return co_await download_lists(exchange.ground, *exchange.craft, std::move(types), std::move(show), exchange.plan,
+                                    exchange.reports);
+}
+
+Task<Result<>> clear_action(Exchange& exchange) {
+  if (auto may = may_change(exchange); !may) co_return may;
+  auto types = *parse_types(exchange.options.type);
+  co_return co_await clear_lists(exchange.ground, *exchange.craft, std::move(types), exchange.reports);
+}
+
+// ---- the verbs
+
+int upload(MissionOptions const& options) {
+  auto plan = read_plan_file(options);
+  if (!plan) return refuse(plan.error());
+  Exchange exchange(options);
+  exchange.plan = *std::move(plan);
+  return run_exchange(exchange, upload_action);
+}
+
+int download(MissionOptions const& options) {
+  if (!options.out.empty()) {
+    if (auto const format = plan::format_of(options.out); !format) return refuse(format.error());
+  }
+  Exchange exchange(options);
+  if (int const code = run_exchange(exchange, download_action); code != exit_done) return code;
+  if (options.out.empty()) {
+    if (!options.json) fmt::print("{}", to_text(exchange.plan));
+    return exit_done;
+  }
+  auto const written = write_plan_file(options, exchange.plan);
+  return written ? int{exit_done} : refuse(written.error());
+}
+
+int clear(MissionOptions const& options) {
+  Exchange exchange(options);
+  return run_exchange(exchange, clear_action);
+}
+
+int convert(MissionOptions const& options) {
+  auto const plan = read_plan_file(options);
+  if (!plan) return refuse(plan.error());
+  auto const written = write_plan_file(options, *plan);
+  if (written) return exit_done;
+  if (written.error().kind != base::ErrorKind::refused) return refuse(written.error());
+  print_error(written.error());
+  return exit_failed;
+}
+
+int show(MissionOptions const& options) {
+  auto const plan = read_plan_file(options);
+  if (!plan) return refuse(plan.error());
+  fmt::print("{}", options.json ? to_json(nullptr, {}, *plan) + "\n" : to_text(*plan));
+  return exit_done;
+}
+
+void add_vehicle_options(CLI::App& verb, MissionOptions& options) {
+  verb.add_option(
+          "--link", options.links,
+          "Where the vehicle is, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link))
+      ->allow_extra_args(false);
+  verb.add_option("--sim", options.simulated, "A simulated vehicle instead, e.g. copter:1");
+  verb.add_option("--home", options.home, "Where simulated vehicles stand: LAT,LON,ALT[,HEADING]");
+  verb.add_option("--vehicle", options.vehicle, "System id; not needed where there is one vehicle")
+      ->check(CLI::Range(1, 255));
+  verb.add_option("--wait", options.wait_s, "Seconds to wait for the vehicle")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  verb.add_flag("--json", options.json, "What was done, as JSON on standard output");
+}
+
+void add_type(CLI::App& verb, MissionOptions& options, bool is_required) {
+  auto* option = verb.add_option("--type", options.type, "mission, fence, rally or all")
+                     ->check(CLI::IsMember({"mission", "fence", "rally", "all"}));
+  if (is_required)
+    option->required();
+  else
+    option->capture_default_str();
+}
+
+void add_altitude(CLI::App& verb, MissionOptions& options) {
+  verb.add_option("--altitude", options.altitude_m,
+                  "Height above home, in metres, of places for which the file says none")
+      ->check(CLI::Range(-500.0, 50'000.0));
+}
+
+constexpr auto armed_help = "Also when the vehicle is armed: it may be flying the plan that is changed";
+
+using Verb = int (*)(MissionOptions const&);
+
+CLI::App* add_verb(CLI::App& group, char const* name, char const* help, Verb verb, int& exit_code,
+                   std::shared_ptr<MissionOptions> const& options) {
+  auto* added = group.add_subcommand(name, help);
+  added->callback([options, verb, &exit_code] { exit_code = verb(*options); });
+  return added;
+}
+
+}  // namespace
+
+void add_mission(CLI::App& program, int& exit_code) {
+  auto* group = program.add_subcommand("mission", "Missions, fences and rally points: to and from vehicles and files");
+  group->require_subcommand(1);
+  auto const with_file = [](CLI::App& verb, MissionOptions& options) {
+    verb.add_option("file", options.file, "Plan file: .plan, .waypoints, .kml, .kmz or .geojson")->required();
+    add_altitude(verb, options);
+  };
+
+  auto options = std::make_shared<MissionOptions>();
+  auto* verb = add_verb(*group, "upload", "Put a plan on a vehicle, read it back, restore the old one if that fails",
+                        upload, exit_code, options);
+  with_file(*verb, *options);
+  add_vehicle_options(*verb, *options);
+  add_type(*verb, *options, false);
+  verb->add_flag("--armed", options->is_armed_allowed, armed_help);
+
+  options = std::make_shared<MissionOptions>();
+  verb = add_verb(*group, "download", "Fetch what a vehicle holds, and show it or write it to a file", download,
+                  exit_code, options);
+  verb->add_option("--out", options->out, "Plan file; its ending names the format");
+  verb->add_flag("--strict", options->is_strict, "Write nothing if the format cannot hold all");
+  add_vehicle_options(*verb, *options);
+  add_type(*verb, *options, false);
+
+  options = std::make_shared<MissionOptions>();
+  verb = add_verb(*group, "clear", "Delete what a vehicle holds", clear, exit_code, options);
+  add_vehicle_options(*verb, *options);
+  add_type(*verb, *options, true);
+  verb->add_flag("--armed", options->is_armed_allowed, armed_help);
+
+  options = std::make_shared<MissionOptions>();
+  verb = add_verb(*group, "convert", "Write a plan file in another format, and say what that cannot hold", convert,
+                  exit_code, options);
+  with_file(*verb, *options);
+  verb->add_option("out", options->out, "Plan file; its ending names the format")->required();
+  verb->add_flag("--strict", options->is_strict, "Write nothing if something would be lost; exit code 1");
+
+  options = std::make_shared<MissionOptions>();
+  verb = add_verb(*group, "show", "What is in a plan file", show, exit_code, options);
+  with_file(*verb, *options);
+  verb->add_flag("--json", options->json, "As JSON");
+}
+
+}  // namespace lapwing::apps
