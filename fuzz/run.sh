@@ -52,6 +52,22 @@ case $target in
     printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"keep":"out"},"geometry":{"type":"MultiPolygon","coordinates":[[[[-8,41],[-7.9,41],[-8,41.1],[-8,41]]]]}}]}' |
       seed collection
     ;;
+  kml)
+    mark='<Placemark><name>a</name><ExtendedData><Data name="%s"><value>%s</value></Data></ExtendedData>%s</Placemark>'
+    printf "$mark" role home '<Point><altitudeMode>absolute</altitudeMode><coordinates>-8,41,90</coordinates></Point>' | seed home
+    printf "$mark" command 16 '<Point><coordinates>-8,41,30</coordinates></Point>' | seed item
+    printf "$mark" radius_m 30 '<Point><coordinates>-8,41</coordinates></Point>' | seed circle
+    printf "$mark" min_height_m 3 '<LineString><altitudeMode>relativeToGround</altitudeMode><coordinates>-8,41,9 -8,41.1,9</coordinates></LineString>' | seed path
+    ring='<LinearRing><coordinates>-8,41 -7,41 -7,42 -8,41</coordinates></LinearRing>'
+    printf "$mark" fence exclusion "<MultiGeometry><Polygon><outerBoundaryIs>$ring</outerBoundaryIs><innerBoundaryIs>$ring</innerBoundaryIs></Polygon></MultiGeometry>" | seed area
+    printf '<?xml version="1.0"?><!DOCTYPE kml [<!ENTITY a "b">]><kml><Folder><name>rally &amp; &a;</name></Folder></kml>' | seed whole
+    options=(-max_len=4096 "-dict=$root/fuzz/kml.dict")
+    ;;
+  waypoints)
+    printf '0\t1\t0\t16\t0\t0\t0\t0\t41\t-8\t90\t1\n1\t0\t3\t22\t15\tnan\t0\t0\t41.1\t-8\t30\t1\n2\t0\t2\t177\t1\t-1\t0\t0\t0\t0\t0\t1\n' | seed mission
+    printf '0 0 0 5001 3 0 0 0 41 -8 0 1\n1 0 0 5001 3 0 0 0 41 -7 0 1\n2 0 0 5001 3 0 0 0 42 -7 0 1\n3 0 0 5004 50 0 0 0 41 -7 0 1\n4 0 3 5000 0 0 0 0 41 -7 9 1\n' | seed fence
+    printf '0 1 0 16 0 0 0 0 41 -8 9 1\n1 0 3 5100 0 0 0 0 41 -8 25 1\n' | seed rally
+    ;;
   lsp)
     position='"textDocument":{"uri":"u"},"position":{"line":1,"character":16}'
     i=0
@@ -67,6 +83,9 @@ case $target in
     printf '{"fileType":"Plan","version":1,"groundStation":"QGroundControl","mission":{"version":2,"plannedHomePosition":[41,-8,90],"items":[%s]},"geoFence":{"version":2},"rallyPoints":{"version":2}}' \
       "${items%,}" | seed simple
     printf 'QGC WPL 110\n0\t1\t0\t16\t0\t0\t0\t0\t41\t-8\t90\t1\n1\t0\t3\t22\t15\t0\t0\t0\t41.1\t-8\t30\t1\n' | seed waypoints
+    printf '{"fileType":"Plan","mission":{"items":[{"type":"ComplexItem","complexItemType":"survey","TransectStyleComplexItem":{"Items":[%s]}},{"type":"ComplexItem"}]},"geoFence":{"circles":[{"circle":{"center":[41,-8],"radius":9}}],"polygons":[{"inclusion":false,"polygon":[[1,2],[3,4],[5,7]]}],"breachReturn":[1,2,3]},"rallyPoints":{"points":[[1,2,3]]}}' \
+      "${items%%,}" | seed whole
+    printf '{"type":"FeatureCollection","cruise_speed_m_s":9,"features":[{"type":"Feature","geometry":{"type":"Point","coordinates":[-8,41,9]},"properties":{"command":16,"frame":3,"params":[0,null,0,0],"autocontinue":false}},{"type":"Feature","geometry":null,"properties":{"role":"pattern","first":1,"count":1,"source":{"type":"SimpleItem"}}},{"type":"Feature","geometry":{"type":"LineString","coordinates":[[-8,41,9],[-8,42]]},"properties":{}}]}' | seed geojson
     ;;
   parameter_file)
     printf '# Lapwing cache, taken (seconds since 1970): 5\n# Lapwing cache, hash: 00c0ffee\n1\t1\tRTL_ALT\t1500\t6\n1\t1\tA\t-1.5e-3\t9\n' | seed qgroundcontrol
