@@ -300,7 +300,7 @@ TEST_F(MissionRun, RefusesToStartWhatTheVehicleDoesNotHold) {
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_land));
   EXPECT_EQ(end_of(*run), RunState::failed);
-  EXPECT_NE(run->error().find("does not hold the mission that was sent: item 1"), std::string::npos) << run->error();
+  EXPECT_NE(run->error().find("does not hold what was sent: item 1"), std::string::npos) << run->error();
   EXPECT_EQ(copter.commands_heard(MavCmd::component_arm_disarm), 0);
 }
 

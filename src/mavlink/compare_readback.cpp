@@ -49,12 +49,13 @@ class Comparison {
       return;
     }
     bool const placed = has_place(sent_.command) && sent_.frame != MavFrame::mission;
-    if (placed) {
-      if (plain(sent_.frame) != plain(got_.frame))
-        all.push_back(fmt::format("item {}: frame {}, sent {}", index_, static_cast<int>(got_.frame),
-                                  static_cast<int>(sent_.frame)));
-      else
-        add_place(all);
+    // ArduPilot's fences have neither frames nor heights: it returns 0 for both.
+    bool const is_flat = ardupilot_ && sent_.type == MissionType::fence;
+    if (placed && !is_flat && plain(sent_.frame) != plain(got_.frame)) {
+      all.push_back(fmt::format("item {}: frame {}, sent {}", index_, static_cast<int>(got_.frame),
+                                static_cast<int>(sent_.frame)));
+    } else if (placed) {
+      add_place(all, !is_flat);
     }
     add_params(all);
     if (!ardupilot_ && sent_.autocontinue != got_.autocontinue)
@@ -62,7 +63,7 @@ class Comparison {
   }
 
  private:
-  void add_place(std::vector<Difference>& all) const {
+  void add_place(std::vector<Difference>& all, bool has_height) const {
     auto const& a = sent_.place;
     auto const& b = got_.place;
     bool const moved = is_global(sent_.frame)
@@ -70,7 +71,7 @@ class Comparison {
                                  std::fabs(a.lon_rad - b.lon_rad) > angle_tolerance_rad
                            : std::fabs(a.x - b.x) > local_tolerance_m || std::fabs(a.y - b.y) > local_tolerance_m;
     if (moved) all.push_back(fmt::format("item {}: position {}, sent {}", index_, text(got_), text(sent_)));
-    if (ardupilot_ && sent_.type == MissionType::fence) return;  // ArduPilot's fences have no heights of their own
+    if (!has_height) return;
     bool const is_rally = ardupilot_ && sent_.type == MissionType::rally;
     if (std::fabs(a.z_m - b.z_m) > (is_rally ? rally_tolerance_m : altitude_tolerance_m))
       all.push_back(fmt::format("item {}: altitude {:.2f} m, sent {:.2f} m", index_, b.z_m, a.z_m));

@@ -412,6 +412,28 @@ TEST(CompareReadback, ForgivesWhatArduPilotNormalises) {
   EXPECT_TRUE(compared(speed, stored, ardupilot).empty());
 }
 
+/// As its 4.7 returns them.
+TEST(CompareReadback, ForgivesWhatArduPilotDropsOfFencesAndRallyPoints) {
+  auto const ardupilot = MavAutopilot::ardupilotmega;
+  auto sent = item(MavCmd::nav_fence_return_point, {}, MavFrame::global_relative_alt);
+  sent.type = MissionType::fence;
+  auto got = sent;
+  got.frame = MavFrame::global;
+  got.place.z_m = 0.0;
+  EXPECT_TRUE(compared(sent, got, ardupilot).empty());
+  EXPECT_EQ(compared(sent, got, MavAutopilot::px4), std::vector<Difference>{"item 1: frame 0, sent 3"});
+  got.place.lat_rad += 1e-6;
+  EXPECT_EQ(compared(sent, got, ardupilot).size(), 1u);
+
+  auto rally = item(MavCmd::nav_rally_point, {}, MavFrame::global_relative_alt);
+  rally.type = MissionType::rally;
+  auto cut = rally;
+  cut.place.z_m = 12.0;
+  EXPECT_TRUE(compared(rally, cut, ardupilot).empty());
+  cut.place.z_m = 11.0;
+  EXPECT_EQ(compared(rally, cut, ardupilot), std::vector<Difference>{"item 1: altitude 11.00 m, sent 12.35 m"});
+}
+
 TEST(CompareReadback, LeavesHomeToArduPilotOnly) {
   std::vector<MissionItem> const sent{item(MavCmd::nav_waypoint)};
   auto moved = sent;

@@ -117,8 +117,7 @@ Task<Result<>> write_and_verify(Job const& job, std::vector<MissionItem> const& 
     auto const compared = co_await read_back(job, items);
     if (compared && compared->empty()) co_return Result<>{};
     if (compared)
-      outcome = fail(ErrorKind::refused,
-                     fmt::format("the vehicle does not hold the mission that was sent: {}", compared->front()));
+      outcome = fail(ErrorKind::refused, fmt::format("the vehicle does not hold what was sent: {}", compared->front()));
     else if (outcome)
       outcome = std::unexpected(named("read-back", compared.error()));
     bool const answers = compared || compared.error().kind == ErrorKind::refused;
