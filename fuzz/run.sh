@@ -52,6 +52,9 @@ case $target in
     printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"keep":"out"},"geometry":{"type":"MultiPolygon","coordinates":[[[[-8,41],[-7.9,41],[-8,41.1],[-8,41]]]]}}]}' |
       seed collection
     ;;
+  key_store)
+    printf '[keys]\nfleet = "%064d"\nnext = "%064d"\n[use]\neverybody = "fleet"\n[use.vehicles]\n7 = ["next", "fleet"]\n[use.links]\n"udpin://0.0.0.0:14550" = "next"\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages = ["ADSB_VEHICLE", 0]\n' 1 2 | seed store
+    ;;
   kml)
     mark='<Placemark><name>a</name><ExtendedData><Data name="%s"><value>%s</value></Data></ExtendedData>%s</Placemark>'
     printf "$mark" role home '<Point><altitudeMode>absolute</altitudeMode><coordinates>-8,41,90</coordinates></Point>' | seed home

@@ -20,8 +20,8 @@ fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop, tasks::Pla
 }
 
 mavlink::Connection::Options connection_options(fleet::Fleet::Options const& fleet_options,
-                                                std::optional<mavlink::SigningKey> const& signing_key) {
-  mavlink::Connection::Options options{.signing_key = signing_key};
+                                                SigningSetup const& signing) {
+  mavlink::Connection::Options options{.keys = signing.ring, .signed_until = signing.signed_until};
   if (!fleet_options.asks_for_messages) options.timesync_period = {};
   return options;
 }
@@ -29,7 +29,7 @@ mavlink::Connection::Options connection_options(fleet::Fleet::Options const& fle
 }  // namespace
 
 Ground::Network::Network(Ground& ground, fleet::Fleet::Options options)
-    : connection(ground.loop, connection_options(options, ground.signing_key), ground.log.named("link")),
+    : connection(ground.loop, connection_options(options, ground.signing), ground.log.named("link")),
       fleet(connection, ground.registry, std::move(options), ground.log.named("fleet")) {}
 
 base::Result<NetworkLink> parse_network_link(std::string const& text) {
@@ -48,13 +48,13 @@ base::Result<NetworkLink> parse_network_link(std::string const& text) {
 }
 
 Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger to, fleet::Fleet::Options options,
-               tasks::PlanLibrary plans, std::optional<mavlink::SigningKey> key,
+               tasks::PlanLibrary plans, SigningSetup keys,
                vehicle::StopAction emergency_action)
     : loop(on),
       log(std::move(to)),
       fleet_options(std::move(options)),
-      signing_key(key),
-      connection(on, connection_options(fleet_options, signing_key), log.named("link")),
+      signing(std::move(keys)),
+      connection(on, connection_options(fleet_options, signing), log.named("link")),
       registry(on),
       fleet(connection, registry, fleet_options, log.named("fleet")),
       platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/key_file.hpp"
 #include "base/log.hpp"
 #include "base/loop.hpp"
 #include "fleet/control.hpp"
@@ -38,7 +39,7 @@ struct Ground {
   };
 
   Ground(base::Loop& loop, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options = {},
-         tasks::PlanLibrary plans = {}, std::optional<mavlink::SigningKey> signing_key = std::nullopt,
+         tasks::PlanLibrary plans = {}, SigningSetup signing = {},
          vehicle::StopAction emergency_action = vehicle::StopAction::hold);
 
   /// Opens every link or none; makes the networks that they name. Errors: invalid_input for a wrong URL, io for a port
@@ -48,7 +49,7 @@ struct Ground {
   base::Loop& loop;
   base::Logger log;
   fleet::Fleet::Options fleet_options;
-  std::optional<mavlink::SigningKey> signing_key;
+  SigningSetup signing;
   mavlink::Connection connection;  ///< of the network without a name
   vehicle::Registry registry;
   fleet::Fleet fleet;

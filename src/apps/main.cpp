@@ -50,6 +50,7 @@ int main_of(int argc, char** argv) {
   add_replay(program, exit_code);
   add_station(program, exit_code);
   add_param(program, exit_code);
+  add_signing(program, exit_code);
   add_doctor(program, exit_code);
 
   if (auto const wrong = unknown_verb(program, argc, argv); !wrong.empty()) {

@@ -10,13 +10,10 @@
 
 #include "apps/files.hpp"
 #include "apps/ground.hpp"
+#include "apps/key_file.hpp"
+#include "apps/link_session.hpp"
 #include "apps/param_jobs.hpp"
-#include "apps/secret_file.hpp"
-#include "apps/signals.hpp"
 #include "apps/verb.hpp"
-#include "base/log.hpp"
-#include "link/byte_link.hpp"
-#include "link/url.hpp"
 #include "mavlink/modes.hpp"
 #include "parameters/parameter_file.hpp"
 
@@ -44,52 +41,39 @@ struct ParamArguments {
 };
 
 /// What all of `param` need: the links, and the parameters of what is on them.
-struct ParamGround {
-  explicit ParamGround(std::optional<mavlink::SigningKey> key)
-      : log(hub, "param"),
-        connection(loop, {.signing_key = key}, log.named("link")),
+struct ParamGround : LinkSession {
+  explicit ParamGround(SigningSetup const& signing)
+      : LinkSession(signing, "param"),
         service(connection,
-                parameters::Cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME"))), log) {
-    hub.add_sink(base::standard_error_sink(base::LogLevel::warn));
-  }
-  base::Result<> open(std::vector<std::string> const& urls) {
-    for (auto const& text : urls) {
-      auto const url = link::parse_url(text);
-      if (!url) return std::unexpected(url.error());
-      auto link = link::open(loop, *url);
-      if (!link) return std::unexpected(link.error());
-      connection.add_link(std::move(*link));
-    }
-    return {};
-  }
+                parameters::Cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME"))), log) {}
 
-  base::Loop loop;
-  base::LogHub hub;
-  base::Logger log;
-  mavlink::Connection connection;
   parameters::ParameterService service;
 };
 
 using Job = std::function<base::Task<int>(ParamGround&, ParamArguments const&)>;
 
-base::Task<> finish(base::Task<int> job, int& code, base::Loop& loop) {
-  code = co_await job;
-  loop.stop();
+/// The number of a vehicle, or nothing: then it is a file's name.
+std::optional<int> vehicle_number(std::string const& text) {
+  int number = 0;
+  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+bool is_vehicle(std::string const& text) {
+  return vehicle_number(text).has_value();
 }
 
 /// Runs `job` on the vehicles' links to its end, or to an interrupt.
 int run_job(ParamArguments const& arguments, Job const& job) {
-  auto const key = read_signing_key(arguments.signing_key);
-  if (!key) return refuse(key.error());
-  ParamGround ground(*key);
-  auto const urls = arguments.links.empty() ? std::vector<std::string>{default_link} : arguments.links;
-  if (auto opened = ground.open(urls); !opened) return refuse(opened.error());
-  int code = exit_interrupted;
-  base::Scope scope(ground.loop);
-  StopSignals const signals(ground.loop, [&ground] { ground.loop.stop(); });
-  scope.spawn(finish(job(ground, arguments), code, ground.loop));
-  ground.loop.run();
-  return code;
+  auto const signing = read_signing(arguments.signing_key);
+  if (!signing) return refuse(signing.error());
+  ParamGround ground(*signing);
+  // Two files are compared without anybody else.
+  bool const needs_no_vehicle = arguments.sides.size() == 2 && std::ranges::none_of(arguments.sides, is_vehicle);
+  if (!needs_no_vehicle)
+    if (auto opened = ground.open(arguments.links); !opened) return refuse(opened.error());
+  return ground.run(job(ground, arguments));
 }
 
 void print(std::string const& text) {
@@ -252,26 +236,28 @@ base::Task<int> save(ParamGround& ground, ParamArguments const& of) {
   co_return exit_done;
 }
 
-/// The number of a vehicle, or nothing: then it is a file's name.
-std::optional<int> vehicle_number(std::string const& text) {
-  int number = 0;
-  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-base::Task<base::Result<std::vector<Parameter>>> side(ParamGround& ground, std::string text) {
-  auto const number = vehicle_number(text);
-  if (!number) co_return read_file(text);
-  std::vector<std::uint8_t> const which{static_cast<std::uint8_t>(*number)};
-  std::vector<std::string> const patterns;
-  auto const listings = co_await list_parameters(ground.loop, ground.service, which, Wanted::confirmed, patterns);
-  if (!listings) co_return std::unexpected(listings.error());
-  co_return listings->front().parameters;
-}
-
 std::string title(std::string const& text) {
-  return vehicle_number(text) ? "vehicle " + text : text;
+  return is_vehicle(text) ? "vehicle " + text : text;
+}
+
+/// The chosen parameters of a vehicle or file; what belongs to one vehicle only when it is asked for.
+base::Task<base::Result<std::vector<Parameter>>> side(ParamGround& ground, ParamArguments const& of, std::string text) {
+  std::vector<Parameter> all;
+  if (auto const number = vehicle_number(text)) {
+    std::vector<std::uint8_t> const which{static_cast<std::uint8_t>(*number)};
+    std::vector<std::string> const patterns;
+    auto const listings = co_await list_parameters(ground.loop, ground.service, which, Wanted::confirmed, patterns);
+    if (!listings) co_return std::unexpected(listings.error());
+    all = listings->front().parameters;
+  } else {
+    auto const file = read_file(text);
+    if (!file) co_return std::unexpected(file.error());
+    all = *file;
+  }
+  all = chosen(all, of.names);
+  if (!of.everything)
+    std::erase_if(all, [](auto const& value) { return parameters::belongs_to_one_vehicle(value.name); });
+  co_return all;
 }
 
 base::Task<int> compare(ParamGround& ground, ParamArguments const& of) {
@@ -288,11 +274,9 @@ base::Task<int> compare(ParamGround& ground, ParamArguments const& of) {
   }
   std::vector<std::vector<Parameter>> both;
   for (auto const& text : sides) {
-    auto all = co_await side(ground, text);
+    auto const all = co_await side(ground, of, text);
     if (!all) co_return refuse(all.error());
-    both.push_back(chosen(*all, of.names));
-    if (of.everything) continue;
-    std::erase_if(both.back(), [](auto const& value) { return parameters::belongs_to_one_vehicle(value.name); });
+    both.push_back(*all);
   }
   auto const found = parameters::differences(both[0], both[1]);
   print(of.json ? differences_json(title(sides[0]), title(sides[1]), found)

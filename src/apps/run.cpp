@@ -8,7 +8,7 @@
 #include "apps/equipment.hpp"
 #include "apps/files.hpp"
 #include "apps/harness_run.hpp"
-#include "apps/secret_file.hpp"
+#include "apps/key_file.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
@@ -114,16 +114,16 @@ int run_on_vehicles(RunOptions const& options, std::vector<ScriptText> const& sc
   auto equipment = equipment_for(options, world, needs);
   if (!equipment) return refuse(equipment.error());
 
-  auto const key = read_signing_key(options.signing_key);
-  if (!key) return refuse(key.error());
-  if (world) world->signing_key = *key;
+  auto const signing = read_signing(options.signing_key);
+  if (!signing) return refuse(signing.error());
+  if (world) world->keys = signing->ring;
   Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
                    .on_stop = *on_stop,
                    .plans = std::move(plans),
                    .payload = *std::move(equipment),
                    .events = &events,
                    .seed = options.seed,
-                   .signing_key = *key});
+                   .signing = *signing});
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
   }

@@ -3,11 +3,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <string_view>
 
@@ -17,18 +14,13 @@ namespace lapwing::apps {
 
 namespace {
 
-constexpr std::size_t longest_secret = 4096;
-constexpr std::size_t shortest_passphrase = 12;
+constexpr std::size_t longest_secret = 64U << 10U;
 
 std::string trimmed(std::string_view text) {
   constexpr auto blanks = " \t\r\n";
   auto const first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return std::string(text.substr(first, text.find_last_not_of(blanks) + 1 - first));
-}
-
-bool is_hex(std::string_view text) {
-  return std::ranges::all_of(text, [](unsigned char c) { return std::isxdigit(c) != 0; });
 }
 
 }  // namespace
@@ -58,25 +50,6 @@ base::Result<std::string> read_secret(SecretFile const& file) {
   auto const size = ::read(descriptor, bytes.data(), bytes.size());
   if (size < 0) return fail(base::ErrorKind::io, std::strerror(errno));
   return trimmed({bytes.data(), static_cast<std::size_t>(size)});
-}
-
-base::Result<std::optional<mavlink::SigningKey>> read_signing_key(std::string const& path) {
-  if (path.empty()) return std::nullopt;
-  auto const hint = fmt::format("make one: (umask 077; openssl rand -hex 32 > {}), or write a pass phrase", path);
-  auto const text = read_secret({path, "signing key", hint});
-  if (!text) return std::unexpected(text.error());
-  mavlink::SigningKey key{};
-  if (text->size() == 2 * key.size() && is_hex(*text)) {
-    for (std::size_t i = 0; i < key.size(); ++i)
-      std::from_chars(text->data() + 2 * i, text->data() + 2 * i + 2, key[i], 16);
-    return key;
-  }
-  if (text->size() < shortest_passphrase) {
-    return base::fail(
-        base::ErrorKind::invalid_input,
-        fmt::format("signing key {}: a pass phrase has at least {} characters", path, shortest_passphrase), hint);
-  }
-  return mavlink::key_from_passphrase(*text);
 }
 
 }  // namespace lapwing::apps

@@ -46,7 +46,7 @@ Session::Session(Options const& options)
     : loop(pace_of(options)),
       log(hub, "lapwing"),
       ground(loop, options.on_stop, log, {.payload = options.payload, .asks_for_messages = !options.listens_only},
-             options.plans.library, options.signing_key, options.emergency_action),
+             options.plans.library, options.signing, options.emergency_action),
       console(make_console(loop, log)),
       host(
           loop, ground.platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
@@ -56,6 +56,10 @@ Session::Session(Options const& options)
   hub.add_sink(terminal_sink(options.log_level));
   ground.control.set_on_latched([this](std::string const& reason) { host.halt(reason); });
   host.set_bar([this] { return ground.fleet.authority().barred(); });
+  bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
+  if (is_real_time)
+    signing_time =
+        std::make_unique<SigningTimeKeeper>(ground.connection, options.signing.time_file, log.named("signing"));
   auto const plans = log.named("plans");
   for (auto const& note : options.plans.notes) plans.info(note);
   for (auto const& mistake : options.plans.mistakes) plans.warn(mistake.message);

@@ -34,7 +34,7 @@ class Session {
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
     std::optional<std::uint64_t> seed = std::nullopt;
     std::optional<base::UtcTime> begins_at = std::nullopt;  ///< what the calendar shows at the start; empty: the wall's
-    std::optional<mavlink::SigningKey> signing_key = std::nullopt;
+    SigningSetup signing = {};
     bool listens_only = false;  ///< asks vehicles for nothing
   };
   explicit Session(Options const& options);
@@ -65,6 +65,7 @@ class Session {
   ScriptHost host;
   std::unique_ptr<sim::World> world;
   std::unique_ptr<station::Station> map;
+  std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 
  private:
   base::Task<> finish(std::optional<base::Duration> timeout);

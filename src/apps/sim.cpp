@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/secret_file.hpp"
+#include "apps/key_file.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
@@ -64,9 +64,9 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
     if (!parameter) return std::unexpected(parameter.error());
     world.parameters.push_back(*parameter);
   }
-  auto const key = read_signing_key(options.signing_key);
-  if (!key) return std::unexpected(key.error());
-  world.signing_key = *key;
+  auto const signing = read_signing(options.signing_key);
+  if (!signing) return std::unexpected(signing.error());
+  world.keys = signing->ring;
   if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
   world.boot = options.realistic_boot ? sim::BootStyle::realistic : sim::BootStyle::quick;
   return world;

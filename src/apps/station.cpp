@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/files.hpp"
-#include "apps/secret_file.hpp"
+#include "apps/key_file.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
 #include "apps/station_config.hpp"
@@ -79,13 +79,13 @@ int serve(StationArguments const& arguments) {
   if (!config) return refuse(config.error());
   auto plans = load_plans(arguments.plans);
   if (!plans) return refuse(plans.error());
-  auto const key = read_signing_key(config->signing_key);
-  if (!key) return refuse(key.error());
+  auto const signing = read_signing(config->signing_key);
+  if (!signing) return refuse(signing.error());
   Session session({.on_stop = config->on_stop,
                    .emergency_action = config->emergency_action,
                    .plans = *std::move(plans),
                    .payload = config->payload,
-                   .signing_key = *key});
+                   .signing = *signing});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
   }

@@ -39,6 +39,7 @@ void add_sim(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);
 void add_station(CLI::App& program, int& exit_code);
 void add_param(CLI::App& program, int& exit_code);
+void add_signing(CLI::App& program, int& exit_code);
 void add_doctor(CLI::App& program, int& exit_code);
 
 }  // namespace lapwing::apps

@@ -29,7 +29,7 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
       routes_(std::make_unique<internal::Routes>()),
       commands_(loop),
       scope_(loop) {
-  if (options_.signing_key) guard_.emplace(*options_.signing_key);
+  set_keys(options_.keys);
   if (options_.heartbeat) scope_.spawn(beat());
   scope_.spawn(watch());
 }
@@ -40,8 +40,16 @@ std::size_t Connection::add_link(std::unique_ptr<link::ByteLink> link) {
   auto const number = links_.size();
   routes_->add_link(link->bytes_per_s());
   links_.push_back(std::move(link));
+  if (guard_) guard_->name_link(number, links_.back()->name());
   links_.back()->start([this, number](link::Peer peer, link::Bytes bytes) { receive({number, peer}, bytes); });
   return number;
+}
+
+void Connection::set_keys(std::optional<KeyRing> keys) {
+  if (!keys) return guard_.reset();
+  if (guard_) return guard_->set_ring(*std::move(keys));
+  guard_.emplace(*std::move(keys), options_.signed_until);
+  for (std::size_t number = 0; number < links_.size(); ++number) guard_->name_link(number, links_[number]->name());
 }
 
 base::Task<void> Connection::beat() {
@@ -107,7 +115,7 @@ void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& fr
   auto const id = static_cast<MessageId>(frame.message_id);
   if (id == MessageId::timesync || (taken.is_one_of_several && internal::tells_identity(id))) look_into(from, frame);
   if (!taken.is_news) return;
-  if (frame_hook_) frame_hook_(Direction::received, frame, now);
+  if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::received, frame, now);
   if (listeners_.empty()) return;
   if (auto const message = decode(frame)) dispatch({*message, frame.source, from, now});
 }
@@ -125,7 +133,7 @@ void Connection::look_into(PeerRef from, Frame const& frame) {
 }
 
 bool Connection::may_be_heard(PeerRef from, Frame const& frame) {
-  if (guard_->accepts(frame, loop_.utc_now())) return true;
+  if (guard_->accepts(frame, {from.link, from.peer.key}, loop_.utc_now())) return true;
   if (!std::exchange(has_told_of_strangers_, true)) {
     log_.warn(fmt::format(
         "system {} on {} {}; nothing of the kind is listened to", frame.source.system, describe(from),
@@ -190,7 +198,7 @@ base::Result<> Connection::send(Address target, Frame frame) {
     return fail(ErrorKind::lost, fmt::format("vehicle {} has not been heard on any link", target.system),
                 "check that it is switched on and sends to this station");
   for (auto const route : routes)
-    if (send_frame(route, frame)) return {};
+    if (send_frame(route, frame, target.system)) return {};
   auto const& link = *links_[routes.front().link];
   return fail(ErrorKind::lost, fmt::format("vehicle {} cannot be reached over {}: {}", target.system, link.name(),
                                            link.last_error().empty() ? "it is not connected" : link.last_error()));
@@ -209,19 +217,19 @@ void Connection::send_to_all(Message const& message) {
 }
 
 /// Fills in what depends on the far end: sequence and protocol version.
-bool Connection::send_frame(PeerRef to, Frame& frame) {
+bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   auto& peer = routes_->speak_to(to);
   frame.version = peer.spoke && !peer.spoke_v2 ? 1 : 2;
   if (frame.version == 1 && frame.message_id > 255) return false;
   frame.seq = peer.next_seq;
-  if (guard_) guard_->sign(frame, static_cast<std::uint8_t>(to.link), loop_.utc_now());
+  if (guard_) guard_->sign(frame, {to.link, to.peer.key}, system_id, loop_.utc_now());
   auto const out = serialize(frame);
   auto& link = *links_[to.link];
   bool const is_sent = internal::is_perishable(frame.message_id) ? link.send_perishable(to.peer, out.bytes())
                                                                  : link.send(to.peer, out.bytes());
   if (!is_sent) return false;
   ++peer.next_seq;
-  if (frame_hook_) frame_hook_(Direction::sent, frame, loop_.now());
+  if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
   return true;
 }
 

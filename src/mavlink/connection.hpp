@@ -15,7 +15,7 @@
 #include "mavlink/codec.hpp"
 #include "mavlink/command_ledger.hpp"
 #include "mavlink/link_report.hpp"
-#include "mavlink/signing.hpp"
+#include "mavlink/signing_guard.hpp"
 
 namespace lapwing::mavlink {
 
@@ -69,8 +69,9 @@ class Connection {
     /// How often each link of each vehicle is asked for its clock (TIMESYNC), which measures the round trip; vehicles
     /// that ask for ours are answered. Zero: neither.
     base::Duration timesync_period = std::chrono::seconds(5);
-    /// Sign everything that is sent, and listen to nobody who does not.
-    std::optional<SigningKey> signing_key = std::nullopt;
+    /// Sign what is sent, and listen to nobody who does not (signing_guard.hpp). Nothing: signatures do not matter.
+    std::optional<KeyRing> keys = std::nullopt;
+    SigningTime signed_until = 0;  ///< by this program's last life
   };
   [[nodiscard]] static Heartbeat ground_station_heartbeat();
 
@@ -81,6 +82,11 @@ class Connection {
 
   /// Starts `link` at once. Returns its number, which PeerRef::link uses.
   std::size_t add_link(std::unique_ptr<link::ByteLink> link);
+
+  /// Other keys from now on. Times of signatures go on where they were.
+  void set_keys(std::optional<KeyRing> keys);
+  /// Null while nothing is signed.
+  [[nodiscard]] SigningGuard const* signing() const { return guard_ ? &*guard_ : nullptr; }
 
   /// Sends to where the system is heard best, with `target` written into the message if it has a target.
   /// Errors: lost (never heard, or its link is down), refused (two vehicles use this system id; names both).
@@ -101,7 +107,7 @@ class Connection {
   Subscription subscribe(std::uint8_t system_id, Subscription::Handler handler);
 
   enum class Direction { received, sent };
-  /// Shows every frame, unknown messages included. For recordings.
+  /// Shows every frame, unknown messages included, but those that tell a key. For recordings.
   using FrameHook = std::function<void(Direction, Frame const&, base::TimePoint)>;
   void set_frame_hook(FrameHook hook);
 
@@ -142,7 +148,8 @@ class Connection {
   void accept(PeerRef from, internal::PeerState& peer, Frame const& frame);
   void look_into(PeerRef from, Frame const& frame);
   void dispatch(Received const& received);
-  bool send_frame(PeerRef to, Frame& frame);
+  /// `system_id`: who is meant; 0: whoever is there.
+  bool send_frame(PeerRef to, Frame& frame, std::uint8_t system_id = 0);
   [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
   base::Task<void> beat();
   base::Task<void> watch();

@@ -31,12 +31,12 @@ constexpr std::array stream_rates{
     StreamRate{"SR0_EXTRA3", 12},
 };
 
-Connection::Options connection_options(FlightController::Setup const& setup) {
+Connection::Options connection_options(FlightController::Setup const& setup, Memory const& memory) {
   // The vehicle's heartbeat is telemetry like any other here: its rate can be changed.
   return {.self = {setup.system_id, autopilot_component},
           .heartbeat = {},
           .timesync_period = {},
-          .signing_key = setup.signing_key};
+          .keys = ring_of(memory.signing_key)};
 }
 
 /// COMMAND_LONG says the same as COMMAND_INT with the place in floats and altitudes above home.
@@ -63,7 +63,7 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       autopilot_(setup.autopilot, site, memory.parameters, memory.plans),
       telemetry_(setup.autopilot.kind, setup.autopilot.boot.first_heartbeat),
       missions_(memory.plans, mission_ports(), autopilot_.kind()),
-      connection_(loop, connection_options(setup), std::move(log)),
+      connection_(loop, connection_options(setup, memory), std::move(log)),
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
   connection_.add_link(std::move(link));
   for (auto const& [name, stream] : stream_rates) follow_stream_rate(name, stream);
@@ -245,6 +245,8 @@ void FlightController::dispatch(Message const& message, Address from) {
     on(*read, from);
   } else if (auto const* set = std::get_if<ParamSet>(&message)) {
     on(*set);
+  } else if (auto const* setup = std::get_if<SetupSigning>(&message)) {
+    on(*setup);
   } else if (std::holds_alternative<ParamRequestList>(message)) {
     list_reader_ = from;
     list_next_ = 0;
@@ -348,6 +350,14 @@ void FlightController::on(ParamSet const& set) {
     if (set.name == name) follow_stream_rate(name, stream);
   }
   send_parameter(*index, false, nullptr);
+}
+
+/// As ArduPilot does: kept over restarts, at once in force on every link, zeros switch it off.
+void FlightController::on(SetupSigning const& setup) {
+  if (autopilot_.armed()) return say(MavSeverity::notice, "ERROR: Won't setup signing when armed");
+  bool const is_off = setup.key == SigningKey{} && setup.initial_timestamp == 0;
+  memory_.signing_key = is_off ? std::nullopt : std::optional(setup.key);
+  connection_.set_keys(ring_of(memory_.signing_key));
 }
 
 bool FlightController::pilot_sets_mode(std::uint32_t number) {

@@ -20,6 +20,7 @@ namespace lapwing::sim {
 struct Memory {
   Parameters parameters;
   MissionStore::Plans plans;
+  std::optional<mavlink::SigningKey> signing_key = std::nullopt;
 };
 
 /// One power-on of a vehicle: its autopilot with its MAVLink side on one link. A reboot is the end of this and a new
@@ -33,7 +34,6 @@ class FlightController {
     std::uint8_t system_id = 1;
     Autopilot::Setup autopilot;
     base::TimePoint powered_on;
-    std::optional<mavlink::SigningKey> signing_key = std::nullopt;
   };
   FlightController(base::Loop& loop, Setup const& setup, Site const& site, Memory& memory,
                    std::unique_ptr<link::ByteLink> link, base::Logger log);
@@ -69,6 +69,7 @@ class FlightController {
   void on(mavlink::SetPositionTargetGlobalInt const& target);
   void on(mavlink::ParamRequestRead const& request, mavlink::Address from);
   void on(mavlink::ParamSet const& set);
+  void on(mavlink::SetupSigning const& setup);
   /// Sends a stream at the rate of the parameter of that name (SR0_...), if there is one.
   void follow_stream_rate(std::string_view name, int stream);
 

@@ -21,7 +21,7 @@ Vehicle::Vehicle(base::Loop& loop, Options options, Site const& site, OpenLink o
       site_(site),
       open_link_(std::move(open_link)),
       log_(std::move(log)),
-      memory_{Parameters(options.kind, options.system_id), {}},
+      memory_{Parameters(options.kind, options.system_id), {}, options.signing_key},
       gusts_(options.wind_m_s, options.gust_m_s, options.seed),
       battery_(options.battery_capacity_mah, options.battery_remaining),
       scope_(loop) {
@@ -49,7 +49,6 @@ base::Result<> Vehicle::switch_on() {
                     .boot = options_.boot,
                     .battery = battery_},
       .powered_on = loop_.now(),
-      .signing_key = options_.signing_key,
   };
   controller_ = std::make_unique<FlightController>(loop_, setup, site_, memory_, std::move(*link), log_);
   controller_->autopilot().set_arming_fault(arming_fault_);

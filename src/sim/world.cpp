@@ -46,7 +46,8 @@ void World::park(VehicleGroup const& group, int system_id) {
       .wind_m_s = options_.wind_m_s,
       .gust_m_s = options_.gust_m_s,
       .seed = seed,
-      .signing_key = options_.signing_key,
+      .signing_key =
+          options_.keys ? mavlink::key_for(*options_.keys, static_cast<std::uint8_t>(system_id)) : std::nullopt,
   };
   auto impairment = options_.impairment;
   impairment.seed = seed;

@@ -32,7 +32,7 @@ struct WorldOptions {
   BootStyle boot = BootStyle::quick;
   double battery_capacity_mah = 5000.0;
   std::optional<base::Duration> battery_swap_after = std::nullopt;  ///< see `Vehicle::Options`
-  std::optional<mavlink::SigningKey> signing_key = std::nullopt;    ///< of every vehicle
+  std::optional<mavlink::KeyRing> keys = std::nullopt;              ///< each vehicle has its own of these
   std::vector<ParameterSetting> parameters = {};                    ///< for every vehicle that has them
 };
 

@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/key_file.hpp"
+#include "apps/link_session.hpp"
+#include "apps/verb.hpp"
+#include "mavlink/key_store.hpp"
+#include "mavlink/signing_setup.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+using base::ErrorKind;
+using mavlink::KeyRing;
+
+struct SigningArguments {
+  std::string keys;  ///< the key store
+  std::string name;
+  std::string import;
+  std::vector<std::string> links;
+  std::vector<int> vehicles;
+  double wait_s = 10.0;
+  double overlap_s = 5.0;
+  bool insecure = false;
+};
+
+/// Changes of one vehicle's key, each on the disk before it is on the vehicle.
+struct KeyChange {
+  LinkSession& session;
+  SigningArguments const& arguments;
+  KeyRing ring;  ///< as it is on the disk
+
+  /// The store on the disk, and at once on the links; there the vehicle is heard as it is, signed or not.
+  base::Result<> use(std::uint8_t system_id, KeyRing::Use names) {
+    ring.vehicles[system_id] = std::move(names);
+    return keep(system_id);
+  }
+  base::Result<> keep(std::uint8_t system_id) {
+    if (auto written = write_key_store(arguments.keys, ring); !written) return written;
+    listen(system_id);
+    return {};
+  }
+  void listen(std::uint8_t system_id) {
+    auto live = ring;
+    live.unsigned_frames.systems.insert(system_id);
+    session.connection.set_keys(std::move(live));
+  }
+};
+
+KeyRing::Use use_of(KeyRing const& ring, std::uint8_t system_id) {
+  auto const own = ring.vehicles.find(system_id);
+  return own != ring.vehicles.end() ? own->second : ring.everybody;
+}
+
+base::Task<base::Result<>> wait_for(LinkSession& session, std::uint8_t system_id, double wait_s) {
+  using namespace std::chrono_literals;
+  auto const deadline = session.loop.now() + base::from_seconds(wait_s);
+  while (!session.connection.whereabouts(system_id)) {
+    if (session.loop.now() >= deadline)
+      co_return base::fail(
+          ErrorKind::lost, fmt::format("vehicle {} was not heard within {:g} s", system_id, wait_s),
+          "lapwing doctor tells which links answer; does it sign with a key that is not in the store?");
+    co_await session.loop.sleep(10ms);
+  }
+  co_return base::Result<>{};
+}
+
+/// The key is changed in steps of which each leaves vehicle and store able to talk: both keys are known on the disk
+/// before the vehicle hears of the new one, and the old one goes when the vehicle has signed with the new one for a
+/// while.
+base::Task<base::Result<>> change_key(KeyChange& change, std::uint8_t system_id, std::string name) {
+  auto& session = change.session;
+  auto both = use_of(change.ring, system_id);
+  if (std::ranges::find(both, name) == both.end()) both.push_back(name);
+  if (auto kept = change.use(system_id, both); !kept) co_return kept;
+  if (auto heard = co_await wait_for(session, system_id, change.arguments.wait_s); !heard) co_return heard;
+  mavlink::Address const target{system_id, mavlink::autopilot_component};
+  if (auto given = co_await mavlink::give_key(session.connection, target, name); !given) co_return given;
+  std::erase(both, name);
+  both.insert(both.begin(), name);
+  if (auto kept = change.use(system_id, both); !kept) co_return kept;
+  co_await session.loop.sleep(base::from_seconds(change.arguments.overlap_s));
+  if (session.connection.signing()->key_of(system_id) != name)
+    co_return base::fail(ErrorKind::refused, fmt::format("vehicle {} signs with its old key again", system_id),
+                         "both keys are kept; was it restarted before it had stored the new one?");
+  if (change.ring.everybody == KeyRing::Use{name}) {
+    change.ring.vehicles.erase(system_id);
+    co_return change.keep(system_id);
+  }
+  KeyRing::Use const only{name};
+  co_return change.use(system_id, only);
+}
+
+base::Task<int> give(KeyChange& change) {
+  auto const& of = change.arguments;
+  for (int const number : of.vehicles) {
+    auto const id = static_cast<std::uint8_t>(number);
+    std::string const name = of.name;
+    if (auto const changed = co_await change_key(change, id, name); !changed) co_return refuse(changed.error());
+    fmt::print("vehicle {} signs with {}\n", number, name);
+  }
+  co_return exit_done;
+}
+
+base::Task<int> take(KeyChange& change) {
+  auto const& of = change.arguments;
+  for (int const number : of.vehicles) {
+    auto const id = static_cast<std::uint8_t>(number);
+    change.listen(id);
+    if (auto heard = co_await wait_for(change.session, id, of.wait_s); !heard) co_return refuse(heard.error());
+    mavlink::Address const target{id, mavlink::autopilot_component};
+    if (auto done = co_await mavlink::take_key_away(change.session.connection, target); !done)
+      co_return refuse(done.error());
+    change.ring.vehicles.erase(id);
+    if (auto kept = change.keep(id); !kept) co_return refuse(kept.error());
+    fmt::print("vehicle {} signs nothing any more; with these keys it is heard only if [unsigned] says so\n", number);
+  }
+  co_return exit_done;
+}
+
+/// A key goes over the link as it is: only where nobody else listens.
+base::Result<> check_links(SigningArguments const& of) {
+  if (of.insecure) return {};
+  for (auto const& url : of.links)
+    if (!mavlink::is_local(url))
+      return base::fail(ErrorKind::invalid_input, fmt::format("whoever listens on {} would learn the key", url),
+                        "use a serial line or loopback, or --insecure-setup if nobody can listen there");
+  return {};
+}
+
+int on_vehicles(SigningArguments const& of, base::Task<int> (*job)(KeyChange&)) {
+  if (auto safe = check_links(of); !safe) return refuse(safe.error());
+  auto const ring = read_key_store(of.keys);
+  if (!ring) return refuse(ring.error());
+  if (!of.name.empty() && !ring->keys.contains(of.name))
+    return refuse({ErrorKind::not_found, fmt::format("key store {}: there is no key {}", of.keys, of.name),
+                   fmt::format("make it: lapwing signing new {} --keys {}", of.name, of.keys)});
+  auto const signing = read_signing(of.keys);
+  if (!signing) return refuse(signing.error());
+  LinkSession session(*signing, "signing");
+  if (auto opened = session.open(of.links); !opened) return refuse(opened.error());
+  KeyChange change{session, of, *ring};
+  return session.run(job(change));
+}
+
+int make_key(SigningArguments const& of) {
+  if (!mavlink::is_key_name(of.name))
+    return refuse({ErrorKind::invalid_input, "a key's name has 1 to 40 letters, digits, - and _", ""});
+  KeyRing ring;
+  if (std::filesystem::exists(of.keys)) {
+    auto known = read_key_store(of.keys);
+    if (!known) return refuse(known.error());
+    ring = *std::move(known);
+  }
+  if (ring.keys.contains(of.name))
+    return refuse({ErrorKind::invalid_input, fmt::format("key store {}: there is a key {} already", of.keys, of.name),
+                   "a key is changed for another by its vehicle: lapwing signing rotate"});
+  auto key = random_key();
+  if (!of.import.empty()) {
+    auto const other = read_signing(of.import);
+    if (!other) return refuse(other.error());
+    key = mavlink::key_for(*other->ring, 0).value_or(mavlink::SigningKey{});
+  }
+  if (!key) return refuse(key.error());
+  if (ring.keys.empty()) ring.everybody = {of.name};
+  ring.keys[of.name] = *key;
+  if (auto written = write_key_store(of.keys, ring); !written) return refuse(written.error());
+  fmt::print("{}: key {}{}\n", of.keys, of.name, ring.everybody == KeyRing::Use{of.name} ? ", for everybody" : "");
+  return exit_done;
+}
+
+/// Names only: what signs is nobody's to see.
+int show(SigningArguments const& of) {
+  auto const ring = read_key_store(of.keys);
+  if (!ring) return refuse(ring.error());
+  for (auto const& [name, key] : ring->keys) fmt::print("key {}\n", name);
+  if (!ring->everybody.empty()) fmt::print("everybody: {}\n", fmt::join(ring->everybody, ", "));
+  for (auto const& [url, use] : ring->links) fmt::print("link {}: {}\n", url, fmt::join(use, ", "));
+  for (auto const& [id, use] : ring->vehicles)
+    fmt::print("vehicle {}: {}{}\n", id, fmt::join(use, ", "), use.size() > 1 ? " (a change is under way)" : "");
+  auto const& allowed = ring->unsigned_frames;
+  fmt::print("heard without a signature: {}; systems {}; messages {}; RADIO_STATUS\n",
+             allowed.local_links ? "whoever is on this machine or a serial line" : "nobody by the link",
+             allowed.systems, allowed.messages);
+  return exit_done;
+}
+
+int drop_key(SigningArguments const& of) {
+  auto ring = read_key_store(of.keys);
+  if (!ring) return refuse(ring.error());
+  if (ring->keys.erase(of.name) == 0)
+    return refuse({ErrorKind::not_found, fmt::format("key store {}: there is no key {}", of.keys, of.name), ""});
+  auto const is_only = [&](KeyRing::Use& use) { return std::erase(use, of.name) > 0 && use.empty(); };
+  for (auto& [id, use] : ring->vehicles)
+    if (is_only(use))
+      return refuse({ErrorKind::invalid_input, fmt::format("{} is the only key of vehicle {}", of.name, id),
+                     "change it first: lapwing signing rotate"});
+  for (auto& [url, use] : ring->links)
+    if (is_only(use))
+      return refuse({ErrorKind::invalid_input, fmt::format("{} is the only key of link {}", of.name, url),
+                     "name another in the file first"});
+  (void)is_only(ring->everybody);
+  if (auto written = write_key_store(of.keys, *ring); !written) return refuse(written.error());
+  return exit_done;
+}
+
+// ---- options
+// -----------------------------------------------------------------------------------------------------------
+
+using Arguments = std::shared_ptr<SigningArguments>;
+
+CLI::App* add_verb(CLI::App& signing, Arguments const& arguments, std::string const& name, std::string const& help) {
+  auto* verb = signing.add_subcommand(name, help);
+  verb->add_option("--keys", arguments->keys, "The key store: a file that only its owner may read")->required();
+  return verb;
+}
+
+CLI::App* add_vehicle_verb(CLI::App& signing, Arguments const& arguments, std::string const& name,
+                           std::string const& help) {
+  auto* verb = add_verb(signing, arguments, name, help);
+  verb->add_option("--vehicle", arguments->vehicles, "System id (may be repeated)")
+      ->required()
+      ->check(CLI::Range(1, 255))
+      ->allow_extra_args(false);
+  verb->add_option("--link", arguments->links, "Where the vehicles are: a serial line, or loopback")
+      ->allow_extra_args(false);
+  verb->add_option("--wait", arguments->wait_s, "Seconds to wait for a vehicle")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  verb->add_flag("--insecure-setup", arguments->insecure, "Send keys over a link on which others may listen");
+  return verb;
+}
+
+}  // namespace
+
+void add_signing(CLI::App& program, int& exit_code) {
+  auto const arguments = std::make_shared<SigningArguments>();
+  auto* signing = program.add_subcommand("signing", "Keys that sign MAVLink: new, setup, rotate, off, drop, show");
+  signing->require_subcommand(1);
+  auto* verb = add_verb(*signing, arguments, "new", "Make a key; the first of a store is for everybody");
+  verb->add_option("name", arguments->name, "What to call it")->required();
+  verb->add_option("--import", arguments->import, "Take the key or pass phrase of this file instead of a random one");
+  verb->callback([arguments, &exit_code] { exit_code = make_key(*arguments); });
+  for (auto const* name : {"setup", "rotate"}) {
+    bool const is_setup = std::string_view(name) == "setup";
+    verb = add_vehicle_verb(*signing, arguments, name,
+                            is_setup ? "Give vehicles a key, and make sure that they sign with it"
+                                     : "Change vehicles' key for another, both being accepted for a while");
+    verb->add_option("--key", arguments->name, "Its name in the store")->required();
+    verb->add_option("--overlap", arguments->overlap_s, "Seconds for which the old key is accepted as well")
+        ->check(CLI::Range(1.0, 3600.0))
+        ->capture_default_str();
+    verb->callback([arguments, &exit_code] { exit_code = on_vehicles(*arguments, give); });
+  }
+  verb = add_vehicle_verb(*signing, arguments, "off", "Make vehicles sign nothing any more");
+  verb->callback([arguments, &exit_code] { exit_code = on_vehicles(*arguments, take); });
+  verb = add_verb(*signing, arguments, "drop", "Remove a key that no vehicle needs any more");
+  verb->add_option("name", arguments->name, "Its name")->required();
+  verb->callback([arguments, &exit_code] { exit_code = drop_key(*arguments); });
+  verb = add_verb(*signing, arguments, "show", "Names of keys and who uses them; never a key");
+  verb->callback([arguments, &exit_code] { exit_code = show(*arguments); });
+}
+
+}  // namespace lapwing::apps
