@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [fleet] [language] [upload] [lossy]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [fleet] [language] [upload] [lossy] [params]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -107,6 +107,55 @@ def upload(repeats: int = 3) -> list:
                 f"{name} {row[name]['median_s']:8.3f} s" + (f" ({row[name]['failed']}/{repeats} failed)" if row[name]["failed"] else "")
                 if row[name]["median_s"] is not None else f"{name}   failed {row[name]['failed']}/{repeats}" for name in UPLOADERS))
     return rows
+
+
+# ---- every parameter of a vehicle -------------------------------------------------------------------------------------------
+
+READERS = {
+    "lapwing": lambda port: [BENCH_BIN / "bench_params", str(port)],
+    "pymavlink": lambda port: [PYTHON, ROOT / "bench/peer_params_pymavlink.py", str(port)],
+    "mavsdk": lambda port: [PYTHON, ROOT / "bench/peer_params_mavsdk.py", str(port)],
+}
+
+
+def params(repeats: int = 3) -> list:
+    """With the simulator, and with the vehicle that sends to UDP port LAPWING_BENCH_VEHICLE (an ArduPilot SITL of system id 1), if that is
+    set."""
+    rows = []
+    vehicles = ["simulator"] + (["vehicle"] if "LAPWING_BENCH_VEHICLE" in os.environ else [])
+    for vehicle in vehicles:
+        for loss in (0.0, 0.1, 0.3):
+            row = {"vehicle": vehicle, "loss": loss}
+            for name, command in READERS.items():
+                row[name] = reading_time(vehicle, loss, command, repeats)
+            rows.append(row)
+            say(f"params  {vehicle:9} {loss:4.0%} loss  " + "  ".join(
+                f"{name} {row[name]['median_s']:8.3f} s for {row[name]['parameters']}" if row[name]["median_s"] is not None
+                else f"{name}   failed {row[name]['failed']}/{repeats}" for name in READERS))
+    return rows
+
+
+def reading_time(vehicle: str, loss: float, command, repeats: int) -> dict:
+    import lossy_relay
+
+    seconds, failures, count = [], 0, 0
+    for repeat in range(repeats):
+        port = free_udp_port()
+        given = int(os.environ["LAPWING_BENCH_VEHICLE"]) if vehicle == "vehicle" else 0
+        with lossy_relay.LossyRelay(port, loss, repeat + 1, given) as relay, contextlib.ExitStack() as stack:
+            if vehicle == "simulator":
+                stack.enter_context(simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{relay.port}"))
+            try:
+                done = subprocess.run(command(port), capture_output=True, text=True, timeout=150)
+            except subprocess.TimeoutExpired:
+                failures += 1
+                continue
+        if done.returncode == 0:
+            seconds.append(float(done.stdout.split()[0]))
+            count = int(done.stdout.split()[1])
+        else:
+            failures += 1
+    return {"median_s": statistics.median(seconds) if seconds else None, "parameters": count, "failed": failures, "of": repeats}
 
 
 # ---- time from `run` to the first vehicle command -----------------------------------------------------------------------------
@@ -279,12 +328,12 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "start", "scale", "fleet", "language", "upload", "lossy"]
+    wanted = sys.argv[1:] or ["decode", "start", "scale", "fleet", "language", "upload", "lossy", "params"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy, "language": language}[name]()
+        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "language": language}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
