@@ -459,11 +459,11 @@ using Message =
                  GlobalPosition, LocalPosition, VfrHud, NavControllerOutput, Wind, HomePosition, GpsGlobalOrigin,
                  CameraFeedback, SetPositionTargetGlobalInt, PositionTargetGlobalInt, CommandLong, CommandInt,
                  CommandAck, SetMode, RequestDataStream, MessageInterval, ParamRequestRead, ParamRequestList, ParamSet,
-                 ParamValue, ParamError, SetupSigning, MissionItem, MissionCount, MissionRequest, MissionRequestInt, MissionRequestList,
-                 MissionRequestPartialList, MissionWritePartialList, MissionAck, MissionClearAll, MissionSetCurrent,
-                 MissionCurrent, MissionItemReached, WindCov, RcChannels, CameraTrigger, CameraImageCaptured,
-                 CameraInformation, GimbalManagerInformation, GimbalDeviceAttitudeStatus, MountStatus, AvailableModes,
-                 CurrentMode, AvailableModesMonitor>;
+                 ParamValue, ParamError, SetupSigning, MissionItem, MissionCount, MissionRequest, MissionRequestInt,
+                 MissionRequestList, MissionRequestPartialList, MissionWritePartialList, MissionAck, MissionClearAll,
+                 MissionSetCurrent, MissionCurrent, MissionItemReached, WindCov, RcChannels, CameraTrigger,
+                 CameraImageCaptured, CameraInformation, GimbalManagerInformation, GimbalDeviceAttitudeStatus,
+                 MountStatus, AvailableModes, CurrentMode, AvailableModesMonitor>;
 
 /// Who is meant, or nothing for a message that has no target.
 [[nodiscard]] std::optional<Address> target_of(Message const& message);

@@ -53,9 +53,9 @@ struct ParamChange {
   Parameter after;
 };
 
-/// Asks what is there and of which type, sets it unless it is that already, and makes sure that the vehicle stored it. Errors: those of
-/// `read_param`; invalid_input (the type cannot hold the value); refused when the vehicle said so or stored another
-/// value (limits, rounding: names both).
+/// Asks what is there and of which type, sets it unless it is that already, and makes sure that the vehicle stored it.
+/// Errors: those of `read_param`; invalid_input (the type cannot hold the value); refused when the vehicle said so or
+/// stored another value (limits, rounding: names both).
 base::Task<base::Result<ParamChange>> set_param(Connection& connection, Address target, std::string name, double value,
                                                 ParamOptions options = {});
 
