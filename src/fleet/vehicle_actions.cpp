@@ -179,7 +179,9 @@ std::string given_reason(Craft const& craft, TimePoint since) {
 
 std::string recent_failsafe(Craft const& craft, TimePoint now) {
   auto const tells = [](std::string const& text) {
-    return text.find("ailsafe") != std::string::npos || text.find("Fence") != std::string::npos;
+    // "Fence Breached" of ArduPilot 4.6, "Circle fence breached" of 4.7
+    return text.find("ailsafe") != std::string::npos || text.find("Fence") != std::string::npos ||
+           text.find("fence breached") != std::string::npos;
   };
   for (auto const& text : std::views::reverse(craft.state.recent_texts))
     if (text.heard + failsafe_is_recent >= now && tells(text.text)) return text.text;

@@ -46,8 +46,9 @@ void Autopilot::read_parameters() {
 
 MavResult Autopilot::arm(bool force) {
   if (armed_) return MavResult::accepted;
+  auto const fence = fence_.objection();
   auto const refusal = arming_refusal({*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, tuning_.arm_in_auto,
-                                       plans_.mission.size() > 1, fence_.breached() != 0, arming_fault_});
+                                       plans_.mission.size() > 1, fence, arming_fault_});
   if (refusal && !force) {
     outbox_.say(MavSeverity::critical, fmt::format("{}{}", words_.arming_refused, *refusal));
     return MavResult::failed;
@@ -294,11 +295,11 @@ MavState Autopilot::system_status() const {
 }
 
 bool Autopilot::prearm_ok() const {
-  ArmingView const view{
-      *mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, fence_.breached() != 0, arming_fault_};
+  auto const fence = fence_.objection();
+  ArmingView const view{*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, fence, arming_fault_};
   // The periodic check does not ask whether this mode may arm, only whether the vehicle is fit for it. Before the
   // position is there the bit depends on the mode: healthy in STABILIZE, not in GUIDED.
-  return view.checks_passed && view.fault.empty() && !view.outside_fence &&
+  return view.checks_passed && view.fault.empty() && fence.empty() &&
          (!mode_->needs_position || navigation_.position_ok);
 }
 

@@ -250,11 +250,9 @@ void Autopilot::disarm_when_idle() {
 }
 
 void Autopilot::repeat_prearm_fault() {
-  bool const outside = fence_.breached() != 0;
-  bool const fit = arming_fault_.empty() && !outside;
-  if (armed_ || fit || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
-  outbox_.say(MavSeverity::critical,
-              fmt::format("{}{}", words_.unfit, arming_fault_.empty() ? "vehicle outside fence" : arming_fault_));
+  auto const objection = arming_fault_.empty() ? fence_.objection() : arming_fault_;
+  if (armed_ || objection.empty() || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
+  outbox_.say(MavSeverity::critical, fmt::format("{}{}", words_.unfit, objection));
   next_prearm_text_ = now_ + prearm_repeat_time;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 namespace lapwing::sim {
 
 unsigned FenceWatch::update(View const& view) {
@@ -22,6 +24,15 @@ unsigned FenceWatch::update(View const& view) {
   }
   breached_ = now;
   return fresh;
+}
+
+std::string FenceWatch::objection() const {
+  if (breached_ == 0) return {};
+  auto const* const name = (breached_ & areas) != 0    ? "Polygon"
+                           : (breached_ & circle) != 0 ? "Circle"
+                           : (breached_ & height) != 0 ? "Max Alt"
+                                                       : "Min Alt";
+  return fmt::format("Vehicle breaching {} fence", name);
 }
 
 void FenceWatch::read(MissionPlan const& plan, Site const& site) {

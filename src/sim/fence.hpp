@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/time.hpp"
@@ -36,6 +37,8 @@ class FenceWatch {
   /// Whether `point` is inside every limit that is watched; with the areas as of the last update.
   [[nodiscard]] bool allows(geo::Ned point, geo::Ned home, FenceSettings const& settings) const;
   [[nodiscard]] unsigned breached() const { return breached_; }
+  /// Why the vehicle must not arm where it is, in ArduPilot's words; empty when it may.
+  [[nodiscard]] std::string objection() const;
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] base::Duration breached_at() const { return breached_at_; }
 

@@ -108,9 +108,9 @@ TEST(Fence, DoesWhatItsActionSays) {
   }
 }
 
-TEST(Fence, HoldsTheModeUntilTheVehicleIsBackInside) {
+TEST(Fence, HoldsTheModeUntilTheVehicleIsBackInsideIfToldSo) {
   TestGround ground("copter");
-  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}});
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}, {"FENCE_OPTIONS", 1}});
   hover(ground, 10);
   fly(ground, {8, 0, 0}, 7s);
   ASSERT_EQ(ground.pilot().mode().name, "RTL");
@@ -155,19 +155,24 @@ TEST(Fence, RefusesArmingInsideAnExclusionZone) {
   ground.set_mode(guided);
   EXPECT_EQ(ground.arm(), MavResult::failed);
   ground.run_for(100ms);
-  EXPECT_EQ(ground.said("Arm: vehicle outside fence"), 1);
-  EXPECT_EQ(ground.said("PreArm: vehicle outside fence"), 1);
+  EXPECT_EQ(ground.said("Arm: Vehicle breaching Polygon fence"), 1);
+  EXPECT_EQ(ground.said("PreArm: Vehicle breaching Polygon fence"), 1);
   EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {0}), MavResult::accepted);
   ground.run_for(100ms);
   EXPECT_EQ(ground.arm(), MavResult::accepted);
 }
 
-TEST(Fence, IsSwitchedByCommandAndReportsNothingWhileOff) {
+TEST(Fence, IsSwitchedByCommandAndReportsThatItIsOnWithItsHealth) {
   TestGround ground("copter");
   ground.boot();
-  EXPECT_EQ(ground.command(MavCmd::request_message, {162}), MavResult::failed);
+  ground.request(MessageId::sys_status, 10);
+  ground.run_for(500ms);
+  EXPECT_EQ(ground.last<SysStatus>()->sensors_present & sensor_flag::geofence, 0u);
   EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {1}), MavResult::accepted);
   EXPECT_EQ(ground.command(MavCmd::request_message, {162}), MavResult::accepted);
+  EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 0);
+  ground.run_for(500ms);
+  EXPECT_NE(ground.last<SysStatus>()->sensors_health & sensor_flag::geofence, 0u);
   EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {7}), MavResult::failed);
 }
 

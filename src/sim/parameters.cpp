@@ -34,7 +34,7 @@ constexpr Default common[] = {
     {"EK3_ENABLE", 1, int8},        {"FENCE_ACTION", 1, int8},
     {"FENCE_ALT_MAX", 100},         {"FENCE_ALT_MIN", -10},
     {"FENCE_ENABLE", 0, int8},      {"FENCE_MARGIN", 2},
-    {"FENCE_OPTIONS", 1, int16},    {"FENCE_RADIUS", 300},
+    {"FENCE_OPTIONS", 0, int16},    {"FENCE_RADIUS", 300},
     {"FENCE_TOTAL", 0, int8},       {"GPS_TYPE", 1, int8},
     {"LOG_BACKEND_TYPE", 1, int8},  {"LOG_BITMASK", 176126, int32},
     {"LOG_DISARMED", 0, int8},      {"MIS_OPTIONS", 0, int16},

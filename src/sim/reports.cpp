@@ -292,7 +292,7 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
       return wind(view);
     case MessageId::rc_channels: return rc_channels(autopilot);
     case MessageId::fence_status:
-      if (!autopilot.fence_enabled() || autopilot.kind().is_px4()) return std::nullopt;
+      if (autopilot.kind().is_px4()) return std::nullopt;
       return fence_status(autopilot);
     case MessageId::extended_sys_state: return ExtendedSysState{.landed_state = autopilot.landed_state()};
     case MessageId::home_position:
