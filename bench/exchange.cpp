@@ -44,9 +44,10 @@ Task<Result<>> upload(mavlink::Connection& connection) {
 }
 
 Task<Result<>> command(mavlink::Connection& connection) {
-  auto const guided = mavlink::set_mode(mavlink::MavAutopilot::ardupilotmega, 4);
+  // Five times a second, whatever state the vehicle is in.
+  mavlink::Command const rate{mavlink::MavCmd::set_message_interval, {33.0F, 200'000.0F}};
   mavlink::CommandOptions const patient{.tries = 12, .ack_timeout = 1s, .expiry = 60s};
-  co_return co_await mavlink::run_command(connection, vehicle, guided, patient);
+  co_return co_await mavlink::run_command(connection, vehicle, rate, patient);
 }
 
 Task<Result<>> parameter(mavlink::Connection& connection) {

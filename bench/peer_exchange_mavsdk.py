@@ -13,7 +13,7 @@ PORT, WHAT, ITEMS = int(sys.argv[1]), sys.argv[2], 20
 
 async def exchange(drone):
     if WHAT == "command":
-        await drone.action.hold()
+        await drone.telemetry.set_rate_position(5.0)
     elif WHAT == "parameter":
         await drone.param.set_param_int("RTL_ALT", 2500)
     else:

@@ -27,8 +27,8 @@ def until(send, kinds, fits) -> object:
 
 
 def command():
-    until(lambda: link.mav.command_long_send(1, 1, 176, 0, 1, 4, 0, 0, 0, 0, 0), ["COMMAND_ACK"],
-          lambda ack: ack.command == 176 and ack.result == 0)
+    until(lambda: link.mav.command_long_send(1, 1, 511, 0, 33, 200_000, 0, 0, 0, 0, 0), ["COMMAND_ACK"],
+          lambda ack: ack.command == 511 and ack.result == 0)
 
 
 def parameter():

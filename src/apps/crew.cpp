@@ -62,7 +62,8 @@ dolphin::Needs needs_of_text(std::string const& name, std::string const& text) {
 std::string to_text(std::vector<sim::VehicleGroup> const& groups) {
   std::string text;
   for (auto const& group : groups)
-    text += fmt::format("{}{}:{}", text.empty() ? "" : ",", vehicle::to_string(group.family), group.count);
+    text += fmt::format("{}{}{}:{}", text.empty() ? "" : ",", group.firmware == vehicle::Autopilot::px4 ? "px4-" : "",
+                        vehicle::to_string(group.family), group.count);
   return text;
 }
 
