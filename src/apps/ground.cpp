@@ -19,18 +19,13 @@ fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop, tasks::Pla
   return options;
 }
 
-mavlink::Connection::Options connection_options(fleet::Fleet::Options const& fleet_options,
-                                                SigningSetup const& signing) {
+mavlink::Connection::Options connection_options(bool asks_for_messages, SigningSetup const& signing) {
   mavlink::Connection::Options options{.keys = signing.ring, .signed_until = signing.signed_until};
-  if (!fleet_options.asks_for_messages) options.timesync_period = {};
+  if (!asks_for_messages) options.timesync_period = {};
   return options;
 }
 
 }  // namespace
-
-Ground::Network::Network(Ground& ground, fleet::Fleet::Options options)
-    : connection(ground.loop, connection_options(options, ground.signing), ground.log.named("link")),
-      fleet(connection, ground.registry, std::move(options), ground.log.named("fleet")) {}
 
 base::Result<NetworkLink> parse_network_link(std::string const& text) {
   // A name stands before the URL's first colon; a path or an option may have an equals sign, too.
@@ -48,15 +43,14 @@ base::Result<NetworkLink> parse_network_link(std::string const& text) {
 }
 
 Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger to, fleet::Fleet::Options options,
-               tasks::PlanLibrary plans, SigningSetup keys,
-               vehicle::StopAction emergency_action)
+               tasks::PlanLibrary plans, SigningSetup keys, vehicle::StopAction emergency_action)
     : loop(on),
       log(std::move(to)),
-      fleet_options(std::move(options)),
+      asks_for_messages(options.asks_for_messages),
       signing(std::move(keys)),
-      connection(on, connection_options(fleet_options, signing), log.named("link")),
+      connection(on, connection_options(asks_for_messages, signing), log.named("link")),
       registry(on),
-      fleet(connection, registry, fleet_options, log.named("fleet")),
+      fleet(connection, registry, std::move(options), log.named("fleet")),
       platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")),
       control(fleet, platform, {.stop_action = emergency_action}, log) {}
 
@@ -75,13 +69,11 @@ base::Result<> Ground::open(std::vector<std::string> const& texts) {
 
 mavlink::Connection& Ground::connection_of(std::string const& network) {
   if (network.empty()) return connection;
-  if (auto const found = networks.find(network); found != networks.end()) return found->second.connection;
-  auto options = fleet_options;
-  options.network = network;
-  options.payload.clear();  // told by system id, of the network without a name
-  auto const made = networks.try_emplace(network, *this, std::move(options)).first;
-  platform.add(made->second.fleet);
-  return made->second.connection;
+  if (auto const found = networks.find(network); found != networks.end()) return found->second;
+  auto& made = networks.try_emplace(network, loop, connection_options(asks_for_messages, signing), log.named("link"))
+                   .first->second;
+  fleet.add(made, network);
+  return made;
 }
 
 }  // namespace lapwing::apps

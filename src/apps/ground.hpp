@@ -31,13 +31,6 @@ struct NetworkLink {
 
 /// The ground side of one program: links, the vehicles on them, and the platform that flies missions on those.
 struct Ground {
-  /// Vehicles with system ids of their own.
-  struct Network {
-    Network(Ground& ground, fleet::Fleet::Options options);
-    mavlink::Connection connection;
-    fleet::Fleet fleet;
-  };
-
   Ground(base::Loop& loop, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options = {},
          tasks::PlanLibrary plans = {}, SigningSetup signing = {},
          vehicle::StopAction emergency_action = vehicle::StopAction::hold);
@@ -48,12 +41,12 @@ struct Ground {
 
   base::Loop& loop;
   base::Logger log;
-  fleet::Fleet::Options fleet_options;
+  bool asks_for_messages;
   SigningSetup signing;
-  mavlink::Connection connection;  ///< of the network without a name
+  mavlink::Connection connection;                       ///< of the network without a name
+  std::map<std::string, mavlink::Connection> networks;  ///< the others, by name
   vehicle::Registry registry;
   fleet::Fleet fleet;
-  std::map<std::string, Network> networks;  ///< the others, by name
   fleet::FleetPlatform platform;
   fleet::Control control;  ///< what operators do with the vehicles
 

@@ -76,7 +76,7 @@ base::Result<> Session::open_links(std::vector<std::string> const& urls) {
   if (auto opened = ground.open(urls); !opened) return opened;
   if (record_folder_.empty()) return {};
   for (auto& [name, network] : ground.networks) {
-    auto begun = Recording::begin(record_folder_, network.connection, log.named("recording"));
+    auto begun = Recording::begin(record_folder_, network, log.named("recording"));
     if (!begun) return std::unexpected(begun.error());
     log.info(fmt::format("recording network {} to {}", name, (*begun)->file().string()));
     network_recordings.push_back(std::move(*begun));

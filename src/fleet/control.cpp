@@ -62,8 +62,8 @@ Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::L
       emergency_(
           fleet, [this] { ++revision_; }, log.named("emergency")),
       others_(fleet, log.named("others")),
-      acknowledgements_(
-          fleet.connection().subscribe([this](mavlink::Received const& received) { take_late_arming(received); })),
+      acknowledgements_(fleet.subscribe(
+          [this](Network& network, mavlink::Received const& received) { take_late_arming(network, received); })),
       scope_(fleet.loop()) {
   fleet_.authority().set_on_loss([this](Craft& craft, Commander const& to) {
     auto const reason = fmt::format("{} took {} over", to, craft.state.name);
@@ -131,7 +131,7 @@ base::Task<> Control::carry(Craft& craft, std::uint64_t number, vehicle::Vehicle
   auto const id = craft.id();
   std::function<void()> const on_accepted = [this, number, id] { show(number, id, CommandState::accepted, ""); };
   ActionOptions const how{.not_after = expires, .is_urgent = is_stop(command.action), .on_accepted = on_accepted};
-  auto const ended = co_await carry_out(fleet_.connection(), craft, command, how);
+  auto const ended = co_await carry_out(craft.connection, craft, command, how);
   finish(craft, number, ended, expires);
 }
 
@@ -176,12 +176,12 @@ void Control::show(std::uint64_t number, VehicleId const& id, CommandState state
 }
 
 /// An acknowledgement to us of an arming that we have given up: the link had kept one or the other.
-void Control::take_late_arming(mavlink::Received const& received) {
+void Control::take_late_arming(Network& network, mavlink::Received const& received) {
   auto const* ack = std::get_if<mavlink::CommandAck>(&received.message);
   if (!ack || ack->command != mavlink::MavCmd::component_arm_disarm || ack->result != mavlink::MavResult::accepted)
     return;
-  if (!mavlink::addresses(ack->target, fleet_.connection().self())) return;
-  auto* const craft = fleet_.find(VehicleId{std::to_string(received.source.system)});
+  if (!mavlink::addresses(ack->target, network.connection().self())) return;
+  auto* const craft = network.find(received.source.system);
   if (!craft || !std::exchange(craft->may_arm_late, false)) return;
   scope_.spawn(take_back(*craft));
 }
@@ -193,7 +193,7 @@ base::Task<> Control::take_back(Craft& craft) {
   if (!co_await craft.changed.wait_for(std::move(is_armed), heartbeats)) co_return;
   log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
   ActionOptions const how{.is_urgent = true};
-  auto const disarmed = co_await disarm(fleet_.connection(), craft, how);
+  auto const disarmed = co_await disarm(craft.connection, craft, how);
   if (!disarmed) log_.error(fmt::format("{} stays armed: {}", craft.state.name, disarmed.error().message));
 }
 
@@ -239,7 +239,7 @@ Result<> Control::keep_control(VehicleId const& id, Commander by) {
 }
 
 void Control::forget(Commander const& by) {
-  for (auto const* craft : fleet_.all()) (void)fleet_.authority().yield(*fleet_.find(craft->id()), by);
+  for (auto* craft : fleet_.all()) (void)fleet_.authority().yield(*craft, by);
 }
 
 }  // namespace lapwing::fleet

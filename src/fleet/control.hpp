@@ -61,7 +61,7 @@ class Control final : public vehicle::VehicleControl {
   void finish(Craft& craft, std::uint64_t number, base::Result<> const& ended, base::TimePoint expires);
   void supersede(vehicle::VehicleId const& id, std::string const& reason);
   void show(std::uint64_t number, vehicle::VehicleId const& id, vehicle::CommandState state, std::string reason);
-  void take_late_arming(mavlink::Received const& received);
+  void take_late_arming(Network& network, mavlink::Received const& received);
   base::Task<> take_back(Craft& craft);
 
   Fleet& fleet_;
@@ -75,7 +75,7 @@ class Control final : public vehicle::VehicleControl {
   std::map<vehicle::VehicleId, Running> running_;
   Emergency emergency_;
   OtherStations others_;
-  mavlink::Subscription acknowledgements_;
+  std::shared_ptr<Fleet::Heard const> acknowledgements_;
   base::Scope scope_;
 };
 

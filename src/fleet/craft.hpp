@@ -37,12 +37,14 @@ struct MissionTrace {
 
 /// One vehicle as the fleet needs it to fly missions, beyond what `vehicle::VehicleState` shows to everybody.
 ///
-/// Written by `Fleet`; mission runs read it and wait on `changed`, which tells of every message from the vehicle and of
-/// its loss. Thread-bound; lives as long as its fleet, so references to it may be kept.
+/// Written by its `Network`; mission runs read it and wait on `changed`, which tells of every message from the vehicle
+/// and of its loss. Thread-bound; lives as long as its fleet, so references to it may be kept.
 struct Craft {
-  Craft(base::Loop& loop, vehicle::VehicleState& shown) : state(shown), changed(loop) {}
+  Craft(mavlink::Connection& heard_on, vehicle::VehicleState& shown)
+      : connection(heard_on), state(shown), changed(heard_on.loop()) {}
 
-  vehicle::VehicleState& state;  ///< the registry's
+  mavlink::Connection& connection;  ///< of its network
+  vehicle::VehicleState& state;     ///< the registry's
   mavlink::Address address{};
   mavlink::MavAutopilot mav_autopilot{};
   std::string type;  ///< "UAV"

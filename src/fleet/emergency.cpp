@@ -40,18 +40,15 @@ std::string posture(Craft const& craft) {
 
 Emergency::Emergency(Fleet& fleet, std::function<void()> changed, base::Logger log)
     : fleet_(fleet), changed_(std::move(changed)), log_(std::move(log)) {
-  fleet_.connection().set_send_guard(
-      [this](mavlink::Address target, mavlink::Message const& message) -> base::Result<> {
-        if (!state_.is_latched) return {};
-        auto const* craft = std::as_const(fleet_).find(vehicle::VehicleId{std::to_string(target.system)});
-        if (!craft || !is_moving(*craft, message)) return {};
-        return base::fail(base::ErrorKind::refused, fmt::format("emergency stop by {}", state_.by),
-                          "release the emergency stop first");
-      });
+  fleet_.set_send_guard([this](Craft const& craft, mavlink::Message const& message) -> base::Result<> {
+    if (!state_.is_latched || !is_moving(craft, message)) return {};
+    return base::fail(base::ErrorKind::refused, fmt::format("emergency stop by {}", state_.by),
+                      "release the emergency stop first");
+  });
 }
 
 Emergency::~Emergency() {
-  fleet_.connection().set_send_guard({});
+  fleet_.set_send_guard({});
 }
 
 void Emergency::latch(StopAction action, Commander by) {
@@ -62,7 +59,7 @@ void Emergency::latch(StopAction action, Commander by) {
   state_.by = std::move(by);
   state_.vehicles.clear();
   pursuits_.clear();
-  for (auto const* craft : fleet_.all()) join(*fleet_.find(craft->id()));
+  for (auto* craft : fleet_.all()) join(*craft);
   if (!goes_on) {
     welcome_ = welcome();
     welcome_.start();
@@ -82,7 +79,7 @@ void Emergency::leave_to_operator(vehicle::VehicleId const& id) {
   auto const found = pursuits_.find(id);
   if (!state_.is_latched || found == pursuits_.end()) return;
   pursuits_.erase(found);
-  auto const* craft = std::as_const(fleet_).find(id);
+  auto const* craft = fleet_.find(id);
   tell(*craft, "left to the operator's command");
 }
 
@@ -95,16 +92,16 @@ void Emergency::join(Craft& craft) {
 base::Task<> Emergency::welcome() {
   for (;;) {
     co_await fleet_.registry().membership_changed().wait();
-    for (auto const* craft : fleet_.all()) {
+    for (auto* craft : fleet_.all()) {
       if (std::ranges::find(state_.vehicles, craft->id(), &StopOutcome::vehicle) != state_.vehicles.end()) continue;
-      join(*fleet_.find(craft->id()));
+      join(*craft);
       changed_();
     }
   }
 }
 
 base::Task<bool> Emergency::stop_once(Craft& craft) {
-  auto& connection = fleet_.connection();
+  auto& connection = craft.connection;
   ++outcome(craft).tries;
   std::function<void()> const on_accepted = [this, &craft] {
     outcome(craft).is_acknowledged = true;

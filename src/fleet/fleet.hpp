@@ -1,97 +1,63 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
+#include <functional>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "base/log.hpp"
-#include "base/scope.hpp"
 #include "fleet/authority.hpp"
-#include "fleet/craft.hpp"
-#include "mavlink/connection.hpp"
-#include "vehicle/registry.hpp"
+#include "fleet/network.hpp"
 
 namespace lapwing::fleet {
 
-/// Every vehicle that is heard on a connection, kept up to date in the registry.
-///
-/// A vehicle appears with the first heartbeat of its autopilot and never goes away: silent for longer than its
-/// connection time-out it is lost, with the next heartbeat it is back. Telemetry that does not come by itself is asked
-/// for. Thread-bound.
+/// Every vehicle of every network, in one registry. There is at least one network; the vehicles of further ones carry
+/// its name in their ids, since each MAVLink network has system ids of its own and ends at 255 of them. Thread-bound.
 class Fleet {
  public:
-  struct Options {
-    base::Duration connection_timeout = std::chrono::seconds(20);  ///< of a vehicle for which nobody set another one
-    std::map<int, std::vector<std::string>> payload =
-        {};                         ///< system id -> names of its equipment, as scripts ask for them
-    bool asks_for_messages = true;  ///< false: only listen
-    /// Where there are several, each with system ids of its own; ids and names begin with it: "north/1", "north/copter
-    /// 1".
-    std::string network = {};
-  };
+  using Options = Network::Options;
+  /// What a vehicle, or another ground station, has said on a network.
+  using Heard = std::function<void(Network&, mavlink::Received const&)>;
+  /// Asked before anything is sent to a vehicle: an error is what the sender gets.
+  using SendGuard = std::function<base::Result<>(Craft const&, mavlink::Message const&)>;
 
+  /// Connections and registry outlive the fleet.
   Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log);
   Fleet(Fleet const&) = delete;
   Fleet& operator=(Fleet const&) = delete;
 
-  [[nodiscard]] Craft* find(vehicle::VehicleId const& id);
-  [[nodiscard]] Craft const* find(vehicle::VehicleId const& id) const;
-  /// Lost ones included, by system id.
-  [[nodiscard]] std::vector<Craft const*> all() const;
+  /// A further network of this name; otherwise with the first one's options, but for the payload, which is told by
+  /// system id.
+  void add(mavlink::Connection& connection, std::string name);
+
+  /// Null when there is none.
+  [[nodiscard]] Craft* find(vehicle::VehicleId const& id) const;
+  /// Lost ones included.
+  [[nodiscard]] std::vector<Craft*> all() const;
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout);
 
   /// Who commands which vehicle.
   [[nodiscard]] Authority& authority() { return authority_; }
-
-  /// Gives the message rates that were changed back to every connected vehicle, and asks for none any more. For the end
-  /// of a program; takes three seconds at most.
-  ///
-  /// A rate is given back when it is known what it was before, when it still is as we set it, and when no other ground
-  /// station was heard over the vehicle's link lately, which might have come to depend on it.
+  /// `heard` sees every message of every network, those added later included, as long as the result lives.
+  [[nodiscard]] std::shared_ptr<Heard const> subscribe(Heard heard);
+  /// Of every network, those added later included. One at a time; empty: none.
+  void set_send_guard(SendGuard guard) { send_guard_ = std::move(guard); }
+  /// `Network::give_back_rates` of all.
   base::Task<> give_back_rates();
 
   [[nodiscard]] vehicle::Registry& registry() const { return registry_; }
-  [[nodiscard]] mavlink::Connection& connection() const { return connection_; }
-  [[nodiscard]] base::Loop& loop() const { return connection_.loop(); }
+  [[nodiscard]] base::Loop& loop() const { return networks_.front()->loop(); }
 
  private:
-  void take(mavlink::Received const& received);
-  void take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
-  void take_from_autopilot(Craft& craft, mavlink::Received const& received);
-  void take_from_component(Craft& craft, mavlink::Received const& received);
-  void take_radio_of_link(mavlink::Received const& received, mavlink::RadioStatus const& radio);
-  void tell(Craft const& craft, std::vector<vehicle::StatusText> const& texts);
-  void let_age(Craft& craft);
-  Craft& discover(mavlink::Received const& received);
-  void note_restart(Craft& craft, base::TimePoint now);
-  void note_camera(std::uint8_t system_id);
-  void check_connection(Craft& craft);
-  [[nodiscard]] std::string in_network(std::string text) const;
-  void note_links();
-  base::Task<> watch();
-  base::Task<> ask_questions(Craft& craft);
-  base::Task<> ask_for_picture(Craft& craft, Question question);
-  base::Task<> ask_for_modes(Craft& craft, Question question);
-  void spare_slow_link(Craft& craft);
-  base::Task<> ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted);
-  base::Task<bool> ask_for_message(Craft& craft, WantedMessage message);
-  base::Task<> give_back_rates_of(Craft& craft, base::TimePoint deadline);
-  [[nodiscard]] bool others_may_depend_on(Craft const& craft) const;
+  void open(mavlink::Connection& connection, Options options);
 
-  mavlink::Connection& connection_;
   vehicle::Registry& registry_;
-  Options options_;
   base::Logger log_;
-  std::map<std::uint8_t, std::unique_ptr<Craft>> crafts_;           // pointers: craft addresses must not change
-  std::set<std::uint8_t> cameras_;                                  ///< systems that were heard to carry one
-  std::map<mavlink::PeerRef, base::TimePoint> other_ground_heard_;  ///< heartbeats of other ground stations
+  Options options_;
   Authority authority_;
-  bool is_giving_back_ = false;
-  mavlink::Subscription subscription_;
-  base::Scope scope_;
+  SendGuard send_guard_;
+  std::vector<std::weak_ptr<Heard const>> listeners_;
+  std::vector<std::unique_ptr<Network>> networks_;
+  std::vector<mavlink::Subscription> subscriptions_;
 };
 
 }  // namespace lapwing::fleet

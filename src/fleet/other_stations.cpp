@@ -48,23 +48,21 @@ std::string_view plan_word(mavlink::MissionType type) {
 OtherStations::OtherStations(Fleet& fleet, base::Logger log)
     : fleet_(fleet),
       log_(std::move(log)),
-      subscription_(fleet.connection().subscribe([this](mavlink::Received const& received) { take(received); })) {}
+      subscription_(
+          fleet.subscribe([this](Network& network, mavlink::Received const& received) { take(network, received); })) {}
 
-Craft* OtherStations::craft_of(std::uint8_t system_id) {
-  return fleet_.find(vehicle::VehicleId{std::to_string(system_id)});
-}
-
-void OtherStations::take(mavlink::Received const& received) {
+void OtherStations::take(Network& network, mavlink::Received const& received) {
   if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message))
-    return take_heartbeat(received, *heartbeat);
+    return take_heartbeat(network, received, *heartbeat);
   if (auto const* command = std::get_if<mavlink::CommandLong>(&received.message))
-    return note_command(received.source, command->target, command->command, "");
+    return note_command(network, received.source, command->target, command->command, "");
   if (auto const* command = std::get_if<mavlink::CommandInt>(&received.message))
-    return note_command(received.source, command->target, command->command, "");
-  take_answer(received);
+    return note_command(network, received.source, command->target, command->command, "");
+  take_answer(network, received);
 }
 
-void OtherStations::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat) {
+void OtherStations::take_heartbeat(Network& network, mavlink::Received const& received,
+                                   mavlink::Heartbeat const& heartbeat) {
   if (heartbeat.type == mavlink::MavType::gcs) {
     bool const is_new = !stations_.contains(received.source);
     stations_[received.source] = received.at;
@@ -72,29 +70,30 @@ void OtherStations::take_heartbeat(mavlink::Received const& received, mavlink::H
     return;
   }
   if (received.source.component != mavlink::autopilot_component) return;
-  auto* const craft = craft_of(received.source.system);
+  auto* const craft = network.find(received.source.system);
   if (!craft) return;
-  auto const [entry, is_first] = modes_.try_emplace(received.source.system, heartbeat.custom_mode);
+  auto const [entry, is_first] = modes_.try_emplace(craft->id(), heartbeat.custom_mode);
   auto const before = std::exchange(entry->second, heartbeat.custom_mode);
   if (!is_first && before != heartbeat.custom_mode) note_mode(*craft, before);
 }
 
 /// What a vehicle answers to somebody else.
-void OtherStations::take_answer(mavlink::Received const& received) {
+void OtherStations::take_answer(Network& network, mavlink::Received const& received) {
   auto const target = mavlink::target_of(received.message);
-  if (!target || target->system == 0 || mavlink::addresses(*target, fleet_.connection().self())) return;
+  if (!target || target->system == 0 || mavlink::addresses(*target, network.connection().self())) return;
   if (auto const* ack = std::get_if<mavlink::CommandAck>(&received.message)) {
     if (ack->result == mavlink::MavResult::in_progress) return;
-    return note_command(*target, received.source, ack->command, mavlink::to_string(ack->result));
+    return note_command(network, *target, received.source, ack->command, mavlink::to_string(ack->result));
   }
   auto const* ack = std::get_if<mavlink::MissionAck>(&received.message);
-  auto* const craft = craft_of(received.source.system);
+  auto* const craft = network.find(received.source.system);
   if (!ack || !craft || ack->result != mavlink::MavMissionResult::accepted) return;
   tell(*craft, fmt::format("{} changed or read its {}", name_of(*target), plan_word(ack->type)));
 }
 
-void OtherStations::note_command(Address by, Address target, MavCmd command, std::string_view outcome) {
-  auto* const craft = craft_of(target.system);
+void OtherStations::note_command(Network& network, Address by, Address target, MavCmd command,
+                                 std::string_view outcome) {
+  auto* const craft = network.find(target.system);
   if (!craft || only_asks(command)) return;
   tell(*craft,
        fmt::format("{} commanded {}{}{}", name_of(by), to_string(command), outcome.empty() ? "" : ": ", outcome));
@@ -104,7 +103,7 @@ void OtherStations::note_command(Address by, Address target, MavCmd command, std
 void OtherStations::note_mode(Craft& craft, std::uint32_t before) {
   auto const now = fleet_.loop().now();
   bool const is_ours =
-      craft.asked_mode == std::as_const(modes_).at(craft.address.system) && now - craft.mode_asked <= asked_recently;
+      craft.asked_mode == std::as_const(modes_).at(craft.id()) && now - craft.mode_asked <= asked_recently;
   bool const has_just_booted = mode_name(craft, before) == "INITIALISING";
   if (is_ours || has_just_booted) return;
   tell(craft, fmt::format("{} to {}, not asked for here{}", mode_name(craft, before),

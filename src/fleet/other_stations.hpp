@@ -19,20 +19,20 @@ class OtherStations {
   OtherStations& operator=(OtherStations const&) = delete;
 
  private:
-  void take(mavlink::Received const& received);
-  void take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
-  void take_answer(mavlink::Received const& received);
-  void note_command(mavlink::Address by, mavlink::Address target, mavlink::MavCmd command, std::string_view outcome);
+  void take(Network& network, mavlink::Received const& received);
+  void take_heartbeat(Network& network, mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
+  void take_answer(Network& network, mavlink::Received const& received);
+  void note_command(Network& network, mavlink::Address by, mavlink::Address target, mavlink::MavCmd command,
+                    std::string_view outcome);
   void note_mode(Craft& craft, std::uint32_t before);
   void tell(Craft& craft, std::string what);
-  [[nodiscard]] Craft* craft_of(std::uint8_t system_id);
   [[nodiscard]] std::string suspects() const;
 
   Fleet& fleet_;
   base::Logger log_;
   std::map<mavlink::Address, base::TimePoint> stations_;  ///< heard, and when last
-  std::map<std::uint8_t, std::uint32_t> modes_;           ///< of the last heartbeat, by system
-  mavlink::Subscription subscription_;
+  std::map<vehicle::VehicleId, std::uint32_t> modes_;     ///< of the last heartbeat
+  std::shared_ptr<Fleet::Heard const> subscription_;
 };
 
 }  // namespace lapwing::fleet

@@ -89,7 +89,7 @@ std::optional<mavlink::RawValue> raw_value(tasks::Argument const& value) {
 constexpr base::Duration listening_time = std::chrono::seconds(5);
 
 FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
-    : fleets_{&fleet},
+    : fleet_(fleet),
       options_(std::move(options)),
       log_(std::move(log)),
       all_heard_by_(fleet.loop().now() + listening_time),
@@ -103,44 +103,37 @@ Result<std::shared_ptr<tasks::PlatformTask const>> FleetPlatform::named_task(std
 
 std::vector<VehicleInfo> FleetPlatform::vehicles() const {
   std::vector<VehicleInfo> infos;
-  for (auto const* fleet : fleets_)
-    for (auto const* craft : fleet->all()) infos.push_back(info_of(*craft));
+  for (auto const* craft : fleet_.all()) infos.push_back(info_of(*craft));
   return infos;
 }
 
-FleetPlatform::Found FleetPlatform::look_up(VehicleId const& id) const {
-  for (auto* fleet : fleets_)
-    if (auto* craft = fleet->find(id)) return {fleet, craft};
-  return {};
-}
-
 std::optional<VehicleInfo> FleetPlatform::find(VehicleId const& id) const {
-  auto const found = look_up(id);
-  if (!found.craft) return std::nullopt;
-  return info_of(*found.craft);
+  auto const* craft = fleet_.find(id);
+  if (!craft) return std::nullopt;
+  return info_of(*craft);
 }
 
 void FleetPlatform::set_connection_timeout(VehicleId const& id, base::Duration timeout) {
-  for (auto* fleet : fleets_) fleet->set_connection_timeout(id, timeout);
+  fleet_.set_connection_timeout(id, timeout);
 }
 
 std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::PlatformTask const> task,
                                                      VehicleId const& id) {
-  auto const found = look_up(id);
-  if (!found.craft) return std::make_unique<FailedRun>(fmt::format("no vehicle {}", id.text));
+  auto* const craft = fleet_.find(id);
+  if (!craft) return std::make_unique<FailedRun>(fmt::format("no vehicle {}", id.text));
   auto const* mission = dynamic_cast<tasks::MissionTask const*>(task.get());
   if (!mission)
     return std::make_unique<FailedRun>(
-        fmt::format("'{}' is no mission: {} cannot fly it", task->name(), found.craft->state.name));
-  if (auto claimed = found.fleet->authority().claim(*found.craft, script_commander); !claimed)
+        fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));
+  if (auto claimed = fleet_.authority().claim(*craft, script_commander); !claimed)
     return std::make_unique<FailedRun>(claimed.error().message);
-  auto& its_pilot = pilot(found);
+  auto& its_pilot = pilot(*craft);
   return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
 }
 
 Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view message,
                                      std::span<tasks::MessageField const> fields) {
-  auto const [fleet, craft] = look_up(id);
+  auto const* craft = fleet_.find(id);
   if (!craft) return base::fail(ErrorKind::lost, fmt::format("no vehicle {}", id.text));
   std::vector<mavlink::RawField> raw;
   for (auto const& [name, value] : fields) {
@@ -149,7 +142,7 @@ Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view messa
       return base::fail(ErrorKind::invalid_input, fmt::format("{}: {} takes a number or a text", message, name));
     raw.push_back({name, *std::move(converted)});
   }
-  auto& connection = fleet->connection();
+  auto& connection = craft->connection;
   auto frame = mavlink::raw_message(message, raw, connection.self(), craft->address);
   if (!frame) return std::unexpected(frame.error());
   auto sent = connection.send(craft->address, *frame);
@@ -161,8 +154,7 @@ base::Task<void> FleetPlatform::settle() {
   auto const is_settling = [](auto const& entry) { return entry.second->is_settling(); };
   while (std::ranges::any_of(pilots_, is_settling)) co_await settled_.wait();
   for (auto& [id, its_pilot] : pilots_)
-    if (auto const found = look_up(id); !its_pilot->is_flying())
-      (void)found.fleet->authority().yield(*found.craft, script_commander);
+    if (!its_pilot->is_flying()) (void)fleet_.authority().yield(*fleet_.find(id), script_commander);
 }
 
 void FleetPlatform::yield(VehicleId const& id, std::string const& reason) {
@@ -188,10 +180,9 @@ std::vector<MissionReport> FleetPlatform::missions(VehicleId const& id) const {
   return reports;
 }
 
-Pilot& FleetPlatform::pilot(Found const& found) {
-  auto& entry = pilots_[found.craft->id()];
-  if (!entry)
-    entry = std::make_unique<Pilot>(RunContext{found.fleet->connection(), *found.craft, options_.run, log_}, settled_);
+Pilot& FleetPlatform::pilot(Craft& craft) {
+  auto& entry = pilots_[craft.id()];
+  if (!entry) entry = std::make_unique<Pilot>(RunContext{craft.connection, craft, options_.run, log_}, settled_);
   return *entry;
 }
 

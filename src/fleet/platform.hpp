@@ -37,8 +37,6 @@ class FleetPlatform final : public tasks::Platform {
 
   /// `fleet` outlives the platform.
   FleetPlatform(Fleet& fleet, Options options, base::Logger log);
-  /// The vehicles of a further network, kept in the same registry.
-  void add(Fleet& fleet) { fleets_.push_back(&fleet); }
 
   [[nodiscard]] std::span<tasks::BuilderSpec const> builders() const override { return builders_; }
   [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
@@ -46,7 +44,7 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::vector<std::string> plan_names() const override { return tasks::names_of(options_.plan_library); }
   [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
   [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
-  [[nodiscard]] base::Notifier& vehicles_changed() override { return fleets_.front()->registry().membership_changed(); }
+  [[nodiscard]] base::Notifier& vehicles_changed() override { return fleet_.registry().membership_changed(); }
   [[nodiscard]] base::TimePoint all_heard_by() const override { return all_heard_by_; }
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
@@ -66,14 +64,9 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
 
  private:
-  struct Found {
-    Fleet* fleet = nullptr;
-    Craft* craft = nullptr;  ///< null when no fleet has it
-  };
-  [[nodiscard]] Found look_up(vehicle::VehicleId const& id) const;
-  Pilot& pilot(Found const& found);
+  Pilot& pilot(Craft& craft);
 
-  std::vector<Fleet*> fleets_;  ///< never empty
+  Fleet& fleet_;
   Options options_;
   base::Logger log_;
   base::TimePoint all_heard_by_;

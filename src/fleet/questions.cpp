@@ -1,7 +1,7 @@
 // Asking once: REQUEST_MESSAGE to a vehicle and its components.
 #include <utility>
 
-#include "fleet/fleet.hpp"
+#include "fleet/network.hpp"
 #include "mavlink/command.hpp"
 
 namespace lapwing::fleet {
@@ -32,7 +32,7 @@ PictureTrace::Missing picture_of(Question const& question) {
 }  // namespace
 
 /// One after the other: acknowledgements name the command only, not the message that was asked for.
-base::Task<> Fleet::ask_questions(Craft& craft) {
+base::Task<> Network::ask_questions(Craft& craft) {
   craft.is_questioning = true;
   while (!craft.questions.empty() && craft.is_connected()) {
     auto const question = craft.questions.front();
@@ -50,7 +50,7 @@ base::Task<> Fleet::ask_questions(Craft& craft) {
   craft.is_questioning = false;
 }
 
-base::Task<> Fleet::ask_for_picture(Craft& craft, Question question) {
+base::Task<> Network::ask_for_picture(Craft& craft, Question question) {
   auto const picture = picture_of(question);
   if (!craft.pictures.is_missing(picture)) co_return;
   mavlink::Address const target{craft.address.system, question.component};
@@ -67,7 +67,7 @@ base::Task<> Fleet::ask_for_picture(Craft& craft, Question question) {
 }
 
 /// The whole list first (place 0), then what of it was lost.
-base::Task<> Fleet::ask_for_modes(Craft& craft, Question question) {
+base::Task<> Network::ask_for_modes(Craft& craft, Question question) {
   auto const command = command_for(question);
   auto const asked = co_await mavlink::run_command(connection_, craft.address, command, options);
   if (!asked || question.argument != 0.0F) co_return;

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "fleet/fleet.hpp"
+#include "fleet/network.hpp"
 #include "mavlink/message_interval.hpp"
 
 namespace lapwing::fleet {
@@ -28,7 +28,7 @@ bool is_about(base::Duration a, base::Duration b) {
 
 }  // namespace
 
-void Fleet::spare_slow_link(Craft& craft) {
+void Network::spare_slow_link(Craft& craft) {
   auto const counters = connection_.counters(craft.address);
   std::optional<double> buffer_free;
   auto const& radio = craft.state.radio;
@@ -42,7 +42,7 @@ void Fleet::spare_slow_link(Craft& craft) {
 }
 
 /// One after the other: acknowledgements name the command only, not the message that was asked for.
-base::Task<> Fleet::ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted) {
+base::Task<> Network::ask_for_messages(Craft& craft, std::vector<WantedMessage> wanted) {
   craft.is_asking = true;
   for (auto const& message : wanted) {
     auto const copy = message;
@@ -53,7 +53,7 @@ base::Task<> Fleet::ask_for_messages(Craft& craft, std::vector<WantedMessage> wa
 }
 
 /// What it was before is asked for first. False when the vehicle restarted meanwhile.
-base::Task<bool> Fleet::ask_for_message(Craft& craft, WantedMessage message) {
+base::Task<bool> Network::ask_for_message(Craft& craft, WantedMessage message) {
   int const boots = craft.boots;
   std::optional<std::optional<base::Duration>> before;
   if (craft.intervals_untold < most_refusals && !craft.rates->is_ours(message.id)) {
@@ -78,12 +78,12 @@ base::Task<bool> Fleet::ask_for_message(Craft& craft, WantedMessage message) {
   co_return true;
 }
 
-bool Fleet::others_may_depend_on(Craft const& craft) const {
+bool Network::others_may_depend_on(Craft const& craft) const {
   auto const found = other_ground_heard_.find(craft.from);
   return found != other_ground_heard_.end() && loop().now() - found->second < ground_is_there;
 }
 
-base::Task<> Fleet::give_back_rates() {
+base::Task<> Network::give_back_rates() {
   is_giving_back_ = true;
   auto const deadline = loop().now() + time_to_give_back;
   base::Scope all(loop());
@@ -94,7 +94,7 @@ base::Task<> Fleet::give_back_rates() {
   while (!all.empty() && loop().now() < deadline) co_await loop().sleep(10ms);
 }
 
-base::Task<> Fleet::give_back_rates_of(Craft& craft, TimePoint deadline) {
+base::Task<> Network::give_back_rates_of(Craft& craft, TimePoint deadline) {
   auto const changes = craft.rates->changes();
   for (auto const& change : changes) {
     if (loop().now() >= deadline) co_return;

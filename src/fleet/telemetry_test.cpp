@@ -28,8 +28,9 @@ struct Telemetry : testing::Test {
   }
 
   base::Loop loop{{.unpaced = true}};
+  mavlink::Connection connection{loop, {}, base::Logger()};
   vehicle::VehicleState state;
-  Craft craft{loop, state};
+  Craft craft{connection, state};
   geo::Wgs84 const here = geo::Wgs84::from_degrees(40.0, -8.0, 120.0);
 };
 

@@ -1,0 +1,302 @@
+#include "fleet/network.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fleet/arming_reasons.hpp"
+#include "fleet/payload.hpp"
+#include "fleet/telemetry.hpp"
+#include "fleet/vehicle_actions.hpp"
+#include "fleet/vehicle_kind.hpp"
+#include "mavlink/modes.hpp"
+
+namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
+using base::Duration;
+using base::TimePoint;
+using vehicle::Connection;
+using vehicle::VehicleId;
+
+namespace {
+
+constexpr std::string_view camera = "Camera";  // the language's name for it (specification, REC-44)
+constexpr Duration watch_period = 250ms;
+constexpr unsigned links_noted_every = 4;  // turns of the watch
+// Telemetry may arrive out of order; a clock that goes back further than that began anew.
+constexpr Duration clock_slack = 3s;
+// The other of two links may be a slow radio with a full queue.
+constexpr Duration clock_slack_between_links = 10s;
+
+std::string vehicle_name(vehicle::Family family, std::uint8_t system_id) {
+  if (family == vehicle::Family::unknown) return fmt::format("vehicle {}", system_id);
+  return fmt::format("{} {}", vehicle::to_string(family), system_id);
+}
+
+void set_kind(Craft& craft, VehicleKind const& kind, mavlink::MavAutopilot autopilot) {
+  craft.state.family = kind.family;
+  craft.state.autopilot = kind.autopilot;
+  craft.type = kind.type;
+  craft.mav_autopilot = autopilot;
+}
+
+/// It speaks from a new place on the same link, and that is not known to be another way to the same vehicle.
+bool has_moved(mavlink::Connection const& connection, Craft const& craft, mavlink::Received const& received) {
+  return received.from != craft.from && received.from.link == craft.from.link &&
+         !connection.are_one(received.source.system, received.from, craft.from);
+}
+
+/// An autopilot on the same link that speaks from a new place and has lost its arming or mode has restarted. (That its
+/// clock began anew shows only once telemetry flows again.)
+bool heartbeat_tells_restart(Craft const& craft, bool has_moved, mavlink::Heartbeat const& heartbeat) {
+  auto const status = heartbeat.system_status;
+  if (status == mavlink::MavState::uninit || status == mavlink::MavState::boot)
+    return craft.is_armed;  // nobody boots armed
+  return has_moved && ((craft.is_armed && !heartbeat.armed()) || craft.custom_mode != heartbeat.custom_mode);
+}
+
+void write(base::Logger const& log, std::string const& name, vehicle::StatusText const& text) {
+  auto line = fmt::format("{}: {}", name, text.text);
+  constexpr int error = 3;
+  constexpr int notice = 5;
+  if (text.severity <= error) return log.error(std::move(line));
+  if (text.severity < notice) return log.warn(std::move(line));
+  log.info(std::move(line));
+}
+
+}  // namespace
+
+Network::Network(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log)
+    : connection_(connection),
+      registry_(registry),
+      options_(std::move(options)),
+      log_(std::move(log)),
+      subscription_(connection.subscribe([this](mavlink::Received const& received) { take(received); })),
+      scope_(connection.loop()) {
+  scope_.spawn(watch());
+}
+
+std::string Network::in_network(std::string text) const {
+  return options_.name.empty() ? text : fmt::format("{}/{}", options_.name, text);
+}
+
+Craft* Network::find(std::uint8_t system_id) const {
+  auto const found = crafts_.find(system_id);
+  return found == crafts_.end() ? nullptr : found->second.get();
+}
+
+Craft* Network::find(VehicleId const& id) const {
+  auto const found = std::ranges::find_if(crafts_, [&](auto const& entry) { return entry.second->id() == id; });
+  return found == crafts_.end() ? nullptr : found->second.get();
+}
+
+std::vector<Craft*> Network::all() const {
+  std::vector<Craft*> crafts;
+  for (auto const& [system_id, craft] : crafts_) crafts.push_back(craft.get());
+  return crafts;
+}
+
+void Network::take(mavlink::Received const& received) {
+  if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message)) take_heartbeat(received, *heartbeat);
+  if (auto const* radio = std::get_if<mavlink::RadioStatus>(&received.message)) take_radio_of_link(received, *radio);
+  auto const found = crafts_.find(received.source.system);
+  if (found == crafts_.end()) return;
+  if (received.source.component == mavlink::autopilot_component) return take_from_autopilot(*found->second, received);
+  take_from_component(*found->second, received);
+}
+
+/// A radio speaks for itself, under a system id of its own: what it says concerns every vehicle behind it.
+void Network::take_radio_of_link(mavlink::Received const& received, mavlink::RadioStatus const& radio) {
+  for (auto& [system_id, craft] : crafts_) {
+    if (craft->from != received.from) continue;
+    take_radio(*craft, radio, received.at);
+    registry_.touch(craft->id());
+  }
+}
+
+void Network::take_from_component(Craft& craft, mavlink::Received const& received) {
+  auto const component = received.source.component;
+  if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message))
+    take_component_heartbeat(craft, received.source, *heartbeat, received.at);
+  if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
+    tell(craft, take_text(craft, component, *chunk, received.at));
+  if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
+  (void)take_payload(craft, component, received.message, received.at);
+  registry_.touch(craft.id());
+  craft.changed.notify_all();
+}
+
+void Network::tell(Craft const& craft, std::vector<vehicle::StatusText> const& texts) {
+  for (auto const& text : texts) write(log_, craft.state.name, text);
+}
+
+/// What nothing but time changes: texts whose end was lost, reasons that were not repeated.
+void Network::let_age(Craft& craft) {
+  auto const now = loop().now();
+  auto const texts = take_overdue_texts(craft, now);
+  tell(craft, texts);
+  bool const forgot = forget_old_arming_reasons(craft.state.arming_reasons, now);
+  if (forgot || !texts.empty()) registry_.touch(craft.id());
+}
+
+void Network::take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat) {
+  if (heartbeat.type == mavlink::MavType::gcs && received.source != connection_.self())
+    other_ground_heard_[received.from] = received.at;
+  if (is_camera(received.source, heartbeat)) note_camera(received.source.system);
+  auto const kind = kind_of(received.source, heartbeat);
+  if (!kind) return;
+  auto const found = crafts_.find(received.source.system);
+  bool const is_new = found == crafts_.end();
+  auto& craft = is_new ? discover(received) : *found->second;
+  set_kind(craft, *kind, heartbeat.autopilot);
+  craft.state.name = in_network(vehicle_name(kind->family, craft.address.system));
+  bool const is_restarted = heartbeat_tells_restart(craft, has_moved(connection_, craft, received), heartbeat);
+  if (!is_new && is_restarted) note_restart(craft, received.at);
+  // A vehicle sends each link what was asked for over that link.
+  if (!is_new && received.from != craft.from && craft.rates) craft.rates->restart(received.at);
+
+  craft.from = received.from;
+  if (craft.custom_mode != heartbeat.custom_mode) craft.mode_changed = received.at;
+  craft.custom_mode = heartbeat.custom_mode;
+  if (craft.is_armed != heartbeat.armed()) craft.armed_changed = received.at;
+  craft.is_armed = heartbeat.armed();
+  if (in_mission_mode(craft)) craft.mission_mode_pending = false;
+  auto& state = craft.state;
+  state.heartbeat_heard = received.at;
+  state.mode.set(name_of_mode(craft, heartbeat.type, heartbeat.custom_mode), received.at);
+  for (auto& component : state.components)
+    if (component.id == received.source.component) component.heard = received.at;  // it speaks for what is wired to it
+  state.armed.set(heartbeat.armed(), received.at);
+  if (heartbeat.armed()) state.arming_reasons.clear();
+  state.link = connection_.whereabouts(received.source.system).value_or("");
+  if (is_new) {
+    ask_for_payload(craft);
+    log_.info(fmt::format("{} found at {}", state.name, state.link));
+    registry_.touch_membership(craft.id());
+  }
+  check_connection(craft);
+}
+
+Craft& Network::discover(mavlink::Received const& received) {
+  auto const system_id = received.source.system;
+  auto& state = registry_.edit(VehicleId{in_network(std::to_string(system_id))});
+  state.system_id = system_id;
+  auto& craft = *crafts_.emplace(system_id, std::make_unique<Craft>(connection_, state)).first->second;
+  craft.address = received.source;
+  craft.connection_timeout = options_.connection_timeout;
+  craft.from = received.from;
+  if (auto const names = options_.payload.find(system_id); names != options_.payload.end())
+    state.payload = names->second;
+  if (cameras_.contains(system_id)) note_camera(system_id);
+  return craft;
+}
+
+void Network::note_camera(std::uint8_t system_id) {
+  cameras_.insert(system_id);
+  auto const found = crafts_.find(system_id);
+  if (found == crafts_.end()) return;
+  auto& payload = found->second->state.payload;
+  if (std::ranges::find(payload, camera) == payload.end()) payload.emplace_back(camera);
+}
+
+void Network::note_restart(Craft& craft, TimePoint now) {
+  ++craft.boots;
+  craft.since_boot.reset();
+  craft.fix.reset();
+  craft.trace = {};
+  craft.mission_mode_pending = false;
+  craft.state.health.value.reset();
+  craft.state.arming_reasons.clear();
+  craft.prearm_ok.reset();
+  craft.pictures.restart();
+  craft.modes.clear();
+  craft.has_asked_for_modes = false;
+  craft.questions.clear();
+  ask_for_payload(craft);
+  if (craft.rates) craft.rates->restart(now);
+  log_.warn(fmt::format("{} restarted", craft.state.name));
+}
+
+void Network::take_from_autopilot(Craft& craft, mavlink::Received const& received) {
+  if (auto const clock = boot_time(received.message)) {
+    // Two vehicles under one id have two clocks.
+    bool const is_one = craft.state.connection != Connection::conflict;
+    auto const slack = received.from == craft.clock_from ? clock_slack : clock_slack_between_links;
+    if (is_one && craft.since_boot && *clock + slack < *craft.since_boot) note_restart(craft, received.at);
+    craft.since_boot = clock;
+    craft.clock_from = received.from;
+  }
+  if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
+  if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
+    tell(craft, take_text(craft, received.source.component, *chunk, received.at));
+  if (auto const* version = std::get_if<mavlink::AutopilotVersion>(&received.message))
+    craft.capabilities = version->capabilities;
+  if (!take_telemetry(craft, received.message, received.at))
+    (void)take_payload(craft, received.source.component, received.message, received.at);
+  registry_.touch(craft.id());
+  craft.changed.notify_all();
+}
+
+/// Lost, back, in conflict: looked at with every heartbeat and, for silence, now and then.
+void Network::check_connection(Craft& craft) {
+  auto const conflict = connection_.conflict(craft.address.system);
+  auto const silence = loop().now() - craft.state.heartbeat_heard;
+  auto const now = conflict                             ? Connection::conflict
+                   : silence > craft.connection_timeout ? Connection::lost
+                                                        : Connection::ok;
+  auto const before = std::exchange(craft.state.connection, now);
+  if (now == before) return;
+  auto const& name = craft.state.name;
+  if (now == Connection::ok) log_.info(fmt::format("{} is back at {}", name, craft.state.link));
+  if (now == Connection::lost) log_.warn(fmt::format("{} lost: silent for {:.0f} s", name, base::to_seconds(silence)));
+  if (now == Connection::conflict)
+    log_.error(fmt::format(
+        "two vehicles use system id {}: {} and {}; give one of them another id, until then neither is commanded",
+        craft.address.system, conflict->first, conflict->second));
+  registry_.touch_membership(craft.id());
+  craft.changed.notify_all();
+}
+
+/// How the links of each vehicle's autopilot do.
+void Network::note_links() {
+  std::map<std::uint8_t, std::vector<vehicle::LinkQuality>> links;
+  for (auto const& link : connection_.report())
+    for (auto const& source : link.sources)
+      if (source.source.component == mavlink::autopilot_component && crafts_.contains(source.source.system))
+        links[source.source.system].push_back({.name = fmt::format("{} from {}", link.name, source.address),
+                                               .loss = source.loss,
+                                               .messages_per_s = source.messages_per_s,
+                                               .bytes_per_s = source.bytes_per_s,
+                                               .round_trip = source.round_trip,
+                                               .is_alive = source.is_alive,
+                                               .is_used = source.is_route});
+  for (auto& [system_id, craft] : crafts_) {
+    if (craft->state.links == links[system_id]) continue;
+    craft->state.links = std::move(links[system_id]);
+    registry_.touch(craft->id());
+  }
+}
+
+base::Task<> Network::watch() {
+  for (unsigned turn = 0;; ++turn) {
+    co_await loop().sleep(watch_period);
+    if (turn % links_noted_every == 0) note_links();
+    for (auto& [system_id, craft] : crafts_) {
+      check_connection(*craft);
+      let_age(*craft);
+      bool const is_one = !connection_.is_contested(system_id);
+      if (!options_.asks_for_messages || !craft->is_connected() || !is_one) continue;
+      if (!craft->questions.empty() && !craft->is_questioning) scope_.spawn(ask_questions(*craft));
+      if (craft->is_asking || is_giving_back_) continue;
+      if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
+      spare_slow_link(*craft);
+      auto due = craft->rates->due(loop().now());
+      if (!due.empty()) scope_.spawn(ask_for_messages(*craft, std::move(due)));
+    }
+  }
+}
+
+}  // namespace lapwing::fleet
