@@ -96,6 +96,7 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   record.outcomes.push_back({.vehicle = id});
   auto* const craft = fleet_.find(id);
   if (!craft) return show(record.number, id, CommandState::refused, fmt::format("there is no vehicle {}", id.text));
+  bool const was_nobodys = craft->state.control.commander.empty();
   if (auto through = let_through(*craft, record, takes_over); !through)
     return show(record.number, id, CommandState::refused, through.error().message);
   supersede(id, fmt::format("{} by {} came after it", to_string(record.command.action), record.by));
@@ -103,6 +104,7 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   auto const patience = is_stop(record.command.action) ? 3 * options_.expiry : options_.expiry;
   auto& running = running_[id];
   running.number = record.number;
+  running.made_commander = was_nobodys;
   running.task = carry(*craft, record.number, record.command, fleet_.loop().now() + patience);
   running.task.start();
 }
@@ -143,6 +145,9 @@ void Control::finish(Craft& craft, std::uint64_t number, Result<> const& ended, 
   auto const state = state_after(ended, was_accepted, fleet_.loop().now() >= expires);
   // An arming that nobody answered may still be on its way.
   if (may_arm(record->command.action) && !ended && !craft.is_armed) craft.may_arm_late = true;
+  // Who asked for what the vehicle cannot do has not commanded it.
+  if (!ended && ended.error().kind == ErrorKind::invalid_input && running_[craft.id()].made_commander)
+    (void)fleet_.authority().yield(craft, record->by);
   show(number, craft.id(), state, ended ? mode_name(craft, craft.custom_mode) : ended.error().message);
 }
 

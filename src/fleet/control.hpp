@@ -52,6 +52,7 @@ class Control final : public vehicle::VehicleControl {
  private:
   struct Running {
     std::uint64_t number = 0;
+    bool made_commander = false;  ///< nobody had the vehicle before
     base::Task<> task;
   };
 

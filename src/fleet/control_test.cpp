@@ -95,6 +95,7 @@ TEST(Control, RefusesWhatAVehicleCannotDo) {
   auto const rovers = world.give({.action = Action::take_off}, {"2"});
   EXPECT_EQ(world.end_of(rovers), CommandState::refused);
   EXPECT_EQ(world.outcome(rovers).reason, "rover 2 does not fly");
+  EXPECT_EQ(world.state("2").control.commander, "") << "it has not been commanded";
   auto const lands = world.give({.action = Action::land}, {"2"});
   EXPECT_EQ(world.outcome(lands).reason, "rover 2 cannot land by itself");
   auto const mode = world.give({.action = Action::set_mode, .mode = "SIDEWAYS"});

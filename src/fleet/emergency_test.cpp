@@ -198,6 +198,31 @@ TEST(EmergencyStop, IsReleasedByAnOperatorOnly) {
   EXPECT_EQ(world.end_of(world.give({.action = Action::set_mode, .mode = "GUIDED"})), CommandState::confirmed);
 }
 
+/// Loop time from the operator's press until the last of 50 copters in the air has confirmed its stop.
+base::Duration time_to_stop_fifty(double loss) {
+  ControlWorld world;
+  for (std::uint8_t id = 1; id <= 50; ++id) {
+    auto& copter = world.add({.address = {id, 1}}, {.loss = loss, .seed = id});
+    copter.is_armed = copter.is_flying = true;
+    copter.change_mode(copter_mode::automatic);
+  }
+  world.run_for(10s);
+  auto const pressed = world.loop.now();
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 60s));
+  EXPECT_EQ(world.control->emergency().vehicles.size(), 50u);
+  return world.loop.now() - pressed;
+}
+
+TEST(EmergencyStop, TakesAMomentForFiftyVehicles) {
+  auto const clean = time_to_stop_fifty(0.0);
+  auto const lossy = time_to_stop_fifty(0.3);
+  RecordProperty("clean_ms", static_cast<int>(clean / 1ms));
+  RecordProperty("lossy_ms", static_cast<int>(lossy / 1ms));
+  EXPECT_LT(clean, 2s);
+  EXPECT_LT(lossy, 20s);
+}
+
 TEST(EmergencyStop, StopsBothVehiclesOfOneId) {
   ControlWorld world;
   auto& first = world.add_flying();

@@ -9,6 +9,7 @@ const test = (name, run, options) => tests.push({ name, run, options });
 const row = (page, name) => page.locator('#vehicles tbody tr', { hasText: name });
 const scriptState = (page, state) => page.locator('#script .chip', { hasText: state }).waitFor();
 const hold = async (page, button) => {
+  await page.bringToFront();
   await button.hover();
   await page.mouse.down();
   await page.waitForTimeout(1000);
@@ -123,6 +124,7 @@ test('sends a vehicle to a place on the map', async ({ open }) => {
 test('stops everything until it is released, for every viewer', async ({ open }) => {
   const page = await open();
   const other = await open();
+  await page.bringToFront();
   await row(page, 'link lost').waitFor();
   await page.getByRole('button', { name: 'E-STOP' }).click();
   const banner = other.getByRole('region', { name: 'Emergency stop' });
@@ -147,13 +149,17 @@ test('stops everything with the keyboard alone', async ({ open }) => {
 
 test('hands a vehicle over to who asks for it', async ({ open }) => {
   const holder = await open();
-  const other = await open();
-  await row(holder, 'plane 3').click();
+  await row(holder, 'plane 3').waitFor();
+  await holder.keyboard.press('3');
   await hold(holder, holder.locator('#command').getByRole('button', { name: 'Resume' }));
   await holder.getByText('You command plane 3').waitFor();
-  await row(other, 'plane 3').click();
-  await other.getByRole('button', { name: 'Ask for it' }).click();
-  await holder.getByRole('group', { name: /asks for plane 3/ }).getByRole('button', { name: 'Hand over' }).click();
+  const other = await open();
+  await row(other, 'plane 3').waitFor();
+  await other.keyboard.press('3');
+  await other.getByRole('button', { name: 'Ask for it' }).press('Enter');
+  await holder.bringToFront();
+  await holder.getByRole('group', { name: /asks for plane 3/ }).getByRole('button', { name: 'Hand over' }).press('Enter');
+  await other.bringToFront();
   await other.getByText('You command plane 3').waitFor();
 });
 
