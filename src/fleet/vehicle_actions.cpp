@@ -26,10 +26,11 @@ namespace {
 
 constexpr int warning = 4;  // severities up to here explain a refusal
 constexpr Duration ack_wait = 1s;
-constexpr Duration heartbeat_wait = 2s;   // two heartbeats, one may get lost
-constexpr Duration armed_wait = 10s;      // language specification 5.4, phase 5
-constexpr Duration reason_wait = 1s;      // the text may come after the acknowledgement
-constexpr Duration prearm_repeats = 35s;  // ArduPilot repeats its objections every 30 s
+constexpr Duration urgent_ack_wait = 400ms;  // a stop is sent again rather than waited for; it may be heard twice
+constexpr Duration heartbeat_wait = 2s;      // two heartbeats, one may get lost
+constexpr Duration armed_wait = 10s;         // language specification 5.4, phase 5
+constexpr Duration reason_wait = 1s;         // the text may come after the acknowledgement
+constexpr Duration prearm_repeats = 35s;     // ArduPilot repeats its objections every 30 s
 constexpr Duration prearm_patience = 10s;
 constexpr Duration failsafe_is_recent = 5s;
 constexpr std::uint32_t copter_stabilize = 0;
@@ -193,8 +194,10 @@ Task<Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeCh
   if (craft.custom_mode == mode && !change.even_if_shown) co_return Result<>{};
   auto const since = connection.loop().now();
   auto const& how = change.how;
-  mavlink::CommandOptions const options{
-      .tries = 1, .ack_timeout = ack_wait, .not_after = how.not_after, .is_urgent = how.is_urgent};
+  mavlink::CommandOptions const options{.tries = 1,
+                                        .ack_timeout = how.is_urgent ? urgent_ack_wait : ack_wait,
+                                        .not_after = how.not_after,
+                                        .is_urgent = how.is_urgent};
   auto const command = mavlink::set_mode(craft.mav_autopilot, mode);
   Result<> asked;
   for (int attempt = 0; attempt < change.tries; ++attempt) {
@@ -206,7 +209,8 @@ Task<Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeCh
     std::function<bool()> shown = [&craft, &change, mode, answered] {
       return craft.custom_mode == mode && (!change.even_if_shown || craft.state.heartbeat_heard >= answered);
     };
-    if (co_await wait_for(craft, std::move(shown), heartbeat_wait)) {
+    auto const patience = how.is_urgent && !asked ? Duration{} : heartbeat_wait;
+    if (co_await wait_for(craft, std::move(shown), patience)) {
       craft.mission_mode_pending = false;
       co_return Result<>{};
     }
@@ -292,12 +296,12 @@ Task<Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnSt
   auto const mode = stop_mode(craft, on_stop);
   if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
   ActionOptions const how{.is_urgent = true, .on_accepted = on_accepted};
-  ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .tries = 10, .how = how};
+  ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .tries = 25, .how = how};
   auto changed = co_await change_mode(connection, craft, change);
   if (!changed && changed.error().kind == ErrorKind::refused) {
     // Without a position a copter cannot stay in place, but it can always come down.
     if (auto const land = mode_for(craft, ModeRole::land); land && land != mode) {
-      ModeChange const down{.custom_mode = *land, .even_if_shown = true, .tries = 10, .how = how};
+      ModeChange const down{.custom_mode = *land, .even_if_shown = true, .tries = 25, .how = how};
       changed = co_await change_mode(connection, craft, down);
     }
   }
