@@ -77,9 +77,9 @@ void Claims::establish(base::TimePoint now) {
 bool Claims::compare(base::TimePoint now) {
   for (std::size_t i = 1; i < claims_.size(); ++i)
     if (is_alive(claims_[i], now)) claims_[i].likeness.compare(claims_[0].fingerprint, claims_[i].fingerprint, now);
-  bool const is_new = !was_in_conflict_;
-  was_in_conflict_ = conflict(now).has_value();
-  return is_new && was_in_conflict_;
+  bool const is_new = !conflict_;
+  conflict_ = find_conflict(now);
+  return is_new && conflict_;
 }
 
 Claims::Claim* Claims::find(PeerRef peer) {
@@ -128,7 +128,7 @@ bool Claims::is_contested(base::TimePoint now) const {
                      [now](Claim const& c) { return is_alive(c, now) && !is_one(c); });
 }
 
-std::optional<std::pair<PeerRef, PeerRef>> Claims::conflict(base::TimePoint now) const {
+std::optional<std::pair<PeerRef, PeerRef>> Claims::find_conflict(base::TimePoint now) const {
   if (!are_several() || !is_alive(claims_.front(), now)) return std::nullopt;
   for (auto const& claim : claims_) {
     if (&claim == &claims_.front() || is_one(claim) || !is_alive(claim, now)) continue;

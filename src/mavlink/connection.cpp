@@ -67,8 +67,8 @@ base::Task<void> Connection::watch() {
     for (auto const id : routes_->examine(loop_.now()))
       if (auto const both = conflict(id))
         log_.warn(fmt::format(
-            "two vehicles use system id {}: {} and {}; commands to them are refused until one is switched off", id,
-            both->first, both->second));
+            "two vehicles use system id {}: {} and {}; give one of them another id, until then neither is commanded",
+            id, both->first, both->second));
     if (options_.timesync_period > base::Duration{}) ask_who_they_are(turn % 10 == 0);
   }
 }
@@ -249,7 +249,7 @@ std::optional<std::string> Connection::whereabouts(std::uint8_t system_id) const
 
 std::optional<Conflict> Connection::conflict(std::uint8_t system_id) const {
   auto const* claims = routes_->claims(system_id);
-  auto const both = claims ? claims->conflict(loop_.now()) : std::nullopt;
+  auto const both = claims ? claims->conflict() : std::nullopt;
   if (!both) return std::nullopt;
   return Conflict{system_id, describe(both->first), describe(both->second)};
 }

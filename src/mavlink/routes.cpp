@@ -164,7 +164,7 @@ std::vector<Routes::ClockQuestion> Routes::ask_clocks(std::vector<Suspect> const
 std::vector<Routes::Suspect> Routes::suspects(bool with_conflicts, base::TimePoint now) const {
   std::vector<Suspect> suspects;
   for (auto const& [id, system] : systems_) {
-    if (!system.claims.is_contested(now) || (!with_conflicts && system.claims.conflict(now))) continue;
+    if (!system.claims.is_contested(now) || (!with_conflicts && system.claims.conflict())) continue;
     for (auto const& peer : system.claims.alive(now))
       suspects.push_back({id, peer, system.claims.find(peer)->fingerprint.hardware.has_value()});
   }

@@ -43,18 +43,19 @@ class Claims {
   [[nodiscard]] bool are_one(PeerRef a, PeerRef b) const;
   /// Heard not long ago, and not proven to be one.
   [[nodiscard]] bool is_contested(base::TimePoint now) const;
-  /// Two that both go on, and are not one.
-  [[nodiscard]] std::optional<std::pair<PeerRef, PeerRef>> conflict(base::TimePoint now) const;
+  /// Two that both go on, and are not one, as `compare` found it.
+  [[nodiscard]] std::optional<std::pair<PeerRef, PeerRef>> const& conflict() const { return conflict_; }
   /// All that were heard not long ago.
   [[nodiscard]] std::vector<PeerRef> alive(base::TimePoint now) const;
 
  private:
   void establish(base::TimePoint now);
+  [[nodiscard]] std::optional<std::pair<PeerRef, PeerRef>> find_conflict(base::TimePoint now) const;
   [[nodiscard]] bool is_like_first(PeerRef peer) const;
 
   std::vector<Claim> claims_;  ///< the established one first
   PeerRef last_{};             ///< who spoke last
-  bool was_in_conflict_ = false;
+  std::optional<std::pair<PeerRef, PeerRef>> conflict_;
 };
 
 }  // namespace lapwing::mavlink::internal
