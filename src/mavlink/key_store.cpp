@@ -205,6 +205,13 @@ bool is_key_name(std::string_view name) {
 
 base::Result<KeyRing> parse_key_store(std::string_view file, std::string_view text) {
   base::SourceFile const source{std::string(file), std::string(text)};
+  // All that belongs there is ASCII, and toml++ 3.3 has undefined behaviour on some of the rest.
+  auto const strange = std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) > '~'; });
+  if (strange != text.end()) {
+    auto const place = source.place(static_cast<std::uint32_t>(strange - text.begin()));
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("{}:{}:{}: only ASCII characters belong here", file, place.line, place.column));
+  }
   base::Diagnostics diagnostics(source);
   auto const root = base::parse_config(source, diagnostics);
   if (diagnostics.has_errors()) {

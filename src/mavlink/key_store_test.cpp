@@ -44,6 +44,7 @@ TEST(KeyStore, SaysWhereItIsWrong) {
             "fleet.keys:4:1: expected local-links, systems or messages");
   EXPECT_EQ(complaint(keys + "[unsigned]\nmessages = ['HEARTBEET']\n"),
             "fleet.keys:4:13: expected a message's name, such as ADSB_VEHICLE, or number");
+  EXPECT_EQ(complaint("# \xEF\xBB\xB7\n"), "fleet.keys:1:3: only ASCII characters belong here");
   EXPECT_EQ(complaint("[key]\n"), "fleet.keys:1:2: expected keys, use or unsigned");
 }
 

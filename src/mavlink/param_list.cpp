@@ -22,8 +22,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint16_t outside_the_list = 65535;
-/// While the stream runs, a number counts as lost when so many after it have come: datagrams overtake each other.
-constexpr std::size_t overtaking = 16;
 constexpr Duration first_list_wait = 1500ms;
 constexpr Duration longest_list_wait = 6s;
 constexpr Duration longest_look = 100ms;  ///< `may_send` may have come true
@@ -40,6 +38,7 @@ class Smoothed {
   [[nodiscard]] bool is_measured() const { return is_measured_; }
   /// Hardly any sample is larger.
   [[nodiscard]] Duration bound() const { return base::from_seconds(mean_s_ + 4 * deviation_s_); }
+  [[nodiscard]] double mean_s() const { return mean_s_; }
 
  private:
   bool is_measured_ = false;
@@ -66,6 +65,7 @@ class Download {
   [[nodiscard]] bool streaming() const { return stream_until_ > now(); }
   [[nodiscard]] Duration request_wait() const;
   [[nodiscard]] TimePoint next_look() const;
+  [[nodiscard]] bool list_is_due() const;
   base::Result<> ask_for_list();
   base::Result<> ask_for_holes();
   void take(ParamValue const& value);
@@ -78,7 +78,6 @@ class Download {
   ParamProgress const& progress_;
   std::vector<std::optional<Parameter>> values_;
   std::size_t missing_ = 0;
-  std::size_t highest_ = 0;  ///< number that came
   std::optional<std::uint32_t> hash_;
   std::map<std::size_t, Request> in_flight_;
   Smoothed round_trip_;
@@ -88,7 +87,9 @@ class Download {
   TimePoint stream_until_{};
   TimePoint list_asked_{};
   Duration list_wait_ = first_list_wait;
-  bool list_was_asked_ = false;
+  int lists_ = 0;            ///< asked for
+  TimePoint holes_since_{};  ///< since then holes have been asked for one by one
+  std::size_t answers_ = 0;  ///< that have come since then
 };
 
 Duration Download::request_wait() const {
@@ -99,16 +100,33 @@ Duration Download::request_wait() const {
   return std::min<Duration>(round_trip_.bound() + turn, longest);
 }
 
+/// A vehicle that has not begun is asked again. One that has, too, when so much got lost that another go would be
+/// quicker: ArduPilot sends 1500 a second of its own accord and answers 50 requests.
+bool Download::list_is_due() const {
+  constexpr int most_lists = 10;
+  constexpr std::size_t enough_to_judge = 10;
+  constexpr double start_s = 0.3;
+  if (values_.empty()) return lists_ == 0 || now() >= list_asked_ + list_wait_;
+  if (streaming() || answers_ < enough_to_judge || lists_ == most_lists) return false;
+  auto const each_s = base::to_seconds(now() - holes_since_) / static_cast<double>(answers_);
+  auto const list_s = interval_.mean_s() * static_cast<double>(values_.size());
+  return each_s * static_cast<double>(missing_) > list_s + start_s;
+}
+
 base::Result<> Download::ask_for_list() {
-  if (std::exchange(list_was_asked_, true)) list_wait_ = std::min<Duration>(2 * list_wait_, longest_list_wait);
+  if (values_.empty() && lists_ > 0) list_wait_ = std::min<Duration>(2 * list_wait_, longest_list_wait);
+  ++lists_;
   list_asked_ = now();
+  last_value_ = {};
+  answers_ = 0;
+  in_flight_.clear();
+  stream_until_ = now() + (values_.empty() ? list_wait_ : 2 * request_wait());
   return connection_.send(target_, ParamRequestList{});
 }
 
 void Download::begin_anew(std::size_t count) {
   values_.assign(count, std::nullopt);
   missing_ = count;
-  highest_ = 0;
   in_flight_.clear();
 }
 
@@ -133,10 +151,10 @@ void Download::take_numbered(ParamValue const& value) {
   if (auto const request = in_flight_.find(index); request != in_flight_.end()) {
     if (!request->second.is_repeated) round_trip_.add(now() - request->second.sent);
     in_flight_.erase(request);
-  } else if (index > highest_ || missing_ == values_.size()) {
+    ++answers_;
+  } else if (streaming()) {
     if (last_value_ != TimePoint{}) interval_.add(now() - last_value_);
     last_value_ = now();
-    highest_ = std::max(highest_, index);
     bool const is_last = index + 1 == values_.size();
     auto const gap = std::clamp<Duration>(100ms + 8 * interval_.bound(), 150ms, 2s);
     stream_until_ = is_last ? now() : now() + gap;
@@ -150,9 +168,11 @@ void Download::take_numbered(ParamValue const& value) {
   if (progress_) progress_(values_.size() - missing_, values_.size());
 }
 
+/// Not while the list streams: ArduPilot answers before it goes on with the list, which would hardly come any more.
 base::Result<> Download::ask_for_holes() {
+  if (streaming()) return {};
+  if (in_flight_.empty() && answers_ == 0) holes_since_ = now();
   auto const wait = request_wait();
-  auto const end = streaming() ? highest_ - std::min(highest_, overtaking) : values_.size();
   auto const send = [&](std::size_t index) {
     return connection_.send(target_, ParamRequestRead{.index = static_cast<std::int16_t>(index)});
   };
@@ -161,7 +181,7 @@ base::Result<> Download::ask_for_holes() {
     request = {now(), true};
     if (auto sent = send(index); !sent) return sent;
   }
-  for (std::size_t index = 0; index < end && in_flight_.size() < options_.in_flight; ++index) {
+  for (std::size_t index = 0; index < values_.size() && in_flight_.size() < options_.in_flight; ++index) {
     if (values_[index] || in_flight_.contains(index)) continue;
     in_flight_[index] = {now()};
     if (auto sent = send(index); !sent) return sent;
@@ -182,8 +202,7 @@ base::Task<base::Result<ParamList>> Download::run() {
   while (!complete()) {
     bool const may_send = !options_.may_send || options_.may_send();
     if (may_send) {
-      bool const list_is_due = values_.empty() && (!list_was_asked_ || now() >= list_asked_ + list_wait_);
-      auto const sent = list_is_due ? ask_for_list() : ask_for_holes();
+      auto const sent = list_is_due() ? ask_for_list() : ask_for_holes();
       if (!sent) co_return std::unexpected(sent.error());
     } else {
       advanced_ = now();
