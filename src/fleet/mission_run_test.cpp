@@ -235,6 +235,18 @@ TEST_F(MissionRun, NamesTheFailsafeThatTookTheVehicleOver) {
   EXPECT_EQ(run->error(), "mode changed to RTL by the vehicle: Battery Failsafe");
 }
 
+TEST_F(MissionRun, NamesTheFenceThatEndedItInTheWordsOfArduPilot47) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  auto const run = start(mission_ending_with(MavCmd::nav_land));
+  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  world->run_for(2s);
+  copter.say(mavlink::MavSeverity::notice, "Circle fence breached");
+  copter.change_mode(copter_mode::rtl);
+  EXPECT_EQ(end_of(*run, 3s), RunState::failed);
+  EXPECT_EQ(run->error(), "mode changed to RTL by the vehicle: Circle fence breached");
+}
+
 TEST_F(MissionRun, IsDoneWhenTheAutopilotReturnsByItselfAfterTheLastItem) {
   auto& copter = world->add();
   copter.ends_in_rtl = true;
