@@ -107,7 +107,7 @@ void OtherStations::note_mode(Craft& craft, std::uint32_t before) {
   bool const has_just_booted = mode_name(craft, before) == "INITIALISING";
   if (is_ours || has_just_booted) return;
   tell(craft, fmt::format("{} to {}, not asked for here{}", mode_name(craft, before),
-                          mode_name(craft, modes_.at(craft.address.system)), suspects()));
+                          mode_name(craft, modes_.at(craft.id())), suspects()));
 }
 
 std::string OtherStations::suspects() const {

@@ -240,12 +240,4 @@ std::vector<PeerRef> Routes::talkers(base::TimePoint now) const {
   return peers;
 }
 
-std::optional<base::TimePoint> Routes::last_heard(std::uint8_t system_id) const {
-  std::optional<base::TimePoint> latest;
-  for (auto it = sources_.lower_bound({system_id, 0}); it != sources_.end() && it->first.system == system_id; ++it)
-    for (auto const& path : it->second.paths)
-      latest = std::max(latest.value_or(path.meter.last_heard()), path.meter.last_heard());
-  return latest;
-}
-
 }  // namespace lapwing::mavlink::internal

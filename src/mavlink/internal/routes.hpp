@@ -77,8 +77,6 @@ class Routes {
   [[nodiscard]] Claims const* claims(std::uint8_t system_id) const;
   /// Peers that spoke MAVLink not long before `now`.
   [[nodiscard]] std::vector<PeerRef> talkers(base::TimePoint now) const;
-  /// When any component of the system was heard last.
-  [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
 
   /// When any component of the system was heard last.
   [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
