@@ -46,11 +46,8 @@ json to_json_value(VehicleReport const& vehicle) {
     }
     missions.push_back(std::move(value));
   }
-  return {{"id", vehicle.id},
-          {"system_id", vehicle.system_id},
-          {"type", vehicle.type},
-          {"track_m", vehicle.track_m},
-          {"missions", std::move(missions)}};
+  return {{"id", vehicle.id},           {"system_id", vehicle.system_id}, {"type", vehicle.type},
+          {"track_m", vehicle.track_m}, {"pictures", vehicle.pictures},   {"missions", std::move(missions)}};
 }
 
 }  // namespace

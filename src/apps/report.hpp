@@ -16,6 +16,7 @@ struct VehicleReport {
   int system_id = 0;
   std::string type;  ///< family: copter, plane, rover ...
   double track_m = 0.0;
+  int pictures = 0;  ///< that it was heard to take
   std::vector<fleet::MissionReport> missions;
 };
 

@@ -19,8 +19,12 @@ RunReport example() {
   report.outcome = "error";
   report.started = utc(1'000ms);
   report.ended = utc(61'500ms);
-  report.vehicles = {
-      {.id = "1", .system_id = 1, .type = "copter", .track_m = 12.5, .missions = {{"North", 9, 0.25, "done", ""}}}};
+  report.vehicles = {{.id = "1",
+                      .system_id = 1,
+                      .type = "copter",
+                      .track_m = 12.5,
+                      .pictures = 3,
+                      .missions = {{"North", 9, 0.25, "done", ""}}}};
   tasks::TaskView child;
   child.kind = "mission";
   child.line = 3;
@@ -55,6 +59,7 @@ TEST(Report, HasEveryKeyOfTheContract) {
   EXPECT_EQ(vehicle["system_id"], 1);
   EXPECT_EQ(vehicle["type"], "copter");
   EXPECT_EQ(vehicle["track_m"], 12.5);
+  EXPECT_EQ(vehicle["pictures"], 3);
   EXPECT_EQ(vehicle["missions"][0]["name"], "North");
   EXPECT_EQ(vehicle["missions"][0]["items"], 9);
   EXPECT_EQ(vehicle["missions"][0]["upload_s"], 0.25);

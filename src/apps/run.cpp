@@ -128,10 +128,11 @@ int run_on_vehicles(RunOptions const& options, std::vector<ScriptText> const& sc
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
   }
   if (auto connected = connect(session, options, std::move(world)); !connected) return refuse(connected.error());
-  for (auto const& script : scripts) {
-    if (int const code = run_script(session, options, script); code != exit_done) return code;
-  }
-  return exit_done;
+  int code = exit_done;
+  for (auto script = scripts.begin(); script != scripts.end() && code == exit_done; ++script)
+    code = run_script(session, options, *script);
+  session.give_back_rates();
+  return code;
 }
 
 /// Before the first script moves anything, those after it are looked at too. Prints what is wrong with them.

@@ -152,6 +152,7 @@ RunReport Session::report() const {
                                .system_id = vehicle->system_id,
                                .type = std::string(to_string(vehicle->family)),
                                .track_m = vehicle->track_m,
+                               .pictures = vehicle->pictures.value ? vehicle->pictures.value->taken : 0,
                                .missions = ground.platform.missions(vehicle->id)});
   }
   report.tasks = host.task_trees();

@@ -53,6 +53,8 @@ class Session {
   /// Runs the script that the host was given to its end; `timeout` (loop time) halts it. Ctrl-C stops it. Then every
   /// vehicle that still runs a mission of ours is made safe.
   void run_to_end(std::optional<base::Duration> timeout);
+  /// Vehicles get the message rates back that they had before; for the very end, takes three seconds at most.
+  void give_back_rates() { loop.run_until_done(ground.fleet.give_back_rates()); }
   [[nodiscard]] RunReport report() const;
 
   base::LogHub hub;

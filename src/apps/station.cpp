@@ -100,6 +100,7 @@ int serve(StationArguments const& arguments) {
   bool const was_running = session.host.status().state == station::ScriptState::running;
   session.host.stop();
   session.run_to_end(std::nullopt);
+  session.give_back_rates();
   return was_running ? exit_interrupted : exit_done;
 }
 
