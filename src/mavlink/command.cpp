@@ -81,7 +81,7 @@ struct Exchange {
 
 /// Commands that ask for messages go out in long rows; whether they took effect shows in what arrives.
 bool shows_by_itself(MavCmd id) {
-  return id == MavCmd::set_message_interval || id == MavCmd::request_message;
+  return id == MavCmd::set_message_interval || id == MavCmd::get_message_interval || id == MavCmd::request_message;
 }
 
 std::unexpected<base::Error> expired(Address target, MavCmd id) {
