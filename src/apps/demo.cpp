@@ -17,6 +17,7 @@ struct DemoOptions {
   bool headless = false;
   std::string script;
   std::string report;
+  std::vector<std::string> forward;
   std::string record;
   std::string vehicles = "copter:2,rover:1";
   std::string on_stop = "loiter";
@@ -58,6 +59,9 @@ int demo(DemoOptions const& options) {
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
   }
+  auto endpoints = forward_to(options.forward);
+  if (!endpoints) return refuse(endpoints.error());
+  if (auto forwarded = session.forward(*std::move(endpoints)); !forwarded) return refuse(forwarded.error());
   if (!options.headless) {
     WebAccess access;
     apply(options.web, access);
@@ -86,6 +90,7 @@ void add_demo(CLI::App& program, int& exit_code) {
   verb->add_option("--script", options->script, "Another script than examples/survey.dolphin");
   verb->add_option("--vehicles", options->vehicles, "What and how many")->capture_default_str();
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
+  verb->add_option("--forward", options->forward, forward_help);
   verb->add_option("--record", options->record, record_help);
   add_web_options(*verb, options->web);
   verb->add_option("--speedup", options->speedup, "1 real time; default 4 with the map, as fast as possible without")

@@ -51,6 +51,7 @@ int main_of(int argc, char** argv) {
   add_station(program, exit_code);
   add_param(program, exit_code);
   add_signing(program, exit_code);
+  add_route(program, exit_code);
   add_doctor(program, exit_code);
 
   if (auto const wrong = unknown_verb(program, argc, argv); !wrong.empty()) {

@@ -38,6 +38,7 @@ struct RunOptions {
   std::string plans;
   std::string signing_key;
   std::vector<std::string> payload;
+  std::vector<std::string> forward;
   std::optional<double> swap_batteries_s;
 
   [[nodiscard]] std::optional<base::Duration> timeout() const {
@@ -70,8 +71,11 @@ base::Result<Equipment> equipment_for(RunOptions const& options, std::optional<s
   return equipment;
 }
 
-/// Simulated vehicles, or the links, or the default link.
+/// Simulated vehicles, or the links, or the default link; and who rides along.
 base::Result<> connect(Session& session, RunOptions const& options, std::optional<sim::WorldOptions> world) {
+  auto endpoints = forward_to(options.forward);
+  if (!endpoints) return std::unexpected(endpoints.error());
+  if (auto forwarded = session.forward(*std::move(endpoints)); !forwarded) return forwarded;
   if (!world) return session.open_links(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
   if (auto opened = session.open_links(options.links); !opened) return opened;
   return session.simulate(*std::move(world));
@@ -152,15 +156,16 @@ bool rest_checks(std::vector<ScriptText> const& scripts) {
 /// What means nothing to the test platform, and so is a mistake beside it.
 base::Result<> check_combination(RunOptions const& options) {
   if (options.platform != "test") return {};
-  std::array<std::pair<std::string_view, bool>, 9> const given{{{"--link", !options.links.empty()},
-                                                                {"--sim", !options.simulated.empty()},
-                                                                {"--home", !options.home.empty()},
-                                                                {"--loss", options.loss > 0.0},
-                                                                {"--delay", options.delay_s > 0.0},
-                                                                {"--payload", !options.payload.empty()},
-                                                                {"--report", !options.report.empty()},
-                                                                {"--signing-key", !options.signing_key.empty()},
-                                                                {"--record", !options.record.empty()}}};
+  std::array<std::pair<std::string_view, bool>, 10> const given{{{"--link", !options.links.empty()},
+                                                                 {"--sim", !options.simulated.empty()},
+                                                                 {"--home", !options.home.empty()},
+                                                                 {"--forward", !options.forward.empty()},
+                                                                 {"--loss", options.loss > 0.0},
+                                                                 {"--delay", options.delay_s > 0.0},
+                                                                 {"--payload", !options.payload.empty()},
+                                                                 {"--report", !options.report.empty()},
+                                                                 {"--signing-key", !options.signing_key.empty()},
+                                                                 {"--record", !options.record.empty()}}};
   auto const found = std::ranges::find(given, true, &std::pair<std::string_view, bool>::second);
   if (found == given.end()) return {};
   return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not go with --platform test", found->first),
@@ -190,6 +195,7 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
           "--link", options.links,
           "Where vehicles are, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link))
       ->allow_extra_args(false);
+  verb.add_option("--forward", options.forward, forward_help)->allow_extra_args(false);
   verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
   verb.add_option("--home", options.home,
                   "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the "

@@ -6,8 +6,10 @@
 
 #include "apps/console.hpp"
 #include "apps/files.hpp"
+#include "apps/metrics.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
+#include "mavlink/connection_link.hpp"
 
 namespace lapwing::apps {
 
@@ -40,6 +42,16 @@ base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text) 
   if (auto const action = vehicle::stop_action_from(text)) return *action;
   return base::fail(base::ErrorKind::invalid_input, fmt::format("--emergency-stop {} is not known", text),
                     "use hold (stay in place, the default), land, rtl or terminate (motors off at once)");
+}
+
+base::Result<std::vector<route::EndpointOptions>> forward_to(std::vector<std::string> const& urls) {
+  std::vector<route::EndpointOptions> endpoints;
+  for (auto const& text : urls) {
+    auto url = link::parse_url(text);
+    if (!url) return std::unexpected(url.error());
+    endpoints.push_back({.url = *std::move(url)});
+  }
+  return endpoints;
 }
 
 Session::Session(Options const& options)
@@ -84,6 +96,13 @@ base::Result<> Session::open_links(std::vector<std::string> const& urls) {
   return {};
 }
 
+base::Result<> Session::forward(std::vector<route::EndpointOptions> endpoints) {
+  if (endpoints.empty()) return {};
+  forwarding = std::make_unique<route::Router>(loop, route::Router::Options{}, log.named("forward"));
+  forwarding->add({.name = "vehicles"}, mavlink::as_link(ground.connection));
+  return forwarding->open(std::move(endpoints));
+}
+
 base::Result<> Session::record(std::string const& folder) {
   record_folder_ = folder;
   auto begun = Recording::begin(folder, ground.connection, log.named("recording"));
@@ -106,6 +125,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
   options.control = script ? nullptr : &ground.control;
+  options.metrics = [this] { return metrics_of(ground.registry, ground.connection, forwarding.get()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);

@@ -14,6 +14,7 @@
 #include "apps/station_config.hpp"
 #include "apps/web_access.hpp"
 #include "base/log.hpp"
+#include "route/router.hpp"
 #include "sim/world.hpp"
 #include "station/station.hpp"
 
@@ -41,6 +42,8 @@ class Session {
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
+  /// Joins other programs with the vehicles, for as long as the session lives.
+  [[nodiscard]] base::Result<> forward(std::vector<route::EndpointOptions> endpoints);
   /// Keeps everything that goes over the links in a new file of this folder, from now on; call before `open_links`.
   /// Further networks have files of their own.
   [[nodiscard]] base::Result<> record(std::string const& folder);
@@ -61,6 +64,7 @@ class Session {
   base::Loop loop;
   base::Logger log;
   Ground ground;
+  std::unique_ptr<route::Router> forwarding;  ///< null: nobody rides along
   std::unique_ptr<Recording> recording;
   std::vector<std::unique_ptr<Recording>> network_recordings;
   std::unique_ptr<dolphin::Output> console;
@@ -80,6 +84,11 @@ class Session {
 
 /// Values of --emergency-stop.
 [[nodiscard]] base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text);
+/// Of the option --forward.
+inline constexpr auto forward_help =
+    "Let another program ride along, e.g. udpout://127.0.0.1:14551 for QGroundControl (may be repeated)";
+/// Values of --forward.
+[[nodiscard]] base::Result<std::vector<route::EndpointOptions>> forward_to(std::vector<std::string> const& urls);
 /// Values of --on-stop.
 [[nodiscard]] base::Result<fleet::OnStop> parse_on_stop(std::string const& text);
 

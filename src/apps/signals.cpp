@@ -42,4 +42,29 @@ StopSignals::~StopSignals() {
   waiting_->set.cancel(ignored);
 }
 
+struct ReloadSignal::Waiting : std::enable_shared_from_this<Waiting> {
+  Waiting(base::Loop& loop, std::function<void()> call) : set(loop.io(), SIGHUP), reload(std::move(call)) {}
+
+  void wait() {
+    set.async_wait([self = shared_from_this()](boost::system::error_code error, int) {
+      if (error) return;
+      self->reload();
+      self->wait();
+    });
+  }
+
+  boost::asio::signal_set set;
+  std::function<void()> reload;
+};
+
+ReloadSignal::ReloadSignal(base::Loop& loop, std::function<void()> reload)
+    : waiting_(std::make_shared<Waiting>(loop, std::move(reload))) {
+  waiting_->wait();
+}
+
+ReloadSignal::~ReloadSignal() {
+  boost::system::error_code ignored;
+  waiting_->set.cancel(ignored);
+}
+
 }  // namespace lapwing::apps

@@ -20,4 +20,17 @@ class StopSignals {
   std::shared_ptr<Waiting> waiting_;
 };
 
+/// SIGHUP: calls `reload` on the loop, each time.
+class ReloadSignal {
+ public:
+  ReloadSignal(base::Loop& loop, std::function<void()> reload);
+  ~ReloadSignal();
+  ReloadSignal(ReloadSignal const&) = delete;
+  ReloadSignal& operator=(ReloadSignal const&) = delete;
+
+ private:
+  struct Waiting;
+  std::shared_ptr<Waiting> waiting_;
+};
+
 }  // namespace lapwing::apps

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/files.hpp"
+#include "apps/config_file.hpp"
 #include "apps/key_file.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
@@ -20,6 +20,7 @@ struct StationArguments {
   std::string config;
   std::vector<std::string> links;
   std::vector<std::string> payload;
+  std::vector<std::string> forward;
   std::string plans;
   std::optional<std::string> on_stop;
   std::optional<std::string> emergency_stop;
@@ -30,23 +31,10 @@ struct StationArguments {
   WebArguments web;
 };
 
-/// The file's settings, or nothing when it has mistakes, which have been shown.
-base::Result<StationConfig> load(std::string const& path) {
-  auto text = read_script(path);
-  if (!text) return std::unexpected(text.error());
-  base::SourceFile const source(path, *std::move(text));
-  base::Diagnostics diagnostics(source);
-  auto config = read_station_config(source, diagnostics);
-  fmt::print(stderr, "{}", base::render(diagnostics));
-  if (!diagnostics.has_errors()) return config;
-  return base::fail(
-      base::ErrorKind::invalid_input,
-      fmt::format("{} has {} mistake{}", path, diagnostics.error_count(), diagnostics.error_count() == 1 ? "" : "s"),
-      "docs/reference/station-config.md lists every setting");
-}
-
 base::Result<StationConfig> settings_of(StationArguments const& arguments) {
-  auto config = arguments.config.empty() ? StationConfig{} : load(arguments.config);
+  base::Result<StationConfig> config =
+      arguments.config.empty() ? StationConfig{}
+                               : load_config(arguments.config, read_station_config, "docs/reference/station-config.md");
   if (!config) return config;
   if (!arguments.links.empty()) config->links = arguments.links;
   if (config->links.empty()) config->links = {default_link};
@@ -66,6 +54,11 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
   if (arguments.tiles) {
     if (auto checked = check_tiles(*arguments.tiles); !checked) return std::unexpected(checked.error());
     config->map.tiles = *arguments.tiles;
+  }
+  if (!arguments.forward.empty()) {
+    auto forward = forward_to(arguments.forward);
+    if (!forward) return std::unexpected(forward.error());
+    config->forward = *std::move(forward);
   }
   if (arguments.scripts) config->map.scripts = *arguments.scripts;
   if (arguments.signing_key) config->signing_key = *arguments.signing_key;
@@ -90,6 +83,7 @@ int serve(StationArguments const& arguments) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
   }
   if (auto opened = session.open_links(config->links); !opened) return refuse(opened.error());
+  if (auto opened = session.forward(config->forward); !opened) return refuse(opened.error());
   if (auto opened = session.open_map(config->web, config->map); !opened) return refuse(opened.error());
   fmt::print(stderr, "listening for vehicles on {}; Ctrl-C ends\n", fmt::join(config->links, ", "));
   {
@@ -112,6 +106,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--config", arguments->config, "TOML file with the settings; options given here go before it");
   verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(default_link));
+  verb->add_option("--forward", arguments->forward, forward_help);
   verb->add_option("--payload", arguments->payload, payload_help);
   add_web_options(*verb, arguments->web);
   verb->add_option("--scripts", arguments->scripts, "Folder whose scripts the map offers")

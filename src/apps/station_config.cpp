@@ -10,6 +10,8 @@
 #include "apps/simulation.hpp"
 #include "base/config.hpp"
 #include "base/spelling.hpp"
+#include "link/url.hpp"
+#include "route/config.hpp"
 
 namespace lapwing::apps {
 
@@ -142,6 +144,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
   read_emergency_stop(root, diagnostics, config);
+  for (auto& table : root.tables("forward")) config.forward.push_back(route::read_endpoint(std::move(table)));
   if (auto const file = root.text("signing_key")) config.signing_key = beside(source, file->value).string();
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);

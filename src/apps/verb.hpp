@@ -37,6 +37,7 @@ void add_fmt(CLI::App& program, int& exit_code);
 void add_lsp(CLI::App& program, int& exit_code);
 void add_sim(CLI::App& program, int& exit_code);
 void add_replay(CLI::App& program, int& exit_code);
+void add_route(CLI::App& program, int& exit_code);
 void add_station(CLI::App& program, int& exit_code);
 void add_param(CLI::App& program, int& exit_code);
 void add_signing(CLI::App& program, int& exit_code);

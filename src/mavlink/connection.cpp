@@ -116,6 +116,7 @@ void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& fr
   if (id == MessageId::timesync || (taken.is_one_of_several && internal::tells_identity(id))) look_into(from, frame);
   if (!taken.is_news) return;
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::received, frame, now);
+  if (forward_hook_) forward_hook_(from, frame);
   if (listeners_.empty()) return;
   if (auto const message = decode(frame)) dispatch({*message, frame.source, from, now});
 }
@@ -231,6 +232,30 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   ++peer.next_seq;
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
   return true;
+}
+
+bool Connection::pass_on(PeerRef to, std::span<std::uint8_t const> packet) {
+  if (to.link >= links_.size()) return false;
+  bool may_pass = true;
+  std::optional<Frame> seen;
+  if (send_guard_ || frame_hook_) {
+    FrameParser parser;
+    parser.feed(packet, [&](Frame const& frame) {
+      seen = frame;
+      may_pass = may_pass && !is_held_back(frame);
+    });
+  }
+  if (!may_pass || !links_[to.link]->send(to.peer, packet)) return false;
+  if (seen && frame_hook_ && !tells_a_key(*seen)) frame_hook_(Direction::sent, *seen, loop_.now());
+  return true;
+}
+
+/// By the guard, whoever sends it.
+bool Connection::is_held_back(Frame const& frame) const {
+  if (!send_guard_) return false;
+  auto const message = decode(frame);
+  auto const target = message ? target_of(*message) : std::nullopt;
+  return target && !send_guard_(*target, *message);
 }
 
 // ---- what is known

@@ -111,6 +111,12 @@ class Connection {
   using FrameHook = std::function<void(Direction, Frame const&, base::TimePoint)>;
   void set_frame_hook(FrameHook hook);
 
+  /// Shows each received frame that is new and may be heard, with where it came from. For those who pass frames on.
+  using ForwardHook = std::function<void(PeerRef, Frame const&)>;
+  void set_forward_hook(ForwardHook hook) { forward_hook_ = std::move(hook); }
+  /// Sends a packet of somebody else as it is. False when its link did not take it, or the send guard holds it back.
+  bool pass_on(PeerRef to, std::span<std::uint8_t const> packet);
+
   /// Link and address over which commands to the system go, for people: "udpin://0.0.0.0:14550 from 127.0.0.1:40001".
   [[nodiscard]] std::optional<std::string> whereabouts(std::uint8_t system_id) const;
   /// Set while two peers both keep claiming to be the autopilot of one system and are not proven to lead to one
@@ -151,6 +157,7 @@ class Connection {
   /// `system_id`: who is meant; 0: whoever is there.
   bool send_frame(PeerRef to, Frame& frame, std::uint8_t system_id = 0);
   [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
+  [[nodiscard]] bool is_held_back(Frame const& frame) const;
   base::Task<void> beat();
   base::Task<void> watch();
   void ask_who_they_are(bool with_conflicts);
@@ -164,6 +171,7 @@ class Connection {
   std::vector<Listener> listeners_;
   int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
   FrameHook frame_hook_;
+  ForwardHook forward_hook_;
   SendGuard send_guard_;
   CommandLedger commands_;
   std::optional<SigningGuard> guard_;

@@ -86,7 +86,8 @@ std::optional<HttpResponse> refusal(AccessPolicy const& policy, HttpRequest cons
   if (changes_state && !is_json(request.header("Content-Type"))) {
     return problem(415, "A request that changes something must be JSON.", "Send Content-Type: application/json.");
   }
-  if (!policy.token.empty() && request.path.starts_with("/api/") && !carries_token(policy, request, is_upgrade)) {
+  bool const is_guarded = request.path.starts_with("/api/") || request.path == "/metrics";
+  if (!policy.token.empty() && is_guarded && !carries_token(policy, request, is_upgrade)) {
     auto response = problem(401, "This station asks for its token.", "Send Authorization: Bearer TOKEN.");
     response.headers.push_back({"WWW-Authenticate", "Bearer"});
     return response;

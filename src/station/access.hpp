@@ -14,7 +14,7 @@ namespace lapwing::station {
 struct AccessPolicy {
   bool loopback_only = true;            ///< bound to loopback: only loopback names may stand in Host
   std::vector<std::string> host_names;  ///< further names under which browsers may reach the server
-  std::string token;                    ///< every API request must carry it; empty: none needed
+  std::string token;                    ///< every request for the API or metrics must carry it; empty: none needed
 };
 
 /// The answer that refuses the request, or nothing when it may go on.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/open_metrics.hpp"
 #include "station/control_routes.hpp"
 #include "station/openapi.hpp"
 #include "station/script_folder.hpp"
@@ -175,6 +176,10 @@ Router Station::make_router() {
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
   router.add("GET", "/api/openapi.yaml", [](auto const&) {
     return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};
+  });
+  router.add("GET", "/metrics", [this](auto const&) {
+    return HttpResponse{.content_type = std::string(base::OpenMetrics::content_type),
+                        .body = options_.metrics ? options_.metrics() : base::OpenMetrics().text()};
   });
   return router;
 }

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -33,6 +34,7 @@ class Station {
     Site site = {};
     std::filesystem::path scripts = {};          ///< folder of scripts that viewers may choose from; empty: none
     vehicle::VehicleControl* control = nullptr;  ///< outlives the station; null: vehicles are only shown
+    std::function<std::string()> metrics = {};   ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
   };
 
   /// Listens at once. `vehicles`, `script` and `loop` must outlive the station; `hub` may go first or last.
