@@ -11,6 +11,10 @@ HOME = (41.1780, -8.5980, 90.0)
 STABILIZE, AUTO, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 3, 4, 5, 6, 9, 17
 GROUND = (255, 190)
 
+# What it is asked for and does not send.
+LACKING = {mavlink.MAVLINK_MSG_ID_VFR_HUD, mavlink.MAVLINK_MSG_ID_NAV_CONTROLLER_OUTPUT, mavlink.MAVLINK_MSG_ID_RC_CHANNELS,
+           mavlink.MAVLINK_MSG_ID_FENCE_STATUS, mavlink.MAVLINK_MSG_ID_WIND}
+
 
 @dataclasses.dataclass
 class Faults:
@@ -192,7 +196,9 @@ class Copter:
 
     def command(self, message):
         result = mavlink.MAV_RESULT_ACCEPTED
-        if message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
+        if message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL and int(message.param1) in LACKING:
+            result = mavlink.MAV_RESULT_DENIED
+        elif message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
             self.intervals[int(message.param1)] = message.param2 / 1e6
         elif message.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
             result = self.arm(message.param1 == 1)
