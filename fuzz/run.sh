@@ -94,6 +94,13 @@ case $target in
     printf '# Lapwing cache, taken (seconds since 1970): 5\n# Lapwing cache, hash: 00c0ffee\n1\t1\tRTL_ALT\t1500\t6\n1\t1\tA\t-1.5e-3\t9\n' | seed qgroundcontrol
     printf '#NOTE\nRTL_ALT,1500\nWPNAV_SPEED 1000 # cm/s\nSTAT_RESET,1,@READONLY\n' | seed mission_planner
     ;;
+  route)
+    # Settings, a zero, and pieces whose first byte says where each comes in and how long it is: 42 is 21 bytes on the first endpoint.
+    beat='\xfd\x09\x00\x00\x07\xff\xbe\x00\x00\x00\x00\x00\x00\x00\x06\x08\x00\x04\x03\x7e\xfa'
+    printf '[[endpoint]]\nurl="udpin://0.0.0.0:1"\nmessages_per_s=5\n[endpoint.in]\nblock_systems=[3]\n[[endpoint]]\nurl="udpout://1.1.1.1:1"\nsniffer=true\n\x00*%b+%b*%b' \
+      "$beat" "$beat" "$beat" | seed limited
+    printf '[[endpoint]]\nurl="serial:///dev/a:9600"\n[endpoint.out]\nallow_messages=["HEARTBEAT"]\n\x00*%b+%b' "$beat" "$beat" | seed serial
+    ;;
   *)
     echo "fuzz/run.sh: there is no target $target" >&2
     exit 2
