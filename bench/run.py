@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [fleet] [language] [upload] [lossy] [params]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -312,6 +312,12 @@ def language() -> dict:
     return beside_the_original.measure(LAPWING, BENCH_BIN / "bench_language", say)
 
 
+def router() -> list:
+    import router as routers
+
+    return routers.measure(LAPWING, BENCH_BIN / "bench_router_load", say)
+
+
 def machine() -> dict:
     cpu = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                 if line.startswith("model name")), platform.machine())
@@ -328,12 +334,13 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "start", "scale", "fleet", "language", "upload", "lossy", "params"]
+    wanted = sys.argv[1:] or ["decode", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "language": language}[name]()
+        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
+                         "params": params, "router": router, "language": language}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 

@@ -1,5 +1,7 @@
 #include "route/internal/channel.hpp"
 
+#include <fmt/format.h>
+
 namespace lapwing::route::internal {
 
 namespace {
@@ -25,6 +27,7 @@ Channel::Channel(ChannelId number, Endpoint& on, link::Peer far_end, bool standi
     : id(number),
       endpoint(on),
       peer(far_end),
+      name(fmt::format("{}: {}", on.options.name, on.link->peer_name(far_end))),
       is_standing(standing),
       heard(now),
       shaper_(on.options.limits.any() ? std::make_unique<Shaper>(on.options.limits) : nullptr),

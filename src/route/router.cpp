@@ -17,10 +17,6 @@ namespace {
 /// Far ends that come and go without a word (TCP, serial lines) are noticed so soon.
 base::Duration constexpr look_around_period = 100ms;
 
-std::string describe(internal::Endpoint const& endpoint, link::Peer peer) {
-  return fmt::format("{}: {}", endpoint.options.name, endpoint.link->peer_name(peer));
-}
-
 }  // namespace
 
 void limit_serial_line(EndpointOptions& options) {
@@ -169,7 +165,7 @@ internal::Channel& Router::add_channel(Endpoint& endpoint, link::Peer peer, bool
   *free = std::make_unique<Channel>(id, endpoint, peer, is_standing, loop_.now());
   endpoint.channels.emplace(peer.key, free->get());
   active_.push_back(free->get());
-  log_.info(fmt::format("{} is there", describe(endpoint, peer)));
+  log_.info(fmt::format("{} is there", (*free)->name));
   return **free;
 }
 
@@ -183,7 +179,7 @@ void Router::make_room(Endpoint& endpoint) {
 
 void Router::remove(Channel& channel, std::string_view why) {
   auto& endpoint = channel.endpoint;
-  log_.info(fmt::format("{} {}", describe(endpoint, channel.peer), why));
+  log_.info(fmt::format("{} {}", channel.name, why));
   channel.abandon();
   internal::add(endpoint.parser, channel.parser.counters());
   endpoint.channels.erase(channel.peer.key);

@@ -33,6 +33,7 @@ class Channel {
   ChannelId const id;
   Endpoint& endpoint;
   link::Peer const peer;
+  std::string const name;  ///< for people; the link forgets it with the far end
   bool const is_standing;  ///< the link knows it; it is gone when the link says so
   base::TimePoint heard;
   mavlink::FrameParser parser;
