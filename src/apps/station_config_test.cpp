@@ -40,6 +40,25 @@ TEST(StationConfig, OfAnEmptyFileIsLoopbackAlone) {
   EXPECT_FALSE(read.config.map.home);
 }
 
+TEST(StationConfig, ReadsWhoRidesAlong) {
+  Read const read(R"([[forward]]
+name = "qgc"
+url = "udpout://127.0.0.1:14551"
+[[forward]]
+url = "tcpin://127.0.0.1:5760"
+read_only = true
+messages_per_s = 10
+)");
+  EXPECT_EQ(read.complaints(), "");
+  ASSERT_EQ(read.config.forward.size(), 2U);
+  EXPECT_EQ(read.config.forward[0].name, "qgc");
+  EXPECT_FALSE(read.config.forward[0].is_read_only);
+  EXPECT_TRUE(read.config.forward[1].is_read_only);
+  EXPECT_TRUE(read.config.forward[1].limits.any());
+  EXPECT_EQ(first_complaint("[[forward]]\nread_only = true\n"),
+            "1:1 an endpoint needs a url | url = \"udpin://0.0.0.0:14550\"");
+}
+
 TEST(StationConfig, ReadsEverySetting) {
   Read const read(R"(links = ["udpin://0.0.0.0:14550", "serial:///dev/ttyUSB0:57600"]
 on_stop = "rtl"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mavlink/connection_link.hpp"
 #include "mavlink/fake_vehicle_test.hpp"
 #include "mavlink/inbox.hpp"
 
@@ -191,6 +192,45 @@ TEST(Connection, ShowsEveryFrameToTheRecorder) {
   bench.run_for(5s);
   EXPECT_GE(received, 4);
   EXPECT_GE(sent, 4);
+}
+
+TEST(ConnectionLink, ShowsWhatArrivesAndPassesOnWhatOthersSend) {
+  Bench bench;
+  Raw raw(bench.hub.connect());
+  auto const beside = as_link(bench.ground);
+  std::vector<std::vector<std::uint8_t>> seen;
+  link::Peer from;
+  bool drained = false;
+  beside->on_drained([&] { drained = true; });
+  beside->start([&](link::Peer peer, link::Bytes bytes) {
+    seen.emplace_back(bytes.begin(), bytes.end());
+    from = peer;
+  });
+  bench.run_for(3s);
+  seen.clear();
+  auto const beat = encode(FakeVehicle::heartbeat(), {5, 1}, 0);
+  raw.say(beat);
+  raw.say(beat);  // a copy
+  bench.run_for(10ms);
+  auto const bytes = serialize(beat);
+  ASSERT_EQ(seen.size(), 1u) << "copies were dropped before";
+  EXPECT_EQ(seen[0], std::vector(bytes.bytes().begin(), bytes.bytes().end()));
+  EXPECT_TRUE(drained);
+  EXPECT_NE(beside->peer_name(from), "");
+
+  int recorded = 0;
+  bench.ground.set_frame_hook([&](Connection::Direction direction, Frame const& frame, base::TimePoint) {
+    if (direction == Connection::Direction::sent && frame.source == Address{254, 190}) ++recorded;
+  });
+  raw.heard.clear();
+  auto const other = serialize(encode(CommandLong{}, {254, 190}, 77));
+  EXPECT_TRUE(beside->send(from, other.bytes()));
+  bench.run_for(10ms);
+  ASSERT_EQ(raw.heard.size(), 1u);
+  EXPECT_EQ(raw.heard[0].seq, 77) << "as it came";
+  EXPECT_EQ(recorded, 1);
+  EXPECT_FALSE(beside->send({std::uint64_t{9} << 48U}, other.bytes())) << "a link that there is not";
+  EXPECT_EQ(beside->counters().send_failures, 1u);
 }
 
 TEST(Subscription, EndsWhenDestroyedEvenFromWithinItsCall) {

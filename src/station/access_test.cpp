@@ -66,6 +66,8 @@ TEST(Access, AsksForTheTokenOnTheApiOnly) {
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->status, 401);
   EXPECT_EQ(refused->headers.at(0).value, "Bearer");
+  EXPECT_EQ(status(policy, get("/metrics", {host})), 401);
+  EXPECT_EQ(status(policy, get("/metrics", {host, {"Authorization", "Bearer secret"}})), 200);
   EXPECT_EQ(status(policy, get("/api/v1/status", {host, {"Authorization", "Bearer wrong!"}})), 401);
   EXPECT_EQ(status(policy, get("/api/v1/status", {host, {"Authorization", "Bearer secret"}})), 200);
 }

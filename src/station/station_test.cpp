@@ -314,6 +314,18 @@ TEST_F(StationTest, ServesItsDescription) {
   EXPECT_TRUE(answer.body.starts_with("openapi: 3.1.0"));
 }
 
+TEST_F(StationTest, ShowsTheMetricsThatItIsGiven) {
+  open({.metrics = [] { return std::string("lapwing_test 1\n# EOF\n"); }});
+  auto const answer = get("/metrics");
+  EXPECT_EQ(answer.header("Content-Type"), "application/openmetrics-text; version=1.0.0; charset=utf-8");
+  EXPECT_EQ(answer.body, "lapwing_test 1\n# EOF\n");
+}
+
+TEST_F(StationTest, HasAnEmptyPageOfMetricsOtherwise) {
+  open();
+  EXPECT_EQ(get("/metrics").body, "# EOF\n");
+}
+
 TEST_F(StationTest, IsDescribedByTheOpenApiFile) {
   open();
   // The file's own shape makes a YAML parser unnecessary: paths are indented by two, methods by four.
