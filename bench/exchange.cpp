@@ -52,7 +52,9 @@ Task<Result<>> command(mavlink::Connection& connection) {
 
 Task<Result<>> parameter(mavlink::Connection& connection) {
   mavlink::ParamOptions const patient{.tries = 12, .reply_timeout = 1s};
-  co_return co_await mavlink::set_param(connection, vehicle, "RTL_ALT", 2500.0F, patient);
+  auto const changed = co_await mavlink::set_param(connection, vehicle, "RTL_ALT", 2500.0, patient);
+  if (!changed) co_return std::unexpected(changed.error());
+  co_return Result<>{};
 }
 
 int run(std::uint32_t port, std::string_view what) {

@@ -18,7 +18,8 @@ namespace {
 bool asks_who_it_is(mavlink::Message const& message) {
   if (std::holds_alternative<mavlink::Timesync>(message)) return true;
   auto const* command = std::get_if<mavlink::CommandLong>(&message);
-  return command && command->command == mavlink::MavCmd::request_message;
+  return command && command->command == mavlink::MavCmd::request_message &&
+         command->params[0] == static_cast<float>(mavlink::MessageId::autopilot_version);
 }
 
 constexpr base::Duration step = 50ms;

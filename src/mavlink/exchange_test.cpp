@@ -29,7 +29,7 @@ TEST(Modes, NameNumbersAndBack) {
   EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::copter, 3), "AUTO");
   EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::plane, 10), "AUTO");
   EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::boat, 4), "HOLD");
-  EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::copter, 8), "mode 8");
+  EXPECT_EQ(mode_name(Autopilot::ardupilot, Family::copter, 99), "mode 99");
   EXPECT_EQ(mode_name(Autopilot::px4, Family::copter, 4U << 16U | 5U << 24U), "AUTO.RTL");
   EXPECT_EQ(mode_name(Autopilot::px4, Family::copter, 9U << 16U | 1U << 24U), "mode 9.1");
   EXPECT_EQ(mode_name(Autopilot::other, Family::copter, 3), "mode 3");

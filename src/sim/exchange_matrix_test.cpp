@@ -102,7 +102,7 @@ bool is_mode_changed(TestGround& ground) {
 
 Task<Result<>> command_int(TestGround& ground) {
   auto const home = set_home(geo::displaced(ground.world.options().home, {100, 0, 0}));
-  co_return co_await run_command_int(ground.gcs, vehicle_address, home, patient);
+  co_return co_await run_command(ground.gcs, vehicle_address, home, patient);
 }
 bool is_home_moved(TestGround& ground) {
   return std::abs(ground.pilot().home()->north - 100.0) < 0.1;
@@ -116,7 +116,7 @@ Task<Result<>> upload(TestGround& ground) {
   auto uploaded = co_await upload_mission(ground.gcs, vehicle_address, std::move(items), type, transfer);
   if (uploaded) co_return uploaded;
   auto const got = co_await download_mission(ground.gcs, vehicle_address, type, transfer);
-  if (got && is_whole(*got, items_of(ground, type))) co_return Result<>{};
+  if (got && is_whole(got->items, items_of(ground, type))) co_return Result<>{};
   co_return uploaded;
 }
 template <MissionType type>
@@ -128,7 +128,7 @@ Task<Result<>> download(TestGround& ground) {
   give_mission(ground);
   auto const got = co_await download_mission(ground.gcs, vehicle_address, MissionType::mission, transfer);
   if (!got) co_return std::unexpected(got.error());
-  EXPECT_TRUE(is_whole(*got, items_of(ground, MissionType::mission))) << "half a mission was taken for the whole";
+  EXPECT_TRUE(is_whole(got->items, items_of(ground, MissionType::mission))) << "half a mission was taken for the whole";
   co_return Result<>{};
 }
 
@@ -144,14 +144,22 @@ bool is_empty(TestGround& ground) {
 std::string parameter_of(TestGround& ground) {
   return is_px4(ground) ? "RTL_RETURN_ALT" : "RTL_ALT";
 }
+ParamOptions with_types(TestGround& ground) {
+  auto options = insistent;
+  options.encoding = is_px4(ground) ? ParamEncoding::bytewise : ParamEncoding::c_cast;
+  return options;
+}
 Task<Result<>> read_parameter(TestGround& ground) {
-  auto const value = co_await read_param(ground.gcs, vehicle_address, parameter_of(ground), insistent);
+  auto const value = co_await read_param(ground.gcs, vehicle_address, parameter_of(ground), with_types(ground));
   if (!value) co_return std::unexpected(value.error());
-  EXPECT_EQ(value->value, is_px4(ground) ? 60.0F : 1500.0F);
+  EXPECT_EQ(value->value, is_px4(ground) ? 60.0 : 1500.0);
   co_return Result<>{};
 }
 Task<Result<>> set_parameter(TestGround& ground) {
-  co_return co_await set_param(ground.gcs, vehicle_address, parameter_of(ground), 2500.0F, insistent);
+  auto const changed =
+      co_await set_param(ground.gcs, vehicle_address, parameter_of(ground), 2500.0, with_types(ground));
+  if (!changed) co_return std::unexpected(changed.error());
+  co_return Result<>{};
 }
 bool is_parameter_set(TestGround& ground) {
   return ground.vehicle().parameters().value(parameter_of(ground)) == 2500.0;

@@ -117,7 +117,7 @@ TEST(Px4, AsksForItemsByNumberFromZeroAndKeepsThemAsTheyWere) {
   EXPECT_TRUE(ground.all<MissionRequest>().empty());
   auto const got = ground.loop.run_until_done(download_mission(ground.gcs, {1, 1}));
   ASSERT_TRUE(got);
-  EXPECT_TRUE(compare_readback(items, *got, MavAutopilot::px4).empty());
+  EXPECT_TRUE(compare_readback(items, got->items, MavAutopilot::px4).empty());
   ground.request(MessageId::mission_current, 5);
   ground.run_for(1s);
   EXPECT_EQ(ground.last<MissionCurrent>()->seq, 0);
@@ -149,7 +149,7 @@ TEST(Px4, JumpsToTheItemThatTheWireNames) {
   EXPECT_EQ(ground.vehicle().mission()[4].params[0], 2.0F);
   auto const got = ground.loop.run_until_done(download_mission(ground.gcs, {1, 1}));
   ASSERT_TRUE(got);
-  EXPECT_EQ((*got)[3].params[0], 1.0F);
+  EXPECT_EQ(got->items[3].params[0], 1.0F);
 }
 
 TEST(Px4, FliesAMissionAndDisarmsAfterLanding) {

@@ -141,7 +141,9 @@ class TestGround {
   }
   static mavlink::Connection::Options gcs_options(bool heartbeats) {
     mavlink::Connection::Options options;
-    if (!heartbeats) options.heartbeat = {};
+    if (heartbeats) return options;
+    options.heartbeat = {};
+    options.timesync_period = {};
     return options;
   }
   base::Task<void> pass(base::Duration duration) { co_await loop.sleep(duration); }
