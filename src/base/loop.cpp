@@ -56,7 +56,7 @@ void Loop::run() {
 }
 
 /// Runs what was ready when the turn began; what becomes ready meanwhile waits for the next turn, so nothing starves
-/// sockets.
+/// sockets. Of those, one has its turn: one that always has something must not starve the rest.
 bool Loop::run_ready() {
   auto functions = std::exchange(posted_, {});
   auto coroutines = ready_.size();
@@ -68,7 +68,7 @@ bool Loop::run_ready() {
     waiter->withdraw();
     waiter->handle_.resume();
   }
-  if (any) io_->context.poll();
+  if (any) io_->context.poll_one();
   return any;
 }
 
@@ -85,7 +85,7 @@ bool Loop::fire_timers() {
 }
 
 void Loop::wait_for_something() {
-  if (io_->context.poll() > 0) return;
+  if (pace_.unpaced && io_->context.poll() > 0) return;
   if (timers_.empty()) {
     io_->context.run_one();
     return;

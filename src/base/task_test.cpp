@@ -32,6 +32,19 @@ TEST(Loop, SpeedupScalesTheWall) {
   EXPECT_GE(loop.now().time_since_epoch(), 10s);
 }
 
+TEST(Loop, GivesTimersTheirTurnBesideAnEventThatAlwaysComes) {
+  Loop loop;
+  // As a socket in a flood: whenever it was served, it is ready again.
+  struct Flood {
+    Loop& loop;
+    void serve() {
+      loop.post_from_other_thread([this] { serve(); });
+    }
+  } flood{loop};
+  flood.serve();
+  EXPECT_EQ(loop.run_until_done(answer_after(loop, 5ms)), 42);
+}
+
 TEST(Loop, TimersFireInOrderOfDeadlineThenOfCall) {
   Loop loop(unpaced);
   std::vector<std::string> order;
