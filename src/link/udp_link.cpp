@@ -19,9 +19,9 @@ namespace {
 using boost::asio::ip::udp;
 using Error = boost::system::error_code;
 
-/// Room for a burst of parameters, or for a tenth of a second of the busiest router in which the program does not
-/// listen.
-int constexpr buffer_size = 16 * 1024 * 1024;
+/// Room for a burst of parameters, or for a tenth of a second of a busy router in which the program does not listen. In
+/// more, telemetry would grow old before it is lost.
+int constexpr buffer_size = 4 * 1024 * 1024;
 
 udp::endpoint endpoint_of(Peer peer) {
   return {boost::asio::ip::address_v4(static_cast<std::uint32_t>(peer.key >> 16U)),
