@@ -280,6 +280,10 @@ void Network::note_links() {
   }
 }
 
+bool Network::may_be_asked(Craft const& craft) const {
+  return craft.is_connected() && !connection_.is_contested(craft.address.system);
+}
+
 base::Task<> Network::watch() {
   for (unsigned turn = 0;; ++turn) {
     co_await loop().sleep(watch_period);
@@ -287,8 +291,7 @@ base::Task<> Network::watch() {
     for (auto& [system_id, craft] : crafts_) {
       check_connection(*craft);
       let_age(*craft);
-      bool const is_one = !connection_.is_contested(system_id);
-      if (!options_.asks_for_messages || !craft->is_connected() || !is_one) continue;
+      if (!options_.asks_for_messages || !may_be_asked(*craft)) continue;
       if (!craft->questions.empty() && !craft->is_questioning) scope_.spawn(ask_questions(*craft));
       if (craft->is_asking || is_giving_back_) continue;
       if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());

@@ -67,6 +67,8 @@ class Network {
   [[nodiscard]] std::string in_network(std::string text) const;
   void note_links();
   base::Task<> watch();
+  /// It is heard, and is not perhaps two vehicles.
+  [[nodiscard]] bool may_be_asked(Craft const& craft) const;
   base::Task<> ask_questions(Craft& craft);
   base::Task<> ask_for_picture(Craft& craft, Question question);
   base::Task<> ask_for_modes(Craft& craft, Question question);

@@ -34,7 +34,7 @@ PictureTrace::Missing picture_of(Question const& question) {
 /// One after the other: acknowledgements name the command only, not the message that was asked for.
 base::Task<> Network::ask_questions(Craft& craft) {
   craft.is_questioning = true;
-  while (!craft.questions.empty() && craft.is_connected()) {
+  while (!craft.questions.empty() && may_be_asked(craft)) {
     auto const question = craft.questions.front();
     craft.questions.pop_front();
     if (question.message == mavlink::MessageId::camera_image_captured) {

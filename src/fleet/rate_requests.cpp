@@ -46,7 +46,7 @@ base::Task<> Network::ask_for_messages(Craft& craft, std::vector<WantedMessage> 
   craft.is_asking = true;
   for (auto const& message : wanted) {
     auto const copy = message;
-    if (!craft.is_connected() || is_giving_back_) break;
+    if (!may_be_asked(craft) || is_giving_back_) break;
     if (!co_await ask_for_message(craft, copy)) break;
   }
   craft.is_asking = false;
@@ -88,8 +88,8 @@ base::Task<> Network::give_back_rates() {
   auto const deadline = loop().now() + time_to_give_back;
   base::Scope all(loop());
   for (auto& [system_id, craft] : crafts_) {
-    bool const may = craft->rates && craft->is_connected() && !connection_.is_contested(system_id);
-    if (may && !others_may_depend_on(*craft)) all.spawn(give_back_rates_of(*craft, deadline));
+    if (craft->rates && may_be_asked(*craft) && !others_may_depend_on(*craft))
+      all.spawn(give_back_rates_of(*craft, deadline));
   }
   while (!all.empty() && loop().now() < deadline) co_await loop().sleep(10ms);
 }

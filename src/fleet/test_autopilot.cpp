@@ -18,8 +18,9 @@ namespace {
 bool asks_who_it_is(mavlink::Message const& message) {
   if (std::holds_alternative<mavlink::Timesync>(message)) return true;
   auto const* command = std::get_if<mavlink::CommandLong>(&message);
-  return command && command->command == mavlink::MavCmd::request_message &&
-         command->params[0] == static_cast<float>(mavlink::MessageId::autopilot_version);
+  if (!command || command->command != mavlink::MavCmd::request_message) return false;
+  auto const wanted = static_cast<MessageId>(command->params[0]);
+  return wanted == MessageId::autopilot_version || wanted == MessageId::global_position_int;
 }
 
 constexpr base::Duration step = 50ms;
