@@ -105,10 +105,16 @@ class UdpLink final : public ByteLink {
     });
   }
 
-  /// One batch: others have their turn before the next.
+  /// A few batches: looking again is cheaper than to be woken again, but others must have their turn.
   void drain() {
-    auto const datagrams = reader_.read(descriptor());
-    if (datagrams.empty()) return;
+    for (int rounds = 4; rounds > 0; --rounds) {
+      auto const datagrams = reader_.read(descriptor());
+      if (datagrams.empty()) return;
+      deliver(datagrams);
+    }
+  }
+
+  void deliver(std::span<DatagramReader::Datagram const> datagrams) {
     if (std::exchange(is_calling_, false)) target_ = datagrams.front().from;
     for (auto const& [from, bytes] : datagrams) {
       ++counters_.chunks_received;
