@@ -55,6 +55,47 @@ ConfigValue convert(SourceFile const& source, toml::node const& node) {
   return value;
 }
 
+/// In the middle of a bare word a quote is no quote but a mistake.
+bool begins_quoted(std::string_view text, std::size_t at) {
+  constexpr std::string_view before = " \t\r\n=[{,.\xBF";  // the last is the end of a byte order mark
+  return (text[at] == '"' || text[at] == '\'') && (at == 0 || before.find(text[at - 1]) != std::string_view::npos);
+}
+
+/// Behind the quoted text that begins at `begin`; what is wrong with it, the parser says.
+std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
+  char const quote = text[begin];
+  std::string const fence(text.substr(begin, 3) == std::string(3, quote) ? 3 : 1, quote);
+  for (auto i = begin + fence.size(); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (text[i] == '\n' && fence.size() == 1) {
+      return i;
+    } else if (text.substr(i, fence.size()) == fence) {
+      i += fence.size();
+      // Of many lines, the text may end with quotes of its own.
+      while (fence.size() == 3 && i < text.size() && text[i] == quote) ++i;
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// The first character beyond ASCII outside of quotes and comments, where TOML has none. toml++ 3.3 is not prepared for
+/// all of them: for some its code says "unreachable".
+std::optional<std::uint32_t> stray_character(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  for (std::size_t i = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; i < text.size();) {
+    if ((static_cast<unsigned char>(text[i]) & 0x80U) != 0) return static_cast<std::uint32_t>(i);
+    if (text[i] == '#')
+      i = std::min(text.find('\n', i), text.size());
+    else if (begins_quoted(text, i))
+      i = end_of_quoted(text, i);
+    else
+      ++i;
+  }
+  return std::nullopt;
+}
+
 ConfigValue::Table convert(SourceFile const& source, toml::table const& table) {
   ConfigValue::Table entries;
   for (auto const& [key, node] : table) {
@@ -66,6 +107,11 @@ ConfigValue::Table convert(SourceFile const& source, toml::table const& table) {
 }  // namespace
 
 ConfigValue::Table parse_config(SourceFile const& source, Diagnostics& diagnostics) {
+  if (auto const stray = stray_character(source.text())) {
+    diagnostics.report(config_kinds::not_toml, {*stray, *stray + 1},
+                       "outside of quotes and comments there are only ASCII characters", "put it in quotes");
+    return {};
+  }
   auto const parsed = toml::parse(source.text(), source.name());
   if (!parsed) {
     diagnostics.report(config_kinds::not_toml, span_of(source, parsed.error().source()),

@@ -117,6 +117,18 @@ TEST(Config, RefusesAKeyThatStandsTwice) {
   EXPECT_EQ(config.diagnostics.error_count(), 1U);
 }
 
+TEST(Config, TakesCharactersBeyondAsciiInQuotesAndCommentsOnly) {
+  for (auto const* text : {R"(a = 'é' # ü)", R"("ö" = "\"ä")", "a = \"\"\"ein\n\"ä\"\"\"\"\nb = ''", "a = '''é'''",
+                           "\xEF\xBB\xBF# with a byte order mark"}) {
+    Config const config(text);
+    EXPECT_EQ(config.complaints(), "") << text;
+  }
+  for (auto const* text : {"Ȩ = 1", "a = 1\nȨ", "a = '' Ȩ", "a = \"\"\"\"\"\"\nȨ = 2", "# é\nȨ", "a = 6b\"Ȩ"}) {
+    Config const config(text);
+    EXPECT_NE(config.complaints().find("only ASCII characters"), std::string::npos) << text << config.complaints();
+  }
+}
+
 TEST(Config, ReadsArraysOfTablesNumbersAndWholeNumbers) {
   Config config("[[link]]\nrate = 2\nids = [1, 2]\n[[link]]\nrate = 2.5\n[link.in]\non = true\n");
   ConfigReader reader(config.root, config.diagnostics);
