@@ -56,7 +56,7 @@ SysStatus sys_status(Autopilot const& autopilot) {
   std::uint32_t present = gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
   std::uint32_t health = motor_outputs | rc_receiver | battery;
   if (autopilot.fence_enabled()) present |= geofence;
-  if (autopilot.fence_enabled() && autopilot.fence().breached() == 0) health |= geofence;
+  if (autopilot.fence().breached() == 0) health |= geofence;
   if (autopilot.navigation().fix_type >= 3) health |= gps;
   if (autopilot.now() >= autopilot.boot().ekf_initialised) health |= ahrs;
   if (autopilot.prearm_ok()) health |= prearm_check;

@@ -125,13 +125,14 @@ def main():
         write_waypoints(folder, "mission.waypoints", MISSION)
         write_waypoints(folder, "fence.waypoints", FENCE)
         write_waypoints(folder, "rally.waypoints", RALLY)
-        with harness.lapwing("sim", "--vehicles", "copter:1", "--home", f"{HOME_LAT},{HOME_LON},90", "--out",
-                             f"udpout://127.0.0.1:{port}", "--speedup", str(SPEEDUP)):
-            proxy = MavProxy(port, folder)
-            try:
+        proxy = MavProxy(port, folder)
+        try:
+            proxy.hear("Waiting for heartbeat", seconds=60)  # the vehicle's first texts are not repeated
+            with harness.lapwing("sim", "--vehicles", "copter:1", "--home", f"{HOME_LAT},{HOME_LON},90", "--out",
+                                 f"udpout://127.0.0.1:{port}", "--speedup", str(SPEEDUP)):
                 fly(proxy, folder)
-            finally:
-                proxy.end()
+        finally:
+            proxy.end()
 
 
 if __name__ == "__main__":
