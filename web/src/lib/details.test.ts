@@ -63,3 +63,13 @@ it('shows the newest texts first, by their severity', () => {
   expect(shown[0]).toMatchObject({ level: 'critical' });
   expect(rows({ texts: [{ severity: 4, text: 'card full', component: 100 }] })[0]).toMatchObject({ label: '100', level: 'warning' });
 });
+
+it('names links where there are several, and warns of silent ones', () => {
+  const link = { name: 'udpin://0.0.0.0:14550 from 10.0.0.2:14555', loss: 0.02, messages_per_s: 20, bytes_per_s: 900, round_trip_s: 0.12, alive: true, used: true };
+  expect(rows({ links: [link] })).toEqual([{ title: 'Links', label: 'In use', value: '2 % lost, 120 ms, 20 messages/s' }]);
+  const radio = { ...link, name: 'serial:///dev/ttyUSB0:57600', alive: false, used: false };
+  expect(rows({ links: [link, radio] }).map(({ label, value, level }) => [label, value, level])).toEqual([
+    ['In use', 'udpin://0.0.0.0:14550: 2 % lost, 120 ms, 20 messages/s', undefined],
+    ['Spare', 'serial:///dev/ttyUSB0:57600: silent', 'warning'],
+  ]);
+});

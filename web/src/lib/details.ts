@@ -1,6 +1,6 @@
 import { ageOf, type Vehicle } from './fleet';
-import { heading, metres, percent, span, speed } from './format';
-import type { Battery, Component, VehicleFields } from './protocol';
+import { heading, linkText, metres, percent, span, speed } from './format';
+import type { Battery, Component, LinkQuality, VehicleFields } from './protocol';
 import { EMPTY_BATTERY, LOW_BATTERY } from './status';
 
 /** One line about a vehicle. `age` is set only when it is old enough to be told. */
@@ -60,6 +60,7 @@ export function detailsOf(vehicle: Vehicle, now: number): DetailGroup[] {
     {
       title: 'Links',
       rows: [
+        ...linkRows(fields.links ?? []),
         ...row('Radio', 'radio', radioText(fields.radio), fields.radio && fields.radio.buffer_free < 0.3 ? 'warning' : undefined),
         ...row('Remote', 'remote_control', remoteText(fields.remote_control), fields.remote_control?.lost ? 'warning' : undefined),
       ],
@@ -88,6 +89,12 @@ export function detailsOf(vehicle: Vehicle, now: number): DetailGroup[] {
 }
 
 type Row = (label: string, key: string, value: string | undefined, level?: Detail['level']) => Detail[];
+
+/** Where there is but one, its name says nothing that matters here. */
+function linkRows(links: LinkQuality[]): Detail[] {
+  const text = (link: LinkQuality) => (links.length > 1 ? `${link.name.split(' from ')[0]}: ${linkText(link)}` : linkText(link));
+  return links.map((link) => ({ label: link.used ? 'In use' : 'Spare', value: text(link), ...(!link.alive && { level: 'warning' as const }) }));
+}
 
 function batteryRows({ battery, further_batteries }: VehicleFields, row: Row): Detail[] {
   const rows = battery ? [...row('Left', 'battery', timeLeft(battery)), ...row('Power', 'battery', powerText(battery))] : [];

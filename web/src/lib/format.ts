@@ -25,24 +25,24 @@ export function age(seconds: number | undefined): string {
   return `${Math.floor(seconds / 3600)} h`;
 }
 
-/** The link that is used, in short: "2 % lost, 120 ms"; with several links how many are alive. */
+/** The link that is used, in short: "2 % lost"; with several links how many are alive. */
 export function linkSummary(links: LinkQuality[] | undefined): string {
   const used = links?.find((link) => link.used);
   if (!links || !used) return '';
-  const parts = [`${percent(used.loss)} lost`];
-  if (used.round_trip_s !== undefined) parts.push(`${Math.round(used.round_trip_s * 1000)} ms`);
-  if (links.length > 1) parts.push(`${links.filter((link) => link.alive).length} of ${links.length} links`);
-  return parts.join(', ');
+  const alive = links.filter((link) => link.alive).length;
+  return `${percent(used.loss)} lost${links.length > 1 ? `, ${alive} of ${links.length} links` : ''}`;
+}
+
+/** One link, without its name: "2 % lost, 120 ms, 20 messages/s". */
+export function linkText(link: LinkQuality): string {
+  if (!link.alive) return 'silent';
+  const round_trip = link.round_trip_s === undefined ? '' : `${Math.round(link.round_trip_s * 1000)} ms, `;
+  return `${percent(link.loss)} lost, ${round_trip}${link.messages_per_s} messages/s`;
 }
 
 /** Every link on a line of its own. */
 export function linkTitle(links: LinkQuality[] | undefined): string | undefined {
-  return links
-    ?.map((link) => {
-      const state = link.alive ? `${percent(link.loss)} lost, ${link.messages_per_s} messages/s` : 'silent';
-      return `${link.name}: ${state}${link.used ? ' (commands go here)' : ''}`;
-    })
-    .join('\n');
+  return links?.map((link) => `${link.name}: ${linkText(link)}${link.used ? ' (commands go here)' : ''}`).join('\n');
 }
 
 /** How long something lasts: "40 s", "12 min", "1 h 5 min". */
