@@ -233,6 +233,28 @@ TEST(ConnectionLink, ShowsWhatArrivesAndPassesOnWhatOthersSend) {
   EXPECT_EQ(beside->counters().send_failures, 1u);
 }
 
+TEST(ConnectionLink, PassesNothingOnThatTheSendGuardHoldsBack) {
+  Bench bench;
+  auto const beside = as_link(bench.ground);
+  link::Peer vehicle;
+  beside->start([&](link::Peer peer, link::Bytes) { vehicle = peer; });
+  bench.run_for(3s);
+  bench.ground.set_send_guard([](Address target, Message const& message) -> base::Result<> {
+    bool const moves = std::holds_alternative<CommandLong>(message);
+    if (moves && target.system == 1) return base::fail(base::ErrorKind::refused, "stopped");
+    return {};
+  });
+  Address const other_station{254, 190};
+  auto const command =
+      serialize(encode(CommandLong{.target = {1, 1}, .command = MavCmd::mission_start}, other_station, 1));
+  auto const question = serialize(encode(ParamRequestList{.target = {1, 1}}, other_station, 2));
+  EXPECT_FALSE(beside->send(vehicle, command.bytes()));
+  EXPECT_TRUE(beside->send(vehicle, question.bytes()));
+  bench.run_for(1s);
+  EXPECT_EQ(count(bench.vehicle->all<CommandLong>(), MavCmd::mission_start), 0);
+  EXPECT_EQ(bench.vehicle->all<ParamRequestList>().size(), 1u);
+}
+
 TEST(Subscription, EndsWhenDestroyedEvenFromWithinItsCall) {
   Bench bench;
   int calls = 0;
