@@ -40,7 +40,7 @@ def tried(program, exchange, options, simulator, free_udp_port, repeats) -> dict
                 reasons.append("no end within 150 s")
                 continue
         if done.returncode == 0:
-            seconds.append(float(done.stdout))
+            seconds.append(float(done.stdout.split()[0]))
         else:
             reasons.append((done.stderr.strip().splitlines() or ["no reason"])[-1])
     return {"median_s": statistics.median(seconds) if seconds else None, "failed": len(reasons), "of": repeats, "reasons": reasons}

@@ -76,7 +76,7 @@ def pymavlink_rate(data: bytes) -> float:
 # ---- mission upload ----------------------------------------------------------------------------------------------------------
 
 UPLOADERS = {
-    "lapwing": lambda port, items: [BENCH_BIN / "bench_upload", str(port), str(items)],
+    "lapwing": lambda port, items: [BENCH_BIN / "bench_exchange", str(port), "upload", str(items)],
     "pymavlink": lambda port, items: [PYTHON, ROOT / "bench/peer_upload_pymavlink.py", str(port), str(items)],
     "mavsdk": lambda port, items: [PYTHON, ROOT / "bench/peer_upload_mavsdk.py", str(port), str(items)],
 }
@@ -96,7 +96,7 @@ def upload(repeats: int = 3) -> list:
                         try:
                             done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=400)
                             if done.returncode == 0:
-                                seconds.append(float(done.stdout))
+                                seconds.append(float(done.stdout.split()[0]))
                             else:
                                 failures += 1
                         except subprocess.TimeoutExpired:
@@ -112,7 +112,7 @@ def upload(repeats: int = 3) -> list:
 # ---- every parameter of a vehicle -------------------------------------------------------------------------------------------
 
 READERS = {
-    "lapwing": lambda port: [BENCH_BIN / "bench_params", str(port)],
+    "lapwing": lambda port: [BENCH_BIN / "bench_exchange", str(port), "parameters"],
     "pymavlink": lambda port: [PYTHON, ROOT / "bench/peer_params_pymavlink.py", str(port)],
     "mavsdk": lambda port: [PYTHON, ROOT / "bench/peer_params_mavsdk.py", str(port)],
 }
