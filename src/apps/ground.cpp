@@ -67,6 +67,13 @@ base::Result<> Ground::open(std::vector<std::string> const& texts) {
   return {};
 }
 
+std::vector<mavlink::LinkReport> Ground::link_reports() const {
+  auto reports = connection.report();
+  for (auto const& [name, network] : networks)
+    for (auto& report : network.report()) reports.push_back(std::move(report));
+  return reports;
+}
+
 mavlink::Connection& Ground::connection_of(std::string const& network) {
   if (network.empty()) return connection;
   if (auto const found = networks.find(network); found != networks.end()) return found->second;

@@ -38,6 +38,8 @@ struct Ground {
   /// Opens every link or none; makes the networks that they name. Errors: invalid_input for a wrong URL, io for a port
   /// in use.
   [[nodiscard]] base::Result<> open(std::vector<std::string> const& urls);
+  /// Of every network, that without a name first.
+  [[nodiscard]] std::vector<mavlink::LinkReport> link_reports() const;
 
   base::Loop& loop;
   base::Logger log;

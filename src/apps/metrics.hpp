@@ -1,15 +1,17 @@
 #pragma once
 
+#include <span>
 #include <string>
 
-#include "mavlink/connection.hpp"
+#include "mavlink/link_report.hpp"
 #include "route/router.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::apps {
 
-/// What a station's /metrics shows: vehicles, links and, where it forwards, the router.
-[[nodiscard]] std::string metrics_of(vehicle::Registry const& vehicles, mavlink::Connection const& connection,
-                                     route::Router const* forwarding);
+/// What a station's /metrics shows: vehicles, the links of all networks, who is heard on each, and, where it forwards,
+/// the router.
+[[nodiscard]] std::string metrics_of(vehicle::Registry const& vehicles, std::span<mavlink::LinkReport const> links,
+                                     route::Router const* forwarding, base::TimePoint now);
 
 }  // namespace lapwing::apps

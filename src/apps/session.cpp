@@ -125,7 +125,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
   options.control = script ? nullptr : &ground.control;
-  options.metrics = [this] { return metrics_of(ground.registry, ground.connection, forwarding.get()); };
+  options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding.get(), loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
