@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "apps/files.hpp"
+#include "apps/key_file.hpp"
 #include "apps/plan_summary.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
@@ -28,6 +29,7 @@ struct MissionOptions {
   std::vector<std::string> links;
   std::string simulated;
   std::string home;
+  std::string signing_key;
   std::optional<int> vehicle;
   std::string type = "all";
   std::optional<double> altitude_m;
@@ -98,16 +100,18 @@ Result<> write_plan_file(MissionOptions const& options, plan::Plan const& plan) 
 
 /// The ground side for one exchange with one vehicle.
 struct Exchange {
-  explicit Exchange(MissionOptions const& chosen)
+  Exchange(MissionOptions const& chosen, SigningSetup const& signing)
       : options(chosen),
         loop(pace_for(chosen.simulated.empty() ? 1.0 : 0.0)),
-        ground(loop, fleet::OnStop::loiter, base::Logger(), {.asks_for_messages = false}),
+        ground(loop, fleet::OnStop::loiter, base::Logger(), {.asks_for_messages = false}, {}, signing),
+        signing_time(ground.connection, signing.time_file, base::Logger()),
         settled(loop),
         scope(loop) {}
 
   MissionOptions const& options;
   base::Loop loop;
   Ground ground;
+  SigningTimeKeeper signing_time;
   std::unique_ptr<sim::World> world;
   Progress progress;
   fleet::Craft const* craft = nullptr;
@@ -234,7 +238,9 @@ Task<Result<>> clear_action(Exchange& exchange) {
 int upload(MissionOptions const& options) {
   auto plan = read_plan_file(options);
   if (!plan) return refuse(plan.error());
-  Exchange exchange(options);
+  auto const signing = read_signing(options.signing_key);
+  if (!signing) return refuse(signing.error());
+  Exchange exchange(options, *signing);
   exchange.plan = *std::move(plan);
   return run_exchange(exchange, upload_action);
 }
@@ -243,7 +249,9 @@ int download(MissionOptions const& options) {
   if (!options.out.empty()) {
     if (auto const format = plan::format_of(options.out); !format) return refuse(format.error());
   }
-  Exchange exchange(options);
+  auto const signing = read_signing(options.signing_key);
+  if (!signing) return refuse(signing.error());
+  Exchange exchange(options, *signing);
   if (int const code = run_exchange(exchange, download_action); code != exit_done) return code;
   if (options.out.empty()) {
     if (!options.json) fmt::print("{}", to_text(exchange.plan));
@@ -254,7 +262,9 @@ int download(MissionOptions const& options) {
 }
 
 int clear(MissionOptions const& options) {
-  Exchange exchange(options);
+  auto const signing = read_signing(options.signing_key);
+  if (!signing) return refuse(signing.error());
+  Exchange exchange(options, *signing);
   return run_exchange(exchange, clear_action);
 }
 
@@ -280,7 +290,8 @@ void add_vehicle_options(CLI::App& verb, MissionOptions& options) {
           "--link", options.links,
           "Where the vehicle is, e.g. udpin://0.0.0.0:14550 (may be repeated); default " + std::string(default_link))
       ->allow_extra_args(false);
-  verb.add_option("--sim", options.simulated, "A simulated vehicle instead, e.g. copter:1");
+  auto* simulated = verb.add_option("--sim", options.simulated, "A simulated vehicle instead, e.g. copter:1");
+  verb.add_option("--signing-key", options.signing_key, signing_key_help)->excludes(simulated);
   verb.add_option("--home", options.home, "Where simulated vehicles stand: LAT,LON,ALT[,HEADING]");
   verb.add_option("--vehicle", options.vehicle, "System id; not needed where there is one vehicle")
       ->check(CLI::Range(1, 255));

@@ -34,6 +34,8 @@ with tempfile.TemporaryDirectory() as folder:
         assert code == 3 and "another key" in err, (code, err)
         out, _ = harness.expect_exit(0, "run", str(script), "--link", link, "--signing-key", str(key))
         assert "flown" in out
+        out, _ = harness.expect_exit(0, "mission", "download", "--type", "mission", "--link", link, "--signing-key", str(key))
+        assert "NAV_TAKEOFF" in out, out
 
     # pymavlink with the key is heard and obeyed, without it neither.
     port = harness.free_udp_port()
