@@ -1,5 +1,3 @@
-#include <unistd.h>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +8,7 @@
 #include "apps/files.hpp"
 #include "apps/key_file.hpp"
 #include "apps/plan_summary.hpp"
+#include "apps/progress.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
 #include "apps/vehicle_plans.hpp"
@@ -44,30 +43,6 @@ struct MissionOptions {
 void say(std::string_view text) {
   fmt::print(stderr, "lapwing: {}\n", text);
 }
-
-/// One line that is written over on a terminal, one line a phase elsewhere.
-class Progress {
- public:
-  void show(std::string_view phase, std::size_t done, std::size_t total) {
-    bool const is_new = phase != phase_;
-    phase_ = phase;
-    if (::isatty(STDERR_FILENO) != 1) {
-      if (is_new) fmt::print(stderr, "{} ({} items)\n", phase, total);
-      return;
-    }
-    fmt::print(stderr, "\r\x1b[K{} {}/{}", phase, done, total);
-    std::fflush(stderr);
-    is_open_ = true;
-  }
-  void close() {
-    if (std::exchange(is_open_, false)) fmt::print(stderr, "\r\x1b[K");
-  }
-  ~Progress() { close(); }
-
- private:
-  std::string phase_;
-  bool is_open_ = false;
-};
 
 /// What a person is told when a file is read or written.
 void tell(std::string_view file, std::string_view what, std::vector<std::string> const& lines) {
@@ -113,7 +88,8 @@ struct Exchange {
   Ground ground;
   SigningTimeKeeper signing_time;
   std::unique_ptr<sim::World> world;
-  Progress progress;
+  std::string phase;
+  std::optional<Progress> progress;  ///< of the phase
   fleet::Craft const* craft = nullptr;
   plan::Plan plan;  ///< to upload, or what was downloaded
   std::vector<ListReport> reports;
@@ -171,7 +147,7 @@ Task<> until_settled(Exchange& exchange, Action action) {
   exchange.scope.spawn(work(exchange, action));
   while (!exchange.result && !exchange.is_interrupted) co_await exchange.settled.wait();
   exchange.scope.clear();
-  exchange.progress.close();
+  exchange.progress.reset();
   if (!exchange.result) co_await clean_up(exchange);
 }
 
@@ -197,7 +173,8 @@ int run_exchange(Exchange& exchange, Action action) {
 
 ShowProgress show_on(Exchange& exchange) {
   return [&exchange](std::string_view phase, std::size_t done, std::size_t total) {
-    exchange.progress.show(phase, done, total);
+    if (!exchange.progress || exchange.phase != phase) exchange.progress.emplace(exchange.phase = phase, "items");
+    exchange.progress->show(done, total, exchange.loop.now());
   };
 }
 
