@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   mavlink::Connection connection(loop, {}, {});
   connection.add_link(std::move(pipe.a));
   pipe.b->start([](link::Peer, link::Bytes) {});
-  vehicle::Registry registry;
+  vehicle::Registry registry(loop);
   fleet::Fleet fleet(connection, registry, {}, {});
   loop.run_until_done(send(loop, *pipe.b, {data, size}));
   fuzz::require(fleet.all().size() <= 255);
