@@ -9,6 +9,7 @@
 
 #include "mavlink/command_ledger.hpp"
 #include "mavlink/inbox.hpp"
+#include "mavlink/internal/repeats.hpp"
 #include "mavlink/modes.hpp"
 
 namespace lapwing::mavlink {
@@ -106,10 +107,10 @@ base::Task<bool> is_alive(Exchange const& exchange) {
 }
 
 /// What became of one try; nothing: it is to be repeated.
-base::Task<std::optional<base::Result<>>> await_answer(Exchange& exchange, Inbox& acks) {
+base::Task<std::optional<base::Result<>>> await_answer(Exchange& exchange, Inbox& acks, base::Duration wait) {
   auto const target = exchange.target;
   auto const id = exchange.command.id;
-  auto deadline = exchange.now() + exchange.options.ack_timeout;
+  auto deadline = exchange.now() + wait;
   bool in_progress = false;
   for (;;) {
     auto const got = co_await acks.next(deadline);
@@ -149,15 +150,16 @@ base::Task<base::Result<>> run_command(Connection& connection, Address target, C
   Inbox acks(connection, target.system, wanting<CommandAck>([id, self](CommandAck const& ack) {
                return ack.command == id && addresses(ack.target, self);
              }));
+  internal::Repeats repeats(connection, target, options.tries, options.ack_timeout);
   int sent = 0;
-  while (sent < options.tries) {
+  while (!repeats.are_over()) {
     bool const alive = co_await is_alive(exchange);
     if (!exchange.turn.is_ours()) co_return overtaken(target, id);
     if (!alive || exchange.now() >= expires) break;
     if (auto gone = connection.send(target, exchange.message(sent)); !gone) co_return std::unexpected(gone.error());
     exchange.turn.note_sent(command, exchange.now());
     ++sent;
-    auto const answer = co_await await_answer(exchange, acks);
+    auto const answer = co_await await_answer(exchange, acks, repeats.next());
     if (answer) co_return *answer;
   }
   if (sent == 0) co_return expired(target, id);

@@ -27,6 +27,8 @@ struct Command {
 [[nodiscard]] bool is_hazardous(Command const& command);
 
 struct CommandOptions {
+  /// Waits for `tries` times `ack_timeout` altogether. Sends that often while nothing is known of the link, and more
+  /// often, with shorter waits, when its round trip is.
   int tries = 5;
   base::Duration ack_timeout = std::chrono::milliseconds(1500);
   /// After an IN_PROGRESS, how long until the next word about it.

@@ -50,6 +50,44 @@ TEST(Command, RepeatsWithConfirmationCountingUpUntilItGivesUp) {
   for (std::size_t i = 0; i < sent.size(); ++i) EXPECT_EQ(sent[i].confirmation, i);
 }
 
+/// Tells its clock, and says nothing to commands but to the `nth`.
+void answer_only(FakeVehicle& vehicle, std::size_t nth) {
+  vehicle.on = [&vehicle, nth, seen = std::size_t{0}](Message const& message) mutable {
+    if (auto const* sync = std::get_if<Timesync>(&message)) vehicle.answer(Timesync{.tc1 = 1s, .ts1 = sync->ts1});
+    auto const* command = std::get_if<CommandLong>(&message);
+    if (command && ++seen == nth) vehicle.answer(CommandAck{.command = command->command});
+  };
+}
+
+TEST(Command, IsRepeatedSoonerOnALinkWhoseRoundTripIsKnown) {
+  Bench bench({.delay = 20ms}, 5s);
+  answer_only(*bench.vehicle, 3);
+  bench.run_for(2s);
+  ASSERT_EQ(bench.ground.round_trip(1), 40ms);
+  auto const begun = bench.loop.now();
+  EXPECT_TRUE(run(bench, disarm()));
+  EXPECT_LT(bench.loop.now() - begun, 1s);
+}
+
+TEST(Command, IsNotRepeatedBeforeASlowLinkCanHaveAnswered) {
+  Bench bench({.delay = 600ms}, 5s);
+  answer_only(*bench.vehicle, 1);
+  bench.run_for(5s);
+  ASSERT_EQ(bench.ground.round_trip(1), 1200ms);
+  EXPECT_TRUE(run(bench, disarm()));
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u);
+}
+
+TEST(Command, IsGivenUpAfterTheSameTimeOnEveryLink) {
+  Bench bench({.delay = 20ms}, 5s);
+  answer_only(*bench.vehicle, 100);
+  bench.run_for(2s);
+  auto const begun = bench.loop.now();
+  EXPECT_FALSE(run(bench, disarm(), {.tries = 4, .ack_timeout = 500ms}));
+  EXPECT_EQ(bench.loop.now() - begun, 2s);
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 5u);
+}
+
 TEST(Command, SendsNothingAfterItsExpiry) {
   Bench bench;
   auto const begun = bench.loop.now();

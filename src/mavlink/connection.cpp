@@ -289,6 +289,10 @@ bool Connection::are_one(std::uint8_t system_id, PeerRef a, PeerRef b) const {
   return claims && claims->are_one(a, b);
 }
 
+std::optional<base::Duration> Connection::round_trip(std::uint8_t system_id) const {
+  return routes_->round_trip(system_id, loop_.now());
+}
+
 std::optional<base::TimePoint> Connection::last_heard(std::uint8_t system_id) const {
   return routes_->last_heard(system_id);
 }

@@ -125,6 +125,8 @@ class Connection {
   /// The system id was heard from two addresses within seconds: two vehicles, or one that restarted or has two links
   /// and has not been told apart from that yet. Messages are still sent, to the address that was known first.
   [[nodiscard]] bool is_contested(std::uint8_t system_id) const;
+  /// On the way over which commands go, as TIMESYNC has measured it (median of the last few); nothing until then.
+  [[nodiscard]] std::optional<base::Duration> round_trip(std::uint8_t system_id) const;
   /// When anything of the system was heard last.
   [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
   /// Both far ends are known to lead to one vehicle of this system id.

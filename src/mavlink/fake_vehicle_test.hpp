@@ -59,7 +59,8 @@ class FakeVehicle {
 /// A ground station that already knows vehicle 1.
 struct Bench {
   // Without TIMESYNC: which packet a seed loses must not depend on it.
-  explicit Bench(link::Impairment impairment = {}) : ground(loop, {.timesync_period = {}}, {}) {
+  explicit Bench(link::Impairment impairment = {}, base::Duration timesync_period = {})
+      : ground(loop, {.timesync_period = timesync_period}, {}) {
     ground.add_link(hub.take_server());
     vehicle = std::make_unique<FakeVehicle>(loop, link::impair(loop, hub.connect(), impairment));
     loop.run_until_done(heard_vehicle());

@@ -80,8 +80,10 @@ void Likeness::compare(Fingerprint const& a, Fingerprint const& b, base::TimePoi
   auto places = Evidence::none;
   if (a.place && b.place && are_comparable(a.place->heard, b.place->heard, now))
     places = compare_places(a.place->position, b.place->position);
+  if (places != Evidence::none) stand_apart_ = places == Evidence::differ;
 
   if (clocks == Evidence::differ || places == Evidence::differ) return count(against_, for_, Verdict::two);
+  if (stand_apart_) return;  // clocks may be asked more often than positions
   if (hardware == Evidence::agree || places == Evidence::agree) return count(for_, against_, Verdict::one);
 }
 

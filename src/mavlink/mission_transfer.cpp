@@ -133,11 +133,12 @@ base::Task<bool> is_worth_another(base::Error const& error, Outage& outage) {
 base::Task<base::Result<HeldPlan>> download_mission(Connection& connection, Address target, MissionType type,
                                                     TransferOptions options, TransferProgress progress,
                                                     HeldPlan known) {
-  Download download{.party = {connection, target, type},
+  Party const party{connection, target, type};
+  Download download{.party = party,
                     .options = options,
                     .progress = progress,
                     .known = known,
-                    .patience = Patience(options),
+                    .patience = Patience(party, options),
                     .list = {},
                     .held = {}};
   Outage outage(connection, target.system, options);

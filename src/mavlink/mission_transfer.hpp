@@ -12,7 +12,8 @@
 namespace lapwing::mavlink {
 
 struct TransferOptions {
-  /// Until COUNT or a request is repeated for the first time; later by the measured round trip, longer each time.
+  /// Until COUNT or a request is repeated for the first time, at most; later by the measured round trip, longer each
+  /// time.
   base::Duration reply_timeout = std::chrono::milliseconds(500);
   int tries = 5;  ///< of one message
   base::Duration silence_limit =

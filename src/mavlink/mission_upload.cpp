@@ -45,7 +45,7 @@ class Upload {
         end_(end),
         options_(options),
         progress_(progress),
-        patience_(options) {}
+        patience_(party, options) {}
 
   base::Task<base::Result<>> run();
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "mavlink/inbox.hpp"
+#include "mavlink/internal/repeats.hpp"
 
 namespace lapwing::mavlink {
 
@@ -64,9 +65,10 @@ base::Task<base::Result<Parameter>> ask(Connection& connection, Address target, 
     auto const* error = std::get_if<ParamError>(&message);
     return (value && value->name == name) || (error && error->name == name);
   });
-  for (int attempt = 0; attempt < options.tries; ++attempt) {
+  internal::Repeats repeats(connection, target, options.tries, options.reply_timeout);
+  while (!repeats.are_over()) {
     if (auto sent = connection.send(target, request); !sent) co_return std::unexpected(sent.error());
-    auto const got = co_await answers.next(connection.loop().now() + options.reply_timeout);
+    auto const got = co_await answers.next(connection.loop().now() + repeats.next());
     if (!got) continue;
     if (auto const* value = std::get_if<ParamValue>(&*got)) co_return decode_param(*value, options.encoding);
     auto const error = std::get<ParamError>(*got).error;

@@ -38,7 +38,9 @@ inline constexpr std::size_t longest_param_name = 16;
 
 struct ParamOptions {
   ParamEncoding encoding = ParamEncoding::c_cast;
-  int tries = 8;  ///< of 0.6 s: a name that ArduPilot does not have costs 5 s, a link that loses 30 % one read in 200
+  /// As CommandOptions have them. A name that ArduPilot does not have costs 5 s; a link that loses 30 %, and whose
+  /// round trip is unknown, one read in 200.
+  int tries = 8;
   base::Duration reply_timeout = std::chrono::milliseconds(600);
 };
 

@@ -17,6 +17,9 @@ std::size_t constexpr max_paths = 8;
 base::Duration constexpr forget_after = 60s;
 /// Of a far end that has not answered TIMESYNC: a slow radio's.
 base::Duration constexpr assumed_round_trip = 300ms;
+/// So many TIMESYNC requests go out quickly, to have a round trip soon where packets get lost.
+std::size_t constexpr quick_asks = 5;
+base::Duration constexpr quick_period = 1s;
 /// What either end takes to turn an answer round; keeps differences of a millisecond from deciding.
 base::Duration constexpr turn_round = 50ms;
 /// A path that brings telemetry and takes no commands is worse than any other, but better than none.
@@ -148,7 +151,9 @@ std::vector<Routes::ClockQuestion> Routes::ask_clocks(std::vector<Suspect> const
   for (auto& [peer, state] : peers_) {
     if (!state.leads_to_autopilot || now - state.heard > forget_after) continue;
     auto const last = state.asks == 0 ? base::TimePoint::min() : state.asked[(state.asks - 1) % state.asked.size()];
-    bool const is_due = state.asks == 0 || now - last >= period;
+    // Quickly at first: how soon things are said again depends on it.
+    bool const is_due =
+        state.asks == 0 || now - last >= (state.asks < quick_asks ? std::min(quick_period, period) : period);
     if (!is_due && std::ranges::find(suspects, peer, &Suspect::peer) == suspects.end()) continue;
     due.push_back({peer, now + base::Duration(due.size())});
     state.asked[state.asks++ % state.asked.size()] = due.back().asked;
@@ -226,6 +231,15 @@ std::vector<PeerRef> Routes::routes_to(Address target, Traffic traffic, base::Ti
   for (auto const peer : {source->system->claims.established(now).value_or(last), last})
     if (std::ranges::find(routes, peer) == routes.end()) routes.push_back(peer);
   return routes;
+}
+
+std::optional<base::Duration> Routes::round_trip(std::uint8_t system_id, base::TimePoint now) const {
+  Address const autopilot{system_id, autopilot_component};
+  auto const found = sources_.find(autopilot);
+  auto const routes = routes_to(autopilot, Traffic::command, now);
+  if (found == sources_.end() || routes.empty()) return std::nullopt;
+  auto const path = std::ranges::find(found->second.paths, routes.front(), &Path::peer);
+  return path == found->second.paths.end() ? std::nullopt : path->meter.round_trip();
 }
 
 Claims const* Routes::claims(std::uint8_t system_id) const {

@@ -74,6 +74,7 @@ class Likeness {
   int for_ = 0;
   int against_ = 0;
   int copies_ = 0;
+  bool stand_apart_ = false;  ///< when their positions were compared last
   base::TimePoint compared_ = base::TimePoint::min();
 };
 

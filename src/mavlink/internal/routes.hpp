@@ -73,6 +73,8 @@ class Routes {
   /// Where to send for `target`, best first: to its component, else to the system's autopilot, else to whoever of the
   /// system spoke last.
   [[nodiscard]] std::vector<PeerRef> routes_to(Address target, Traffic traffic, base::TimePoint now) const;
+  /// Between here and the system's autopilot, on its first route for commands; nothing until it is measured.
+  [[nodiscard]] std::optional<base::Duration> round_trip(std::uint8_t system_id, base::TimePoint now) const;
   /// Null for a system that was never heard.
   [[nodiscard]] Claims const* claims(std::uint8_t system_id) const;
   /// Peers that spoke MAVLink not long before `now`.

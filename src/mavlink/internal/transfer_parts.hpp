@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mavlink/inbox.hpp"
+#include "mavlink/internal/repeats.hpp"
 #include "mavlink/mission_transfer.hpp"
 
 /// What uploads and downloads share.
@@ -44,7 +45,10 @@ Inbox::Wanted meant_for(Party const& party) {
 /// long a transfer takes.
 class Patience {
  public:
-  explicit Patience(TransferOptions const& options) : first_(options.reply_timeout) {}
+  Patience(Party const& party, TransferOptions const& options) : first_(options.reply_timeout) {
+    auto const round_trip = party.connection.round_trip(party.target.system);
+    if (round_trip) first_ = std::min(first_, usual_answer(*round_trip));
+  }
 
   /// The answer to a message that went out once (Karn: an answer to a repeated one tells nothing).
   void measured(base::Duration round_trip) {
