@@ -50,22 +50,24 @@ Task<> wait_until_one(RunContext context) {
   while (connection.is_contested(context.craft.address.system)) co_await connection.loop().sleep(100ms);
 }
 
-/// Phases 3 and 4. The mission that the vehicle held is not kept: it is there to be replaced, and fetching it first
+/// The mission that the vehicle held is not kept: it is there to be replaced, and fetching it first
 /// would double the time to take-off. A failure leaves none, rather than a part of each.
+mavlink::ReplaceOptions replace_options(RunContext const& context) {
+  return {.transfer = transfer,
+          .autopilot = context.craft.mav_autopilot,
+          .verifies = context.options.verifies,
+          .keeps_old = false};
+}
+
+/// Phases 3 and 4.
 Task<Result<>> transfer_mission(RunContext context, FlightPlan const& plan, RunRecord& record) {
-  mavlink::ReplaceOptions options{.transfer = transfer,
-                                  .autopilot = context.craft.mav_autopilot,
-                                  .verifies = context.options.verifies,
-                                  .keeps_old = false};
+  auto options = replace_options(context);
   options.progress = [&record](std::string_view phase, std::size_t done, std::size_t total) {
     record.progress = fmt::format("{} {}/{}", phase, done, total);
   };
-  mavlink::Replacement replacement;
   auto items = plan.items;
-  auto const replaced = co_await mavlink::replace_plan(context.connection, context.craft.address, std::move(items),
-                                                       mavlink::MissionType::mission, std::move(options), replacement);
-  record.upload_time = replacement.upload_time;
-  co_return replaced;
+  co_return co_await mavlink::replace_plan(context.connection, context.craft.address, std::move(items),
+                                           mavlink::MissionType::mission, std::move(options), record.upload);
 }
 
 /// So that a vehicle that flew a part of another mission begins this one at its begin. Autopilots without the command
@@ -168,6 +170,12 @@ std::string_view to_string(RunRecord::Outcome outcome) {
     case RunRecord::Outcome::stopped: return "stopped";
   }
   return "failed";
+}
+
+Task<> clear_part_of_plan(RunContext context, RunRecord& record) {
+  auto options = replace_options(context);
+  co_await mavlink::undo_replacement(context.connection, context.craft.address, mavlink::MissionType::mission,
+                                     std::move(options), record.upload);
 }
 
 Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord& record) {

@@ -8,6 +8,7 @@
 #include "fleet/craft.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "mavlink/connection.hpp"
+#include "mavlink/plan_replacement.hpp"
 #include "plan/estimate.hpp"
 #include "plan/mission.hpp"
 
@@ -20,13 +21,13 @@ struct RunRecord {
   int items = 0;  ///< as uploaded, the home item included; 0 until it came to that
   Outcome outcome = Outcome::running;
   std::string progress;
-  std::string error;             ///< why, when failed or stopped
-  bool vehicle_failed = false;   ///< when failed: the vehicle or the way to it broke down, not the mission
-  base::Duration upload_time{};  ///< zero until the mission was on the vehicle
+  std::string error;            ///< why, when failed or stopped
+  bool vehicle_failed = false;  ///< when failed: the vehicle or the way to it broke down, not the mission
   /// From when the mission was begun, beside what was expected; grows until the run ends.
   std::optional<plan::Flown> flown;
 
   // What a stop has to undo.
+  mavlink::Replacement upload;  ///< of the plan that the vehicle held
   bool may_have_armed = false;  ///< it was disarmed before
   bool has_begun = false;       ///< a heartbeat has confirmed the mission mode
 
@@ -50,6 +51,10 @@ struct RunContext {
   RunOptions const& options;
   base::Logger const& log;
 };
+
+/// After a run that was given up in mid-upload: a vehicle must not keep a part of one plan and a part of another, so
+/// its plan is cleared.
+base::Task<> clear_part_of_plan(RunContext context, RunRecord& record);
 
 /// Flies `mission` from claim to completion (language specification 5.4, phases 1 to 7), keeping `record` up to date.
 /// Ends with the reason when it failed. Watches neither for the vehicle's loss nor for a stop: whoever owns the task

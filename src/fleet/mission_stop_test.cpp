@@ -53,6 +53,29 @@ TEST_F(MissionStop, CancelsAnUpload) {
   EXPECT_EQ(copter.commands_heard(MavCmd::mission_start), 0);
 }
 
+TEST_F(MissionStop, LeavesNoPartsOfTwoPlansBehind) {
+  auto& copter = world->add({.request_spacing = 500ms});
+  copter.mission.resize(50);
+  world->run_for(5s);
+  auto const run = start();
+  ASSERT_TRUE(comes_to(*run, "uploading 2/"));
+  run->stop();
+  settle();
+  EXPECT_TRUE(copter.mission.empty());
+  EXPECT_TRUE(copter.modes_commanded().empty());
+}
+
+TEST_F(MissionStop, LeavesAPlanAloneThatItHadNotBegunToReplace) {
+  auto& copter = world->add({.position_ok_after = 60s});
+  copter.mission.resize(50);
+  world->run_for(10s);
+  auto const run = start();
+  world->run_for(5s);
+  run->stop();
+  settle();
+  EXPECT_EQ(copter.mission.size(), 50u);
+}
+
 TEST_F(MissionStop, StartsNothingAfterAReadBack) {
   auto& copter = world->add({}, {.delay = 100ms});
   world->run_for(5s);

@@ -106,31 +106,44 @@ void Pilot::end(Outcome outcome, std::string error) {
 /// What there is to undo, decided before a next run begins anew.
 void Pilot::begin_rest(OnStop on_stop) {
   bool const flies = context_.craft.mission_mode_pending || run_->has_begun;
-  if (!flies && !run_->may_have_armed) return;
+  bool const holds_parts = run_->upload.left == mavlink::PlanLeft::unknown;
+  if (!flies && !run_->may_have_armed && !holds_parts) return;
   is_settling_ = true;
-  rest_ = rest(on_stop, !flies);
+  rest_ = rest(on_stop, flies);
   rest_.start();
 }
 
-Task<> Pilot::rest(OnStop on_stop, bool only_disarm) {
+Task<> Pilot::rest(OnStop on_stop, bool flies) {
+  auto const run = run_;
   co_await context_.connection.loop()
       .turn();  // the next task on this vehicle may start in this turn and will deal with it
+  if (flies || run->may_have_armed) {
+    co_await bring_down(on_stop, flies);
+  } else {
+    co_await clear_part_of_plan(context_, *run);
+    auto const text =
+        fmt::format("{} stopped in mid-upload: {}", context_.craft.state.name, to_string(run->upload.left));
+    run->upload.left == mavlink::PlanLeft::unknown ? context_.log.error(text) : context_.log.info(text);
+  }
+  is_settling_ = false;
+  settled_.notify_all();
+}
+
+Task<> Pilot::bring_down(OnStop on_stop, bool flies) {
   auto& craft = context_.craft;
   base::Result<> done;
-  if (only_disarm) {
-    ActionOptions const at_once{.is_urgent = true};
-    done = co_await disarm(context_.connection, craft, at_once);
-  } else {
+  if (flies) {
     std::function<void()> const nobody_waits;
     done = co_await bring_to_rest(context_.connection, craft, on_stop, nobody_waits);
+  } else {
+    ActionOptions const at_once{.is_urgent = true};
+    done = co_await disarm(context_.connection, craft, at_once);
   }
   if (done) {
     context_.log.info(fmt::format("{} stopped: {}", craft.state.name, craft.state.mode.value.value_or("")));
   } else {
     context_.log.error(fmt::format("{} could not be stopped: {}", craft.state.name, done.error().message));
   }
-  is_settling_ = false;
-  settled_.notify_all();
 }
 
 }  // namespace lapwing::fleet

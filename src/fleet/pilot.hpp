@@ -41,7 +41,8 @@ class Pilot {
  private:
   base::Task<> fly(plan::Mission mission);
   base::Task<> guard();
-  base::Task<> rest(OnStop on_stop, bool only_disarm);
+  base::Task<> rest(OnStop on_stop, bool flies);
+  base::Task<> bring_down(OnStop on_stop, bool flies);
   void end(RunRecord::Outcome outcome, std::string error);
   void begin_rest(OnStop on_stop);
 

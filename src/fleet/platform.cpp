@@ -175,7 +175,7 @@ std::vector<MissionReport> FleetPlatform::missions(VehicleId const& id) const {
   auto const found = pilots_.find(id);
   if (found == pilots_.end()) return reports;
   for (auto const& run : found->second->runs())
-    reports.push_back({run->mission, run->items, base::to_seconds(run->upload_time),
+    reports.push_back({run->mission, run->items, base::to_seconds(run->upload.upload_time),
                        std::string(to_string(run->outcome)), run->error, run->flown});
   return reports;
 }

@@ -210,8 +210,14 @@ MavResult TestAutopilot::arm() {
 
 void TestAutopilot::serve_upload(mavlink::Message const& message, mavlink::Address from) {
   if (auto const* count = std::get_if<mavlink::MissionCount>(&message)) {
-    upload_ = Upload{
-        .items = {}, .count = count->count, .last_good = loop_.now(), .next_request = loop_.now(), .partner = from};
+    // Not in one step: cut to the new length at once, then written over item by item.
+    if (mission.size() > count->count) mission.resize(count->count);
+    upload_.reset();
+    if (count->count == 0) {
+      send(mavlink::MissionAck{.target = from, .result = mavlink::MavMissionResult::accepted});
+      return;
+    }
+    upload_ = Upload{.count = count->count, .last_good = loop_.now(), .next_request = loop_.now(), .partner = from};
   } else if (auto const* item = std::get_if<mavlink::MissionItem>(&message); item && upload_) {
     take_item(*item);
   } else if (auto const* ack = std::get_if<mavlink::MissionAck>(&message); ack && upload_) {
@@ -225,7 +231,7 @@ void TestAutopilot::take_item(mavlink::MissionItem item) {
   auto const reply = [&](mavlink::MavMissionResult result) {
     send(mavlink::MissionAck{.target = upload_->partner, .result = result});
   };
-  if (item.seq != upload_->items.size()) return reply(mavlink::MavMissionResult::invalid_sequence);
+  if (item.seq != upload_->taken) return reply(mavlink::MavMissionResult::invalid_sequence);
   if (!upload_->is_asking) return;  // still busy with the item before
   if (silent_from_item == item.seq) {
     is_silent = true;
@@ -237,19 +243,20 @@ void TestAutopilot::take_item(mavlink::MissionItem item) {
     return;
   }
   if (forgets_items) item.place.z_m += 100.0;
-  upload_->items.push_back(item);
+  if (item.seq == 0) item.place = {.lat_rad = home.lat_rad, .lon_rad = home.lon_rad, .z_m = home.alt_m};
+  if (mission.size() <= item.seq) mission.emplace_back();
+  mission[item.seq] = item;
+  ++upload_->taken;
   upload_->is_asking = false;
   upload_->last_good = loop_.now();
   upload_->next_request = loop_.now() + options_.request_spacing;
-  if (upload_->items.size() < upload_->count) return;
-  mission = upload_->items;
-  if (!mission.empty()) mission[0].place = {.lat_rad = home.lat_rad, .lon_rad = home.lon_rad, .z_m = home.alt_m};
+  if (upload_->taken < upload_->count) return;
   reply(mavlink::MavMissionResult::accepted);
   upload_.reset();
 }
 
 void TestAutopilot::request_item() {
-  auto const seq = static_cast<std::uint16_t>(upload_->items.size());
+  auto const seq = upload_->taken;
   if (options_.asks_with_request_int) {
     send(mavlink::MissionRequestInt{.target = upload_->partner, .seq = seq});
   } else {

@@ -103,8 +103,8 @@ class TestAutopilot {
     base::TimePoint next{};
   };
   struct Upload {
-    std::vector<mavlink::MissionItem> items;
     std::uint16_t count = 0;
+    std::uint16_t taken = 0;
     base::TimePoint last_good{};
     base::TimePoint next_request{};
     bool is_asking = false;  ///< an item that it has not asked for yet is not taken
