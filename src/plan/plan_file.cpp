@@ -67,7 +67,7 @@ bool is_placed(mavlink::MissionItem const& item) {
 }
 
 bool is_radius(double radius_m) {
-  constexpr double smallest_m = 0.01;
+  constexpr auto smallest_m = static_cast<double>(0.01F);  // as vehicles keep it
   return radius_m >= smallest_m && radius_m <= max_fence_distance_m;
 }
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "plan/internal/plan_reader.hpp"
+
 namespace lapwing::plan {
 
 using base::ErrorKind;
@@ -173,7 +175,8 @@ Result<GeoFence> fence_from(std::span<MissionItem const> items) {
       fence.breach_return = position_of(item);
     } else if (item.command == MavCmd::nav_fence_circle_inclusion ||
                item.command == MavCmd::nav_fence_circle_exclusion) {
-      if (!(item.params[0] > 0.0F)) return wrong_item(i, item, "a circle needs a radius");
+      if (!internal::is_radius(static_cast<double>(item.params[0])))
+        return wrong_item(i, item, fmt::format("{} m is no radius", item.params[0]));
       bool const is_inclusion = item.command == MavCmd::nav_fence_circle_inclusion;
       fence.zones.push_back({.kind = is_inclusion ? Zone::Kind::inclusion : Zone::Kind::exclusion,
                              .area = GeoCircle{level_place(item), static_cast<double>(item.params[0])}});

@@ -53,6 +53,8 @@ TEST(FenceFromItems, SaysWhichItemIsWrong) {
   EXPECT_EQ(message_of(items), "item 2 (NAV_FENCE_POLYGON_VERTEX_EXCLUSION): it interrupts a polygon");
   EXPECT_EQ(message_of({{.frame = mavlink::MavFrame::global, .command = MavCmd::nav_waypoint}}),
             "item 0 (NAV_WAYPOINT): this belongs to no fence");
+  EXPECT_EQ(message_of(fence_items({.zones = {{.area = GeoCircle{ring(0)[0], 5e23}}}})),
+            "item 0 (NAV_FENCE_CIRCLE_INCLUSION): 5e+23 m is no radius");
 }
 
 TEST(SimpleFence, TurnsHolesAndSeveralPolygonsIntoZones) {
