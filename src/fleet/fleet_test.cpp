@@ -170,6 +170,15 @@ TEST(Fleet, AsksOnlyForMessagesThatDoNotComeByThemselves) {
   EXPECT_LT(*world.state().position.age(world.loop.now()), 500ms);
 }
 
+TEST(Fleet, KnowsAtOnceWhereANewVehicleIs) {
+  TestWorld world;
+  world.add();
+  ASSERT_TRUE(world.run_until([&] { return !world.registry.all().empty(); }));
+  auto const found = world.loop.now();
+  EXPECT_TRUE(world.run_until([&] { return world.state().position.known(); }));
+  EXPECT_LT(world.loop.now() - found, 1s);
+}
+
 TEST(Fleet, AsksForNothingWhenToldOnlyToListen) {
   TestWorld world({.asks_for_messages = false});
   auto& copter = world.add();
