@@ -56,6 +56,18 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       .closed = [this](SessionId session) { close_session(session); },
   });
   server_->every(options_.period, [this] { send_news(); });
+  watch_ = watch_membership();
+  watch_.start();
+}
+
+/// Who waits for a vehicle sees it at once. What comes within a moment goes together: a fleet that is switched on.
+base::Task<> Station::watch_membership() {
+  constexpr auto moment = std::chrono::milliseconds(20);
+  for (;;) {
+    co_await vehicles_.membership_changed().wait();
+    co_await loop_.sleep(moment);
+    send_news();
+  }
 }
 
 // ---- to the viewers

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/loop.hpp"
+#include "base/task.hpp"
 #include "station/http_server.hpp"
 #include "station/messages.hpp"
 #include "station/script_control.hpp"
@@ -22,8 +23,9 @@ namespace lapwing::station {
 
 /// The ground station's face: joins vehicles, script and log to browsers and programs. Owns none of them.
 ///
-/// Several times a second it sends every viewer what changed. A viewer too slow to take it misses messages and is sent
-/// the whole state once it has caught up, so that a bad network shows old data for a while but never wrong data.
+/// Several times a second, and at once when a vehicle appears, is lost or returns, it sends every viewer what changed.
+/// A viewer too slow to take it misses messages and is sent the whole state once it has caught up, so that a bad
+/// network shows old data for a while but never wrong data.
 class Station {
  public:
   struct Options {
@@ -61,6 +63,7 @@ class Station {
           Options options, std::unique_ptr<HttpServer> server);
 
   void send_news();
+  [[nodiscard]] base::Task<> watch_membership();
   [[nodiscard]] std::vector<Message> news();
   [[nodiscard]] std::vector<Message> whole_state(std::string const& commander) const;
   void open_session(SessionId session);
@@ -94,6 +97,7 @@ class Station {
     bool is_behind = false;        ///< missed something: gets the whole state when its backlog is gone
   };
   std::map<SessionId, Viewer> viewers_;
+  base::Task<> watch_;
   std::unique_ptr<HttpServer> server_;  // last: ends first, so that no call-back finds half a station
 };
 

@@ -52,7 +52,7 @@ class StationTest : public ::testing::Test {
  protected:
   void open(Station::Options options = {}) {
     options.http.port = 0;
-    options.period = std::chrono::milliseconds(5);
+    options.period = period;
     options.program_version = "1.2.3";
     auto opened = Station::open(loop, registry, control, hub, std::move(options));
     ASSERT_TRUE(opened) << opened.error().message;
@@ -82,6 +82,7 @@ class StationTest : public ::testing::Test {
     registry.touch({"1"});
   }
 
+  std::chrono::milliseconds period{5};
   base::Loop loop;
   vehicle::Registry registry{loop};
   ScriptedControl control;
@@ -171,6 +172,19 @@ TEST_F(StationTest, SendsViewersTheNews) {
   }
   base::Logger(hub, "test").warn("later");
   EXPECT_EQ(next(*viewer, "log")["lines"][0]["text"], "later");
+}
+
+TEST_F(StationTest, ShowsNewVehiclesAtOnce) {
+  period = std::chrono::hours(1);
+  open();
+  auto const viewer = watch();
+  ASSERT_TRUE(viewer);
+  EXPECT_EQ(next(*viewer, "vehicles")["full"], true);
+  move_vehicle(7);
+  registry.touch_membership({"1"});
+  auto const news = next(*viewer, "vehicles");
+  ASSERT_TRUE(news.contains("vehicles"));
+  EXPECT_EQ(news["vehicles"][0]["id"], "1");
 }
 
 TEST_F(StationTest, ObeysViewers) {

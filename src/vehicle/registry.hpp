@@ -28,7 +28,7 @@ class Registry {
   /// news.
   [[nodiscard]] unsigned long long revision(VehicleId const& id) const;
   /// Notified when vehicles appear, are lost or return (not for every telemetry message).
-  [[nodiscard]] base::Notifier& membership_changed() { return changed_; }
+  [[nodiscard]] base::Notifier& membership_changed() const { return changed_; }
 
  private:
   struct NumericOrder {
@@ -38,7 +38,7 @@ class Registry {
     VehicleState state;
     unsigned long long revision = 0;
   };
-  base::Notifier changed_;
+  mutable base::Notifier changed_;  ///< readers wait on it
   std::map<VehicleId, Entry, NumericOrder> entries_;
 };
 
