@@ -30,6 +30,7 @@ struct RunRecord {
   mavlink::Replacement upload;  ///< of the plan that the vehicle held
   bool may_have_armed = false;  ///< it was disarmed before
   bool has_begun = false;       ///< a heartbeat has confirmed the mission mode
+  bool took_over = false;       ///< when it was started, the vehicle flew another mission of ours
 
   // Where `flown` counts from.
   base::TimePoint begun{};

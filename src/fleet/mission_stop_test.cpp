@@ -233,6 +233,33 @@ TEST_F(MissionStop, LeavesTheStopToATaskThatStartsInTheSameTurn) {
   EXPECT_EQ(copter.modes_commanded(), std::vector{copter_mode::brake});
 }
 
+TEST_F(MissionStop, HoldsAVehicleThatStillFliesTheTaskBefore) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  auto const first = start();
+  ASSERT_TRUE(comes_to(*first, "item 3/"));
+  copter.ignored_commands.insert(MavCmd::do_set_mode);
+  auto const second = start();
+  ASSERT_TRUE(comes_to(*second, "stopping what it does"));
+  world->run_for(300ms);
+  second->stop();
+  copter.ignored_commands.clear();
+  settle();
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+  EXPECT_TRUE(copter.is_flying);
+}
+
+TEST_F(MissionStop, HoldsAVehicleWhoseNextTaskCannotBeFlown) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  auto const first = start();
+  ASSERT_TRUE(comes_to(*first, "item 3/"));
+  auto const second = world->platform->start(task_of({.name = "nothing", .home = std::nullopt, .items = {}}), one);
+  EXPECT_EQ(second->error(), "the mission has no items");
+  settle();
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+}
+
 TEST_F(MissionStop, SendsNothingWhenThePilotWasFaster) {
   auto& copter = world->add();
   world->run_for(5s);

@@ -12,6 +12,7 @@ using vehicle::Connection;
 using Outcome = RunRecord::Outcome;
 
 std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
+  bool const takes_over = is_settling_ || (is_flying() && (run_->has_begun || run_->took_over));
   if (is_flying()) {
     end(Outcome::failed, "another task took the vehicle");
     flight_ = {};
@@ -20,6 +21,7 @@ std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
   if (std::exchange(is_settling_, false)) settled_.notify_all();
   run_ = std::make_shared<RunRecord>();
   run_->mission = mission.name;
+  run_->took_over = takes_over;
   runs_.push_back(run_);
   auto const run = run_;
   flight_ = fly(std::move(mission));
@@ -105,7 +107,8 @@ void Pilot::end(Outcome outcome, std::string error) {
 
 /// What there is to undo, decided before a next run begins anew.
 void Pilot::begin_rest(OnStop on_stop) {
-  bool const flies = context_.craft.mission_mode_pending || run_->has_begun;
+  bool const flies_the_last = run_->took_over && in_mission_mode(context_.craft);
+  bool const flies = context_.craft.mission_mode_pending || run_->has_begun || flies_the_last;
   bool const holds_parts = run_->upload.left == mavlink::PlanLeft::unknown;
   if (!flies && !run_->may_have_armed && !holds_parts) return;
   is_settling_ = true;
