@@ -37,6 +37,15 @@ bool Authority::yield(Craft& craft, Commander const& by) {
   return true;
 }
 
+void Authority::forget(Craft& craft, Commander const& by) {
+  auto& control = craft.state.control;
+  if (!by.empty() && control.asked_for_by == by) {
+    control.asked_for_by.clear();
+    registry_.touch(craft.id());
+  }
+  (void)yield(craft, by);
+}
+
 bool Authority::keep(Craft& craft, Commander const& by) {
   auto& control = craft.state.control;
   if (control.commander != by) return false;

@@ -42,6 +42,8 @@ class Authority {
   void take(Craft& craft, vehicle::Commander const& by);
   /// Nobody's, or whoever's has asked, if it is `by`'s. False when it is not.
   bool yield(Craft& craft, vehicle::Commander const& by);
+  /// `by` is gone: what he has is yielded, what he asked for he does not get.
+  void forget(Craft& craft, vehicle::Commander const& by);
   /// Turns the request down. False when the vehicle is not `by`'s.
   bool keep(Craft& craft, vehicle::Commander const& by);
   /// Granted at once when nobody has it, else after `timeout` unless the commander answers. Error: refused (somebody

@@ -62,6 +62,16 @@ TEST_F(AuthorityTest, IsGrantedWhenItsHolderIsGone) {
   EXPECT_EQ(commander(), "anna") << "nobody has to be asked";
 }
 
+TEST_F(AuthorityTest, DoesNotGoToWhoAskedAndIsGone) {
+  EXPECT_TRUE(world.control->request_control(one, "ben"));
+  world.control->forget("ben");
+  EXPECT_EQ(world.state().control.asked_for_by, "");
+  EXPECT_TRUE(world.control->request_control(one, "carla")) << "nobody else asks any more";
+  world.control->forget("carla");
+  world.run_for(15s);
+  EXPECT_EQ(commander(), "anna");
+}
+
 TEST_F(AuthorityTest, IsAskedForByOneAtATime) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   auto const second = world.control->request_control(one, "carla");

@@ -244,7 +244,7 @@ Result<> Control::keep_control(VehicleId const& id, Commander by) {
 }
 
 void Control::forget(Commander const& by) {
-  for (auto* craft : fleet_.all()) (void)fleet_.authority().yield(*craft, by);
+  for (auto* craft : fleet_.all()) fleet_.authority().forget(*craft, by);
 }
 
 }  // namespace lapwing::fleet
