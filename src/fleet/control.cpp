@@ -194,8 +194,10 @@ void Control::take_late_arming(Network& network, mavlink::Received const& receiv
 /// The acknowledgement does not tell an arming from a disarming; the next heartbeat does.
 base::Task<> Control::take_back(Craft& craft) {
   constexpr base::Duration heartbeats = std::chrono::seconds(3);
+  auto const armings = craft.armings;
   std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
   if (!co_await craft.changed.wait_for(std::move(is_armed), heartbeats)) co_return;
+  if (craft.armings != armings) co_return;  // somebody here wants it armed meanwhile
   log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
   ActionOptions const how{.is_urgent = true};
   auto const disarmed = co_await disarm(craft.connection, craft, how);

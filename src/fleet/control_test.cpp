@@ -215,6 +215,20 @@ TEST(Control, LeavesAnArmingAloneThatIsWantedAgain) {
   EXPECT_TRUE(copter.is_armed);
 }
 
+TEST(Control, LeavesAnArmingAloneThatFollowsADisarmingAtOnce) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  auto const disarming = world.give({.action = Action::disarm});
+  ASSERT_TRUE(world.comes_to(disarming, CommandState::accepted));
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::confirmed);
+  world.run_for(4s);
+  EXPECT_TRUE(copter.is_armed);
+  EXPECT_FALSE(world.has_logged("came too late"));
+}
+
 TEST(Control, LeavesAnArmingOfSomebodyElseAlone) {
   ControlWorld world;
   auto& copter = world.add_ready();

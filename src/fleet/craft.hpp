@@ -61,6 +61,7 @@ struct Craft {
   std::optional<std::uint32_t> asked_mode;  ///< the last that this station commanded
   base::TimePoint mode_asked{};
   std::optional<std::uint64_t> capabilities;  ///< MAV_PROTOCOL_CAPABILITY, once the vehicle has told
+  unsigned armings = 0;                       ///< how often this station has set out to arm it
   bool may_arm_late = false;  ///< an arming was given up unanswered: if the vehicle carries it out, it is taken back
 
   // What telemetry keeps between messages.

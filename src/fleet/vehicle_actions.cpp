@@ -96,6 +96,7 @@ void note_asked(Craft& craft, std::uint32_t mode, TimePoint now) {
 
 Task<Result<>> send_arming(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
   craft.may_arm_late = false;  // from now on it is wanted
+  ++craft.armings;
   auto const since = connection.loop().now();
   // Short waits and many tries: it must come through within the seconds before it expires.
   mavlink::CommandOptions const options{.tries = 10, .ack_timeout = 700ms, .expiry = 8s, .not_after = how.not_after};
