@@ -215,7 +215,9 @@ void Control::emergency_stop(std::optional<vehicle::StopAction> action, Commande
     supersede(id, reason);
   }
   platform_.yield_all(reason);
-  emergency_.latch(action.value_or(options_.stop_action), std::move(by));
+  // Pressed once more it must not make less of a stop that was made stronger.
+  auto const& latched = emergency_.state();
+  emergency_.latch(action.value_or(latched.is_latched ? latched.action : options_.stop_action), std::move(by));
   if (on_latched_) on_latched_(reason);
 }
 

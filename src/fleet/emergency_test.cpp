@@ -59,6 +59,22 @@ TEST(EmergencyStop, StopsMotorsInTheAirOnlyWhenAskedTo) {
   EXPECT_FALSE(copter.is_armed);
 }
 
+TEST(EmergencyStop, StaysAsStrongAsItWasWhenItIsPressedOnceMore) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  world.control->emergency_stop(StopAction::terminate, "operator 1");
+  world.run_for(1s);
+  world.control->emergency_stop(std::nullopt, "operator 2");
+  EXPECT_EQ(world.control->emergency().action, StopAction::terminate);
+  copter.ignored_commands.clear();
+  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_FALSE(copter.is_armed);
+  world.control->release_emergency_stop("operator 1");
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_EQ(world.control->emergency().action, StopAction::hold) << "a new one is what the station is set to";
+}
+
 TEST(EmergencyStop, IsRepeatedUntilItIsConfirmed) {
   ControlWorld world;
   auto& copter = world.add_flying();

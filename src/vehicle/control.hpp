@@ -117,7 +117,7 @@ class VehicleControl {
 
   /// Stops every vehicle, those that appear later included, until `release_emergency_stop`. While it is latched no
   /// script runs and nothing that moves a vehicle is sent. Once more with another action: that one from now on.
-  /// Without an action: the one that the station is set to.
+  /// Without an action: the one that is latched, else the one that the station is set to.
   virtual void emergency_stop(std::optional<StopAction> action, Commander by) = 0;
   virtual void release_emergency_stop(Commander by) = 0;
   [[nodiscard]] virtual EmergencyStop const& emergency() const = 0;
