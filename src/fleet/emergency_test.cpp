@@ -136,6 +136,24 @@ TEST(EmergencyStop, LetsNothingMoveAVehicleWhileItIsLatched) {
   EXPECT_EQ(copter.mode, copter_mode::brake);
 }
 
+TEST(EmergencyStop, HoldsBackWhatAnotherStationSendsToOneOrToAll) {
+  ControlWorld world;
+  world.add_ready();
+  mavlink::PeerRef vehicle{};
+  auto const ear = world.connection.subscribe(1, [&](mavlink::Received const& heard) { vehicle = heard.from; });
+  world.run_for(2s);
+  auto const passes = [&](mavlink::Address target, float arms) {
+    mavlink::CommandLong const arming{
+        .target = target, .command = MavCmd::component_arm_disarm, .confirmation = 0, .params = {arms}};
+    return world.connection.pass_on(vehicle, mavlink::serialize(mavlink::encode(arming, {254, 190}, 0)).bytes());
+  };
+  EXPECT_TRUE(passes({0, 0}, 0.0F));
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  EXPECT_FALSE(passes({1, 1}, 1.0F));
+  EXPECT_FALSE(passes({0, 0}, 1.0F)) << "system 0 is everybody";
+  EXPECT_TRUE(passes({0, 0}, 0.0F)) << "a disarming moves nothing";
+}
+
 TEST(EmergencyStop, EndsWhatIsUnderWay) {
   ControlWorld world;
   auto& copter = world.add_ready();

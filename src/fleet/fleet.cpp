@@ -34,9 +34,19 @@ void Fleet::open(mavlink::Connection& connection, Options options) {
       if (auto const heard = listeners_[i].lock()) (*heard)(network, received);
   }));
   connection.set_send_guard([this, &network](mavlink::Address target, mavlink::Message const& message) {
-    auto const* craft = network.find(target.system);
-    return craft && send_guard_ ? send_guard_(*craft, message) : base::Result<>{};
+    return check_sending(network, target, message);
   });
+}
+
+/// What is for every system is for each of the vehicles.
+base::Result<> Fleet::check_sending(Network const& network, mavlink::Address target,
+                                    mavlink::Message const& message) const {
+  if (!send_guard_) return {};
+  for (auto const* craft : network.all()) {
+    if (target.system != 0 && target.system != craft->address.system) continue;
+    if (auto allowed = send_guard_(*craft, message); !allowed) return allowed;
+  }
+  return {};
 }
 
 Craft* Fleet::find(vehicle::VehicleId const& id) const {

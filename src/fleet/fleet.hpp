@@ -49,6 +49,8 @@ class Fleet {
 
  private:
   void open(mavlink::Connection& connection, Options options);
+  [[nodiscard]] base::Result<> check_sending(Network const& network, mavlink::Address target,
+                                             mavlink::Message const& message) const;
 
   vehicle::Registry& registry_;
   base::Logger log_;
