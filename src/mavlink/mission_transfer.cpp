@@ -9,6 +9,7 @@ namespace lapwing::mavlink {
 using base::ErrorKind;
 using base::fail;
 using base::TimePoint;
+using internal::Attention;
 using internal::meant_for;
 using internal::Outage;
 using internal::Party;
@@ -40,19 +41,36 @@ std::unexpected<base::Error> refused(Party const& party, std::string_view what, 
                                               party.plural(), to_string(result)));
 }
 
+/// A download that can be taken up again where it stopped.
+struct Download {
+  Party party;
+  TransferOptions const& options;
+  TransferProgress const& progress;
+  HeldPlan const& known;
+  Patience patience;
+  Attention attention;
+  std::optional<MissionCount> list;
+  HeldPlan held;
+};
+
 /// Sends `request` until a message comes that `fits`; refusals end it.
-base::Task<base::Result<Message>> ask(Party const& party, Inbox& inbox, Message request,
-                                      std::function<bool(Message const&)> fits, Patience& patience,
-                                      TransferOptions const& options) {
+base::Task<base::Result<Message>> ask(Download& download, Inbox& inbox, Message request,
+                                      std::function<bool(Message const&)> fits) {
+  auto const& party = download.party;
+  auto& patience = download.patience;
+  auto& attention = download.attention;
   bool first = true;
-  for (Attempts attempts(party.now(), options); attempts.another(party.now()); first = false) {
+  for (Attempts attempts(party.now(), download.options); attempts.another(party.now()); first = false) {
+    if (attention.is_denied()) co_return attention.denial();
     if (!first) patience.repeated();
     if (auto sent = party.send(request); !sent) co_return std::unexpected(sent.error());
+    attention.asked();
     auto const sent_at = party.now();
     auto const deadline = sent_at + patience.value();
     for (;;) {
       auto got = co_await inbox.next(deadline);
       if (!got) break;
+      attention.answered();
       if (fits(*got)) {
         if (first)
           patience.measured(party.now() - sent_at);
@@ -67,24 +85,13 @@ base::Task<base::Result<Message>> ask(Party const& party, Inbox& inbox, Message 
   co_return silent(party, "download");
 }
 
-/// A download that can be taken up again where it stopped.
-struct Download {
-  Party party;
-  TransferOptions const& options;
-  TransferProgress const& progress;
-  HeldPlan const& known;
-  Patience patience;
-  std::optional<MissionCount> list;
-  HeldPlan held;
-};
-
 /// Lays down what was fetched of a plan that the vehicle has changed since.
 base::Task<base::Result<>> fetch_count(Download& download, Inbox& inbox) {
   Message const list = MissionRequestList{.type = download.party.type};
   std::function<bool(Message const&)> const is_count = [](Message const& m) {
     return std::holds_alternative<MissionCount>(m);
   };
-  auto const got = co_await ask(download.party, inbox, list, is_count, download.patience, download.options);
+  auto const got = co_await ask(download, inbox, list, is_count);
   if (!got) co_return std::unexpected(got.error());
   auto const& count = std::get<MissionCount>(*got);
   auto const& before = download.list;
@@ -113,7 +120,7 @@ base::Task<base::Result<>> fetch(Download& download) {
       auto const* item = std::get_if<MissionItem>(&m);
       return item && item->seq == seq;
     };
-    auto const item = co_await ask(party, inbox, request, is_it, download.patience, download.options);
+    auto const item = co_await ask(download, inbox, request, is_it);
     if (!item) co_return std::unexpected(item.error());
     items.push_back(std::get<MissionItem>(*item));
     if (download.progress) download.progress(items.size(), total);
@@ -139,6 +146,7 @@ base::Task<base::Result<HeldPlan>> download_mission(Connection& connection, Addr
                     .progress = progress,
                     .known = known,
                     .patience = Patience(party, options),
+                    .attention = Attention(party),
                     .list = {},
                     .held = {}};
   Outage outage(connection, target.system, options);
@@ -154,10 +162,14 @@ base::Task<base::Result<>> clear_mission(Connection& connection, Address target,
   Party const party{connection, target, type};
   Inbox acks(connection, target.system, meant_for<MissionAck>(party));
   std::optional<MavMissionResult> answered;
+  Attention attention(party);
   for (Attempts attempts(party.now(), options); attempts.another(party.now());) {
+    if (attention.is_denied()) co_return attention.denial();
     if (auto sent = party.send(MissionClearAll{.type = type}); !sent) co_return sent;
+    attention.asked();
     auto const got = co_await acks.next(party.now() + options.reply_timeout);
     if (!got) continue;
+    attention.answered();
     answered = std::get<MissionAck>(*got).result;
     if (*answered == MavMissionResult::accepted) co_return base::Result<>{};
     if (is_final(*answered)) break;

@@ -9,6 +9,9 @@
 
 /// The mission protocol (https://mavlink.io/en/services/mission.html) from the ground's side: missions, fences and
 /// rally points.
+///
+/// A link that loses much is met with patience; a vehicle that is heard well and has answered nothing for ten seconds
+/// is not waited for any longer (timed_out).
 namespace lapwing::mavlink {
 
 struct TransferOptions {

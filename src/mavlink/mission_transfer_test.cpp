@@ -226,6 +226,60 @@ TEST(Download, ReportsRefusalAndSilence) {
   EXPECT_EQ(denied.error().kind, base::ErrorKind::refused);
 }
 
+/// As `lapwing mission` is: for a bad link that is not too much.
+constexpr TransferOptions very_patient{.tries = 12, .outage_limit = 60s};
+
+TEST(Download, DoesNotWaitForAVehicleThatIsHeardAndAnswersNothing) {
+  Bench bench({.delay = 50ms});
+  auto const begun = bench.loop.now();
+  auto const got =
+      bench.loop.run_until_done(download_mission(bench.ground, Bench::target, MissionType::mission, very_patient));
+  ASSERT_FALSE(got);
+  EXPECT_EQ(got.error().kind, base::ErrorKind::timed_out);
+  EXPECT_EQ(got.error().message,
+            "vehicle 1 is heard, but answers nothing about its mission items: asked 8 times in 10 s");
+  EXPECT_GE(bench.loop.now() - begun, 10s);
+  EXPECT_LT(bench.loop.now() - begun, 12s);
+}
+
+TEST(Upload, DoesNotWaitForAVehicleThatIsHeardAndAnswersNothing) {
+  Bench bench({.delay = 50ms});
+  auto const begun = bench.loop.now();
+  auto const done = upload(bench, mission_of(3), very_patient);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("answers nothing"), std::string::npos) << done.error().message;
+  EXPECT_LT(bench.loop.now() - begun, 12s);
+}
+
+TEST(Clear, DoesNotWaitForAVehicleThatIsHeardAndAnswersNothing) {
+  Bench bench({.delay = 50ms});
+  auto const begun = bench.loop.now();
+  auto const done =
+      bench.loop.run_until_done(clear_mission(bench.ground, Bench::target, MissionType::mission, very_patient));
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("answers nothing"), std::string::npos) << done.error().message;
+  EXPECT_LT(bench.loop.now() - begun, 12s);
+}
+
+base::Task<> hears_after(base::Loop& loop, MissionStore& store, base::Duration time) {
+  co_await loop.sleep(time);
+  store.silent = false;
+}
+
+/// Half of everything is lost: that nothing has been answered yet proves nothing.
+TEST(Download, KeepsAskingWhereTheLinkLosesMuch) {
+  Bench bench({.loss = 0.5, .seed = 3});
+  MissionStore store(*bench.vehicle);
+  store.items = mission_of(2);
+  store.silent = true;
+  base::Scope scope(bench.loop);
+  scope.spawn(hears_after(bench.loop, store, 18s));
+  auto const got =
+      bench.loop.run_until_done(download_mission(bench.ground, Bench::target, MissionType::mission, very_patient));
+  ASSERT_TRUE(got) << got.error().message;
+  EXPECT_EQ(got->items.size(), 2u);
+}
+
 /// Nothing gets through for a time, either way.
 base::Task<void> cut_after(base::Loop& loop, Bench& bench, base::Duration after, base::Duration lasting) {
   co_await loop.sleep(after);

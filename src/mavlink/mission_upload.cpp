@@ -9,6 +9,7 @@ namespace lapwing::mavlink {
 using base::ErrorKind;
 using base::fail;
 using base::TimePoint;
+using internal::Attention;
 using internal::meant_for;
 using internal::Outage;
 using internal::Party;
@@ -38,13 +39,14 @@ class Upload {
  public:
   /// Of the items `first` up to before `end`; less than all are written over those that the vehicle holds there.
   Upload(Party party, std::vector<MissionItem> const& items, std::size_t first, std::size_t end,
-         TransferOptions const& options, TransferProgress const& progress)
+         TransferOptions const& options, TransferProgress const& progress, Attention& attention)
       : party_(party),
         items_(items),
         first_(first),
         end_(end),
         options_(options),
         progress_(progress),
+        attention_(attention),
         patience_(party, options) {}
 
   base::Task<base::Result<>> run();
@@ -69,6 +71,7 @@ class Upload {
   std::size_t end_;
   TransferOptions const& options_;
   TransferProgress const& progress_;
+  Attention& attention_;
   Patience patience_;
   int counts_sent_ = 0;
   std::optional<std::size_t> last_sent_;
@@ -84,6 +87,7 @@ class Upload {
 
 base::Result<> Upload::send_opening() {
   ++counts_sent_;
+  attention_.asked();
   count_sent_at_ = party_.now();
   if (is_part())
     return party_.send(MissionWritePartialList{
@@ -182,6 +186,7 @@ Upload::Ended Upload::repeat() {
     if (auto sent = send_item(*last_sent_ == guessed_ && last_repeated_ ? requested_ : guessed_); !sent) return sent;
     return std::nullopt;
   }
+  if (attention_.is_denied()) return attention_.denial();
   if (counts_sent_ == options_.tries) {
     if (doubtful_) return std::unexpected(refusal(*doubtful_));
     return silent(party_, "upload");
@@ -206,6 +211,7 @@ base::Task<base::Result<>> Upload::run() {
       }
       ended = repeat();
     } else {
+      attention_.answered();
       // Only its requests show that the vehicle is still at it: one that gave up refuses every item that comes late.
       if (!std::holds_alternative<MissionAck>(*got)) heard = party_.now();
       if (auto const* ack = std::get_if<MissionAck>(&*got))
@@ -226,9 +232,11 @@ base::Task<base::Result<>> Upload::run() {
 base::Task<base::Result<>> upload_mission(Connection& connection, Address target, std::vector<MissionItem> items,
                                           MissionType type, TransferOptions options, TransferProgress progress) {
   base::Result<> result;
+  Party const party{connection, target, type};
+  Attention attention(party);
   Outage outage(connection, target.system, options);
   for (int round = 0; round <= options.restarts; ++round) {
-    Upload upload({connection, target, type}, items, 0, items.size(), options, progress);
+    Upload upload(party, items, 0, items.size(), options, progress, attention);
     result = co_await upload.run();
     if (result && progress) progress(items.size(), items.size());
     if (result) break;
@@ -236,7 +244,7 @@ base::Task<base::Result<>> upload_mission(Connection& connection, Address target
     if (!is_down && result.error().kind != ErrorKind::timed_out) break;
     if (co_await outage.is_over(is_down))
       round = -1;
-    else if (is_down)
+    else if (is_down || attention.is_denied())
       break;
   }
   co_return result;
@@ -245,7 +253,9 @@ base::Task<base::Result<>> upload_mission(Connection& connection, Address target
 base::Task<base::Result<>> upload_part(Connection& connection, Address target, std::vector<MissionItem> items,
                                        std::size_t first, std::size_t end, MissionType type, TransferOptions options,
                                        TransferProgress progress) {
-  Upload upload({connection, target, type}, items, first, end, options, progress);
+  Party const party{connection, target, type};
+  Attention attention(party);
+  Upload upload(party, items, first, end, options, progress, attention);
   auto const result = co_await upload.run();
   if (result && progress) progress(items.size(), items.size());
   co_return result;

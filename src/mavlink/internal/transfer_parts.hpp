@@ -17,6 +17,9 @@ namespace lapwing::mavlink::internal {
 using base::TimePoint;
 using namespace std::chrono_literals;
 
+/// Silence for so long means more than a lost heartbeat or two: they come every second.
+inline constexpr base::Duration beats_missed = 3s;
+
 /// What a transfer is about, for its messages and its texts.
 struct Party {
   Connection& connection;
@@ -90,6 +93,43 @@ inline std::unexpected<base::Error> silent(Party const& party, std::string_view 
                                                             party.target.system, what, party.plural()));
 }
 
+/// Tells a vehicle that is heard and answers nothing at all from a link that loses questions or answers. Only the
+/// second is worth all the patience of a transfer.
+class Attention {
+ public:
+  explicit Attention(Party const& party) : party_(party), since_(party.now()) {}
+  void asked() { ++questions_; }
+  void answered() { is_given_ = true; }
+
+  /// It was asked for as long as the protocol has one ask (five times, 1.5 s each, and a little), and a link that loses
+  /// what this one is seen to lose would hardly have lost every question or its answer.
+  [[nodiscard]] bool is_denied() const {
+    auto const heard = party_.connection.last_heard(party_.target.system);
+    auto const now = party_.now();
+    if (is_given_ || now - since_ < long_enough || !heard || now - *heard >= beats_missed) return false;
+    auto const counters = party_.connection.counters(party_.target);
+    // As if one more had been lost: few messages prove little.
+    auto const lost = static_cast<double>(counters.lost + 1);
+    auto const arrives = 1.0 - lost / (lost + static_cast<double>(counters.received));
+    return std::pow(1.0 - arrives * arrives, questions_) < too_unlikely;
+  }
+  [[nodiscard]] std::unexpected<base::Error> denial() const {
+    return base::fail(
+        base::ErrorKind::timed_out,
+        fmt::format("vehicle {} is heard, but answers nothing about its {}: asked {} times in {:.0f} s",
+                    party_.target.system, party_.plural(), questions_, base::to_seconds(party_.now() - since_)),
+        "does the link carry both ways? does the vehicle want signed MAVLink (--signing-key)?");
+  }
+
+ private:
+  static constexpr base::Duration long_enough = 10s;
+  static constexpr double too_unlikely = 1e-6;
+  Party party_;
+  TimePoint since_;
+  int questions_ = 0;
+  bool is_given_ = false;
+};
+
 /// Tells a link that is lost from a vehicle that does not answer, and waits until it is back: altogether, over a whole
 /// transfer, no longer than TransferOptions::outage_limit.
 class Outage {
@@ -117,7 +157,6 @@ class Outage {
   }
 
  private:
-  static constexpr base::Duration beats_missed = 3s;  // heartbeats come every second
   base::Loop& loop_;
   TimePoint heard_;
   base::Duration left_;
