@@ -18,7 +18,7 @@ class Feed final : public link::ByteLink {
   [[nodiscard]] std::string name() const override { return "feed"; }
   [[nodiscard]] std::string peer_name(link::Peer) const override { return "feed"; }
   void start(Receive receive) override { hand_in = std::move(receive); }
-  bool send(link::Peer, link::Bytes) override { return true; }
+  bool send(link::Peer, link::Bytes, link::Urgency) override { return true; }
   [[nodiscard]] std::vector<link::Peer> standing_peers() const override { return {}; }
   [[nodiscard]] link::LinkState state() const override { return link::LinkState::open; }
   [[nodiscard]] std::string last_error() const override { return {}; }

@@ -30,13 +30,20 @@ enum class LinkState {
   closed,  ///< for good
 };
 
+/// What a sender knows of how soon its bytes are wanted at the far end.
+enum class Urgency {
+  prompt,      ///< commands and answers: out now, before all that is perishable and waits
+  batched,     ///< the same, but may wait for others until `flush`: many for the price of one
+  perishable,  ///< worth little when it is late: telemetry, heartbeats, corrections, setpoints
+};
+
 struct LinkCounters {
   std::uint64_t bytes_received = 0;
   std::uint64_t bytes_sent = 0;
   std::uint64_t chunks_received = 0;  ///< datagrams, or reads of a stream
   std::uint64_t chunks_sent = 0;
   std::uint64_t send_failures = 0;       ///< chunks that the operating system or a full queue refused
-  std::uint64_t perishable_dropped = 0;  ///< chunks that newer ones pushed out of a full queue (see `send_perishable`)
+  std::uint64_t perishable_dropped = 0;  ///< chunks that newer ones pushed out of a full queue
   std::uint64_t bytes_queued = 0;        ///< now: accepted, not yet with the operating system
   std::uint64_t overruns = 0;            ///< datagrams that arrived and found the kernel's queue full: never seen here
 };
@@ -59,14 +66,11 @@ class ByteLink {
   /// `drained` is called whenever all that lay ready has been received, before others have their turn: the moment to
   /// `flush`. Call before `start`.
   void on_drained(std::function<void()> drained) { drained_ = std::move(drained); }
-  /// False when the bytes were dropped (peer unknown, link not open, queue full); also counted.
-  virtual bool send(Peer peer, Bytes bytes) = 0;
-  /// The same for what is worth little when it is late: telemetry, heartbeats, corrections, setpoints. Where a slow
-  /// link has a queue, `send` goes before it, and the oldest of it is dropped (and counted) when there is no room: each
-  /// call's bytes as a whole, so hand it whole packets. True when the bytes are on their way for now.
-  virtual bool send_perishable(Peer peer, Bytes bytes) { return send(peer, bytes); }
-  /// Like `send`, but the bytes, which are copied, may wait for others until `flush`: many for the price of one.
-  virtual bool queue(Peer peer, Bytes bytes) { return send(peer, bytes); }
+  /// Copies the bytes where they have to wait. False when they were dropped (peer unknown, link not open, queue full);
+  /// also counted. Where a slow link has a queue, the oldest of what is perishable is dropped (and counted) when there
+  /// is no room: each call's bytes as a whole, so hand it whole packets. True when the bytes are on their way for now.
+  virtual bool send(Peer peer, Bytes bytes, Urgency urgency = Urgency::prompt) = 0;
+  /// Sends what was `batched`.
   virtual void flush() {}
   /// Peers that may be spoken to before they spoke: the target of udp out, an open serial line, connected TCP ends.
   [[nodiscard]] virtual std::vector<Peer> standing_peers() const = 0;

@@ -33,14 +33,10 @@ class ImpairedLink final : public ByteLink {
   }
 
   /// What is lost later was sent all the same.
-  bool send(Peer peer, Bytes bytes) override {
+  bool send(Peer peer, Bytes bytes, Urgency urgency) override {
+    if (urgency == Urgency::batched) urgency = Urgency::prompt;  // nobody flushes when it goes on
     for (int copies = arrivals(); copies > 0; --copies)
-      scope_.spawn(pass_on(peer, Chunk(bytes.begin(), bytes.end()), &ByteLink::send));
-    return inner_->state() == LinkState::open;
-  }
-  bool send_perishable(Peer peer, Bytes bytes) override {
-    for (int copies = arrivals(); copies > 0; --copies)
-      scope_.spawn(pass_on(peer, Chunk(bytes.begin(), bytes.end()), &ByteLink::send_perishable));
+      scope_.spawn(pass_on(peer, Chunk(bytes.begin(), bytes.end()), urgency));
     return inner_->state() == LinkState::open;
   }
 
@@ -61,9 +57,9 @@ class ImpairedLink final : public ByteLink {
     receive_(peer, chunk);
     tell_drained();
   }
-  base::Task<void> pass_on(Peer peer, Chunk chunk, bool (ByteLink::*how)(Peer, Bytes)) {
+  base::Task<void> pass_on(Peer peer, Chunk chunk, Urgency urgency) {
     co_await loop_.sleep(lateness());
-    (*inner_.*how)(peer, chunk);
+    inner_->send(peer, chunk, urgency);
   }
 
   base::Loop& loop_;

@@ -116,7 +116,7 @@ TEST(UdpLink, KeepsWhatIsQueuedTogetherUntilItIsFlushed) {
   auto const in = opened(loop, "udpin://127.0.0.1:0");
   auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(*in)));
   auto const there = out->standing_peers().front();
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(out->queue(there, bytes(std::to_string(i) + " ")));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(out->send(there, bytes(std::to_string(i) + " "), Urgency::batched));
   EXPECT_EQ(out->counters().chunks_sent, 64u) << "a batch goes out when it is full";
   out->flush();
   EXPECT_EQ(out->counters().chunks_sent, 100u);
@@ -144,7 +144,7 @@ TEST(UdpLink, SendsAfterWhatWasQueuedBefore) {
   Talker in(loop, opened(loop, "udpin://127.0.0.1:0"));
   auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(in.link())));
   auto const there = out->standing_peers().front();
-  EXPECT_TRUE(out->queue(there, bytes("first ")));
+  EXPECT_TRUE(out->send(there, bytes("first "), Urgency::batched));
   EXPECT_TRUE(out->send(there, bytes("second")));
   EXPECT_TRUE(loop.run_until_done(in.hears("first second")));
 }
@@ -155,9 +155,9 @@ TEST(UdpLink, CountsWhatTheOperatingSystemRefuses) {
   auto const out = opened(loop, "udpout://127.0.0.1:" + std::to_string(port_of(in.link())));
   auto const there = out->standing_peers().front();
   std::vector<std::uint8_t> const too_long(70'000);
-  EXPECT_TRUE(out->queue(there, bytes("before ")));
-  EXPECT_TRUE(out->queue(there, too_long));
-  EXPECT_TRUE(out->queue(there, bytes("after")));
+  EXPECT_TRUE(out->send(there, bytes("before "), Urgency::batched));
+  EXPECT_TRUE(out->send(there, too_long, Urgency::batched));
+  EXPECT_TRUE(out->send(there, bytes("after"), Urgency::batched));
   out->flush();
   EXPECT_EQ(out->counters().chunks_sent, 2u);
   EXPECT_EQ(out->counters().send_failures, 1u);

@@ -67,7 +67,7 @@ class ServerEnd final : public End {
   [[nodiscard]] std::string name() const override { return "pipe"; }
   [[nodiscard]] std::string peer_name(Peer peer) const override { return fmt::format("client {}", peer.key); }
   void start(Receive receive) override { bus_->server = counting(std::move(receive)); }
-  bool send(Peer peer, Bytes bytes) override {
+  bool send(Peer peer, Bytes bytes, Urgency) override {
     if (!bus_->clients.contains(peer)) return count_failure();
     count_sent(bytes);
     bus_->loop.post([weak = std::weak_ptr(bus_), peer, chunk = Chunk(bytes.begin(), bytes.end())] {
@@ -96,7 +96,7 @@ class ClientEnd final : public End {
   [[nodiscard]] std::string name() const override { return fmt::format("pipe client {}", self_.key); }
   [[nodiscard]] std::string peer_name(Peer) const override { return "server"; }
   void start(Receive receive) override { bus_->clients[self_] = counting(std::move(receive)); }
-  bool send(Peer peer, Bytes bytes) override {
+  bool send(Peer peer, Bytes bytes, Urgency) override {
     if (peer != server_peer) return count_failure();
     count_sent(bytes);
     bus_->loop.post([weak = std::weak_ptr(bus_), from = self_, chunk = Chunk(bytes.begin(), bytes.end())] {

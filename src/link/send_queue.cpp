@@ -11,8 +11,8 @@ void SendQueue::drop_oldest() {
   ++dropped_;
 }
 
-bool SendQueue::push(Bytes packet, Worth worth) {
-  bool const is_perishable = worth == Worth::perishable;
+bool SendQueue::push(Bytes packet, Urgency urgency) {
+  bool const is_perishable = urgency == Urgency::perishable;
   auto const has_room = [&] {
     return bytes_ + packet.size() <= limits_.all_bytes &&
            (!is_perishable || perishable_bytes_ + packet.size() <= limits_.perishable_bytes);
@@ -21,13 +21,13 @@ bool SendQueue::push(Bytes packet, Worth worth) {
   if (!has_room()) return false;
   bytes_ += packet.size();
   if (is_perishable) perishable_bytes_ += packet.size();
-  (is_perishable ? perishable_ : lasting_).emplace_back(packet.begin(), packet.end());
+  (is_perishable ? perishable_ : urgent_).emplace_back(packet.begin(), packet.end());
   return true;
 }
 
 Bytes SendQueue::front() {
   if (!going_out_) {
-    auto& next = lasting_.empty() ? perishable_ : lasting_;
+    auto& next = urgent_.empty() ? perishable_ : urgent_;
     if (next.empty()) return {};
     if (&next == &perishable_) perishable_bytes_ -= next.front().size();
     going_out_ = std::move(next.front());

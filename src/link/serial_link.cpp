@@ -99,16 +99,13 @@ class SerialLink final : public ByteLink {
     receive_ = std::move(receive);
     scope_.spawn(keep_open());
   }
-  bool send(Peer, Bytes bytes) override { return send(bytes, Worth::lasting); }
-  bool send_perishable(Peer, Bytes bytes) override { return send(bytes, Worth::perishable); }
-
- private:
-  bool send(Bytes bytes, Worth worth) {
-    if (open_) return stream_->send(bytes, worth);
+  bool send(Peer, Bytes bytes, Urgency urgency) override {
+    if (open_) return stream_->send(bytes, urgency);
     ++counters_.send_failures;
     return false;
   }
 
+ private:
   base::Task<void> keep_open() {
     for (;;) {
       open_device();

@@ -85,8 +85,8 @@ void Stream::read() {
   wait_to_read();
 }
 
-bool Stream::send(Bytes packet, Worth worth) {
-  bool const is_taken = descriptor_->handle.is_open() && queue_.push(packet, worth);
+bool Stream::send(Bytes packet, Urgency urgency) {
+  bool const is_taken = descriptor_->handle.is_open() && queue_.push(packet, urgency);
   if (is_taken)
     ++counters_.chunks_sent;
   else

@@ -50,8 +50,8 @@ std::string drained(SendQueue& queue, std::size_t step) {
 
 TEST(SendQueue, LetsCommandsGoBeforeTelemetry) {
   SendQueue queue({});
-  for (char const letter : {'a', 'b'}) EXPECT_TRUE(queue.push(packet(letter), Worth::perishable));
-  for (char const letter : {'C', 'D'}) EXPECT_TRUE(queue.push(packet(letter), Worth::lasting));
+  for (char const letter : {'a', 'b'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable));
+  for (char const letter : {'C', 'D'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt));
   EXPECT_EQ(queue.bytes(), 400u);
   EXPECT_EQ(drained(queue, 7), "CDab");
   EXPECT_EQ(queue.bytes(), 0u);
@@ -59,11 +59,11 @@ TEST(SendQueue, LetsCommandsGoBeforeTelemetry) {
 
 TEST(SendQueue, FinishesThePacketThatHasBegun) {
   SendQueue queue({});
-  ASSERT_TRUE(queue.push(packet('a'), Worth::perishable));
+  ASSERT_TRUE(queue.push(packet('a'), Urgency::perishable));
   auto const begun = queue.front();
   std::string bytes(begun.begin(), begun.begin() + 30);
   queue.pop(30);
-  ASSERT_TRUE(queue.push(packet('C'), Worth::lasting));
+  ASSERT_TRUE(queue.push(packet('C'), Urgency::prompt));
   for (auto front = queue.front(); !front.empty(); front = queue.front()) {
     bytes.append(front.begin(), front.end());
     queue.pop(front.size());
@@ -73,18 +73,18 @@ TEST(SendQueue, FinishesThePacketThatHasBegun) {
 
 TEST(SendQueue, DropsTheOldestTelemetryAndCountsIt) {
   SendQueue queue({.all_bytes = 1000, .perishable_bytes = 300});
-  for (char const letter : {'a', 'b', 'c', 'd', 'e'}) EXPECT_TRUE(queue.push(packet(letter), Worth::perishable));
+  for (char const letter : {'a', 'b', 'c', 'd', 'e'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable));
   EXPECT_EQ(queue.dropped(), 2u);
   EXPECT_EQ(drained(queue, 100), "cde");
 }
 
 TEST(SendQueue, DropsTelemetryForCommandsAndRefusesThemAtLast) {
   SendQueue queue({.all_bytes = 500, .perishable_bytes = 300});
-  for (char const letter : {'a', 'b', 'c'}) EXPECT_TRUE(queue.push(packet(letter), Worth::perishable));
-  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Worth::lasting));
+  for (char const letter : {'a', 'b', 'c'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable));
+  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt));
   EXPECT_EQ(queue.dropped(), 3u);
-  EXPECT_FALSE(queue.push(packet('F'), Worth::lasting));
-  EXPECT_FALSE(queue.push(packet('f'), Worth::perishable));
+  EXPECT_FALSE(queue.push(packet('F'), Urgency::prompt));
+  EXPECT_FALSE(queue.push(packet('f'), Urgency::perishable));
   EXPECT_EQ(drained(queue, 100), "ABCDE");
 }
 
@@ -110,13 +110,13 @@ TEST(Stream, KeepsCommandsMovingWhenNobodyReads) {
       loop, {.descriptor = ends[0], .bytes_per_s = 5760.0}, counters, [](Bytes) {}, [](std::string const&) {});
   std::uint64_t taken = 0;
   for (int i = 0; i < 5000; ++i) {
-    taken += stream.send(packet('a' + static_cast<char>(i % 26)), Worth::perishable);
+    taken += stream.send(packet('a' + static_cast<char>(i % 26)), Urgency::perishable);
     if (i % 100 == 0) loop.run_until_done(pass(loop, 1ms));
   }
   EXPECT_EQ(taken, 5000u) << "the newest always gets in";
   EXPECT_GT(counters.perishable_dropped, 3000u);
   EXPECT_LE(counters.bytes_queued, 5760u + 100u) << "a second of the line, and what is on its way";
-  for (char const letter : {'A', 'B', 'C'}) EXPECT_TRUE(stream.send(packet(letter), Worth::lasting));
+  for (char const letter : {'A', 'B', 'C'}) EXPECT_TRUE(stream.send(packet(letter), Urgency::prompt));
 
   std::string heard;
   for (int i = 0; i < 5000 && counters.bytes_queued > 0; ++i) {
@@ -139,7 +139,7 @@ TEST(Stream, LeavesLittleInTheKernelOfASlowPeer) {
   ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends), 0);
   LinkCounters counters;
   Stream stream(loop, {.descriptor = ends[0]}, counters, [](Bytes) {}, [](std::string const&) {});
-  for (int i = 0; i < 5000; ++i) stream.send(packet('t'), Worth::perishable);
+  for (int i = 0; i < 5000; ++i) stream.send(packet('t'), Urgency::perishable);
   EXPECT_LE(counters.bytes_sent, 64u * 1024u) << "what the kernel took";
   EXPECT_LE(counters.bytes_queued, 65u * 1024u);
   EXPECT_EQ(counters.bytes_sent + counters.bytes_queued + 100 * counters.perishable_dropped, 500'000u);
@@ -156,7 +156,7 @@ TEST(Stream, TellsOnceThatTheFarEndIsGone) {
       loop, {.descriptor = ends[0]}, counters, [](Bytes) {}, [&](std::string const& why) { reasons.push_back(why); });
   ::close(ends[1]);
   loop.run_until_done(pass(loop, 20ms));
-  EXPECT_FALSE(stream.send(packet('a'), Worth::lasting));
+  EXPECT_FALSE(stream.send(packet('a'), Urgency::prompt));
   EXPECT_EQ(reasons, std::vector<std::string>{"closed by the far end"});
   EXPECT_EQ(counters.send_failures, 1u);
 }

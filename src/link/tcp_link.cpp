@@ -55,16 +55,13 @@ class TcpOut final : public ByteLink {
     receive_ = std::move(receive);
     scope_.spawn(keep_connected());
   }
-  bool send(Peer, Bytes bytes) override { return send(bytes, Worth::lasting); }
-  bool send_perishable(Peer, Bytes bytes) override { return send(bytes, Worth::perishable); }
-
- private:
-  bool send(Bytes bytes, Worth worth) {
-    if (connected_) return stream_->send(bytes, worth);
+  bool send(Peer, Bytes bytes, Urgency urgency) override {
+    if (connected_) return stream_->send(bytes, urgency);
     ++counters_.send_failures;
     return false;
   }
 
+ private:
   base::Task<void> keep_connected() {
     for (;;) {
       connecting_ = true;
@@ -149,21 +146,18 @@ class TcpIn final : public ByteLink {
     receive_ = std::move(receive);
     accept();
   }
-  bool send(Peer peer, Bytes bytes) override { return send(peer, bytes, Worth::lasting); }
-  bool send_perishable(Peer peer, Bytes bytes) override { return send(peer, bytes, Worth::perishable); }
+  bool send(Peer peer, Bytes bytes, Urgency urgency) override {
+    auto const found = clients_.find(peer);
+    if (found != clients_.end()) return found->second.stream->send(bytes, urgency);
+    ++counters_.send_failures;
+    return false;
+  }
 
  private:
   struct Client {
     std::string name;
     std::unique_ptr<Stream> stream;
   };
-
-  bool send(Peer peer, Bytes bytes, Worth worth) {
-    auto const found = clients_.find(peer);
-    if (found != clients_.end()) return found->second.stream->send(bytes, worth);
-    ++counters_.send_failures;
-    return false;
-  }
 
   void accept() {
     acceptor_.async_accept([this, alive = std::weak_ptr(alive_)](Error error, tcp::socket socket) {

@@ -69,16 +69,11 @@ class UdpLink final : public ByteLink {
     wait();
   }
 
-  bool send(Peer peer, Bytes bytes) override {
-    flush();
+  bool send(Peer peer, Bytes bytes, Urgency urgency) override {
+    bool const may_wait = urgency == Urgency::batched;
+    if (!may_wait || writer_.is_full()) flush();
     writer_.add(peer, bytes);
-    return write();
-  }
-
-  bool queue(Peer peer, Bytes bytes) override {
-    if (writer_.is_full()) flush();
-    writer_.add(peer, bytes);
-    return true;
+    return may_wait || write();
   }
 
   void flush() override {

@@ -225,10 +225,8 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   frame.seq = peer.next_seq;
   if (guard_) guard_->sign(frame, {to.link, to.peer.key}, system_id, loop_.utc_now());
   auto const out = serialize(frame);
-  auto& link = *links_[to.link];
-  bool const is_sent = internal::is_perishable(frame.message_id) ? link.send_perishable(to.peer, out.bytes())
-                                                                 : link.send(to.peer, out.bytes());
-  if (!is_sent) return false;
+  auto const urgency = internal::is_perishable(frame.message_id) ? link::Urgency::perishable : link::Urgency::prompt;
+  if (!links_[to.link]->send(to.peer, out.bytes(), urgency)) return false;
   ++peer.next_seq;
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
   return true;

@@ -51,7 +51,7 @@ class ConnectionLink final : public link::ByteLink {
     });
   }
 
-  bool send(link::Peer peer, link::Bytes bytes) override {
+  bool send(link::Peer peer, link::Bytes bytes, link::Urgency) override {
     if (!connection_.pass_on(parted(peer), bytes)) {
       ++counters_.send_failures;
       return false;

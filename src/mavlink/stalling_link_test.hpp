@@ -41,7 +41,7 @@ class StallingLink final : public link::ByteLink {
       way->pass([receive, peer, copy = std::vector(bytes.begin(), bytes.end())] { receive(peer, copy); });
     });
   }
-  bool send(link::Peer peer, link::Bytes bytes) override {
+  bool send(link::Peer peer, link::Bytes bytes, link::Urgency) override {
     way_->pass([this, peer, copy = std::vector(bytes.begin(), bytes.end())] { (void)inner_->send(peer, copy); });
     return true;
   }

@@ -76,7 +76,7 @@ void Channel::flush() {
 
 void Channel::hand_over(std::span<std::uint8_t const> bytes, std::uint64_t frames) {
   auto& out = endpoint.counters.out;
-  if (!endpoint.link->queue(peer, bytes)) {
+  if (!endpoint.link->send(peer, bytes, link::Urgency::batched)) {
     out.refused += frames;
     return;
   }

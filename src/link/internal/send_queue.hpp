@@ -10,9 +10,6 @@
 
 namespace lapwing::link::internal {
 
-/// Whether a packet is still worth something when it is late.
-enum class Worth { lasting, perishable };
-
 /// What waits for a slow stream, as whole packets, so that a drop never cuts one: commands before what is perishable,
 /// each in its order.
 ///
@@ -27,7 +24,7 @@ class SendQueue {
   explicit SendQueue(Limits limits) : limits_(limits) {}
 
   /// False when it was refused: there is no room, and none to be made.
-  bool push(Bytes packet, Worth worth);
+  bool push(Bytes packet, Urgency urgency);
   /// What goes out next; empty when nothing waits.
   [[nodiscard]] Bytes front();
   /// `size` bytes of `front()` went out.
@@ -41,7 +38,7 @@ class SendQueue {
   void drop_oldest();
 
   Limits limits_;
-  std::deque<Packet> lasting_;
+  std::deque<Packet> urgent_;
   std::deque<Packet> perishable_;
   std::optional<Packet> going_out_;
   std::size_t gone_ = 0;  ///< bytes of it

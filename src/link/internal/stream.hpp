@@ -32,7 +32,7 @@ class Stream {
   ~Stream();
 
   /// False when the queue is full: the far end takes less than it is sent.
-  bool send(Bytes packet, Worth worth);
+  bool send(Bytes packet, Urgency urgency);
 
  private:
   void wait_to_read();
