@@ -3,7 +3,6 @@ virtual time (src/sim/exchange_matrix_test.cpp); these are a few of its cells wi
 
 import statistics
 import subprocess
-import sys
 
 CELLS = (
     ("clean", []),
@@ -14,10 +13,7 @@ CELLS = (
 EXCHANGES = ("command", "parameter", "upload")
 
 
-def measure(root, bench_bin, simulator, free_udp_port, say, repeats: int = 3) -> list:
-    programs = {"lapwing": [bench_bin / "bench_exchange"],
-                "pymavlink": [sys.executable, root / "bench/peer_exchange_pymavlink.py"],
-                "mavsdk": [sys.executable, root / "bench/peer_exchange_mavsdk.py"]}
+def measure(programs: dict, simulator, free_udp_port, say, repeats: int = 3) -> list:
     rows = []
     for cell, options in CELLS:
         for exchange in EXCHANGES:

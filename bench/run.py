@@ -73,13 +73,14 @@ def pymavlink_rate(data: bytes) -> float:
     return statistics.median(rates)
 
 
-# ---- mission upload ----------------------------------------------------------------------------------------------------------
-
-UPLOADERS = {
-    "lapwing": lambda port, items: [BENCH_BIN / "bench_exchange", str(port), "upload", str(items)],
-    "pymavlink": lambda port, items: [PYTHON, ROOT / "bench/peer_upload_pymavlink.py", str(port), str(items)],
-    "mavsdk": lambda port, items: [PYTHON, ROOT / "bench/peer_upload_mavsdk.py", str(port), str(items)],
+# Each does one exchange with vehicle 1: PORT command|parameter|parameters|upload [ITEMS].
+EXCHANGERS = {
+    "lapwing": [BENCH_BIN / "bench_exchange"],
+    "pymavlink": [PYTHON, ROOT / "bench/peer_pymavlink.py"],
+    "mavsdk": [PYTHON, ROOT / "bench/peer_mavsdk.py"],
 }
+
+# ---- mission upload ----------------------------------------------------------------------------------------------------------
 
 
 def upload(repeats: int = 3) -> list:
@@ -87,14 +88,14 @@ def upload(repeats: int = 3) -> list:
     for items in (100, 500):
         for loss in (0.0, 0.1, 0.3):
             row = {"items": items, "loss": loss}
-            for name, command in UPLOADERS.items():
+            for name, program in EXCHANGERS.items():
                 seconds, failures = [], 0
                 for repeat in range(repeats):
                     port = free_udp_port()
                     with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{port}", "--loss", str(loss),
                                    "--seed", str(repeat + 1)):
                         try:
-                            done = subprocess.run(command(port, items), capture_output=True, text=True, timeout=400)
+                            done = subprocess.run([*program, str(port), "upload", str(items)], capture_output=True, text=True, timeout=400)
                             if done.returncode == 0:
                                 seconds.append(float(done.stdout.split()[0]))
                             else:
@@ -105,17 +106,11 @@ def upload(repeats: int = 3) -> list:
             rows.append(row)
             say(f"upload  {items:4} items {loss:4.0%} loss  " + "  ".join(
                 f"{name} {row[name]['median_s']:8.3f} s" + (f" ({row[name]['failed']}/{repeats} failed)" if row[name]["failed"] else "")
-                if row[name]["median_s"] is not None else f"{name}   failed {row[name]['failed']}/{repeats}" for name in UPLOADERS))
+                if row[name]["median_s"] is not None else f"{name}   failed {row[name]['failed']}/{repeats}" for name in EXCHANGERS))
     return rows
 
 
 # ---- every parameter of a vehicle -------------------------------------------------------------------------------------------
-
-READERS = {
-    "lapwing": lambda port: [BENCH_BIN / "bench_exchange", str(port), "parameters"],
-    "pymavlink": lambda port: [PYTHON, ROOT / "bench/peer_params_pymavlink.py", str(port)],
-    "mavsdk": lambda port: [PYTHON, ROOT / "bench/peer_params_mavsdk.py", str(port)],
-}
 
 
 def params(repeats: int = 3) -> list:
@@ -126,16 +121,16 @@ def params(repeats: int = 3) -> list:
     for vehicle in vehicles:
         for loss in (0.0, 0.1, 0.3):
             row = {"vehicle": vehicle, "loss": loss}
-            for name, command in READERS.items():
-                row[name] = reading_time(vehicle, loss, command, repeats)
+            for name, program in EXCHANGERS.items():
+                row[name] = reading_time(vehicle, loss, program, repeats)
             rows.append(row)
             say(f"params  {vehicle:9} {loss:4.0%} loss  " + "  ".join(
                 f"{name} {row[name]['median_s']:8.3f} s for {row[name]['parameters']}" if row[name]["median_s"] is not None
-                else f"{name}   failed {row[name]['failed']}/{repeats}" for name in READERS))
+                else f"{name}   failed {row[name]['failed']}/{repeats}" for name in EXCHANGERS))
     return rows
 
 
-def reading_time(vehicle: str, loss: float, command, repeats: int) -> dict:
+def reading_time(vehicle: str, loss: float, program, repeats: int) -> dict:
     import lossy_relay
 
     seconds, failures, count = [], 0, 0
@@ -146,7 +141,7 @@ def reading_time(vehicle: str, loss: float, command, repeats: int) -> dict:
             if vehicle == "simulator":
                 stack.enter_context(simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{relay.port}"))
             try:
-                done = subprocess.run(command(port), capture_output=True, text=True, timeout=150)
+                done = subprocess.run([*program, str(port), "parameters"], capture_output=True, text=True, timeout=150)
             except subprocess.TimeoutExpired:
                 failures += 1
                 continue
@@ -303,7 +298,7 @@ def fleet() -> dict:
 def lossy() -> list:
     import lossy as bad_links
 
-    return bad_links.measure(ROOT, BENCH_BIN, simulator, free_udp_port, say)
+    return bad_links.measure(EXCHANGERS, simulator, free_udp_port, say)
 
 
 def language() -> dict:
