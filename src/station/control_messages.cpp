@@ -77,17 +77,6 @@ Result<StopAll> stop_from(Json const& object) {
   return StopAll{action};
 }
 
-/// A name that cannot be taken for the script, and fits a line.
-Result<vehicle::Commander> commander_from(Json const& object) {
-  constexpr std::size_t longest = 40;
-  auto name = text_member(object, "operator", "");
-  if (!name) return name;
-  bool const is_plain = std::ranges::none_of(*name, [](unsigned char c) { return c < 0x20; });
-  if (name->size() > longest || !is_plain || *name == "script")
-    return wrong("\"operator\" must be a short name, other than script.");
-  return name;
-}
-
 Json to_json(vehicle::CommandRecord const& record) {
   Json vehicles = Json::array();
   for (auto const& outcome : record.outcomes) {
@@ -116,7 +105,7 @@ bool is_control_request(std::string_view type) {
 Result<ControlRequest> parse_control_request(std::string_view type, std::string_view text) {
   auto const object = parse_object(text);
   if (!object) return std::unexpected(object.error());
-  auto by = commander_from(*object);
+  auto by = internal::operator_member(*object);
   if (!by) return std::unexpected(by.error());
   auto const with = [&](auto result) -> Result<ControlRequest> {
     if (!result) return std::unexpected(result.error());

@@ -30,6 +30,9 @@ struct ChangeCommander {
   vehicle::VehicleId vehicle;
 };
 
+/// A client over HTTP that does not say who it is.
+inline constexpr auto unnamed_client = "HTTP";
+
 struct ControlRequest {
   std::variant<CommandVehicles, StopAll, ReleaseStop, ChangeCommander> what;
   vehicle::Commander by = {};  ///< as the client calls itself; empty when it does not say

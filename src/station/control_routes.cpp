@@ -12,29 +12,15 @@ namespace {
 
 using vehicle::VehicleControl;
 
-constexpr auto unnamed = "HTTP";  // a client that does not say who it is
-
-int status_of(base::Error const& error) {
-  switch (error.kind) {
-    case base::ErrorKind::invalid_input: return 400;
-    case base::ErrorKind::not_found: return 404;
-    default: return 409;
-  }
-}
-
-HttpResponse refused(base::Error const& error) {
-  return problem(status_of(error), error.message, error.hint);
-}
-
 /// Reads the body as a request of that type and does it; `answer` is the body after that.
 template <class Answer>
 HttpResponse obey_post(VehicleControl* control, base::Logger const& log, std::string_view type,
                        HttpRequest const& request, Answer answer) {
   auto asked = parse_control_request(type, request.body);
-  if (!asked) return refused(asked.error());
+  if (!asked) return problem(asked.error());
   log.warn(fmt::format("{} asked for over HTTP", type));
-  auto const done = obey(control, *std::move(asked), unnamed);
-  if (!done) return refused(done.error());
+  auto const done = obey(control, *std::move(asked), unnamed_client);
+  if (!done) return problem(done.error());
   return {.status = 202, .body = answer()};
 }
 

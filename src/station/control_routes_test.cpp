@@ -13,9 +13,11 @@ using nlohmann::json;
 struct ControlRoutes : ::testing::Test {
   ControlRoutes() { add_control_routes(router, &control, log); }
   HttpResponse post(std::string path, std::string body) {
-    return router.answer({.method = "POST", .path = std::move(path), .body = std::move(body)});
+    return std::get<HttpResponse>(router.answer({.method = "POST", .path = std::move(path), .body = std::move(body)}));
   }
-  HttpResponse get(std::string path) { return router.answer({.method = "GET", .path = std::move(path)}); }
+  HttpResponse get(std::string path) {
+    return std::get<HttpResponse>(router.answer({.method = "GET", .path = std::move(path)}));
+  }
 
   base::Logger log;
   testing::FakeControl control;
@@ -53,10 +55,10 @@ TEST_F(ControlRoutes, RefuseWithAReason) {
 }
 
 TEST_F(ControlRoutes, ShowNothingToCommandOfARecording) {
-  Router bare;
-  add_control_routes(bare, nullptr, log);
-  EXPECT_EQ(bare.answer({.method = "POST", .path = "/api/v1/emergency-stop", .body = "{}"}).status, 409);
-  auto const shown = bare.answer({.method = "GET", .path = "/api/v1/commands"});
+  router = {};
+  add_control_routes(router, nullptr, log);
+  EXPECT_EQ(post("/api/v1/emergency-stop", "{}").status, 409);
+  auto const shown = get("/api/v1/commands");
   EXPECT_EQ(json::parse(shown.body)["commands"], json::array());
 }
 

@@ -79,6 +79,7 @@ std::string_view reason_phrase(int status) {
     case 422: return "Unprocessable Content";
     case 431: return "Request Header Fields Too Large";
     case 503: return "Service Unavailable";
+    case 504: return "Gateway Timeout";
     default: return "Error";
   }
 }
@@ -89,6 +90,15 @@ HttpResponse problem(int status, std::string_view detail, std::string_view hint)
   // Bytes that are no UTF-8 come back from paths and headers: replaced, never an exception.
   constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
   return {status, "application/problem+json", body.dump(-1, ' ', false, replace), {}};
+}
+
+HttpResponse problem(base::Error const& error) {
+  switch (error.kind) {
+    case base::ErrorKind::invalid_input: return problem(400, error.message, error.hint);
+    case base::ErrorKind::not_found: return problem(404, error.message, error.hint);
+    case base::ErrorKind::timed_out: return problem(504, error.message, error.hint);
+    default: return problem(409, error.message, error.hint);
+  }
 }
 
 }  // namespace lapwing::station

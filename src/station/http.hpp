@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.hpp"
+
 /// HTTP requests and responses as plain values, so that everything but the socket work can be tested without one.
 namespace lapwing::station {
 
@@ -35,6 +37,8 @@ struct HttpResponse {
 
 /// An error for people and programs: `application/problem+json` (RFC 9457) with `title`, `status`, `detail` and `hint`.
 [[nodiscard]] HttpResponse problem(int status, std::string_view detail, std::string_view hint = {});
+/// The same with the status that fits the error's kind; 409 for what the vehicle, or whoever commands it, says no to.
+[[nodiscard]] HttpResponse problem(base::Error const& error);
 /// The standard phrase of a status: 404 is "Not Found".
 [[nodiscard]] std::string_view reason_phrase(int status);
 

@@ -63,6 +63,20 @@ struct Connection {
   std::size_t queued_bytes = 0;
 };
 
+/// An answer that takes its time: the work, and what wakes the connection at its end.
+struct Pending {
+  Pending(asio::io_context& io, base::Task<HttpResponse> task)
+      : work(std::move(task)), ended(io, asio::steady_timer::time_point::max()) {}
+
+  base::Task<HttpResponse> work;
+  asio::steady_timer ended;
+};
+
+void wake(void* pending) noexcept {
+  error_code ignored;
+  static_cast<Pending*>(pending)->ended.cancel(ignored);
+}
+
 int status_of(error_code error) {
   if (error == http::error::header_limit) return 431;
   if (error == http::error::body_limit) return 413;
@@ -119,12 +133,14 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   std::set<std::shared_ptr<Connection>> connections;
   std::map<SessionId, std::shared_ptr<Connection>> sessions;
   std::set<std::shared_ptr<asio::steady_timer>> timers;
+  std::set<std::shared_ptr<Pending>> pending;
   std::uint64_t last_session = 0;
   bool closed = false;
 
   base::Result<> listen();
   void close();
-  HttpResponse answer(HttpRequest const& request) const;
+  Reply answer(HttpRequest const& request) const;
+  asio::awaitable<HttpResponse> finish(std::shared_ptr<Reply> reply);
   asio::awaitable<void> accept_connections();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   asio::awaitable<bool> serve_request(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
@@ -174,10 +190,15 @@ void HttpServer::Core::close() {
   error_code ignored;
   acceptor.close(ignored);
   for (auto const& timer : timers) timer->cancel();
+  // The work uses what ends with the server's owner; the connection itself may wake later.
+  for (auto const& one : pending) {
+    one->work = {};
+    one->ended.cancel(ignored);
+  }
   for (auto const& connection : connections) connection->transport().close();
 }
 
-HttpResponse HttpServer::Core::answer(HttpRequest const& request) const {
+Reply HttpServer::Core::answer(HttpRequest const& request) const {
   if (auto refused = refusal(policy, request)) return *std::move(refused);
   bool const is_api = request.path.starts_with("/api/");
   if (is_api || router.knows(request.path)) return router.answer(request);
@@ -187,6 +208,21 @@ HttpResponse HttpServer::Core::answer(HttpRequest const& request) const {
     return response;
   }
   return static_file(options.static_root, request);
+}
+
+/// Waits for the work to end, if it is any. When the server closes meanwhile, what it gives goes nowhere.
+asio::awaitable<HttpResponse> HttpServer::Core::finish(std::shared_ptr<Reply> reply) {
+  auto const self = shared_from_this();
+  if (auto* const response = std::get_if<HttpResponse>(reply.get())) co_return std::move(*response);
+  auto const waiting = std::make_shared<Pending>(io, std::get<base::Task<HttpResponse>>(std::move(*reply)));
+  pending.insert(waiting);
+  waiting->work.on_end(wake, waiting.get());
+  waiting->work.start();
+  error_code ignored;
+  if (!waiting->work.done()) co_await waiting->ended.async_wait(redirect_error(use_awaitable, ignored));
+  pending.erase(waiting);
+  if (closed) co_return HttpResponse{};
+  co_return waiting->work.take();
 }
 
 asio::awaitable<void> HttpServer::Core::accept_connections() {
@@ -256,7 +292,9 @@ asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection
       }
       response = *std::move(refused);
     } else {
-      response = answer(*asked);
+      auto const reply = std::make_shared<Reply>(answer(*asked));
+      response = co_await finish(reply);
+      if (closed) co_return false;
     }
   }
   auto const message = wire(std::move(response), is_head, keep_alive);

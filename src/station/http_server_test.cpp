@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/notifier.hpp"
 #include "station/testing/http_client.hpp"
 
 namespace lapwing::station {
@@ -31,6 +32,8 @@ class HttpServerTest : public ::testing::Test {
     router.add("GET", "/api/v1/hello",
                [](auto const& request) { return HttpResponse{.body = "hello " + request.query}; });
     router.add("POST", "/api/v1/echo", [](auto const& request) { return HttpResponse{.body = request.body}; });
+    router.add("GET", "/api/v1/slow", [this](auto const&) { return answer_later(); });
+    router.add("GET", "/api/v1/quick", [this](auto const&) { return answer_at_once(); });
     server->set_router(std::move(router));
     server->set_websocket({
         .opened = [this](SessionId session) { sessions.push_back(session); },
@@ -43,11 +46,40 @@ class HttpServerTest : public ::testing::Test {
   }
   Answer get(std::string target) { return ask(loop, server->port(), {.target = std::move(target)}); }
 
+  base::Task<HttpResponse> answer_later() {
+    ++waiting;
+    co_await answers.wait();
+    --waiting;
+    co_return HttpResponse{.body = "at last"};
+  }
+  base::Task<HttpResponse> answer_at_once() { co_return HttpResponse{.body = "at once"}; }
+
   base::Loop loop;
+  base::Notifier answers{loop};
+  int waiting = 0;
   std::vector<SessionId> sessions;
   int closed = 0;
   std::unique_ptr<HttpServer> server;
 };
+
+TEST_F(HttpServerTest, WaitsForWorkThatAnAnswerTakes) {
+  serve({});
+  server->every(std::chrono::milliseconds(20), [this] { answers.notify_all(); });
+  EXPECT_EQ(get("/api/v1/slow").body, "at last");
+  EXPECT_EQ(get("/api/v1/quick").body, "at once");
+  EXPECT_EQ(waiting, 0);
+}
+
+TEST_F(HttpServerTest, EndsWhileWorkIsUnderWay) {
+  serve({});
+  server->every(std::chrono::milliseconds(20), [this] {
+    if (waiting > 0) loop.post([this] { server.reset(); });
+  });
+  EXPECT_EQ(get("/api/v1/slow").status, 0);
+  answers.notify_all();
+  loop.run_until_done([](base::Loop& on) -> base::Task<> { co_await on.turn(); }(loop));
+  EXPECT_EQ(waiting, 1) << "the work was destroyed where it waited";
+}
 
 TEST_F(HttpServerTest, AnswersRoutes) {
   serve({});

@@ -14,7 +14,7 @@ bool Router::knows(std::string_view path) const {
   return std::ranges::any_of(routes_, [&](auto const& route) { return route.path == path; });
 }
 
-HttpResponse Router::answer(HttpRequest const& request) const {
+Reply Router::answer(HttpRequest const& request) const {
   std::string_view const method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
   std::string allowed;
   for (auto const& route : routes_) {

@@ -1,5 +1,6 @@
 #include "station/internal/json_parts.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -37,6 +38,16 @@ base::Result<std::string> text_member(Json const& object, char const* key, std::
   if (found == object.end()) return fallback;
   if (!found->is_string()) return wrong(fmt::format("\"{}\" must be text.", key));
   return found->get<std::string>();
+}
+
+base::Result<std::string> operator_member(Json const& object) {
+  constexpr std::size_t longest = 40;
+  auto name = text_member(object, "operator", "");
+  if (!name) return name;
+  bool const is_plain = std::ranges::none_of(*name, [](unsigned char c) { return c < 0x20; });
+  if (name->size() > longest || !is_plain || *name == "script")
+    return wrong("\"operator\" must be a short name, other than script.");
+  return name;
 }
 
 base::Result<std::optional<double>> number_member(Json const& object, char const* key) {
