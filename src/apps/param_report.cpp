@@ -30,11 +30,6 @@ ordered_json to_json(Parameter const& parameter) {
   return {{"name", parameter.name}, {"value", number(parameter)}, {"type", to_string(parameter.type)}};
 }
 
-std::string_view word(Confirmed confirmed) {
-  if (confirmed == Confirmed::by_hash) return "hash";
-  return confirmed == Confirmed::by_vehicle ? "vehicle" : "no";
-}
-
 std::string text_or_dash(std::optional<Parameter> const& parameter) {
   return parameter ? value_text(*parameter) : "-";
 }
@@ -60,7 +55,7 @@ std::string listing_json(std::vector<ParamListing> const& listings) {
     for (auto const& parameter : listing.parameters) all.push_back(to_json(parameter));
     ordered_json vehicle{{"id", listing.system_id}};
     if (!listing.firmware.empty()) vehicle["firmware"] = listing.firmware;
-    vehicle["confirmed"] = word(listing.confirmed);
+    vehicle["confirmed"] = to_string(listing.confirmed);
     vehicle["taken"] = utc_text(listing.taken);
     vehicle["parameters"] = std::move(all);
     vehicle["errors"] = listing.errors;

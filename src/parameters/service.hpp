@@ -11,15 +11,11 @@
 #include "mavlink/connection.hpp"
 #include "mavlink/param_list.hpp"
 #include "parameters/cache.hpp"
+#include "vehicle/parameters.hpp"
 
 namespace lapwing::parameters {
 
-/// How sure a list is.
-enum class Confirmed {
-  by_vehicle,  ///< it sent every value just now
-  by_hash,     ///< it confirmed (PX4) that nothing has changed since `taken`
-  not_at_all   ///< as of `taken`; what changed since then unheard is wrong
-};
+using vehicle::Confirmed;
 
 struct Snapshot {
   std::vector<Parameter> parameters;

@@ -10,6 +10,7 @@
 #include "base/open_metrics.hpp"
 #include "station/control_routes.hpp"
 #include "station/openapi.hpp"
+#include "station/parameter_routes.hpp"
 #include "station/script_folder.hpp"
 
 namespace lapwing::station {
@@ -185,6 +186,7 @@ Router Station::make_router() {
              [this](auto const&) { return HttpResponse{.body = tasks_message(script_.task_trees())}; });
   router.add("POST", "/api/v1/stop", [this](auto const&) { return post_stop(); });
   add_control_routes(router, options_.control, log_);
+  add_parameter_routes(router, options_.parameters);
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
   router.add("GET", "/api/openapi.yaml", [](auto const&) {
     return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};

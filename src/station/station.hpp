@@ -17,6 +17,7 @@
 #include "station/script_control.hpp"
 #include "station/vehicle_feed.hpp"
 #include "vehicle/control.hpp"
+#include "vehicle/parameters.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::station {
@@ -34,9 +35,10 @@ class Station {
     std::size_t log_history = 500;          ///< lines kept for viewers that connect later
     std::string program_version = "0";
     Site site = {};
-    std::filesystem::path scripts = {};          ///< folder of scripts that viewers may choose from; empty: none
-    vehicle::VehicleControl* control = nullptr;  ///< outlives the station; null: vehicles are only shown
-    std::function<std::string()> metrics = {};   ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
+    std::filesystem::path scripts = {};                ///< folder of scripts that viewers may choose from; empty: none
+    vehicle::VehicleControl* control = nullptr;        ///< outlives the station; null: vehicles are only shown
+    vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
+    std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
   };
 
   /// Listens at once. `vehicles`, `script` and `loop` must outlive the station; `hub` may go first or last.

@@ -1,6 +1,7 @@
 #include "station/station.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -11,6 +12,7 @@
 
 #include "station/openapi.hpp"
 #include "station/testing/fake_control.hpp"
+#include "station/testing/fake_parameters.hpp"
 #include "station/testing/http_client.hpp"
 
 namespace lapwing::station {
@@ -321,6 +323,23 @@ TEST_F(StationTest, AsksForItsTokenOverHttpAndWebSocket) {
   EXPECT_EQ(control.stops, 0);
 }
 
+TEST_F(StationTest, SetsAParameterOverHttp) {
+  testing::FakeParameters parameters(loop, std::chrono::milliseconds(20));
+  open({.parameters = &parameters});
+  auto const put = [this](std::string body, std::string content_type) {
+    return ask(loop, station->port(),
+               {.method = "PUT",
+                .target = "/api/v1/parameters/value?vehicle=2&name=RTL_ALT",
+                .headers = {{"Content-Type", std::move(content_type)}},
+                .body = std::move(body)});
+  };
+  EXPECT_EQ(put(R"({"value":2000})", "text/plain").status, 415) << "another site's page could send that";
+  EXPECT_EQ(put(R"({"value":2000,"filler":")" + std::string(2'000'000, 'x') + "\"}", "application/json").status, 413);
+  EXPECT_EQ(parameters.changed_by, "");
+  EXPECT_EQ(put(R"({"value":2000})", "application/json").status, 200);
+  EXPECT_EQ(json::parse(get("/api/v1/parameters?vehicle=2").body)["parameters"][0]["value"], 2000);
+}
+
 TEST_F(StationTest, ServesItsDescription) {
   open();
   auto const answer = get("/api/openapi.yaml");
@@ -358,7 +377,9 @@ TEST_F(StationTest, IsDescribedByTheOpenApiFile) {
   std::set<std::string> served;
   auto const router = station->make_router();
   for (auto const& route : router.routes()) {
-    served.insert(fmt::format("{} {}", route.method == "GET" ? "get" : "post", route.path));
+    std::string method = route.method;
+    std::ranges::transform(method, method.begin(), [](unsigned char c) { return std::tolower(c); });
+    served.insert(fmt::format("{} {}", method, route.path));
   }
   EXPECT_EQ(described, served);
 }

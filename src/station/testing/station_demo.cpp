@@ -11,6 +11,7 @@
 #include "geo/position.hpp"
 #include "station/station.hpp"
 #include "station/testing/demo_control.hpp"
+#include "station/testing/fake_parameters.hpp"
 
 /// Test equipment for the browser app: a real station over made-up vehicles, so that web/e2e can show every state
 /// (moving, lost, conflict, low battery) at will. usage: station_demo PORT WEB_FOLDER
@@ -268,8 +269,10 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   vehicle::Registry registry(loop);
   DemoScript script(loop, log.named("script"));
   testing::DemoControl control(loop, registry);
+  testing::FakeParameters parameters(loop, 2s);
   Station::Options options;
   options.control = &control;
+  options.parameters = &parameters;
   options.http.port = port;
   options.http.static_root = web_folder;
   options.program_version = "0.1.0";
