@@ -142,7 +142,7 @@ class PaperFlight {
       case MavCmd::nav_loiter_time: stay(place_for(item), first); return true;
       case MavCmd::nav_delay: time_s_ += first; return true;
       case MavCmd::do_set_home: home_ = place_for(item); return true;
-      case MavCmd::do_change_altitude: change_altitude(item.params[0]); return true;
+      case MavCmd::do_change_altitude: change_altitude(item); return true;
       case MavCmd::do_change_speed: change_speed(static_cast<int>(std::min(first, 4.0)), item.params[1]); return true;
       case MavCmd::do_jump: jump(static_cast<std::size_t>(first), static_cast<int>(item.params[1])); return true;
       default: return false;
@@ -233,8 +233,11 @@ class PaperFlight {
     time_s_ += length_m / speed_m_s;
   }
 
-  void change_altitude(double alt_m) {
-    if (!at_ || !performance_.flies) return;
+  void change_altitude(MissionItem const& change) {
+    auto const frame = frame_of_change(change);
+    if (!at_ || !performance_.flies || !frame) return;
+    bool const is_above_sea = *frame == mavlink::MavFrame::global || *frame == mavlink::MavFrame::global_int;
+    double const alt_m = change.params[0] + (is_above_sea || !home_ ? 0.0 : home_->alt_m);
     double const up_m = alt_m - at_->alt_m;
     time_s_ += vertical_time_s(up_m, performance_);
     path_m_ += std::abs(up_m);

@@ -1,12 +1,14 @@
 #include "plan/mission.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace lapwing::plan {
 
 using mavlink::MavCmd;
+using mavlink::MavFrame;
 using mavlink::MissionItem;
 
 bool has_position(MissionItem const& item) {
@@ -39,6 +41,13 @@ geo::Wgs84 place_of(MissionItem const& item, std::optional<geo::Wgs84> here, dou
   return is_here && here ? geo::Wgs84{here->lat_rad, here->lon_rad, place.alt_m} : place;
 }
 
+std::optional<MavFrame> frame_of_change(MissionItem const& change) {
+  float const number = change.params[1];
+  if (!std::isfinite(change.params[0]) || !(number >= 0.0F && number <= 255.0F)) return std::nullopt;
+  auto const frame = static_cast<MavFrame>(static_cast<int>(number));
+  return mavlink::is_global(frame) ? std::optional(frame) : std::nullopt;
+}
+
 bool takes_photos(Mission const& mission) {
   return std::ranges::any_of(mission.items,
                              [](auto const& item) { return item.command == MavCmd::image_start_capture; });
@@ -53,13 +62,20 @@ MissionItem home_item(geo::Wgs84 home) {
   return item;
 }
 
-/// DO_CHANGE_ALTITUDE as ArduPilot's planes know it; `before_m` is the altitude that it starts from.
-MissionItem as_nav_change_alt(MissionItem const& change, std::optional<double> before_m) {
+/// An altitude and what it counts from.
+struct Level {
+  double alt_m = 0.0;
+  MavFrame frame = MavFrame::global;
+};
+
+/// DO_CHANGE_ALTITUDE as ArduPilot's planes know it; `before_m` is the altitude that it starts from, in the same frame.
+MissionItem as_nav_change_alt(MissionItem const& change, MavFrame frame, std::optional<double> before_m) {
   float constexpr neutral = 0.0F;
   float constexpr climb = 1.0F;
   float constexpr descend = 2.0F;
   MissionItem item;
   item.command = MavCmd::nav_continue_and_change_alt;
+  item.frame = frame;
   item.place.z_m = change.params[0];
   if (!before_m || *before_m == item.place.z_m) {
     item.params[0] = neutral;
@@ -70,9 +86,10 @@ MissionItem as_nav_change_alt(MissionItem const& change, std::optional<double> b
 }
 
 /// The same for a vehicle that has no such command. ArduPilot reads latitude and longitude 0 as "here".
-MissionItem as_waypoint_above(MissionItem const& change, std::optional<geo::Wgs84> last) {
+MissionItem as_waypoint_above(MissionItem const& change, MavFrame frame, std::optional<geo::Wgs84> last) {
   MissionItem item;
   item.command = MavCmd::nav_waypoint;
+  item.frame = frame;
   item.params[3] = std::numeric_limits<float>::quiet_NaN();
   if (last) item.place = {.lat_rad = last->lat_rad, .lon_rad = last->lon_rad};
   item.place.z_m = change.params[0];
@@ -90,19 +107,22 @@ bool climbs_by_waypoint(vehicle::Family family, bool is_ardupilot) {
 void replace_altitude_changes(std::vector<MissionItem>& items, vehicle::Autopilot autopilot, vehicle::Family family,
                               std::optional<geo::Wgs84> last) {
   bool const is_ardupilot = autopilot == vehicle::Autopilot::ardupilot;
-  std::optional<double> altitude_m;
-  if (last) altitude_m = last->alt_m;
+  std::optional<Level> level;
+  if (last) level = Level{last->alt_m};
   for (auto& item : items) {
     if (item.command == MavCmd::do_change_altitude) {
-      auto const before_m = std::exchange(altitude_m, item.params[0]);
+      auto const frame = frame_of_change(item);
+      if (!frame) continue;
+      auto const before = std::exchange(level, Level{item.params[0], *frame});
       if (climbs_by_waypoint(family, is_ardupilot)) {
-        if (is_ardupilot || last) item = as_waypoint_above(item, last);
+        if (is_ardupilot || last) item = as_waypoint_above(item, *frame, last);
       } else if (is_ardupilot) {
-        item = as_nav_change_alt(item, before_m);
+        bool const is_comparable = before && before->frame == *frame;
+        item = as_nav_change_alt(item, *frame, is_comparable ? std::optional(before->alt_m) : std::nullopt);
       }
     } else if (has_position(item) && item.command != MavCmd::do_set_home) {
       last = position_of(item);
-      altitude_m = item.place.z_m;
+      level = Level{item.place.z_m, item.frame};
     }
   }
 }

@@ -36,6 +36,9 @@ struct Mission {
 /// above home, or above a terrain that is taken to be as high as home, become such above mean sea level; latitude and
 /// longitude 0 mean "here".
 [[nodiscard]] geo::Wgs84 place_of(mavlink::MissionItem const& item, std::optional<geo::Wgs84> here, double home_alt_m);
+/// What the altitude of a DO_CHANGE_ALTITUDE counts from: its second parameter, not the frame of the item. Nothing when
+/// it tells no altitude on Earth: then nobody knows what is meant.
+[[nodiscard]] std::optional<mavlink::MavFrame> frame_of_change(mavlink::MissionItem const& change);
 /// It takes pictures, so the vehicle needs a camera.
 [[nodiscard]] bool takes_photos(Mission const& mission);
 
@@ -47,7 +50,8 @@ struct Mission {
 ///
 /// A change of altitude becomes what the vehicle flies: a waypoint at that altitude above the last place for
 /// ArduPilot's copters and underwater vehicles (without an earlier place: above where they are) and for PX4, else
-/// NAV_CONTINUE_AND_CHANGE_ALT on ArduPilot. PX4 without an earlier place keeps the command, and refuses it.
+/// NAV_CONTINUE_AND_CHANGE_ALT on ArduPilot. PX4 without an earlier place keeps the command, and refuses it. So does
+/// every vehicle with one that says no altitude on Earth.
 [[nodiscard]] std::vector<mavlink::MissionItem> for_autopilot(Mission const& mission, vehicle::Autopilot autopilot,
                                                               std::optional<geo::Wgs84> vehicle_home,
                                                               vehicle::Family family = vehicle::Family::unknown);

@@ -1,5 +1,7 @@
 #include "plan/mission.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "plan/mission_builder.hpp"
@@ -115,6 +117,34 @@ TEST(Mission, ChangeOfAltitudeWithoutAnEarlierPlaceIsAboveTheCopter) {
   EXPECT_EQ(copter.command, MavCmd::nav_waypoint);
   EXPECT_EQ(position_of(copter), (Wgs84{0.0, 0.0, 120.0}));
   EXPECT_EQ(for_autopilot(finished(builder), Autopilot::px4, std::nullopt).back().command, MavCmd::do_change_altitude);
+}
+
+TEST(Mission, ChangeOfAltitudeCountsFromWhatItsSecondParameterSays) {
+  auto constexpr global = mavlink::MavFrame::global;
+  auto constexpr above_home = mavlink::MavFrame::global_relative_alt;
+  Mission mission{.name = "file", .home = std::nullopt, .items = {}};
+  mission.items.push_back({.frame = above_home, .command = MavCmd::nav_waypoint});
+  mission.items.back().place = {.lat_rad = home.lat_rad, .lon_rad = home.lon_rad, .z_m = 30.0};
+  mission.items.push_back({.command = MavCmd::do_change_altitude, .params = {50.0F, 3.0F}});
+  auto const last_on = [&](Autopilot autopilot, vehicle::Family family) {
+    return for_autopilot(mission, autopilot, home, family).back();
+  };
+  for (auto const& item :
+       {last_on(Autopilot::ardupilot, vehicle::Family::copter), last_on(Autopilot::px4, vehicle::Family::copter)}) {
+    EXPECT_EQ(item.command, MavCmd::nav_waypoint);
+    EXPECT_EQ(item.frame, above_home);
+    EXPECT_EQ(item.place.z_m, 50.0);
+  }
+  auto const plane = last_on(Autopilot::ardupilot, vehicle::Family::plane);
+  EXPECT_EQ(plane.frame, above_home);
+  EXPECT_EQ(plane.params[0], 1.0F) << "climbs from 30 m above home";
+  mission.items.back().params[1] = 0.0F;
+  EXPECT_EQ(last_on(Autopilot::ardupilot, vehicle::Family::copter).frame, global);
+  EXPECT_EQ(last_on(Autopilot::ardupilot, vehicle::Family::plane).params[0], 0.0F) << "from an unknown height";
+  for (float const local : {1.0F, -1.0F, 300.0F, std::nanf("")}) {
+    mission.items.back().params[1] = local;
+    EXPECT_EQ(last_on(Autopilot::ardupilot, vehicle::Family::copter).command, MavCmd::do_change_altitude) << local;
+  }
 }
 
 TEST(Mission, ItemsWithoutAPlaceHaveNoFrameOnPx4) {
