@@ -96,9 +96,18 @@ std::string position_in(std::string_view text, std::size_t bytes) {
 }
 
 Result<Json> parse(std::string_view file, std::string_view text) {
+  // Who writes a value calls itself for each level of it.
+  constexpr int deepest = 64;
+  bool is_too_deep = false;
+  auto const look = [&](int depth, Json::parse_event_t, Json&) {
+    is_too_deep = is_too_deep || depth > deepest;
+    return !is_too_deep;
+  };
   // The library reports errors by exceptions; they end here.
   try {
-    return Json::parse(text);
+    auto json = Json::parse(text, look);
+    if (is_too_deep) return wrong(file, fmt::format("values are nested deeper than {}", deepest));
+    return json;
   } catch (Json::parse_error const& error) {
     return wrong(fmt::format("{}:{}", file, position_in(text, error.byte)), "this is no JSON",
                  "a plan is a file of QGroundControl (.plan), GeoJSON, KML, or way points beginning with QGC WPL 110");

@@ -243,6 +243,19 @@ TEST(QgcPlan, ThatIsNoPlanSaysSo) {
   EXPECT_EQ(message_of("a.plan", std::string(max_plan_bytes + 1, ' ')),
             "a.plan: 16 MB is too large for a plan (limit 16 MB)");
   EXPECT_NE(message_of("a.plan", std::string(1'000'000, '[')), "it is read");
+  auto const deep = std::string(200'000, '[') + std::string(200'000, ']');
+  EXPECT_EQ(message_of("a.plan", plan_of(R"({"type": "ComplexItem", "complexItemType": "x", "more": )" + deep + "}")),
+            "a.plan: values are nested deeper than 64");
+}
+
+TEST(WayPoints, AreNoMoreThanCanBeCountedWithHome) {
+  auto const file = [](std::size_t items) {
+    std::string text = "QGC WPL 110\n0 1 0 16 0 0 0 0 41 -8 0 1\n";
+    for (std::size_t i = 1; i <= items; ++i) text += fmt::format("{} 0 3 16 0 0 0 0 41 -8 30 1\n", i);
+    return message_of("a.waypoints", text);
+  };
+  EXPECT_EQ(file(max_mission_items - 1), "it is read");
+  EXPECT_EQ(file(max_mission_items), "a.waypoints: more items than a mission can hold");
 }
 
 TEST(WayPoints, CanBeAFenceOrRallyPoints) {
