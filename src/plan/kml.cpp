@@ -66,7 +66,7 @@ class Reader {
 
   Result<PlanFile> read(pugi::xml_node root) {
     if (local_name(root) != "kml") return fail_at(root, fmt::format("<{}> is no KML", root.name()));
-    if (auto done = features(root, "", 0); !done) return std::unexpected(done.error());
+    if (auto done = features(root, false, 0); !done) return std::unexpected(done.error());
     return std::move(read_);
   }
   [[nodiscard]] std::unexpected<base::Error> fail_at(std::ptrdiff_t offset, std::string_view what,
@@ -82,16 +82,17 @@ class Reader {
   }
   Plan& plan() { return read_.plan; }
 
-  /// `inside`: the names of the folders round it.
-  Result<> features(pugi::xml_node parent, std::string const& inside, int depth) {
+  /// `among_rally`: a folder round it is called after rally points.
+  Result<> features(pugi::xml_node parent, bool among_rally, int depth) {
     if (depth > deepest) return fail_at(parent, fmt::format("folders are nested deeper than {}", deepest));
     for (auto const& node : parent.children()) {
       auto const name = local_name(node);
       Result<> done;
       if (name == "Placemark")
-        done = placemark(node, inside);
+        done = placemark(node, among_rally);
       else if (name == "Document" || name == "Folder")
-        done = features(node, fmt::format("{} {}", inside, lower(text_of(node, "name"))), depth + 1);
+        done =
+            features(node, among_rally || lower(text_of(node, "name")).find("rally") != std::string::npos, depth + 1);
       else if (name == "NetworkLink" || name == "GroundOverlay")
         note(node, fmt::format("a {} is not read", name));
       if (!done) return done;
@@ -101,28 +102,28 @@ class Reader {
 
   void note(pugi::xml_node node, std::string what) {
     constexpr std::size_t most = 100;
+    if (read_.notes.size() >= most) return;  // to count lines takes as long as the file is
     auto const line =
         1 + std::ranges::count(
                 text_.substr(0, static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0))), '\n');
-    if (read_.notes.size() < most) read_.notes.push_back(fmt::format("line {}: {}", line, what));
+    read_.notes.push_back(fmt::format("line {}: {}", line, what));
   }
 
-  Result<> placemark(pugi::xml_node node, std::string const& inside) {
+  Result<> placemark(pugi::xml_node node, bool among_rally) {
     auto const data = data_of(node);
     if (said(data, "role") == "path") return {};  // drawn from the items
-    return geometries(node, node, data, inside, 0);
+    return geometries(node, node, data, among_rally, 0);
   }
 
-  Result<> geometries(pugi::xml_node parent, pugi::xml_node placemark, Data const& data, std::string const& inside,
-                      int depth) {
+  Result<> geometries(pugi::xml_node parent, pugi::xml_node placemark, Data const& data, bool among_rally, int depth) {
     if (depth > deepest) return fail_at(parent, fmt::format("geometries are nested deeper than {}", deepest));
     for (auto const& node : parent.children()) {
       auto const name = local_name(node);
       Result<> done;
       if (name == "MultiGeometry")
-        done = geometries(node, placemark, data, inside, depth + 1);
+        done = geometries(node, placemark, data, among_rally, depth + 1);
       else if (name == "Point")
-        done = point(node, placemark, data, inside);
+        done = point(node, placemark, data, among_rally);
       else if (name == "LineString" || name == "LinearRing")
         done = line(node);
       else if (name == "Polygon")
@@ -216,15 +217,14 @@ class Reader {
     return {};
   }
 
-  Result<> point(pugi::xml_node geometry, pugi::xml_node placemark, Data const& data, std::string const& inside) {
+  Result<> point(pugi::xml_node geometry, pugi::xml_node placemark, Data const& data, bool among_rally) {
     auto const all = coordinates(geometry);
     if (!all) return std::unexpected(all.error());
     auto const& at = all->front();
     auto const role = said(data, "role");
     if (data.contains("command")) return item(geometry, data, at);
     if (data.contains("radius_m")) return circle(geometry, placemark, data, at);
-    bool const is_rally = inside.find("rally") != std::string::npos;
-    if (role.empty() && !is_rally) return way_point(geometry, at);
+    if (role.empty() && !among_rally) return way_point(geometry, at);
     return marked(geometry, data, role.empty() ? "rally" : role, at);
   }
 
@@ -244,13 +244,16 @@ class Reader {
                        "say a height: --altitude METRES above home");
       RallyPoint rally{.place = *place};
       if (*frame)
-        rally.frame = static_cast<MavFrame>(std::clamp(static_cast<int>(std::clamp(**frame, 0.0, 255.0)), 0, 255));
+        rally.frame =
+            **frame >= 0.0 && **frame <= 255.0 ? static_cast<MavFrame>(static_cast<int>(**frame)) : MavFrame{255};
       else if (mode)
         rally.frame = *mode;
       else
         rally.place.alt_m = *options_.altitude_m;
       if (!mavlink::is_global(rally.frame))
         return fail_at(geometry, "frame: heights count from the sea (0), home (3) or the terrain (10)");
+      if (plan().rally.size() >= max_mission_items)
+        return fail_at(geometry, "more rally points than a vehicle can hold");
       plan().rally.push_back(rally);
     } else {
       return fail_at(geometry, fmt::format("role: '{}' is no role of a point", role.substr(0, 40)),

@@ -134,6 +134,29 @@ TEST(Kml, HasLimits) {
             "a.kml:3: more coordinates than a mission can hold");
 }
 
+TEST(Kml, RefusesARallyPointWhoseHeightCountsFromNothing) {
+  auto const rally = [](std::string_view frame) {
+    return refusal(kml(placemark("<Point><coordinates>-8,41,30</coordinates></Point>",
+                                 fmt::format("<ExtendedData><Data name=\"role\"><value>rally</value></Data>"
+                                             "<Data name=\"frame\"><value>{}</value></Data></ExtendedData>",
+                                             frame))));
+  };
+  EXPECT_EQ(rally("3"), "none");
+  for (auto const* const frame : {"nan", "-1", "1", "1e99"})
+    EXPECT_EQ(rally(frame), "a.kml:3: frame: heights count from the sea (0), home (3) or the terrain (10)") << frame;
+}
+
+TEST(Kml, IsReadInAMomentWhateverItLeavesOut) {
+  std::string many;
+  for (int i = 0; i < 200'000; ++i) many += "<NetworkLink/>\n";
+  EXPECT_EQ(read(kml(many + placemark(path))).notes.size(), 100u);
+  std::string rally_points = "<Folder><name>Rally</name>";
+  for (std::size_t i = 0; i <= max_mission_items; ++i)
+    rally_points +=
+        "<Placemark><Point><altitudeMode>absolute</altitudeMode><coordinates>1,2,3</coordinates></Point></Placemark>";
+  EXPECT_EQ(refusal(kml(rally_points + "</Folder>")), "a.kml:3: more rally points than a vehicle can hold");
+}
+
 TEST(Kmz, IsKmlInAnArchive) {
   auto const plan = read(kml(placemark(path) + placemark(field))).plan;
   auto const zipped = write_plan(plan, PlanFormat::kmz);
