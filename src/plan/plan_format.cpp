@@ -26,6 +26,10 @@ std::optional<std::string> objection_of_files(MissionItem const& item) {
   if (!mavlink::is_listed(item.command)) return "is not known here, so neither is what its parameters are";
   if (internal::is_placed(item) && !mavlink::is_global(item.frame))
     return fmt::format("has its place in frame {}, which is not on Earth", static_cast<int>(item.frame));
+  auto const place = position_of(item);
+  if (internal::is_placed(item) && !internal::to_place(internal::file_degrees(place.lat_deg()),
+                                                       internal::file_degrees(place.lon_deg()), place.alt_m))
+    return "has no place and height on Earth";
   if (std::ranges::any_of(item.params, [](float value) { return std::isinf(value); }))
     return "has an infinite parameter";
   return std::nullopt;

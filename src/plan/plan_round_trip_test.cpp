@@ -1,4 +1,5 @@
 // Random plans through every format: what is read is what was written, less what the writer said would be lost.
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -251,6 +252,18 @@ TEST(Reduce, SaysWhatKmlAndWayPointFilesCannotHold) {
       (std::vector<std::string>{"item 2: DO_SET_SERVO has no place, and KML holds places", "cruise and hover speed"}));
   EXPECT_EQ(reduce(plan, PlanFormat::way_points).lost,
             (std::vector<std::string>{"cruise and hover speed", "1 rally points: a way point file holds one list"}));
+}
+
+TEST(Reduce, LeavesOutHeightsThatCouldNotBeReadAgain) {
+  Plan plan;
+  plan.mission.items.resize(2);
+  for (auto& item : plan.mission.items) item.command = MavCmd::nav_waypoint;
+  plan.mission.items[1].place.z_m = std::nan("");  // as vehicles may hold it
+  for (auto const format : {PlanFormat::qgc_plan, PlanFormat::way_points, PlanFormat::kml, PlanFormat::geojson}) {
+    auto const written = write_plan(plan, format).value();
+    EXPECT_EQ(written.lost, std::vector<std::string>{"item 2: NAV_WAYPOINT has no place and height on Earth"});
+    EXPECT_TRUE(read_plan("again", written.text));
+  }
 }
 
 TEST(WritePlan, RefusesToWriteNothing) {
