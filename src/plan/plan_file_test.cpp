@@ -131,6 +131,9 @@ TEST(QgcPlan, TranslatesTheNumbersOfJumps) {
   EXPECT_EQ(read("a.plan", plan_of(items)).mission.items[2].params[0], 2.0F);
   EXPECT_EQ(message_of("a.plan", plan_of(simple(177, "7,3,0,0,0,0,0", 1, 2))),
             "a.plan: mission.items[0]: the jump leads to item 7, which is not there");
+  EXPECT_EQ(message_of("a.plan", plan_of(R"({"type": "SimpleItem", "command": 16, "doJumpId": "7", "frame": 3,
+                                            "params": [0, 0, 0, 0, 41, -8, 30]})")),
+            "a.plan: mission.items[0].doJumpId: a number was expected");
 }
 
 TEST(QgcPlan, FliesTheItemsThatAreStoredWithASurvey) {

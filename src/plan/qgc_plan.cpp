@@ -72,7 +72,11 @@ Result<FileItem> simple_item(Node const& node) {
 Result<> add_simple(Node const& node, Assembly& assembly) {
   auto const item = simple_item(node);
   if (!item) return std::unexpected(item.error());
-  if (node.has("doJumpId")) assembly.number_next(node.number_or("doJumpId", unset));
+  if (node.has("doJumpId")) {
+    auto const id = node.number("doJumpId");
+    if (!id) return std::unexpected(id.error());
+    assembly.number_next(*id);
+  }
   return assembly.add(node, *item);
 }
 
