@@ -199,7 +199,11 @@ Result<PlanFile> read_plan(std::string_view file, std::string_view text, PlanRea
     read = internal::read_kml(file, text, options);
   else
     read = internal::read_json_plan(file, text, options);
-  if (read) read->plan.mission.name = plan_name(file);
+  if (!read) return read;
+  // One place is home's, and a count of 65536 would be told as 0.
+  if (read->plan.mission.items.size() >= max_mission_items)
+    return internal::wrong(file, "more items than a mission can hold");
+  read->plan.mission.name = plan_name(file);
   return read;
 }
 
