@@ -223,6 +223,7 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   frame.version = peer.spoke && !peer.spoke_v2 ? 1 : 2;
   if (frame.version == 1 && frame.message_id > 255) return false;
   frame.seq = peer.next_seq;
+  frame.incompat_flags = 0;  // signed anew for each far end, or not at all
   if (guard_) guard_->sign(frame, {to.link, to.peer.key}, system_id, loop_.utc_now());
   auto const out = serialize(frame);
   auto const urgency = internal::is_perishable(frame.message_id) ? link::Urgency::perishable : link::Urgency::prompt;

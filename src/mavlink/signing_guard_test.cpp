@@ -187,6 +187,28 @@ TEST(SigningGuard, LeavesFramesAloneForWhichNoKeyHolds) {
   EXPECT_FALSE(frame.is_signed()) << "MAVLink 1 has no signatures";
 }
 
+TEST(SignedConnection, LeavesNoSignatureForOneInWhatItSendsToAnother) {
+  Bench bench;
+  bench.vehicle->connection.set_keys(ring_of(key_of(1)));
+  auto ring = two_keys();
+  ring.vehicles[1] = {"a"};
+  ring.unsigned_frames.systems = {2};
+  bench.ground.set_keys(ring);
+  FakeVehicle other(bench.loop, bench.hub.connect(), {2, 1});
+  int heard = 0;
+  int with_signature = 0;
+  other.connection.set_frame_hook([&](Connection::Direction direction, Frame const& frame, base::TimePoint) {
+    if (direction != Connection::Direction::received) return;
+    ++heard;
+    with_signature += frame.is_signed();
+  });
+  bench.vehicle->heard.clear();
+  bench.run_for(5s);
+  EXPECT_GT(bench.vehicle->all<Heartbeat>().size(), 2u) << "they are signed for it";
+  EXPECT_GT(heard, 2);
+  EXPECT_EQ(with_signature, 0);
+}
+
 TEST(LocalLinks, AreThoseOnWhichNobodyListens) {
   for (auto const* url : {"serial:///dev/ttyUSB0:57600", "udpin://127.0.0.1:14550", "tcpout://localhost:5760"})
     EXPECT_TRUE(is_local(url)) << url;
