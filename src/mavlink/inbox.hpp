@@ -18,13 +18,18 @@ class Inbox {
   using Wanted = std::function<bool(Message const&)>;
 
   Inbox(Connection& connection, std::uint8_t system_id, Wanted wanted)
+      : Inbox(connection, Address{system_id, 0}, std::move(wanted)) {}
+  /// Of one component alone; component 0: of all.
+  Inbox(Connection& connection, Address from, Wanted wanted)
       : loop_(connection.loop()),
         arrived_(loop_),
-        subscription_(connection.subscribe(system_id, [this, wanted = std::move(wanted)](Received const& received) {
-          if (!wanted(received.message)) return;
-          waiting_.push_back(received.message);
-          arrived_.notify_all();
-        })) {}
+        subscription_(
+            connection.subscribe(from.system, [this, from, wanted = std::move(wanted)](Received const& received) {
+              if (from.component != 0 && received.source.component != from.component) return;
+              if (!wanted(received.message)) return;
+              waiting_.push_back(received.message);
+              arrived_.notify_all();
+            })) {}
   Inbox(Inbox const&) = delete;
   Inbox& operator=(Inbox const&) = delete;
 

@@ -60,7 +60,7 @@ std::unexpected<base::Error> cannot_hold(Parameter const& parameter, std::string
 /// unasked, which serve as well.
 base::Task<base::Result<Parameter>> ask(Connection& connection, Address target, std::string name, Message request,
                                         ParamOptions options) {
-  Inbox answers(connection, target.system, [name](Message const& message) {
+  Inbox answers(connection, target, [name](Message const& message) {
     auto const* value = std::get_if<ParamValue>(&message);
     auto const* error = std::get_if<ParamError>(&message);
     return (value && value->name == name) || (error && error->name == name);

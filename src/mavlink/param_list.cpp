@@ -197,7 +197,7 @@ TimePoint Download::next_look() const {
 }
 
 base::Task<base::Result<ParamList>> Download::run() {
-  Inbox inbox(connection_, target_.system, wanting<ParamValue>([](ParamValue const&) { return true; }));
+  Inbox inbox(connection_, target_, wanting<ParamValue>([](ParamValue const&) { return true; }));
   advanced_ = now();
   while (!complete()) {
     bool const may_send = !options_.may_send || options_.may_send();

@@ -156,6 +156,21 @@ TEST(Param, ReadsByNameAmongUnaskedValues) {
   EXPECT_EQ(value->value, 1500);
 }
 
+TEST(Param, IsTheAutopilotsThoughAnotherComponentHasOneOfThatName) {
+  Bench bench;
+  FakeVehicle gimbal(bench.loop, bench.hub.connect(), {1, 154});
+  bench.run_for(2s);
+  bench.vehicle->on = [&](Message const& message) {
+    auto const* request = std::get_if<ParamRequestRead>(&message);
+    if (!request) return;
+    gimbal.answer(ParamValue{.name = request->name, .value = 7});
+    bench.vehicle->answer(ParamValue{.name = request->name, .value = 1500});
+  };
+  auto const value = bench.loop.run_until_done(read_param(bench.ground, Bench::target, "BRD_SERIAL_NUM"));
+  ASSERT_TRUE(value);
+  EXPECT_EQ(value->value, 1500);
+}
+
 TEST(Param, TimesOutOnANameThatTheVehicleDoesNotKnow) {
   Bench bench;
   auto const value = bench.loop.run_until_done(read_param(bench.ground, Bench::target, "NO_SUCH"));
@@ -314,6 +329,26 @@ TEST(ParamList, BeginsAnewWhenTheVehicleNumbersItsParametersAnew) {
   ASSERT_EQ(list->parameters.size(), 201u);
   EXPECT_EQ(list->parameters[0].name, "NEW");
   EXPECT_EQ(list->parameters[200].name, "P199");
+}
+
+/// As one does that another ground station asks for its list.
+TEST(ParamList, LeavesOutWhatAnotherComponentLists) {
+  Bench bench;
+  Shelf shelf(*bench.vehicle, 200);
+  FakeVehicle gimbal(bench.loop, bench.hub.connect(), {1, 154});
+  bench.run_for(2s);
+  base::Scope scope(bench.loop);
+  auto const chatter = [&]() -> base::Task<void> {
+    for (std::uint16_t i = 0; i < 20; ++i) {
+      gimbal.answer(ParamValue{.name = "GMB_MAX_RATE", .value = 1, .type = real32, .count = 20, .index = i});
+      co_await bench.loop.sleep(9ms);
+    }
+  };
+  scope.spawn(chatter());
+  auto const list = download(bench);
+  ASSERT_TRUE(list);
+  ASSERT_EQ(list->parameters.size(), 200u);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(list->parameters[i].name, "P" + std::to_string(i));
 }
 
 TEST(ParamList, SaysHowFarItCameWhenTheVehicleFallsSilent) {
