@@ -47,6 +47,9 @@ bool is_known(geo::Wgs84 const& place) {
 }  // namespace
 
 void Fingerprint::take(Timesync const& answer, base::TimePoint now) {
+  // A clock of another century is none; and the differences of such would not fit their type.
+  constexpr base::Duration century = 24h * 365 * 100;
+  if (answer.tc1 < base::Duration{} || answer.tc1 > century) return;
   auto const asked = base::TimePoint(answer.ts1);
   auto const half = (now - asked) / 2;
   clock = Clock{.boot = asked + half - answer.tc1, .error = half, .heard = now};

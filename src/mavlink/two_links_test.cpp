@@ -5,6 +5,7 @@
 
 #include "mavlink/connection.hpp"
 #include "mavlink/fake_vehicle_test.hpp"
+#include "mavlink/internal/likeness.hpp"
 
 namespace lapwing::mavlink {
 namespace {
@@ -344,6 +345,18 @@ TEST(Bulk, GoesOverTheLinkThatCarriesMost) {
   ASSERT_TRUE(world.ground.send({1, 1}, ParamRequestList{}));
   world.run_for(1s);
   EXPECT_EQ(wifi.parameters_asked + radio.parameters_asked, 1);
+}
+
+TEST(FingerprintOfAVehicle, HasNoClockOfAnotherCentury) {
+  internal::Fingerprint print;
+  auto const now = base::TimePoint(10s);
+  for (auto const clock : {Duration::min(), Duration(-1), Duration::max()}) {
+    print.take(Timesync{.tc1 = clock, .ts1 = now.time_since_epoch()}, now);
+    EXPECT_FALSE(print.clock);
+  }
+  print.take(Timesync{.tc1 = 1h, .ts1 = now.time_since_epoch()}, now);
+  ASSERT_TRUE(print.clock);
+  EXPECT_EQ(print.clock->boot, now - 1h);
 }
 
 }  // namespace
