@@ -80,9 +80,9 @@ SigningTime time_of_signature(Frame const& frame) {
   return time;
 }
 
-bool tells_a_key(Frame const& frame) {
+bool tells_a_key(std::uint32_t message_id) {
   constexpr std::uint32_t setup_signing = 256;
-  return frame.message_id == setup_signing;
+  return message_id == setup_signing;
 }
 
 }  // namespace lapwing::mavlink

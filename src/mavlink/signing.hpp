@@ -29,7 +29,11 @@ void sign(Frame& frame, SigningKey const& key, std::uint8_t link_id, SigningTime
 /// Of a signed frame.
 [[nodiscard]] SigningTime time_of_signature(Frame const& frame);
 
-/// Whether the frame tells a key to whoever reads it (SETUP_SIGNING): it is neither recorded nor passed on.
-[[nodiscard]] bool tells_a_key(Frame const& frame);
+/// Whether such a message tells a key to whoever reads it (SETUP_SIGNING): it is not recorded, and routers show it to
+/// nobody but its addressee.
+[[nodiscard]] bool tells_a_key(std::uint32_t message_id);
+[[nodiscard]] inline bool tells_a_key(Frame const& frame) {
+  return tells_a_key(frame.message_id);
+}
 
 }  // namespace lapwing::mavlink

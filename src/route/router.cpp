@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mavlink/signing.hpp"
 #include "route/internal/channel.hpp"
 
 namespace lapwing::route {
@@ -86,7 +87,8 @@ void Router::take(Channel& from, mavlink::FrameView const& frame, base::TimePoin
     return;
   }
   table_.learn(frame.source, from.id, now);
-  if (frame.target().system == 0) return send_to_all(from, frame, now);
+  bool const is_for_all = frame.target().system == 0 && !mavlink::tells_a_key(frame.message_id);
+  if (is_for_all) return send_to_all(from, frame, now);
   if (!send_to_one(from, frame, now)) ++in.unroutable;
 }
 
@@ -97,7 +99,7 @@ void Router::send_to_all(Channel const& from, mavlink::FrameView const& frame, b
   }
 }
 
-/// To everyone who looks on, too, whether or not the addressee is known.
+/// To everyone who looks on, too, whether or not the addressee is known; but keys are nobody else's business.
 bool Router::send_to_one(Channel const& from, mavlink::FrameView const& frame, base::TimePoint now) {
   bool is_known = false;
   table_.for_each(frame.target(), [&](ChannelId id) {
@@ -105,6 +107,7 @@ bool Router::send_to_one(Channel const& from, mavlink::FrameView const& frame, b
     channels_[id]->offer(frame, now);
     is_known = true;
   });
+  if (mavlink::tells_a_key(frame.message_id)) return is_known;
   for (auto* to : active_) {
     if (to->endpoint.options.is_sniffer) to->offer(frame, now);
   }

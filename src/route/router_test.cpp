@@ -216,6 +216,27 @@ TEST_F(RouterTest, ShowsASnifferEverythingAndHearsItNot) {
   EXPECT_EQ(counters(2).in.read_only, 2u);
 }
 
+TEST_F(RouterTest, ShowsAKeyToNobodyButItsAddressee) {
+  auto& vehicle = join(add_hub());
+  auto& other = join(add_hub());
+  auto& sniffer = join(add_hub({.name = "sniffer", .is_sniffer = true}));
+  auto& ground = join(add_hub());
+  vehicle.say(packet("HEARTBEAT", {.source = {1, 1}}));
+  other.say(packet("HEARTBEAT", {.source = {2, 1}}));
+  sniffer.say(packet("HEARTBEAT", {.source = {250, 1}}));
+  ground.say(packet("HEARTBEAT", {.source = {255, 190}}));
+  settle();
+  for (auto& station : stations) station->take();
+  auto const setup = packet("SETUP_SIGNING", {.source = {255, 190}, .target = {1, 1}, .seq = 1});
+  ground.say(setup);
+  ground.say(packet("SETUP_SIGNING", {.source = {255, 190}, .target = {0, 0}, .seq = 2}));
+  settle();
+  EXPECT_EQ(vehicle.take(), Packets{setup.bytes});
+  EXPECT_EQ(other.take(), Packets{});
+  EXPECT_EQ(sniffer.take(), Packets{});
+  EXPECT_EQ(counters(3).in.unroutable, 1u) << "a key for everybody";
+}
+
 TEST_F(RouterTest, HearsNothingFromAReadOnlyEndpoint) {
   auto& vehicle = join(add_hub());
   auto& viewer = join(add_hub({.name = "viewer", .is_read_only = true}));
