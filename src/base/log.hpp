@@ -34,7 +34,8 @@ class LogHub {
   std::vector<Sink> sinks_;
 };
 
-/// Human lines with a time stamp on standard error, coloured on a terminal unless NO_COLOR is set.
+/// Human lines with a time stamp on standard error, coloured on a terminal unless NO_COLOR is set. Control characters
+/// of the text are shown as question marks.
 [[nodiscard]] LogHub::Sink standard_error_sink(LogLevel lowest);
 
 /// A cheap, copyable way to write to a hub under one name. The default one writes nowhere.
