@@ -108,7 +108,7 @@ class Station {
     return this.noteObjection(await this.connection.request({ type: 'command', action, vehicles, ...details, take_over }));
   }
 
-  /** Without an action: what the station is set to. */
+  /** Without an action: the one that is latched, else what the station is set to. */
   async emergencyStop(action?: StopAction): Promise<boolean> {
     return this.noteObjection(await this.connection.request({ type: 'emergency_stop', ...(action && { action }) }));
   }
