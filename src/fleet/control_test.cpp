@@ -274,6 +274,24 @@ TEST(Control, KeepsItsHandsOffAVehicleThatAScriptCommands) {
   EXPECT_EQ(world.run->state(), tasks::RunState::in_progress);
 }
 
+TEST(Control, KeepsAScriptFromMovingAVehicleThatAnOperatorCommands) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  EXPECT_EQ(world.end_of(world.give({.action = Action::set_mode, .mode = "GUIDED"})), CommandState::confirmed);
+  auto const says = [&](std::int64_t command) {
+    std::vector<tasks::MessageField> const fields{{"command", command}, {"param1", 1.0}};
+    return world.platform->send_message(VehicleId{"1"}, "COMMAND_LONG", fields);
+  };
+  auto const arms = says(400);
+  ASSERT_FALSE(arms);
+  EXPECT_EQ(arms.error().message, "copter 1 is commanded by operator 1");
+  EXPECT_TRUE(says(512)) << "a question moves nothing";
+  ASSERT_TRUE(world.control->yield_control(VehicleId{"1"}, "operator 1"));
+  EXPECT_TRUE(says(400));
+  world.run_for(1s);
+  EXPECT_TRUE(copter.is_armed);
+}
+
 TEST(Control, TakesAVehicleOverFromAScript) {
   WithScript world;
   ASSERT_TRUE(world.is_flying());

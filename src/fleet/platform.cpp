@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "fleet/operator_actions.hpp"
 #include "mavlink/raw_message.hpp"
 #include "tasks/mission_builder.hpp"
 #include "tasks/mission_task.hpp"
@@ -145,6 +146,10 @@ Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view messa
   auto& connection = craft->connection;
   auto frame = mavlink::raw_message(message, raw, connection.self(), craft->address);
   if (!frame) return std::unexpected(frame.error());
+  auto const& has = craft->state.control.commander;
+  auto const known = mavlink::decode(*frame);
+  if (!has.empty() && has != script_commander && known && is_moving(*craft, *known))
+    return base::fail(ErrorKind::refused, fmt::format("{} is commanded by {}", craft->state.name, has));
   auto sent = connection.send(craft->address, *frame);
   if (sent) log_.info(fmt::format("sent {} to {}", message, craft->state.name));
   return sent;
