@@ -22,6 +22,7 @@ namespace {
 constexpr base::Duration asked_recently = 15s;  // a mode that was commanded may take that long to show
 constexpr base::Duration station_is_here = 10s;
 constexpr base::Duration same_again = 10s;
+constexpr std::size_t most_told = 16;  // of what counts as the same again
 
 std::string name_of(Address station) {
   return fmt::format("station {}/{}", station.system, station.component);
@@ -119,10 +120,13 @@ std::string OtherStations::suspects() const {
 
 void OtherStations::tell(Craft& craft, std::string what) {
   auto const now = fleet_.loop().now();
-  auto& told = craft.state.foreign_change;
-  if (told.value == what && now - told.heard < same_again) return;
+  auto& lately = told_[craft.id()];
+  std::erase_if(lately, [now](Told const& told) { return now - told.at >= same_again; });
+  if (std::ranges::find(lately, what, &Told::what) != lately.end()) return;
+  if (lately.size() == most_told) lately.pop_front();
+  lately.push_back({what, now});
   log_.info(fmt::format("{}: {}", craft.state.name, what));
-  told.set(std::move(what), now);
+  craft.state.foreign_change.set(std::move(what), now);
   fleet_.registry().touch(craft.id());
 }
 

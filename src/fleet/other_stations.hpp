@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <string>
 
@@ -28,10 +29,16 @@ class OtherStations {
   void tell(Craft& craft, std::string what);
   [[nodiscard]] std::string suspects() const;
 
+  struct Told {
+    std::string what;
+    base::TimePoint at{};
+  };
+
   Fleet& fleet_;
   base::Logger log_;
   std::map<mavlink::Address, base::TimePoint> stations_;  ///< heard, and when last
   std::map<vehicle::VehicleId, std::uint32_t> modes_;     ///< of the last heartbeat
+  std::map<vehicle::VehicleId, std::deque<Told>> told_;   ///< lately, not to be told again and again
   std::shared_ptr<Fleet::Heard const> subscription_;
 };
 

@@ -1,5 +1,7 @@
 #include "fleet/other_stations.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "fleet/test_control.hpp"
@@ -37,6 +39,25 @@ TEST(OtherStations, ShowInCommandsThatAreForwarded) {
   copter.send_as(other, mavlink::CommandLong{.target = {1, 1}, .command = MavCmd::mission_start});
   world.run_for(100ms);
   EXPECT_EQ(world.state().foreign_change.value, "station 252/190 commanded MISSION_START");
+}
+
+TEST(OtherStations, AreToldOfOnceThoughTheyCommandAllTheTime) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  world.lines.clear();
+  for (int i = 0; i < 50; ++i) {
+    copter.send_as(other, mavlink::CommandLong{.target = {1, 1}, .command = MavCmd::do_change_speed});
+    copter.send(mavlink::CommandAck{.target = other, .command = MavCmd::do_change_speed});
+    world.run_for(100ms);
+  }
+  auto const tells = [](std::string const& line) {
+    return line.find("commanded DO_CHANGE_SPEED") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(world.lines, tells), 2) << "the command, and what came of it";
+  world.run_for(10s);
+  copter.send(mavlink::CommandAck{.target = other, .command = MavCmd::do_change_speed});
+  world.run_for(100ms);
+  EXPECT_EQ(std::ranges::count_if(world.lines, tells), 3);
 }
 
 TEST(OtherStations, ShowInPlansThatChange) {
