@@ -18,6 +18,10 @@ Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Optio
   open(connection, std::move(options));
 }
 
+Fleet::~Fleet() {
+  for (auto const& network : networks_) network->connection().set_send_guard({});
+}
+
 void Fleet::add(mavlink::Connection& connection, std::string name) {
   auto options = options_;
   options.name = std::move(name);

@@ -22,6 +22,7 @@ class Fleet {
 
   /// Connections and registry outlive the fleet.
   Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log);
+  ~Fleet();
   Fleet(Fleet const&) = delete;
   Fleet& operator=(Fleet const&) = delete;
 

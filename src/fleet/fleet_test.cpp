@@ -322,5 +322,14 @@ TEST(Fleet, NeverLowersARateThatTheLinkLoses) {
   EXPECT_EQ(copter.interval(MessageId::attitude), 150ms);
 }
 
+TEST(Fleet, LeavesItsConnectionsToOthersWhenItEnds) {
+  TestWorld world;
+  world.add();
+  world.run_for(2s);
+  world.platform.reset();
+  world.fleet.reset();
+  EXPECT_TRUE(world.connection.send({1, 1}, mavlink::ParamRequestList{}));
+}
+
 }  // namespace
 }  // namespace lapwing::fleet
