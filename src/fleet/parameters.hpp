@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/log.hpp"
+#include "base/scope.hpp"
+#include "fleet/fleet.hpp"
+#include "parameters/service.hpp"
+#include "vehicle/parameters.hpp"
+
+namespace lapwing::fleet {
+
+/// The parameters of a fleet's vehicles: each network has a `parameters::ParameterService`, who may change what is the
+/// `Authority`'s say, as with commands. Thread-bound.
+class Parameters final : public vehicle::VehicleParameters {
+ public:
+  /// `fleet` outlives this.
+  Parameters(Fleet& fleet, parameters::Cache cache, base::Logger log);
+  Parameters(Parameters const&) = delete;
+  Parameters& operator=(Parameters const&) = delete;
+
+  /// The connection of one of the fleet's networks; outlives this.
+  void add(mavlink::Connection& connection);
+
+  [[nodiscard]] base::Task<base::Result<vehicle::ParameterList>> all(vehicle::VehicleId id, bool old_ones_do) override;
+  [[nodiscard]] std::optional<vehicle::ParameterProgress> progress(vehicle::VehicleId const& id) const override;
+  [[nodiscard]] base::Task<base::Result<std::string>> file(vehicle::VehicleId id, bool old_ones_do) override;
+  [[nodiscard]] base::Task<base::Result<vehicle::Parameter>> read(vehicle::VehicleId id, std::string name) override;
+  [[nodiscard]] base::Task<base::Result<vehicle::ParameterChange>> change(vehicle::VehicleId id, std::string name,
+                                                                          double value, vehicle::Commander by) override;
+
+ private:
+  using Snapshot = base::Result<parameters::Snapshot>;
+  /// A list on its way, for everybody who has asked for it.
+  struct Fetch {
+    explicit Fetch(base::Loop& loop) : ended(loop) {}
+    vehicle::ParameterProgress progress;
+    std::optional<Snapshot> result;
+    base::Notifier ended;
+  };
+  class Loan;
+
+  [[nodiscard]] base::Result<Craft*> find(vehicle::VehicleId const& id) const;
+  [[nodiscard]] parameters::ParameterService& service_of(Craft const& craft);
+  base::Task<Snapshot> snapshot(vehicle::VehicleId id, bool old_ones_do);
+  base::Task<> fetch(Craft& craft, std::shared_ptr<Fetch> into, parameters::Wanted wanted);
+
+  Fleet& fleet_;
+  parameters::Cache cache_;
+  base::Logger log_;
+  std::map<mavlink::Connection*, parameters::ParameterService> services_;
+  std::map<vehicle::VehicleId, std::shared_ptr<Fetch>> fetches_;
+  std::map<vehicle::VehicleId, int> loans_;  ///< changes under way on vehicles that nobody commanded before
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::fleet
