@@ -13,6 +13,7 @@ const SHOTS = [
   { name: 'phone', scheme: 'dark', size: { width: 360, height: 740 } },
   { name: 'command', scheme: 'dark', size: { width: 1280, height: 800 }, before: command },
   { name: 'command-900', scheme: 'light', size: { width: 900, height: 800 }, before: command },
+  { name: 'parameters', scheme: 'dark', size: { width: 1280, height: 800 }, before: parameters },
   { name: 'emergency', scheme: 'dark', size: { width: 1280, height: 800 }, before: stopAll },
 ];
 /** Several vehicles commanded, with what each made of it. */
@@ -25,6 +26,15 @@ async function command(page) {
   await page.waitForTimeout(1000);
   await page.mouse.up();
   await page.waitForTimeout(2500);
+}
+/** Fetched, filtered, and one about to be changed. */
+async function parameters(page) {
+  await page.locator('#vehicles tbody tr', { hasText: 'copter 2' }).click();
+  const panel = page.locator('#parameters');
+  await panel.getByRole('button', { name: 'Parameters' }).click();
+  await panel.getByRole('button', { name: 'Fetch parameters' }).click();
+  await panel.getByLabel('Filter by name').fill('alt');
+  await panel.getByRole('button', { name: 'Change RTL_ALT' }).click();
 }
 async function stopAll(page) {
   await page.getByRole('button', { name: 'E-STOP' }).click();

@@ -269,7 +269,7 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   vehicle::Registry registry(loop);
   DemoScript script(loop, log.named("script"));
   testing::DemoControl control(loop, registry);
-  testing::FakeParameters parameters(loop, 2s);
+  testing::FakeParameters parameters(loop, 4s);
   Station::Options options;
   options.control = &control;
   options.parameters = &parameters;

@@ -1,6 +1,7 @@
 import { Connection } from './connection';
 import { addPictures, extendTrail, mergeUpdates, type Fleet } from './fleet';
 import { appendLines } from './log';
+import { VehicleParameters } from './parameters.svelte';
 import {
   PROTOCOL,
   type Action,
@@ -53,6 +54,7 @@ class Station {
   /** Why the last request was refused; empty when it was not. */
   refusal = $state.raw<{ message: string; hint: string; diagnostics: Diagnostic[] } | undefined>(undefined);
 
+  private readonly parameters = new Map<string, VehicleParameters>();
   private lastSeq = 0;
   /** The station's clock in s at this browser's 0. */
   private clockOffset_s = 0;
@@ -146,9 +148,18 @@ class Station {
     if (answer?.ok) this.scripts = ((await answer.json()) as { scripts: { name: string }[] }).scripts.map(({ name }) => name);
   }
 
-  private async ask(address: string): Promise<Response | undefined> {
+  /** That vehicle's parameters, as far as anybody here has asked for them. */
+  parametersOf(vehicle: string): VehicleParameters {
+    const known = this.parameters.get(vehicle) ?? new VehicleParameters(vehicle, (address, init) => this.ask(address, init));
+    this.parameters.set(vehicle, known);
+    return known;
+  }
+
+  private async ask(address: string, init: RequestInit = {}): Promise<Response | undefined> {
+    const headers = new Headers(init.headers);
+    if (this.token) headers.set('Authorization', `Bearer ${this.token}`);
     try {
-      return await fetch(address, { headers: this.token ? { Authorization: `Bearer ${this.token}` } : {} });
+      return await fetch(address, { ...init, headers });
     } catch {
       return undefined;
     }
