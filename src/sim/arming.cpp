@@ -7,7 +7,7 @@ namespace lapwing::sim {
 std::optional<std::string> arming_refusal(ArmingView const& view) {
   if (!view.fault.empty()) return view.fault;
   if (!view.checks_passed) return "AHRS: waiting for home";
-  if (!view.fence_objection.empty()) return view.fence_objection;
+  if (!view.objection.empty()) return view.objection;
   bool const in_auto = view.mode.behaviour == Behaviour::mission;
   if (in_auto && !view.has_mission) return "Mode requires mission";
   if (!view.mode.armable && !(in_auto && view.arm_in_auto)) return fmt::format("{} mode not armable", view.mode.name);

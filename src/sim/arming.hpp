@@ -15,8 +15,8 @@ struct ArmingView {
   bool checks_passed = false;  ///< start-up is through with its own checks
   bool arm_in_auto = false;    ///< AUTO_OPTIONS allows a copter to arm in AUTO
   bool has_mission = false;
-  std::string const& fence_objection;  ///< which limit of the fence is breached; empty: none
-  std::string const& fault;            ///< an injected reason; empty: none
+  std::string const& objection;  ///< a breached fence, a lost radio; empty: none
+  std::string const& fault;      ///< an injected reason; empty: none
 };
 
 /// Why the vehicle does not arm, in ArduPilot's words without the "Arm: "; nothing when it may.

@@ -46,9 +46,9 @@ void Autopilot::read_parameters() {
 
 MavResult Autopilot::arm(bool force) {
   if (armed_) return MavResult::accepted;
-  auto const fence = fence_.objection();
+  auto const why = objection();
   auto const refusal = arming_refusal({*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, tuning_.arm_in_auto,
-                                       plans_.mission.size() > 1, fence, arming_fault_});
+                                       plans_.mission.size() > 1, why, arming_fault_});
   if (refusal && !force) {
     outbox_.say(MavSeverity::critical, fmt::format("{}{}", words_.arming_refused, *refusal));
     return MavResult::failed;
@@ -60,6 +60,7 @@ MavResult Autopilot::arm(bool force) {
   if (!home_locked_ && navigation_.position_ok) {
     home_ = body_.position_m;
   }
+  trail_.begin(body_.position_m);
   outbox_.home_changed = true;
   outbox_.say(MavSeverity::info, std::string(words_.armed));
   enter(*mode_);
@@ -93,6 +94,7 @@ bool Autopilot::may_enter(FlightMode const& mode) {
     return false;
   };
   if (mode.needs_position && !position) return refuse("requires position");
+  if (mode.behaviour == Behaviour::retrace && !trail_.usable()) return refuse("init failed");
   if (kind_.is_px4()) {
     auto const objection = px4_objection(mode);
     return objection ? refuse(*objection) : true;
@@ -123,8 +125,10 @@ MavResult Autopilot::set_mode(std::uint32_t number) {
   bool const recovers = fence_took_over_ && safety_.fence.holds_mode && fence_.breached() != 0 && armed_;
   if (recovers && !body_.on_ground && number != mode_->number) {
     auto const* wanted = find_mode(kind_, number);
-    outbox_.say(MavSeverity::warning,
-                fmt::format("Mode change to {} failed: in fence recovery", wanted ? wanted->name : "?"));
+    bool const is_plane = airframe_.family == Family::plane;
+    outbox_.say(is_plane ? MavSeverity::notice : MavSeverity::warning,
+                fmt::format("Mode change to {} {} in fence recovery", wanted ? wanted->name : "?",
+                            is_plane ? "denied," : "failed:"));
     return MavResult::failed;
   }
   auto const result = change_mode(number);
@@ -141,12 +145,17 @@ MavResult Autopilot::change_mode(std::uint32_t number) {
   if (mode == mode_) return MavResult::accepted;
   if (!may_enter(*mode)) return MavResult::failed;
   if (mode_->behaviour == Behaviour::mission) mission_.suspend();
+  if (auto const* back = std::get_if<Retrace>(&logic_)) trail_.keep(back->left());
   if (mode->behaviour == Behaviour::mission && tuning_.restart_mission) mission_.restart();
   speed_override_.reset();
   parameters_read_ = 0;
   read_parameters();
   enter(*mode);
   outbox_.mode_changed = true;
+  if (fence_.breached() != 0 && armed_ && !kind_.is_px4()) {
+    outbox_.say(MavSeverity::info, "Manual recovery started");
+    fence_.begin_recovery(now_);
+  }
   return MavResult::accepted;
 }
 
@@ -167,6 +176,7 @@ Autopilot::Logic Autopilot::logic_for(FlightMode const& mode) const {
       if (airframe_.family == Family::sub) return HoldAt{{rest.north, rest.east, 0.0}};
       return Landing(rest);
     case Behaviour::return_home: return ReturnHome();
+    case Behaviour::retrace: return Retrace(trail_.tidied(tuning_.trail));
     case Behaviour::circle: return Circle{rest, airframe_.family == Family::plane ? pace_.loiter_radius_m : 10.0};
     case Behaviour::hold: return HoldAt{rest};
     case Behaviour::take_off: {
@@ -272,9 +282,11 @@ std::uint8_t Autopilot::base_mode() const {
   return static_cast<std::uint8_t>(mode_->base_mode | (armed_ ? mavlink::mode_flag::safety_armed : 0U));
 }
 
+/// ArduRover does not call a low battery critical.
 bool Autopilot::failsafe_active() const {
-  bool const battery = battery_watch_.active() && (!kind_.is_px4() || safety_.on_critical_battery);
-  return ground_station_.active() || battery || estimate_failed_;
+  bool const shows_battery = kind_.is_px4() ? !safety_.on_critical_battery.empty() : airframe_.family != Family::rover;
+  bool const link = kind_.is_px4() ? ground_station_.active() : link_failsafe_;
+  return link || (shows_battery && battery_watch_.active()) || estimate_failed_;
 }
 
 MavState Autopilot::system_status() const {
@@ -295,12 +307,11 @@ MavState Autopilot::system_status() const {
 }
 
 bool Autopilot::prearm_ok() const {
-  auto const fence = fence_.objection();
-  ArmingView const view{*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, fence, arming_fault_};
+  auto const why = objection();
+  ArmingView const view{*mode_, navigation_, now_ >= start_up_.timeline().prearm_ok, true, true, why, arming_fault_};
   // The periodic check does not ask whether this mode may arm, only whether the vehicle is fit for it. Before the
   // position is there the bit depends on the mode: healthy in STABILIZE, not in GUIDED.
-  return view.checks_passed && view.fault.empty() && fence.empty() &&
-         (!mode_->needs_position || navigation_.position_ok);
+  return view.checks_passed && view.fault.empty() && why.empty() && (!mode_->needs_position || navigation_.position_ok);
 }
 
 mavlink::MavLandedState Autopilot::landed_state() const {

@@ -13,6 +13,7 @@
 #include "sim/parameters.hpp"
 #include "sim/return_home.hpp"
 #include "sim/safety.hpp"
+#include "sim/trail.hpp"
 #include "sim/tuning.hpp"
 #include "sim/words.hpp"
 
@@ -79,6 +80,11 @@ class Autopilot {
   [[nodiscard]] bool armed() const { return armed_; }
   [[nodiscard]] FenceWatch const& fence() const { return fence_; }
   [[nodiscard]] bool fence_enabled() const { return fence_.enabled(safety_.fence); }
+  [[nodiscard]] bool fence_present() const { return fence_.present(safety_.fence); }
+  /// Whether a breach would be acted on.
+  [[nodiscard]] bool fence_acts() const { return fence_enabled() && !safety_.fence.action.empty(); }
+  [[nodiscard]] bool radio_lost() const { return radio_.active(); }
+  [[nodiscard]] RadioSignal radio_signal() const { return safety_.signal; }
   /// Home; nothing before the origin is set.
   [[nodiscard]] std::optional<geo::Ned> home() const;
   [[nodiscard]] base::Duration now() const { return now_; }
@@ -90,7 +96,7 @@ class Autopilot {
   [[nodiscard]] BootTimeline const& boot() const { return start_up_.timeline(); }
 
  private:
-  using Logic = std::variant<std::monostate, Guided, Landing, ReturnHome, Circle, HoldAt, TakeOff>;
+  using Logic = std::variant<std::monostate, Guided, Landing, ReturnHome, Retrace, Circle, HoldAt, TakeOff>;
 
   [[nodiscard]] FlightContext context(double utc_day_s) const;
   void read_parameters();
@@ -110,14 +116,34 @@ class Autopilot {
   Goal fly_mission(FlightContext const& flight);
   void end_mission(FlightContext const& flight);
   Goal hold_on_the_ground(Goal goal, FlightContext const& flight);
+  template <class Way>
+  Goal go_home(Way& way, FlightContext const& flight);
+  [[nodiscard]] Goal kept_in_the_fence(Goal goal) const;
+  void follow_trail();
+
+  // What goes wrong and what is done about it, in autopilot_failsafes.cpp.
   void watch_health();
   void watch_ground_station();
+  void watch_radio();
+  void watch_plane_radio(SilenceWatch::Event event);
   void watch_estimate();
   void watch_battery();
   void watch_fence();
+  void tell_of_the_fence(FenceWatch::News const& news);
+  void answer_breach(unsigned limits);
   void watch_gps();
-  /// Changes the mode by itself, as far as it is needed and possible.
-  void act(Behaviour behaviour);
+  /// Changes the mode by itself: tries one after the other.
+  void act(Reaction const& reaction);
+  /// What a lost link changes: it is told, and the vehicle reacts unless it may carry on.
+  void lose_link(std::string_view type, LossSettings const& loss);
+  void lose_link_on_copter(std::string_view type, LossSettings const& loss);
+  void lose_link_on_rover(std::string_view type, LossSettings const& loss);
+  void lose_link_on_plane(std::string_view type, LossSettings const& loss);
+  void regain_link(std::string_view type);
+  [[nodiscard]] bool is_disarmed_by_failsafes() const;
+  [[nodiscard]] std::string_view reason_to_carry_on(LossSettings const& loss, bool is_radio) const;
+  /// Why it must not arm that lies outside of the modes and its estimate; empty: nothing.
+  [[nodiscard]] std::string objection() const;
   void disarm_when_idle();
   void notice_touch_down();
   void repeat_prearm_fault();
@@ -131,7 +157,8 @@ class Autopilot {
   MissionRunner mission_;
   StartUp start_up_;
   BatteryPack battery_;
-  GroundStationWatch ground_station_;
+  SilenceWatch ground_station_;
+  SilenceWatch radio_;
   BatteryWatch battery_watch_;
   FenceWatch fence_;
   Navigation navigation_;
@@ -150,7 +177,10 @@ class Autopilot {
   bool has_flown_ = false;         ///< since it was armed
   bool estimate_failed_ = false;
   bool gps_is_cut_off_ = false;
-  bool fence_took_over_ = false;  ///< the mode is what a breach made of it
+  bool fence_took_over_ = false;                      ///< the mode is what a breach made of it
+  bool link_failsafe_ = false;                        ///< a lost link has been acted on
+  std::optional<base::Duration> long_radio_loss_at_;  ///< an aeroplane's second reaction is due
+  Trail trail_;
   std::optional<double> speed_override_;
   std::optional<double> take_off_height_m_;  ///< above home, asked for by command
   std::optional<base::Duration> setpoint_heard_;

@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/autopilot.hpp"
 #include "sim/guidance.hpp"
-#include "sim/px4_modes.hpp"
 
 namespace lapwing::sim {
 
@@ -32,15 +32,26 @@ void Autopilot::step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, do
   read_parameters();
   watch_health();
   auto const flight = context(utc_day_s);
-  goal_ = armed_ ? fly(flight) : Goal{StandStill{}};
+  goal_ = armed_ ? kept_in_the_fence(fly(flight)) : Goal{StandStill{}};
   leave_take_off();
   if (battery_.remaining() <= 0.0) goal_ = StandStill{};
   body_ = sim::step(body_, steer(goal_, body_, airframe_, pace_), airframe_, wind_m_s, dt_s);
   battery_.drain(current_drawn_a(body_, airframe_, armed_), dt_s);
   if (armed_ && !body_.on_ground) has_flown_ = true;
+  follow_trail();
   notice_touch_down();
   disarm_when_idle();
   repeat_prearm_fault();
+}
+
+template <class Way>
+Goal Autopilot::go_home(Way& way, FlightContext const& flight) {
+  bool const had_finished = way.finished();
+  Goal const goal = way.update(flight);
+  if (!way.finished() || had_finished || kind_.is_px4()) return goal;
+  if (airframe_.family == Family::copter) do_disarm(words_.disarmed_after_landing);
+  if (airframe_.family == Family::rover) outbox_.say(MavSeverity::info, "Reached destination");
+  return goal;
 }
 
 Goal Autopilot::fly(FlightContext const& flight) {
@@ -58,12 +69,8 @@ Goal Autopilot::fly(FlightContext const& flight) {
                        if (logic.finished() && !kind_.is_px4()) do_disarm(words_.disarmed_after_landing);
                        return next;
                      },
-                     [&](ReturnHome& logic) {
-                       Goal const next = logic.update(flight);
-                       bool const at_once = airframe_.family == Family::copter && !kind_.is_px4();
-                       if (logic.finished() && at_once) do_disarm(words_.disarmed_after_landing);
-                       return next;
-                     },
+                     [&](ReturnHome& logic) { return go_home(logic, flight); },
+                     [&](Retrace& logic) { return go_home(logic, flight); },
                      [](Circle const& logic) { return Goal{logic}; },
                      [](HoldAt const& logic) { return Goal{logic}; },
                      [&](TakeOff const& logic) {
@@ -140,94 +147,29 @@ Goal Autopilot::hold_on_the_ground(Goal goal, FlightContext const& flight) {
   return now_ < *lift_at_ ? Goal{Idle{}} : goal;
 }
 
-void Autopilot::act(Behaviour behaviour) {
-  if (!armed_ || mode_->behaviour == behaviour || mode_->behaviour == Behaviour::land) return;
-  auto const& mode = mode_for(kind_, behaviour);
-  bool const can_land = airframe_.family == Family::copter || airframe_.family == Family::sub;
-  if (mode.needs_position && !navigation_.position_ok) {
-    if (can_land && behaviour != Behaviour::land) act(Behaviour::land);
-    return;
+/// Where ArduPilot's avoidance is on, a velocity setpoint takes no vehicle nearer to its fence than the margin.
+Goal Autopilot::kept_in_the_fence(Goal goal) const {
+  auto* const cruise = std::get_if<Cruise>(&goal);
+  auto const family = airframe_.family;
+  bool const avoids = tuning_.avoids_fence && (family == Family::copter || family == Family::rover);
+  if (!cruise || !avoids || !fence_enabled() || fence_.breached() != 0) return goal;
+  auto const& v = cruise->velocity_m_s;
+  double const speed = std::hypot(v.north, v.east);
+  double const reach_s = 1.0 + speed / (2.0 * std::max(0.5, pace_.accel_m_s2));
+  for (double const share : {1.0, 0.5, 0.25, 0.1}) {
+    geo::Ned point = body_.position_m;
+    double const margin_s = speed > 0.0 ? safety_.fence.margin_m / speed : 0.0;
+    point.north += v.north * (reach_s * share * share + margin_s);
+    point.east += v.east * (reach_s * share * share + margin_s);
+    if (fence_.allows(point, home_, safety_.fence)) return Cruise{{v.north * share, v.east * share, v.down}};
   }
-  change_mode(mode.number);
+  return Cruise{{0.0, 0.0, v.down}};
 }
 
-void Autopilot::watch_health() {
-  watch_ground_station();
-  watch_gps();
-  watch_estimate();
-  watch_battery();
-  watch_fence();
-  watch_setpoints();
-}
-
-/// PX4 leaves OFFBOARD when nobody guides it any more.
-void Autopilot::watch_setpoints() {
-  if (mode_->number != px4_offboard || !kind_.is_px4() || !setpoint_heard_) return;
-  if (now_ - *setpoint_heard_ <= tuning_.guided_timeout) return;
-  outbox_.say(MavSeverity::warning, "Failsafe activated: no offboard signal");
-  change_mode(mode_for(kind_, Behaviour::hold).number);
-}
-
-void Autopilot::watch_ground_station() {
-  auto const event = ground_station_.update(now_, safety_.watches_ground_station, safety_.ground_station_patience);
-  if (event == GroundStationWatch::Event::returned)
-    outbox_.say(MavSeverity::warning, std::string(words_.ground_station_back));
-  if (event != GroundStationWatch::Event::lost) return;
-  outbox_.say(MavSeverity::warning, std::string(words_.ground_station_lost));
-  bool const goes_on = safety_.keeps_mission && mode_->behaviour == Behaviour::mission;
-  if (safety_.on_ground_station_lost && !goes_on) act(*safety_.on_ground_station_lost);
-}
-
-void Autopilot::watch_gps() {
-  if (safety_.gps_is_cut_off == gps_is_cut_off_) return;
-  gps_is_cut_off_ = safety_.gps_is_cut_off;
-  if (gps_is_cut_off_) {
-    lose_gps();
-  } else {
-    restore_gps();
-  }
-}
-
-void Autopilot::watch_estimate() {
-  bool const failed = start_up_.estimate_lost(now_);
-  if (failed && !estimate_failed_ && armed_) {
-    outbox_.say(MavSeverity::critical, "EKF variance");
-    bool const matters = mode_->needs_position || safety_.in_every_mode;
-    if (safety_.on_estimate_lost && matters) {
-      act(*safety_.on_estimate_lost);
-      outbox_.say(MavSeverity::critical, fmt::format("EKF Failsafe: changed to {} Mode", mode_->name));
-    }
-  }
-  estimate_failed_ = failed && (estimate_failed_ || armed_);
-}
-
-void Autopilot::watch_battery() {
-  auto const reached = battery_watch_.update(now_, battery_, safety_.battery);
-  if (!reached) return;
-  bool const critical = *reached == BatteryWatch::Level::critical;
-  outbox_.say(MavSeverity::warning,
-              fmt::format("Battery 1 is {} {:.2f}V used {:.0f} mAh", critical ? "critical" : "low",
-                          battery_.voltage_v(), battery_.used_mah()));
-  auto const action = critical ? safety_.on_critical_battery : safety_.on_low_battery;
-  if (!action) return;
-  outbox_.say(MavSeverity::warning, std::string(words_.battery_acted));
-  act(*action);
-}
-
-void Autopilot::watch_fence() {
-  auto const fresh = fence_.update({.body = body_,
-                                    .site = site_,
-                                    .home = home_,
-                                    .plan = plans_.fence,
-                                    .settings = safety_.fence,
-                                    .position_ok = navigation_.position_ok,
-                                    .now = now_});
-  if (fence_.breached() == 0) fence_took_over_ = false;
-  if (fresh == 0 || !armed_) return;
-  outbox_.say(MavSeverity::notice, std::string(words_.fence_breached));
-  if (!safety_.fence.action) return;
-  act(*safety_.fence.action);
-  fence_took_over_ = true;
+void Autopilot::follow_trail() {
+  if (!armed_ || !navigation_.position_ok || mode_->behaviour == Behaviour::retrace || kind_.is_px4()) return;
+  if (!trail_.note(body_.position_m, tuning_.trail))
+    outbox_.say(MavSeverity::warning, "SmartRTL deactivated: buffer full");
 }
 
 void Autopilot::notice_touch_down() {
@@ -250,9 +192,9 @@ void Autopilot::disarm_when_idle() {
 }
 
 void Autopilot::repeat_prearm_fault() {
-  auto const objection = arming_fault_.empty() ? fence_.objection() : arming_fault_;
-  if (armed_ || objection.empty() || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
-  outbox_.say(MavSeverity::critical, fmt::format("{}{}", words_.unfit, objection));
+  auto const why = arming_fault_.empty() ? objection() : arming_fault_;
+  if (armed_ || why.empty() || now_ < start_up_.timeline().prearm_ok || now_ < next_prearm_text_) return;
+  outbox_.say(MavSeverity::critical, fmt::format("{}{}", words_.unfit, why));
   next_prearm_text_ = now_ + prearm_repeat_time;
 }
 

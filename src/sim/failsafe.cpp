@@ -2,7 +2,7 @@
 
 namespace lapwing::sim {
 
-GroundStationWatch::Event GroundStationWatch::update(base::Duration now, bool enabled, base::Duration patience) {
+SilenceWatch::Event SilenceWatch::update(base::Duration now, bool enabled, base::Duration patience) {
   if (!enabled || !heard_) {
     active_ = false;
     return Event::none;

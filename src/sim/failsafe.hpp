@@ -7,12 +7,13 @@
 
 namespace lapwing::sim {
 
-/// Notices that the ground station's heartbeats stopped, and that they came back.
-class GroundStationWatch {
+/// Notices that what came regularly stopped, and that it came back: a ground station's heartbeats, a transmitter's
+/// pulses.
+class SilenceWatch {
  public:
   enum class Event { none, lost, returned };
   void heard(base::Duration now) { heard_ = now; }
-  /// Never triggers before the first heartbeat, nor while disabled.
+  /// Never triggers before anything was heard, nor while disabled.
   Event update(base::Duration now, bool enabled, base::Duration patience);
   [[nodiscard]] bool active() const { return active_; }
 

@@ -92,4 +92,10 @@ bool contains(FenceArea const& area, geo::Ned point) {
   return std::hypot(point.north - area.center.north_m, point.east - area.center.east_m) <= area.radius_m;
 }
 
+double distance_to_edge_m(FenceArea const& area, geo::Ned point) {
+  if (!area.polygon.rings.empty()) return plan::distance_to_edge_m(area.polygon, {point.north, point.east});
+  double const off_m = std::hypot(point.north - area.center.north_m, point.east - area.center.east_m);
+  return std::abs(off_m - area.radius_m);
+}
+
 }  // namespace lapwing::sim

@@ -25,5 +25,7 @@ struct FenceArea {
 /// The areas of a good fence.
 [[nodiscard]] std::vector<FenceArea> fence_areas(MissionPlan const& fence, Site const& site);
 [[nodiscard]] bool contains(FenceArea const& area, geo::Ned point);
+/// From inside or outside.
+[[nodiscard]] double distance_to_edge_m(FenceArea const& area, geo::Ned point);
 
 }  // namespace lapwing::sim

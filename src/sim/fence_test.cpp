@@ -12,7 +12,13 @@ using namespace mavlink;
 
 constexpr int guided = 4;
 
+/// Switches off what keeps guided flight inside, so that fences can be breached.
+void do_not_avoid(TestGround& ground) {
+  (void)ground.vehicle().parameters().set("AVOID_ENABLE", 0);
+}
+
 void set(TestGround& ground, std::initializer_list<std::pair<char const*, float>> parameters) {
+  do_not_avoid(ground);
   for (auto const& [name, value] : parameters) EXPECT_TRUE(ground.vehicle().parameters().set(name, value)) << name;
 }
 
@@ -77,9 +83,9 @@ TEST(Fence, SendsACopterHomeThatLeavesTheCircleAndItsStateStaysActive) {
   hover(ground, 10);
   ground.request(MessageId::fence_status, 5);
   fly(ground, {8, 0, 0}, 5s);
-  EXPECT_EQ(ground.said("Fence Breached"), 0);
+  EXPECT_EQ(ground.said("Circle fence breached"), 0);
   fly(ground, {8, 0, 0}, 5s);
-  EXPECT_EQ(ground.said("Fence Breached"), 1);
+  EXPECT_EQ(ground.said("Circle fence breached"), 1);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
   EXPECT_EQ(ground.last<Heartbeat>()->system_status, MavState::active);
   EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 1);
@@ -102,7 +108,7 @@ TEST(Fence, DoesWhatItsActionSays) {
     hover(ground, 10);
     ground.request(MessageId::fence_status, 5);
     fly(ground, {0, 0, -2.5}, 7s);
-    EXPECT_EQ(ground.said("Fence Breached"), 1) << action;
+    EXPECT_EQ(ground.said("Max Alt fence breached"), 1) << action;
     EXPECT_EQ(ground.pilot().mode().name, mode);
     EXPECT_EQ(ground.last<FenceStatus>()->breach_type, 2) << "by height";
   }
@@ -142,7 +148,7 @@ TEST(Fence, KeepsACopterInThePolygonThatWasUploaded) {
   hover(ground, 10);
   fly(ground, {0, 8, 0}, 12s);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
-  EXPECT_EQ(ground.said("Fence Breached"), 1);
+  EXPECT_EQ(ground.said("Polygon fence breached"), 1);
 }
 
 TEST(Fence, RefusesArmingInsideAnExclusionZone) {
@@ -167,11 +173,14 @@ TEST(Fence, IsSwitchedByCommandAndReportsThatItIsOnWithItsHealth) {
   ground.boot();
   ground.request(MessageId::sys_status, 10);
   ground.run_for(500ms);
-  EXPECT_EQ(ground.last<SysStatus>()->sensors_present & sensor_flag::geofence, 0u);
+  EXPECT_NE(ground.last<SysStatus>()->sensors_present & sensor_flag::geofence, 0u) << "it could be switched on";
+  EXPECT_EQ(ground.last<SysStatus>()->sensors_enabled & sensor_flag::geofence, 0u);
+  EXPECT_EQ(ground.command(MavCmd::request_message, {162}), MavResult::failed);
   EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {1}), MavResult::accepted);
   EXPECT_EQ(ground.command(MavCmd::request_message, {162}), MavResult::accepted);
   EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 0);
   ground.run_for(500ms);
+  EXPECT_NE(ground.last<SysStatus>()->sensors_enabled & sensor_flag::geofence, 0u);
   EXPECT_NE(ground.last<SysStatus>()->sensors_health & sensor_flag::geofence, 0u);
   EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {7}), MavResult::failed);
 }
@@ -183,7 +192,8 @@ TEST(Fence, StopsARover) {
   ground.set_mode(15);
   ASSERT_EQ(ground.arm(), MavResult::accepted);
   fly(ground, {4, 0, 0}, 14s);
-  EXPECT_EQ(ground.said("Fence Breached"), 1);
+  EXPECT_EQ(ground.said("Circle fence breached"), 0) << "ArduRover keeps it to itself";
+  EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 1) << "but for this, which is sent unasked";
   EXPECT_EQ(ground.pilot().mode().name, "HOLD");
   ground.run_for(5s);
   EXPECT_LT(ground.from_start(), 45.0);
@@ -201,10 +211,80 @@ TEST(Fence, BringsAPlaneBack) {
   auto target = make.waypoint(4000, 0, 60);
   target.current = 2;
   ground.send(target);
-  ASSERT_TRUE(ground.run_until([&] { return ground.said("Fence Breached") == 1; }, 90s));
+  ASSERT_TRUE(ground.run_until([&] { return ground.said("Circle fence breached") == 1; }, 90s));
   ground.run_for(500ms);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
   EXPECT_TRUE(ground.run_until([&] { return ground.pilot().fence().breached() == 0; }, 90s));
+}
+
+TEST(Fence, IsBreachedAnewFartherOutAndSaysWhenItIsOver) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}, {"FENCE_ACTION", 0}});
+  hover(ground, 10);
+  ground.request(MessageId::fence_status, 10);
+  fly(ground, {8, 0, 0}, 13s);
+  EXPECT_EQ(ground.said("Circle fence breached"), 3) << "at 40, 60 and 80 m";
+  EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 3);
+  fly(ground, {-8, 0, 0}, 14s);
+  EXPECT_EQ(ground.said("Fence breach cleared"), 1);
+  EXPECT_FALSE(ground.last<FenceStatus>()->breached);
+}
+
+TEST(Fence, BringsACopterDownThatIsFarOutside) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 0}, {"FENCE_RADIUS", 40}, {"FENCE_ACTION", 1}});
+  hover(ground, 10);
+  fly(ground, {10, 0, 0}, 17s);
+  EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {1}), MavResult::accepted);
+  ground.run_for(500ms);
+  EXPECT_EQ(ground.pilot().mode().name, "LAND");
+  EXPECT_EQ(ground.said("Manual recovery started"), 1);
+}
+
+TEST(Fence, LeavesAVehicleAloneForTenSecondsAfterAChangeOfItsMode) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}, {"FENCE_ACTION", 1}});
+  hover(ground, 10);
+  fly(ground, {8, 0, 0}, 7s);
+  ASSERT_EQ(ground.pilot().mode().name, "RTL");
+  ASSERT_EQ(ground.set_mode(guided), MavResult::accepted);
+  fly(ground, {8, 0, 0}, 5s);
+  EXPECT_EQ(ground.pilot().mode().name, "GUIDED") << "20 m farther out";
+}
+
+TEST(FenceMargin, IsWhereGuidedFlightStops) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 60}, {"FENCE_MARGIN", 8}, {"AVOID_ENABLE", 3}});
+  hover(ground, 10);
+  fly(ground, {6, 0, 0}, 25s);
+  EXPECT_EQ(ground.pilot().mode().name, "GUIDED");
+  EXPECT_NEAR(ground.from_start(), 52.0, 4.0);
+}
+
+TEST(FenceMargin, IsToldIfWanted) {
+  TestGround ground("copter");
+  set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 60}, {"FENCE_MARGIN", 8}, {"FENCE_OPTIONS", 4}});
+  hover(ground, 10);
+  fly(ground, {6, 0, 0}, 12s);
+  EXPECT_GE(ground.said("Circle fence in "), 1);
+  EXPECT_EQ(ground.said("Circle fence breached"), 1);
+}
+
+TEST(FenceMargin, IsChecked) {
+  for (auto const& [margin, words] :
+       {std::pair{-1.0F, "PreArm: Invalid FENCE_MARGIN value"}, {60.0F, "PreArm: FENCE_MARGIN too big"}}) {
+    TestGround ground("copter");
+    set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_MARGIN", margin}});
+    ground.boot();
+    ground.run_for(1s);
+    EXPECT_EQ(ground.said(words), 1);
+  }
+}
+
+TEST(FenceNames, AreListed) {
+  EXPECT_EQ(fence_names(FenceWatch::circle), "Circle fence");
+  EXPECT_EQ(fence_names(FenceWatch::height | FenceWatch::areas), "Max Alt and Polygon fences");
+  EXPECT_EQ(fence_names(15), "Max Alt, Circle, Polygon and Min Alt fences");
 }
 
 TEST(FenceAreas, IncludeEitherAllOrAny) {
@@ -213,17 +293,17 @@ TEST(FenceAreas, IncludeEitherAllOrAny) {
   MissionPlan const fence{make.at(MavCmd::nav_fence_circle_inclusion, {0, 0, 0}, {50.0F}),
                           make.at(MavCmd::nav_fence_circle_inclusion, {80, 0, 0}, {50.0F})};
   Body body;
-  FenceSettings settings{.enabled = true, .watched = FenceWatch::areas, .action = Behaviour::return_home};
+  FenceSettings settings{.enabled = true, .watched = FenceWatch::areas, .action = {Behaviour::return_home}};
   FenceWatch watch;
   FenceWatch::View const view{
       .body = body, .site = site, .home = {}, .plan = fence, .settings = settings, .position_ok = true, .now = 1s};
-  EXPECT_EQ(watch.update(view), FenceWatch::areas) << "in the first only";
+  EXPECT_EQ(watch.update(view).breached, FenceWatch::areas) << "in the first only";
   settings.any_inclusion = true;
-  EXPECT_EQ(watch.update(view), 0u);
+  EXPECT_EQ(watch.update(view).breached, 0u);
   EXPECT_EQ(watch.breached(), 0u);
   settings.any_inclusion = false;
   body.position_m.north = 40.0;
-  EXPECT_EQ(watch.update(view), 0u) << "in both";
+  EXPECT_EQ(watch.update(view).breached, 0u) << "in both";
   EXPECT_EQ(watch.count(), 1);
 }
 
@@ -235,14 +315,14 @@ TEST(FenceFloor, CountsOnceTheVehicleWasAboveIt) {
   FenceWatch watch;
   FenceWatch::View const view{
       .body = body, .site = site, .home = {}, .plan = fence, .settings = settings, .position_ok = true, .now = 1s};
-  EXPECT_EQ(watch.update(view), 0u) << "on the ground";
+  EXPECT_EQ(watch.update(view).breached, 0u) << "on the ground";
   body.on_ground = false;
   body.position_m.down = -5.0;
-  EXPECT_EQ(watch.update(view), 0u) << "on its way up";
+  EXPECT_EQ(watch.update(view).breached, 0u) << "on its way up";
   body.position_m.down = -12.0;
-  EXPECT_EQ(watch.update(view), 0u);
+  EXPECT_EQ(watch.update(view).breached, 0u);
   body.position_m.down = -9.0;
-  EXPECT_EQ(watch.update(view), FenceWatch::floor);
+  EXPECT_EQ(watch.update(view).breached, FenceWatch::floor);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "mavlink/enums.hpp"
 #include "sim/goal.hpp"
 #include "sim/mission_plan.hpp"
+#include "sim/trail.hpp"
 
 namespace lapwing::sim {
 
@@ -25,6 +26,8 @@ struct Tuning {
   bool restart_mission = false;            ///< MIS_RESTART
   double rally_limit_m = 0.0;              ///< rally points farther away do not count; 0: all do
   bool rally_includes_home = true;         ///< home is one of them
+  Trail::Limits trail{};
+  bool avoids_fence = false;  ///< AVOID_ENABLE bit 0: guided flight stops at the margin of the fence
 };
 
 /// What a flight logic sees at one step.
@@ -57,6 +60,7 @@ struct Outbox {
   std::vector<mavlink::MissionItem> payload;  ///< commands of the mission for cameras and gimbals
   bool mode_changed = false;
   bool home_changed = false;
+  bool fence_breached = false;
 
   void say(mavlink::MavSeverity severity, std::string text) { texts.push_back({severity, std::move(text)}); }
 };

@@ -179,6 +179,7 @@ void FlightController::send_boot_noise() {
 
 void FlightController::drain_outbox() {
   auto const out = std::exchange(autopilot_.outbox(), {});
+  if (out.fence_breached) broadcast_report(MessageId::fence_status);
   for (auto const& text : out.texts) say(text.severity, text.text);
   for (auto const& item : out.payload) perform_payload(item);
   if (out.mode_changed) broadcast_report(MessageId::heartbeat);

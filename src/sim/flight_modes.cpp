@@ -31,7 +31,7 @@ constexpr std::array copter_modes{
     FlightMode{18, "THROW", manual, true, true, 0x51},
     FlightMode{19, "AVOID_ADSB", hold, false, true, 0x59},
     FlightMode{20, "GUIDED_NOGPS", manual, true, false, 0x51},
-    FlightMode{21, "SMART_RTL", return_home, false, true, 0x59},
+    FlightMode{21, "SMART_RTL", retrace, false, true, 0x59},
     FlightMode{22, "FLOWHOLD", sink, true, false, 0x51},
     FlightMode{23, "FOLLOW", hold, false, true, 0x59},
     FlightMode{24, "ZIGZAG", sink, true, true, 0x51},
@@ -46,7 +46,7 @@ constexpr std::array rover_modes{
     FlightMode{5, "LOITER", hold, true, true, 0x09},      FlightMode{6, "FOLLOW", hold, true, true, 0x09},
     FlightMode{7, "SIMPLE", manual, true, false, 0x41},   FlightMode{8, "DOCK", hold, false, true, 0x09},
     FlightMode{9, "CIRCLE", circle, true, true, 0x09},    FlightMode{10, "AUTO", mission, true, true, 0x09},
-    FlightMode{11, "RTL", return_home, true, true, 0x09}, FlightMode{12, "SMART_RTL", return_home, true, true, 0x09},
+    FlightMode{11, "RTL", return_home, true, true, 0x09}, FlightMode{12, "SMART_RTL", retrace, true, true, 0x09},
     FlightMode{15, "GUIDED", guided, true, true, 0x09},   FlightMode{16, "INITIALISING", manual, false, false, 0x01},
 };
 
@@ -90,7 +90,7 @@ constexpr std::array px4_modes{
 /// The behaviour that stands in for one that a vehicle has no mode for.
 Behaviour instead_of(Behaviour behaviour) {
   if (behaviour == hold) return guided;
-  return behaviour == land ? return_home : land;
+  return behaviour == land || behaviour == retrace ? return_home : land;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ enum class Behaviour {
   mission,
   guided,
   return_home,
+  retrace,  ///< home along the way that led here
   land,
   take_off,  ///< an aeroplane's automatic take-off
 };

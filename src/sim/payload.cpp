@@ -87,7 +87,9 @@ std::optional<Message> FlightController::payload_report(MessageId id, float argu
     case MessageId::gimbal_manager_information:
       return has_gimbal() ? std::optional<Message>(Gimbal::information(since_power_on())) : std::nullopt;
     case MessageId::camera_information:
-      if (camera_type() != camera_that_answers) return std::nullopt;
+      if (camera_type() == no_camera) return std::nullopt;
+      // ArduPilot does not know what is wired to its servo or relay.
+      if (camera_type() != camera_that_answers) return CameraInformation{.since_boot = since_power_on(), .flags = 2};
       return CameraInformation{.since_boot = since_power_on(),
                                .vendor = "Lapwing",
                                .model = "simulated camera",

@@ -75,7 +75,9 @@ TEST(SimulatedCamera, IsTriggeredByDistanceInAMission) {
 TEST(SimulatedCamera, RepeatsAPictureThatIsAskedFor) {
   TestGround ground("copter");
   ground.boot();
-  EXPECT_EQ(ground.command(MavCmd::request_message, {259}), MavResult::failed);
+  EXPECT_EQ(ground.command(MavCmd::request_message, {259}), MavResult::accepted);
+  EXPECT_EQ(ground.last<CameraInformation>()->model, "") << "ArduPilot does not know what it triggers";
+  EXPECT_EQ(ground.command(MavCmd::request_message, {263, 0}), MavResult::failed);
   set_parameter(ground, "CAM1_TYPE", 6);
   EXPECT_EQ(ground.command(MavCmd::request_message, {259}), MavResult::accepted);
   EXPECT_EQ(ground.last<CameraInformation>()->model, "simulated camera");

@@ -54,15 +54,18 @@ double reported_yaw(Autopilot const& autopilot) {
 SysStatus sys_status(Autopilot const& autopilot) {
   using namespace sensor_flag;
   std::uint32_t present = gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
-  std::uint32_t health = motor_outputs | rc_receiver | battery;
-  if (autopilot.fence_enabled()) present |= geofence;
+  std::uint32_t health = motor_outputs | battery;
+  auto enabled = present;
+  if (autopilot.fence_present()) present |= geofence;
+  if (autopilot.fence_present() && autopilot.fence_acts()) enabled |= geofence;
   if (autopilot.fence().breached() == 0) health |= geofence;
+  if (!autopilot.radio_lost()) health |= rc_receiver;
   if (autopilot.navigation().fix_type >= 3) health |= gps;
   if (autopilot.now() >= autopilot.boot().ekf_initialised) health |= ahrs;
   if (autopilot.prearm_ok()) health |= prearm_check;
   auto const& pack = autopilot.battery();
   return {.sensors_present = present,
-          .sensors_enabled = present,
+          .sensors_enabled = enabled,
           .sensors_health = health,
           .load = 0.1,
           .battery_voltage_v = pack.voltage_v(),
@@ -199,9 +202,10 @@ FenceStatus fence_status(Autopilot const& autopilot) {
   constexpr std::uint8_t boundary = 3;
   auto const& fence = autopilot.fence();
   auto const breached = fence.breached();
-  std::uint8_t type = breached != 0 ? boundary : 0;
-  if ((breached & FenceWatch::height) != 0) type = too_high;
+  std::uint8_t type = 0;
   if ((breached & FenceWatch::floor) != 0) type = too_low;
+  if ((breached & FenceWatch::height) != 0) type = too_high;
+  if ((breached & (FenceWatch::circle | FenceWatch::areas)) != 0) type = boundary;
   return {.breached = breached != 0,
           .breach_count = static_cast<std::uint16_t>(fence.count()),
           .breach_type = type,
@@ -255,7 +259,7 @@ RcChannels rc_channels(Autopilot const& autopilot) {
   RcChannels channels{.since_boot = autopilot.now(), .count = 16, .rssi = 1.0};
   channels.pulses_us.fill(0);
   for (auto& pulse : std::span(channels.pulses_us).first(4)) pulse = 1500;
-  channels.pulses_us[2] = 1000;
+  channels.pulses_us[2] = autopilot.radio_signal() == RadioSignal::low_throttle ? 950 : 1000;
   for (auto& pulse : std::span(channels.pulses_us).subspan(4, 12)) pulse = 1800;
   return channels;
 }
@@ -292,7 +296,7 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
       return wind(view);
     case MessageId::rc_channels: return rc_channels(autopilot);
     case MessageId::fence_status:
-      if (autopilot.kind().is_px4()) return std::nullopt;
+      if (autopilot.kind().is_px4() || !autopilot.fence_enabled()) return std::nullopt;
       return fence_status(autopilot);
     case MessageId::extended_sys_state: return ExtendedSysState{.landed_state = autopilot.landed_state()};
     case MessageId::home_position:

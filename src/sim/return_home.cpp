@@ -84,4 +84,35 @@ Goal ReturnHome::fly(FlightContext const& context) {
   return stays_level(context.family()) ? Goal{HoldAt{above_home_}} : Goal{Idle{}};
 }
 
+Goal Retrace::update(FlightContext const& context) {
+  auto const& here = context.body.position_m;
+  bool const lands = !stays_level(context.family());
+  if (!from_) from_ = here;
+  if (landing_ || (lands && context.body.on_ground)) {
+    if (!landing_) landing_.emplace(here);
+    Goal const goal = landing_->update(context);
+    finished_ = landing_->finished();
+    return goal;
+  }
+  while (!left_.empty()) {
+    auto next = left_.back();
+    bool const is_last = left_.size() == 1;
+    constexpr double landing_begins_m = 2.0;
+    if (is_last && lands) next.down -= landing_begins_m;
+    bool const is_near = has_reached(context.body, *from_, next, context.tuning.waypoint_radius_m) &&
+                         (!lands || std::abs(here.down - next.down) < landing_begins_m);
+    // It stops at every corner, so that it cuts none.
+    if (!is_near) return FlyTo{next, *from_, false};
+    from_ = next;
+    if (is_last) break;
+    left_.pop_back();
+  }
+  if (!lands) {
+    finished_ = true;
+    return HoldAt{left_.empty() ? here : left_.front()};
+  }
+  landing_.emplace(left_.empty() ? here : left_.front());
+  return landing_->update(context);
+}
+
 }  // namespace lapwing::sim

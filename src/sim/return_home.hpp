@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sim/flight_context.hpp"
 
 namespace lapwing::sim {
@@ -35,6 +37,25 @@ class ReturnHome {
   geo::Ned above_home_;  ///< or above the rally point
   base::Duration waiting_since_{};
   std::optional<Landing> landing_;
+};
+
+/// The way home along the trail that led here (SMART_RTL). A copter stops 2 m above its beginning and lands; a rover
+/// stops there.
+class Retrace {
+ public:
+  /// `trail` from its beginning on.
+  explicit Retrace(std::vector<geo::Ned> trail) : left_(std::move(trail)) {}
+  Goal update(FlightContext const& context);
+  /// Landed (copter) or arrived (rover).
+  [[nodiscard]] bool finished() const { return finished_; }
+  /// What has not been gone back yet.
+  [[nodiscard]] std::vector<geo::Ned> const& left() const { return left_; }
+
+ private:
+  std::vector<geo::Ned> left_;
+  std::optional<geo::Ned> from_;
+  std::optional<Landing> landing_;
+  bool finished_ = false;
 };
 
 }  // namespace lapwing::sim

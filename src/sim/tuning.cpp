@@ -75,6 +75,9 @@ Tuning tuning_from(Kind const& kind, Parameters const& parameters) {
   tuning.rally_limit_m = parameters.value("RALLY_LIMIT_KM") * 1000.0;
   tuning.rally_includes_home = parameters.value("RALLY_INCL_HOME") != 0.0;
   tuning.guided_timeout = from_seconds(parameters.value("GUID_TIMEOUT", 3.0));
+  tuning.trail = {.accuracy_m = std::max(0.5, parameters.value("SRTL_ACCURACY", 2.0)),
+                  .most_points = static_cast<std::size_t>(std::clamp(parameters.value("SRTL_POINTS"), 0.0, 500.0))};
+  tuning.avoids_fence = (static_cast<unsigned>(parameters.value("AVOID_ENABLE")) & 1U) != 0;
   if (family == plane) {
     tuning.waypoint_radius_m = std::max(1.0, parameters.value("WP_RADIUS"));
     tuning.rtl_height_m = parameters.value("RTL_ALTITUDE");

@@ -8,21 +8,13 @@ constexpr Words ardupilot{.arming_refused = "Arm: ",
                           .unfit = "PreArm: ",
                           .armed = "Arming motors",
                           .disarmed_by_command = "Disarming motors",
-                          .disarmed_after_landing = "Disarming motors",
-                          .ground_station_lost = "GCS Failsafe",
-                          .ground_station_back = "GCS Failsafe Cleared",
-                          .battery_acted = "Battery Failsafe",
-                          .fence_breached = "Fence Breached"};
+                          .disarmed_after_landing = "Disarming motors"};
 
 constexpr Words px4{.arming_refused = "Arming denied: ",
                     .unfit = "Preflight Fail: ",
                     .armed = "Armed by external command",
                     .disarmed_by_command = "Disarmed by external command",
-                    .disarmed_after_landing = "Disarmed by landing",
-                    .ground_station_lost = "Failsafe activated: connection to ground station lost",
-                    .ground_station_back = "Connection to ground station regained",
-                    .battery_acted = "Failsafe activated: battery",
-                    .fence_breached = "Failsafe activated: Fence breached"};
+                    .disarmed_after_landing = "Disarmed by landing"};
 
 }  // namespace
 

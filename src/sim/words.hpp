@@ -13,10 +13,6 @@ struct Words {
   std::string_view armed;
   std::string_view disarmed_by_command;
   std::string_view disarmed_after_landing;
-  std::string_view ground_station_lost;
-  std::string_view ground_station_back;
-  std::string_view battery_acted;
-  std::string_view fence_breached;
 };
 [[nodiscard]] Words const& words_of(Kind const& kind);
 
