@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "sim/file_transfer.hpp"
 #include "sim/px4_modes.hpp"
 
 namespace lapwing::sim {
@@ -67,6 +68,12 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
   connection_.add_link(std::move(link));
   for (auto const& [name, stream] : stream_rates) follow_stream_rate(name, stream);
+  // File transfer has no typed message: nobody but this needs one.
+  connection_.set_frame_hook([this](Connection::Direction direction, Frame const& frame, base::TimePoint) {
+    if (direction == Connection::Direction::sent || silent()) return;
+    if (auto const answer = file_transfer_answer(frame, connection_.self()))
+      (void)connection_.send(frame.source, *answer);
+  });
 }
 
 void FlightController::follow_stream_rate(std::string_view name, int stream) {
