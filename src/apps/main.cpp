@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,11 +14,22 @@
 namespace lapwing::apps {
 namespace {
 
+using Words = std::vector<std::string>;
+
+/// What was said, without the program's name. `help VERB` is another way to say `VERB --help`.
+Words words_of(int argc, char** argv) {
+  Words words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 /// What to say when the first word is no verb; CLI11 would only ask for one.
-std::string unknown_verb(CLI::App const& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
-  std::string const word = argv[1];
-  std::vector<std::string> names;
+std::string unknown_verb(CLI::App const& program, Words const& words) {
+  if (words.empty() || words.front().starts_with('-')) return {};
+  auto const& word = words.front();
+  Words names{"help"};
   for (auto const* verb : program.get_subcommands({})) names.push_back(verb->get_name());
   if (std::ranges::find(names, word) != names.end()) return {};
   std::vector<std::string_view> const candidates(names.begin(), names.end());
@@ -36,6 +48,7 @@ int main_of(int argc, char** argv) {
       "Start here:  lapwing demo                 simulated vehicles, a script and the map in your browser\n"
       "             lapwing check my.dolphin     every mistake in a script, without vehicles\n"
       "             lapwing run my.dolphin       fly it on the vehicles that send to UDP port 14550\n"
+      "             lapwing help run             all that a command can do\n"
       "Exit codes:  0 done, 1 script error, 2 bad usage or script, 3 halted, 130 interrupted");
 
   int exit_code = exit_done;
@@ -54,12 +67,14 @@ int main_of(int argc, char** argv) {
   add_route(program, exit_code);
   add_doctor(program, exit_code);
 
-  if (auto const wrong = unknown_verb(program, argc, argv); !wrong.empty()) {
+  auto words = words_of(argc, argv);
+  if (auto const wrong = unknown_verb(program, words); !wrong.empty()) {
     std::fputs(wrong.c_str(), stderr);
     return exit_usage;
   }
   try {
-    program.parse(argc, argv);
+    std::ranges::reverse(words);  // CLI11 takes them from the end
+    program.parse(std::move(words));
   } catch (CLI::ParseError const& error) {
     // CLI11 numbers its errors from 100; the contract knows one code for bad usage.
     return program.exit(error) == 0 ? exit_done : exit_usage;

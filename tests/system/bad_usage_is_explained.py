@@ -13,6 +13,18 @@ def explained(expected, *arguments, words):
         assert word in out + err, f"lapwing {' '.join(arguments)}: no {word!r} in\n{out}\n{err}"
 
 
+def same(*ways):
+    """Each way to ask gets the same answer, and exit code 0."""
+    answers = {harness.expect_exit(0, *way, seconds=30) for way in ways}
+    assert len(answers) == 1, answers
+
+
+same(["help"], ["--help"])
+same(["help", "run"], ["run", "--help"])
+same(["help", "mission", "upload"], ["mission", "upload", "--help"])
+explained(2, "help", "fly", words=["there is no command 'fly'"])
+explained(2, "hlep", words=["help"])
+
 with tempfile.TemporaryDirectory() as folder:
     script = pathlib.Path(folder, "ok.dolphin")
     script.write_text("message 'ok'")
