@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/ground.hpp"
 #include "base/loop.hpp"
 #include "link/byte_link.hpp"
 #include "link/url.hpp"
@@ -204,10 +205,11 @@ Findings look_at_map_port(int port) {
 }
 
 Findings listen(std::string const& text, base::Duration time, bool must_answer) {
-  auto const url = link::parse_url(text);
-  if (!url) return {{Verdict::wrong, url.error().message, url.error().hint}};
+  auto const parsed = parse_network_link(text);
+  if (!parsed) return {{Verdict::wrong, parsed.error().message, parsed.error().hint}};
+  auto const& url = parsed->url;
   base::Loop loop;
-  auto opened = link::open(loop, *url);
+  auto opened = link::open(loop, url);
   if (!opened) {
     return {{must_answer ? Verdict::wrong : Verdict::note, opened.error().message, opened.error().hint}};
   }
@@ -234,7 +236,7 @@ Findings listen(std::string const& text, base::Duration time, bool must_answer) 
                         "give one another id (ArduPilot: SYSID_THISMAV)"});
   }
   if (!findings.empty()) return findings;
-  findings.push_back(judge_silence(*url, link, heard, base::to_seconds(time)));
+  findings.push_back(judge_silence(url, link, heard, base::to_seconds(time)));
   if (must_answer) findings.back().verdict = Verdict::wrong;
   return findings;
 }

@@ -47,9 +47,9 @@ std::vector<std::string> payload_for(dolphin::Needs const& needs) {
 
 Equipment equipped(sim::WorldOptions const& world, std::vector<std::string> const& payload) {
   Equipment equipment;
-  int system_id = world.first_system_id;
+  auto system_id = static_cast<std::uint8_t>(world.first_system_id);
   for (auto const& group : world.vehicles)
-    for (int i = 0; i < group.count; ++i) equipment[system_id++] = payload;
+    for (int i = 0; i < group.count; ++i) equipment[{.system_id = system_id++}] = payload;
   return equipment;
 }
 

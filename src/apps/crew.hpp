@@ -18,7 +18,7 @@ namespace lapwing::apps {
                                                                     base::SourceFile const& source);
 /// The equipment that any of the picks asks for, each once.
 [[nodiscard]] std::vector<std::string> payload_for(dolphin::Needs const& needs);
-/// The same equipment for every vehicle, by system id.
+/// The same equipment for every simulated vehicle.
 [[nodiscard]] Equipment equipped(sim::WorldOptions const& world, std::vector<std::string> const& payload);
 /// What a script needs, as far as its text says it; a text that cannot be read needs nothing.
 [[nodiscard]] dolphin::Needs needs_of_text(std::string const& name, std::string const& text);

@@ -59,9 +59,9 @@ int demo(DemoOptions const& options) {
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return refuse(begun.error());
   }
-  auto endpoints = forward_to(options.forward);
-  if (!endpoints) return refuse(endpoints.error());
-  if (auto forwarded = session.forward(*std::move(endpoints)); !forwarded) return refuse(forwarded.error());
+  auto programs = forward_to(options.forward);
+  if (!programs) return refuse(programs.error());
+  if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return refuse(forwarded.error());
   if (!options.headless) {
     WebAccess access;
     apply(options.web, access);

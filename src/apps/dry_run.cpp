@@ -67,14 +67,14 @@ DryRun::DryRun(Options options)
       loop_(pace_for(0.0)),
       log_(hub_, "lapwing"),
       air_(loop_),
-      ground_(loop_, fleet::OnStop::loiter, log_, {.payload = equipped(options_.world, options_.payload)},
-              options_.plans),
+      ground_(loop_, log_, {.payload = equipped(options_.world, options_.payload)}),
+      platform_(ground_.fleet, {.plan_library = options_.plans}, log_.named("fleet")),
       world_(
           loop_, options_.world, [this] { return base::Result<std::unique_ptr<link::ByteLink>>(air_.connect()); },
           log_.named("sim")),
       recorder_(crew(), {}),
       voice_(std::make_unique<Voice>(loop_, recorder_, options_.answers)),
-      host_(loop_, ground_.platform, *voice_, log_, [this](tasks::TaskEvent const& event) { recorder_.note(event); }) {
+      host_(loop_, platform_, *voice_, log_, [this](tasks::TaskEvent const& event) { recorder_.note(event); }) {
   ground_.connection.add_link(air_.take_server());
 }
 
@@ -170,7 +170,7 @@ dryrun::FlightRecord DryRun::record() const {
   auto record = recorder_.finish(ended_.time_since_epoch());
   auto const& outcome = *host_.outcome();
   for (auto& vehicle : record.vehicles) {
-    auto const missions = ground_.platform.missions(vehicle::VehicleId{vehicle.id});
+    auto const missions = platform_.missions(vehicle::VehicleId{vehicle.id});
     for (std::size_t i = 0; i < std::min(missions.size(), vehicle.tasks.size()); ++i)
       vehicle.tasks[i].flown = missions[i].flown;
   }

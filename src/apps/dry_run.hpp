@@ -9,6 +9,7 @@
 #include "apps/script_host.hpp"
 #include "base/scope.hpp"
 #include "dryrun/recorder.hpp"
+#include "fleet/platform.hpp"
 #include "link/pipe_link.hpp"
 #include "sim/world.hpp"
 
@@ -52,6 +53,7 @@ class DryRun {
   base::Logger log_;
   link::PipeHub air_;
   Ground ground_;
+  fleet::FleetPlatform platform_;
   sim::World world_;
   dryrun::Recorder recorder_;
   std::unique_ptr<dolphin::Output> voice_;

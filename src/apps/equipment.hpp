@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "mavlink/system_name.hpp"
 
 namespace lapwing::apps {
 
-/// What vehicles carry, by system id, in the words that scripts use.
-using Equipment = std::map<int, std::vector<std::string>>;
+/// What vehicles carry, in the words that scripts use.
+using Equipment = std::map<mavlink::SystemName, std::vector<std::string>>;
 
-/// Adds what a text like "3=Sidescan,Multibeam" says. Errors: invalid_input.
+/// Adds what a text like "3=Sidescan,Multibeam" or "north/3=Sidescan" says. Errors: invalid_input.
 [[nodiscard]] base::Result<> add_payload(std::string const& text, Equipment& equipment);
 
 /// For --payload of every verb that has it.
 inline constexpr auto payload_help =
-    "What the vehicle of a system id carries, by the names that scripts use: 3=Sidescan,Multibeam (may be repeated)";
+    "What a vehicle carries, by the names that scripts use: 3=Sidescan,Multibeam, or north/3=Sidescan (may be "
+    "repeated)";
 
 }  // namespace lapwing::apps

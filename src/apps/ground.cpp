@@ -1,26 +1,21 @@
 #include "apps/ground.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "link/byte_link.hpp"
+#include "mavlink/system_name.hpp"
 
 namespace lapwing::apps {
 
 namespace {
 
-fleet::FleetPlatform::Options platform_options(fleet::OnStop on_stop, tasks::PlanLibrary plans) {
-  fleet::FleetPlatform::Options options;
-  options.run.on_stop = on_stop;
-  options.plan_library = std::move(plans);
-  return options;
-}
-
-mavlink::Connection::Options connection_options(bool asks_for_messages, SigningSetup const& signing) {
-  mavlink::Connection::Options options{.keys = signing.ring, .signed_until = signing.signed_until};
+mavlink::Connection::Options connection_options(bool asks_for_messages, SigningSetup const& signing,
+                                                std::string const& network) {
+  mavlink::Connection::Options options{.signed_until = signing.signed_until};
+  if (signing.ring) options.keys = mavlink::ring_of_network(*signing.ring, network);
   if (!asks_for_messages) options.timesync_period = {};
   return options;
 }
@@ -34,25 +29,21 @@ base::Result<NetworkLink> parse_network_link(std::string const& text) {
   auto url = link::parse_url(has_name ? text.substr(equals + 1) : text);
   if (!url) return std::unexpected(url.error());
   auto name = has_name ? text.substr(0, equals) : std::string();
-  auto const is_plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_'; };
-  if (has_name && (name.empty() || !std::ranges::all_of(name, is_plain)))
+  if (has_name && !mavlink::is_network_name(name))
     return base::fail(base::ErrorKind::invalid_input,
                       fmt::format("link '{}': '{}' is no name of a network", text, name),
                       "letters, digits, - and _: north=udpin://0.0.0.0:14551");
   return NetworkLink{std::move(name), *std::move(url)};
 }
 
-Ground::Ground(base::Loop& on, fleet::OnStop on_stop, base::Logger to, fleet::Fleet::Options options,
-               tasks::PlanLibrary plans, SigningSetup keys, vehicle::StopAction emergency_action)
+Ground::Ground(base::Loop& on, base::Logger to, fleet::Fleet::Options options, SigningSetup keys)
     : loop(on),
       log(std::move(to)),
       asks_for_messages(options.asks_for_messages),
       signing(std::move(keys)),
-      connection(on, connection_options(asks_for_messages, signing), log.named("link")),
+      connection(made("")),
       registry(on),
-      fleet(connection, registry, std::move(options), log.named("fleet")),
-      platform(fleet, platform_options(on_stop, std::move(plans)), log.named("fleet")),
-      control(fleet, platform, {.stop_action = emergency_action}, log) {}
+      fleet(connection, registry, std::move(options), log.named("fleet")) {}
 
 base::Result<> Ground::open(std::vector<std::string> const& texts) {
   std::vector<std::pair<std::string, std::unique_ptr<link::ByteLink>>> links;
@@ -63,24 +54,38 @@ base::Result<> Ground::open(std::vector<std::string> const& texts) {
     if (!link) return std::unexpected(link.error());
     links.emplace_back(parsed->network, std::move(*link));
   }
-  for (auto& [network, link] : links) connection_of(network).add_link(std::move(link));
+  for (auto& [name, link] : links) {
+    bool const is_new = !networks.contains(name);
+    auto& network = is_new ? made(name) : networks.at(name);
+    if (is_new) fleet.add(network, name);
+    network.add_link(std::move(link));
+  }
   return {};
 }
 
+base::Result<mavlink::Connection*> Ground::network(std::string const& name) {
+  if (auto const found = networks.find(name); found != networks.end()) return &found->second;
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("there is no network {}", name),
+                    fmt::format("name it before the URL of its link: --link {}=udpin://0.0.0.0:14551", name));
+}
+
 std::vector<mavlink::LinkReport> Ground::link_reports() const {
-  auto reports = connection.report();
+  std::vector<mavlink::LinkReport> reports;
   for (auto const& [name, network] : networks)
     for (auto& report : network.report()) reports.push_back(std::move(report));
   return reports;
 }
 
-mavlink::Connection& Ground::connection_of(std::string const& network) {
-  if (network.empty()) return connection;
-  if (auto const found = networks.find(network); found != networks.end()) return found->second;
-  auto& made = networks.try_emplace(network, loop, connection_options(asks_for_messages, signing), log.named("link"))
-                   .first->second;
-  fleet.add(made, network);
-  return made;
+mavlink::SigningTime Ground::signed_until() const {
+  mavlink::SigningTime latest = 0;
+  for (auto const& [name, network] : networks)
+    if (auto const* guard = network.signing()) latest = std::max(latest, guard->signed_until());
+  return latest;
+}
+
+mavlink::Connection& Ground::made(std::string const& network) {
+  auto options = connection_options(asks_for_messages, signing, network);
+  return networks.try_emplace(network, loop, std::move(options), log.named("link")).first->second;
 }
 
 }  // namespace lapwing::apps

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/key_file.hpp"
 #include "base/log.hpp"
 #include "base/loop.hpp"
-#include "fleet/control.hpp"
 #include "fleet/fleet.hpp"
-#include "fleet/platform.hpp"
 #include "link/url.hpp"
 #include "mavlink/connection.hpp"
 #include "vehicle/registry.hpp"
@@ -29,31 +26,32 @@ struct NetworkLink {
 /// Error: invalid_input.
 [[nodiscard]] base::Result<NetworkLink> parse_network_link(std::string const& text);
 
-/// The ground side of one program: links, the vehicles on them, and the platform that flies missions on those.
+/// The ground side of one program: links, and the vehicles on them, network by network.
 struct Ground {
-  Ground(base::Loop& loop, fleet::OnStop on_stop, base::Logger log, fleet::Fleet::Options fleet_options = {},
-         tasks::PlanLibrary plans = {}, SigningSetup signing = {},
-         vehicle::StopAction emergency_action = vehicle::StopAction::hold);
+  Ground(base::Loop& loop, base::Logger log, fleet::Fleet::Options fleet_options = {}, SigningSetup signing = {});
 
   /// Opens every link or none; makes the networks that they name. Errors: invalid_input for a wrong URL, io for a port
   /// in use.
   [[nodiscard]] base::Result<> open(std::vector<std::string> const& urls);
+  /// Its connection. Error: invalid_input when no link belongs to such a network; the one without a name is always
+  /// there.
+  [[nodiscard]] base::Result<mavlink::Connection*> network(std::string const& name);
   /// Of every network, that without a name first.
   [[nodiscard]] std::vector<mavlink::LinkReport> link_reports() const;
+  /// The latest time of a signature on any network; 0 when nothing is signed.
+  [[nodiscard]] mavlink::SigningTime signed_until() const;
 
   base::Loop& loop;
   base::Logger log;
   bool asks_for_messages;
   SigningSetup signing;
-  mavlink::Connection connection;                       ///< of the network without a name
-  std::map<std::string, mavlink::Connection> networks;  ///< the others, by name
+  std::map<std::string, mavlink::Connection> networks;  ///< by name; the first has none
+  mavlink::Connection& connection;                      ///< of that one
   vehicle::Registry registry;
   fleet::Fleet fleet;
-  fleet::FleetPlatform platform;
-  fleet::Control control;  ///< what operators do with the vehicles
 
  private:
-  [[nodiscard]] mavlink::Connection& connection_of(std::string const& network);
+  [[nodiscard]] mavlink::Connection& made(std::string const& network);
 };
 
 }  // namespace lapwing::apps

@@ -114,21 +114,21 @@ base::Result<mavlink::SigningKey> random_key() {
   return base::fail(base::ErrorKind::io, fmt::format("no random numbers: {}", std::strerror(errno)));
 }
 
-SigningTimeKeeper::SigningTimeKeeper(mavlink::Connection& connection, std::string file, base::Logger log)
-    : connection_(connection), file_(std::move(file)), log_(std::move(log)), scope_(connection.loop()) {
-  if (!file_.empty() && connection_.signing()) scope_.spawn(keep());
+SigningTimeKeeper::SigningTimeKeeper(base::Loop& loop, std::function<mavlink::SigningTime()> signed_until,
+                                     std::string file, base::Logger log)
+    : loop_(loop), signed_until_(std::move(signed_until)), file_(std::move(file)), log_(std::move(log)), scope_(loop) {
+  if (!file_.empty()) scope_.spawn(keep());
 }
 
 SigningTimeKeeper::~SigningTimeKeeper() {
-  if (!file_.empty() && connection_.signing()) write(connection_.signing()->signed_until());
+  if (!file_.empty()) write(signed_until_());
 }
 
 base::Task<> SigningTimeKeeper::keep() {
   for (;;) {
-    auto const now = mavlink::signing_time(connection_.loop().utc_now());
-    auto const reached = connection_.signing() ? connection_.signing()->signed_until() : 0;
-    write(std::max(now, reached) + mavlink::signing_span(write_period));
-    co_await connection_.loop().sleep(write_period);
+    auto const now = mavlink::signing_time(loop_.utc_now());
+    write(std::max(now, signed_until_()) + mavlink::signing_span(write_period));
+    co_await loop_.sleep(write_period);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -27,12 +28,14 @@ struct SigningSetup {
 /// From the operating system's random numbers.
 [[nodiscard]] base::Result<mavlink::SigningKey> random_key();
 
-/// Keeps on disk up to which time a connection has signed, so that the next run goes on after it, even if the clock was
+/// Keeps on disk up to which time a program has signed, so that the next run goes on after it, even if the clock was
 /// set back or this run is killed: what is written during a run lies one period ahead, what is written at its end is
 /// exact.
 class SigningTimeKeeper {
  public:
-  SigningTimeKeeper(mavlink::Connection& connection, std::string file, base::Logger log);
+  /// `signed_until` tells it, 0 while nothing is signed; asked until the end. Without a file nothing is kept.
+  SigningTimeKeeper(base::Loop& loop, std::function<mavlink::SigningTime()> signed_until, std::string file,
+                    base::Logger log);
   SigningTimeKeeper(SigningTimeKeeper const&) = delete;
   SigningTimeKeeper& operator=(SigningTimeKeeper const&) = delete;
   ~SigningTimeKeeper();
@@ -41,7 +44,8 @@ class SigningTimeKeeper {
   base::Task<> keep();
   void write(mavlink::SigningTime time);
 
-  mavlink::Connection& connection_;
+  base::Loop& loop_;
+  std::function<mavlink::SigningTime()> signed_until_;
   std::string file_;
   base::Logger log_;
   mavlink::SigningTime written_ = 0;  ///< by this keeper

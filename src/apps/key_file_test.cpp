@@ -100,6 +100,11 @@ base::Task<> pass(base::Loop& loop, base::Duration time) {
   co_await loop.sleep(time);
 }
 
+std::unique_ptr<SigningTimeKeeper> keeper_of(mavlink::Connection& connection, std::string const& file) {
+  return std::make_unique<SigningTimeKeeper>(
+      connection.loop(), [&connection] { return connection.signing()->signed_until(); }, file, base::Logger());
+}
+
 TEST(SigningTime, GoesOnInTheNextLifeHoweverTheLastOneEnded) {
   TemporaryFolder const folder;
   auto const path = folder.write("k", std::string(64, 'a'));
@@ -112,7 +117,7 @@ TEST(SigningTime, GoesOnInTheNextLifeHoweverTheLastOneEnded) {
     mavlink::Connection connection(loop, {.keys = signing.ring, .signed_until = signing.signed_until}, {});
     auto pipe = link::make_pipe(loop);
     connection.add_link(std::move(pipe.b));
-    SigningTimeKeeper const keeper(connection, signing.time_file, {});
+    auto const keeper = keeper_of(connection, signing.time_file);
     loop.run_until_done(pass(loop, 25s));
     killed_with = read_signing(path).value().signed_until;
     EXPECT_GT(killed_with, mavlink::signing_time(now + 25s)) << "if it were killed now";
@@ -125,7 +130,7 @@ TEST(SigningTime, GoesOnInTheNextLifeHoweverTheLastOneEnded) {
   mavlink::Connection connection(late, {.keys = signing.ring, .signed_until = signing.signed_until}, {});
   EXPECT_GE(connection.signing()->signed_until(), signing.signed_until);
   {
-    SigningTimeKeeper const keeper(connection, signing.time_file, {});
+    auto const keeper = keeper_of(connection, signing.time_file);
     late.run_until_done(pass(late, 1s));
   }
   EXPECT_GE(read_signing(path).value().signed_until, signing.signed_until);
@@ -137,7 +142,7 @@ TEST(SigningTime, IsNotTakenBackFromAnotherProgramWithTheKey) {
   base::Loop loop({.unpaced = true});
   auto const signing = read_signing(path).value();
   mavlink::Connection connection(loop, {.keys = signing.ring}, {});
-  auto keeper = std::make_unique<SigningTimeKeeper>(connection, signing.time_file, base::Logger());
+  auto keeper = keeper_of(connection, signing.time_file);
   std::ofstream(signing.time_file) << "200000000000000\n";
   keeper.reset();
   EXPECT_EQ(read_signing(path).value().signed_until, 200000000000000u);

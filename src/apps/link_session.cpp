@@ -3,48 +3,73 @@
 #include <optional>
 #include <utility>
 
-#include "apps/ground.hpp"
 #include "apps/signals.hpp"
 #include "apps/verb.hpp"
-#include "link/byte_link.hpp"
-#include "link/url.hpp"
+#include "base/notifier.hpp"
+#include "base/scope.hpp"
 
 namespace lapwing::apps {
 
 namespace {
 
-base::Task<> finish(base::Task<int> job, std::optional<int>& code, base::Loop& loop) {
-  code = co_await job;
-  loop.stop();
+base::LogHub::Sink warnings() {
+  return [sink = base::standard_error_sink(base::LogLevel::warn)](base::LogRecord const& record) {
+    bool const is_of_a_vehicle = record.source == "fleet" && record.level < base::LogLevel::error;
+    if (!is_of_a_vehicle) sink(record);
+  };
+}
+
+base::Task<> nothing() {
+  co_return;
 }
 
 }  // namespace
 
-LinkSession::LinkSession(SigningSetup const& signing, std::string const& source)
-    : log(hub, source),
-      connection(loop, {.keys = signing.ring, .signed_until = signing.signed_until}, log.named("link")),
-      keeper_(connection, signing.time_file, log.named("signing")) {
-  hub.add_sink(base::standard_error_sink(base::LogLevel::warn));
+/// One job, until it is done or interrupted.
+struct LinkSession::Work {
+  explicit Work(base::Loop& on) : changed(on), scope(on) {}
+
+  base::Task<> carry_out(base::Task<int> job) {
+    code = co_await job;
+    changed.notify_all();
+  }
+  base::Task<> until_settled(base::Task<int> job, base::Task<> clean_up) {
+    scope.spawn(carry_out(std::move(job)));
+    while (!code && !is_interrupted) co_await changed.wait();
+    scope.clear();
+    if (!code) co_await clean_up;
+  }
+
+  std::optional<int> code;
+  bool is_interrupted = false;
+  base::Notifier changed;
+  base::Scope scope;
+};
+
+LinkSession::LinkSession(SigningSetup signing, std::string const& source, base::Loop::Pace pace)
+    : loop(pace),
+      log(hub, source),
+      ground(loop, log, {.asks_for_messages = false}, std::move(signing)),
+      keeper_(loop, [this] { return ground.signed_until(); }, ground.signing.time_file, log.named("signing")) {
+  hub.add_sink(warnings());
 }
 
 base::Result<> LinkSession::open(std::vector<std::string> const& urls) {
-  for (auto const& text : urls.empty() ? std::vector<std::string>{default_link} : urls) {
-    auto const url = link::parse_url(text);
-    if (!url) return std::unexpected(url.error());
-    auto link = link::open(loop, *url);
-    if (!link) return std::unexpected(link.error());
-    connection.add_link(std::move(*link));
-  }
-  return {};
+  return ground.open(urls.empty() ? std::vector<std::string>{default_link} : urls);
+}
+
+int LinkSession::run(base::Task<int> job, base::Task<> clean_up) {
+  Work work(loop);
+  StopSignals const signals(loop, [&work] {
+    work.is_interrupted = true;
+    work.changed.notify_all();
+  });
+  loop.run_until_done(work.until_settled(std::move(job), std::move(clean_up)));
+  return work.code.value_or(exit_interrupted);
 }
 
 int LinkSession::run(base::Task<int> job) {
-  std::optional<int> code;
-  base::Scope scope(loop);
-  StopSignals const signals(loop, [this] { loop.stop(); });
-  scope.spawn(finish(std::move(job), code, loop));
-  if (!code) loop.run();
-  return code.value_or(exit_interrupted);
+  return run(std::move(job), nothing());
 }
 
 }  // namespace lapwing::apps

@@ -3,30 +3,34 @@
 #include <string>
 #include <vector>
 
-#include "apps/key_file.hpp"
+#include "apps/ground.hpp"
 #include "base/log.hpp"
 #include "base/loop.hpp"
-#include "mavlink/connection.hpp"
 
 namespace lapwing::apps {
 
-/// Links and a MAVLink connection on them, for verbs that do one thing with vehicles and end.
+/// Links and the vehicles on them, for verbs that do one thing with vehicles and end. Asks vehicles for nothing by
+/// itself.
 class LinkSession {
  public:
-  /// `source` is the verb's name in the log, of which warnings go to standard error.
-  LinkSession(SigningSetup const& signing, std::string const& source);
+  /// `source` is the verb's name in the log, of which warnings go to standard error; what vehicles say of themselves
+  /// does not.
+  LinkSession(SigningSetup signing, std::string const& source, base::Loop::Pace pace = {});
 
-  /// The links, or the default link when there are none. Errors: invalid_input for a wrong URL, io for a port in use.
+  /// The links, or the default link when there are none. Errors: `Ground::open`.
   [[nodiscard]] base::Result<> open(std::vector<std::string> const& urls);
-  /// Runs to the job's end and returns its exit code, or to an interrupt.
+  /// Runs to the job's end and returns its exit code. An interrupt breaks the job off; then `clean_up` is run.
+  [[nodiscard]] int run(base::Task<int> job, base::Task<> clean_up);
   [[nodiscard]] int run(base::Task<int> job);
 
   base::Loop loop;
   base::LogHub hub;
   base::Logger log;
-  mavlink::Connection connection;
+  Ground ground;
 
  private:
+  struct Work;
+
   SigningTimeKeeper keeper_;
 };
 

@@ -109,12 +109,14 @@ void write_vehicles(OpenMetrics& metrics, vehicle::Registry const& registry, bas
 }  // namespace
 
 std::string metrics_of(vehicle::Registry const& vehicles, std::span<LinkReport const> links,
-                       route::Router const* forwarding, base::TimePoint now) {
+                       std::map<std::string, route::Router> const& forwarding, base::TimePoint now) {
   OpenMetrics metrics;
   write_vehicles(metrics, vehicles, now);
   write_links(metrics, links);
   write_sources(metrics, links);
-  if (forwarding) route::write_metrics(*forwarding, metrics);
+  std::vector<route::Router const*> routers;
+  for (auto const& [network, router] : forwarding) routers.push_back(&router);
+  if (!routers.empty()) route::write_metrics(routers, metrics);
   return metrics.text();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 
@@ -10,8 +11,8 @@
 namespace lapwing::apps {
 
 /// What a station's /metrics shows: vehicles, the links of all networks, who is heard on each, and, where it forwards,
-/// the router.
+/// the routers.
 [[nodiscard]] std::string metrics_of(vehicle::Registry const& vehicles, std::span<mavlink::LinkReport const> links,
-                                     route::Router const* forwarding, base::TimePoint now);
+                                     std::map<std::string, route::Router> const& forwarding, base::TimePoint now);
 
 }  // namespace lapwing::apps

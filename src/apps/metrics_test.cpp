@@ -21,7 +21,7 @@ TEST(Metrics, TellWhatLinksAndTheirSourcesLose) {
   copter.counters.lost = 10;
   copter.round_trip = 120ms;
   copter.age = 500ms;
-  auto const text = metrics_of(vehicles, std::vector{wifi}, nullptr, loop.now());
+  auto const text = metrics_of(vehicles, std::vector{wifi}, {}, loop.now());
   auto const has = [&text](std::string const& line) { return text.find(line + "\n") != std::string::npos; };
   EXPECT_TRUE(has("lapwing_link_open{link=\"udpin://0.0.0.0:14550\"} 1")) << text;
   EXPECT_TRUE(has("lapwing_link_crc_errors_total{link=\"udpin://0.0.0.0:14550\"} 3"));

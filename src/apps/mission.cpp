@@ -1,15 +1,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "apps/files.hpp"
-#include "apps/key_file.hpp"
+#include "apps/find_vehicles.hpp"
+#include "apps/link_session.hpp"
 #include "apps/plan_summary.hpp"
 #include "apps/progress.hpp"
-#include "apps/signals.hpp"
 #include "apps/simulation.hpp"
 #include "apps/vehicle_plans.hpp"
 #include "apps/verb.hpp"
@@ -29,7 +30,7 @@ struct MissionOptions {
   std::string simulated;
   std::string home;
   std::string signing_key;
-  std::optional<int> vehicle;
+  std::vector<std::string> vehicle;  ///< one at most
   std::string type = "all";
   std::optional<double> altitude_m;
   double wait_s = 10.0;
@@ -73,43 +74,31 @@ Result<> write_plan_file(MissionOptions const& options, plan::Plan const& plan) 
 
 // ---- with a vehicle
 
-/// The ground side for one exchange with one vehicle.
+/// One exchange with one vehicle.
 struct Exchange {
-  Exchange(MissionOptions const& chosen, SigningSetup const& signing)
-      : options(chosen),
-        loop(pace_for(chosen.simulated.empty() ? 1.0 : 0.0)),
-        ground(loop, fleet::OnStop::loiter, base::Logger(), {.asks_for_messages = false}, {}, signing),
-        signing_time(ground.connection, signing.time_file, base::Logger()),
-        settled(loop),
-        scope(loop) {}
+  Exchange(MissionOptions const& chosen, SigningSetup signing)
+      : options(chosen), session(std::move(signing), "mission", pace_for(chosen.simulated.empty() ? 1.0 : 0.0)) {}
 
   MissionOptions const& options;
-  base::Loop loop;
-  Ground ground;
-  SigningTimeKeeper signing_time;
+  LinkSession session;
   std::unique_ptr<sim::World> world;
   std::string phase;
   std::optional<Progress> progress;  ///< of the phase
   fleet::Craft const* craft = nullptr;
   plan::Plan plan;  ///< to upload, or what was downloaded
   std::vector<ListReport> reports;
-  std::optional<Result<>> result;
-  bool is_interrupted = false;
-  base::Notifier settled;
-  base::Scope scope;
 };
 
 Result<> open(Exchange& exchange) {
   auto const& options = exchange.options;
-  if (options.simulated.empty())
-    return exchange.ground.open(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
-  if (auto opened = exchange.ground.open(options.links); !opened) return opened;
+  if (options.simulated.empty()) return exchange.session.open(options.links);
+  if (auto opened = exchange.session.ground.open(options.links); !opened) return opened;
   sim::WorldOptions world;
   auto const vehicles = sim::parse_vehicles(options.simulated);
   if (!vehicles) return std::unexpected(vehicles.error());
   world.vehicles = *vehicles;
   if (auto placed = place(world, options.home, exchange.plan.mission.planned_home); !placed) return placed;
-  auto started = start_simulation(exchange.ground, std::move(world), {});
+  auto started = start_simulation(exchange.session.ground, std::move(world), {});
   if (!started) return std::unexpected(started.error());
   exchange.world = *std::move(started);
   return {};
@@ -118,63 +107,51 @@ Result<> open(Exchange& exchange) {
 /// What one of the verbs does once the vehicle is there.
 using Action = Task<Result<>> (*)(Exchange&);
 
-Task<> work(Exchange& exchange, Action action) {
+Task<Result<>> find_and(Exchange& exchange, Action action, std::vector<mavlink::SystemName> wanted) {
   auto const patience = base::from_seconds(exchange.options.wait_s);
-  auto const found = co_await find_craft(exchange.ground, exchange.options.vehicle, patience);
-  if (found) {
-    exchange.craft = *found;
-    exchange.result = co_await action(exchange);
-  } else {
-    exchange.result = std::unexpected(found.error());
-  }
-  exchange.settled.notify_all();
+  auto const found = co_await find_vehicle(exchange.session.ground, std::move(wanted), patience);
+  if (!found) co_return std::unexpected(found.error());
+  exchange.craft = *found;
+  co_return co_await action(exchange);
+}
+
+Task<int> work(Exchange& exchange, Action action, std::vector<mavlink::SystemName> wanted) {
+  auto const done = co_await find_and(exchange, action, std::move(wanted));
+  exchange.progress.reset();
+  co_return done ? int{exit_done} : refuse(done.error());
 }
 
 /// An upload that is broken off must not leave half a plan.
 Task<> clean_up(Exchange& exchange) {
+  exchange.progress.reset();
   if (!exchange.craft || exchange.reports.empty()) co_return;
   auto& report = exchange.reports.back();
   if (report.replacement.left != mavlink::PlanLeft::unknown) co_return;
   say("interrupted: putting back what the vehicle held (Ctrl-C again leaves it as it is)");
-  mavlink::ReplaceOptions const options{.autopilot = exchange.craft->mav_autopilot};
-  co_await mavlink::undo_replacement(exchange.ground.connection, exchange.craft->address, report.type, options,
-                                     report.replacement);
+  auto const& craft = *exchange.craft;
+  mavlink::ReplaceOptions const options{.autopilot = craft.mav_autopilot};
+  co_await mavlink::undo_replacement(craft.connection, craft.address, report.type, options, report.replacement);
   report.error = "interrupted";
   say(fmt::format("{}: {}", to_string(report.type), to_string(report.replacement.left)));
 }
 
-Task<> until_settled(Exchange& exchange, Action action) {
-  exchange.scope.spawn(work(exchange, action));
-  while (!exchange.result && !exchange.is_interrupted) co_await exchange.settled.wait();
-  exchange.scope.clear();
-  exchange.progress.reset();
-  if (!exchange.result) co_await clean_up(exchange);
-}
-
-int finish(Exchange const& exchange) {
-  if (exchange.options.json) fmt::print("{}\n", to_json(exchange.craft, exchange.reports, exchange.plan));
-  if (!exchange.result) return exit_interrupted;
-  if (!*exchange.result) return refuse(exchange.result->error());
-  if (!exchange.options.json)
-    for (auto const& report : exchange.reports) fmt::print("{}", to_text(*exchange.craft, report));
-  return exit_done;
-}
-
 int run_exchange(Exchange& exchange, Action action) {
-  if (auto const types = parse_types(exchange.options.type); !types) return refuse(types.error());
+  auto const& options = exchange.options;
+  if (auto const types = parse_types(options.type); !types) return refuse(types.error());
+  auto vehicle = parse_vehicles(options.vehicle);
+  if (!vehicle) return refuse(vehicle.error());
   if (auto const opened = open(exchange); !opened) return refuse(opened.error());
-  StopSignals const signals(exchange.loop, [&exchange] {
-    exchange.is_interrupted = true;
-    exchange.settled.notify_all();
-  });
-  exchange.loop.run_until_done(until_settled(exchange, action));
-  return finish(exchange);
+  int const code = exchange.session.run(work(exchange, action, *std::move(vehicle)), clean_up(exchange));
+  if (options.json) fmt::print("{}\n", to_json(exchange.craft, exchange.reports, exchange.plan));
+  if (code == exit_done && !options.json)
+    for (auto const& report : exchange.reports) fmt::print("{}", to_text(*exchange.craft, report));
+  return code;
 }
 
 ShowProgress show_on(Exchange& exchange) {
   return [&exchange](std::string_view phase, std::size_t done, std::size_t total) {
     if (!exchange.progress || exchange.phase != phase) exchange.progress.emplace(exchange.phase = phase, "items");
-    exchange.progress->show(done, total, exchange.loop.now());
+    exchange.progress->show(done, total, exchange.session.loop.now());
   };
 }
 
@@ -182,7 +159,7 @@ ShowProgress show_on(Exchange& exchange) {
 Result<> may_change(Exchange const& exchange) {
   if (!exchange.craft->is_armed || exchange.options.is_armed_allowed) return {};
   return base::fail(base::ErrorKind::refused,
-                    fmt::format("vehicle {} is armed: its plans are not changed", exchange.craft->state.system_id),
+                    fmt::format("vehicle {} is armed: its plans are not changed", exchange.craft->id().text),
                     "--armed does it all the same");
 }
 
@@ -193,21 +170,20 @@ Task<Result<>> upload_action(Exchange& exchange) {
   if (!uploads) co_return std::unexpected(uploads.error());
   tell(exchange.options.file, "lost", uploads->lost);
   auto show = show_on(exchange);
-  co_return co_await upload_lists(exchange.ground, *exchange.craft, std::move(uploads->lists), std::move(show),
-                                  exchange.reports);
+  co_return co_await upload_lists(*exchange.craft, std::move(uploads->lists), std::move(show), exchange.reports);
 }
 
 Task<Result<>> download_action(Exchange& exchange) {
   auto types = *parse_types(exchange.options.type);
   auto show = show_on(exchange);
-  co_return co_await download_lists(exchange.ground, *exchange.craft, std::move(types), std::move(show), exchange.plan,
+  co_return co_await download_lists(*exchange.craft, std::move(types), std::move(show), exchange.plan,
                                     exchange.reports);
 }
 
 Task<Result<>> clear_action(Exchange& exchange) {
   if (auto may = may_change(exchange); !may) co_return may;
   auto types = *parse_types(exchange.options.type);
-  co_return co_await clear_lists(exchange.ground, *exchange.craft, std::move(types), exchange.reports);
+  co_return co_await clear_lists(*exchange.craft, std::move(types), exchange.reports);
 }
 
 // ---- the verbs
@@ -215,9 +191,9 @@ Task<Result<>> clear_action(Exchange& exchange) {
 int upload(MissionOptions const& options) {
   auto plan = read_plan_file(options);
   if (!plan) return refuse(plan.error());
-  auto const signing = read_signing(options.signing_key);
+  auto signing = read_signing(options.signing_key);
   if (!signing) return refuse(signing.error());
-  Exchange exchange(options, *signing);
+  Exchange exchange(options, *std::move(signing));
   exchange.plan = *std::move(plan);
   return run_exchange(exchange, upload_action);
 }
@@ -226,9 +202,9 @@ int download(MissionOptions const& options) {
   if (!options.out.empty()) {
     if (auto const format = plan::format_of(options.out); !format) return refuse(format.error());
   }
-  auto const signing = read_signing(options.signing_key);
+  auto signing = read_signing(options.signing_key);
   if (!signing) return refuse(signing.error());
-  Exchange exchange(options, *signing);
+  Exchange exchange(options, *std::move(signing));
   if (int const code = run_exchange(exchange, download_action); code != exit_done) return code;
   if (options.out.empty()) {
     if (!options.json) fmt::print("{}", to_text(exchange.plan));
@@ -239,9 +215,9 @@ int download(MissionOptions const& options) {
 }
 
 int clear(MissionOptions const& options) {
-  auto const signing = read_signing(options.signing_key);
+  auto signing = read_signing(options.signing_key);
   if (!signing) return refuse(signing.error());
-  Exchange exchange(options, *signing);
+  Exchange exchange(options, *std::move(signing));
   return run_exchange(exchange, clear_action);
 }
 
@@ -270,8 +246,8 @@ void add_vehicle_options(CLI::App& verb, MissionOptions& options) {
   auto* simulated = verb.add_option("--sim", options.simulated, "A simulated vehicle instead, e.g. copter:1");
   verb.add_option("--signing-key", options.signing_key, signing_key_help)->excludes(simulated);
   verb.add_option("--home", options.home, "Where simulated vehicles stand: LAT,LON,ALT[,HEADING]");
-  verb.add_option("--vehicle", options.vehicle, "System id; not needed where there is one vehicle")
-      ->check(CLI::Range(1, 255));
+  verb.add_option("--vehicle", options.vehicle, fmt::format("{}; not needed where there is one", vehicle_help))
+      ->expected(1);
   verb.add_option("--wait", options.wait_s, "Seconds to wait for the vehicle")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();

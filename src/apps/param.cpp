@@ -2,19 +2,18 @@
 #include <charconv>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <memory>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "apps/files.hpp"
-#include "apps/ground.hpp"
-#include "apps/key_file.hpp"
+#include "apps/find_vehicles.hpp"
 #include "apps/link_session.hpp"
 #include "apps/param_jobs.hpp"
 #include "apps/verb.hpp"
-#include "mavlink/modes.hpp"
 #include "parameters/parameter_file.hpp"
 
 namespace lapwing::apps {
@@ -26,7 +25,7 @@ using parameters::Wanted;
 
 struct ParamArguments {
   std::vector<std::string> links;
-  std::vector<int> vehicles;
+  std::vector<std::string> vehicles;
   double wait_s = 10.0;
   bool json = false;
   bool cached = false;
@@ -35,40 +34,40 @@ struct ParamArguments {
   std::string signing_key;
   std::string file;
   std::vector<std::string> names;  ///< names, patterns or NAME=VALUE, by the verb
-  std::vector<std::string> sides;  ///< of a comparison: ids and files
-  int from = 0;
-  std::vector<int> to;
+  std::vector<std::string> sides;  ///< of a comparison: vehicles and files
+  std::string from;
+  std::vector<std::string> to;
 };
 
-/// What all of `param` need: the links, and the parameters of what is on them.
+/// What all of `param` need: the vehicles, and the parameters of each network.
 struct ParamGround : LinkSession {
-  explicit ParamGround(SigningSetup const& signing)
-      : LinkSession(signing, "param"),
-        service(connection,
-                parameters::Cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME"))), log) {}
+  explicit ParamGround(SigningSetup signing) : LinkSession(std::move(signing), "param") {}
 
-  parameters::ParameterService service;
+  base::Result<> open(std::vector<std::string> const& urls) {
+    if (auto opened = LinkSession::open(urls); !opened) return opened;
+    parameters::Cache const cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")));
+    for (auto& [name, network] : ground.networks) services.try_emplace(name, network, cache, log);
+    return {};
+  }
+  [[nodiscard]] ParamVehicle with_service(fleet::Craft const& craft) {
+    return {.craft = &craft, .service = &services.at(craft.network)};
+  }
+
+  std::map<std::string, parameters::ParameterService> services;  ///< by network
 };
 
 using Job = std::function<base::Task<int>(ParamGround&, ParamArguments const&)>;
 
-/// The number of a vehicle, or nothing: then it is a file's name.
-std::optional<int> vehicle_number(std::string const& text) {
-  int number = 0;
-  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
+/// Else it is a file's name.
 bool is_vehicle(std::string const& text) {
-  return vehicle_number(text).has_value();
+  return mavlink::parse_system_name(text).has_value();
 }
 
 /// Runs `job` on the vehicles' links to its end, or to an interrupt.
 int run_job(ParamArguments const& arguments, Job const& job) {
-  auto const signing = read_signing(arguments.signing_key);
+  auto signing = read_signing(arguments.signing_key);
   if (!signing) return refuse(signing.error());
-  ParamGround ground(*signing);
+  ParamGround ground(*std::move(signing));
   // Two files are compared without anybody else.
   bool const needs_no_vehicle = arguments.sides.size() == 2 && std::ranges::none_of(arguments.sides, is_vehicle);
   if (!needs_no_vehicle)
@@ -81,54 +80,63 @@ void print(std::string const& text) {
   std::fflush(stdout);
 }
 
-std::vector<std::uint8_t> ids_of(std::vector<int> const& numbers) {
-  return {numbers.begin(), numbers.end()};
-}
+using Vehicles = std::vector<ParamVehicle>;
 
-base::Task<base::Result<std::vector<std::uint8_t>>> wanted_vehicles(ParamGround& ground, ParamArguments const& of) {
-  auto const timeout = base::from_seconds(of.wait_s);
-  std::vector<std::uint8_t> const wanted = ids_of(of.vehicles);
-  co_return co_await find_vehicles(ground.loop, ground.service, wanted, timeout);
+/// Those of these names; without one those that are heard.
+base::Task<base::Result<Vehicles>> wanted_vehicles(ParamGround& ground, double wait_s, std::vector<std::string> texts) {
+  auto const names = parse_vehicles(texts);
+  if (!names) co_return std::unexpected(names.error());
+  auto wanted = *names;
+  auto const found = co_await find_vehicles(ground.ground, std::move(wanted), base::from_seconds(wait_s));
+  if (!found) co_return std::unexpected(found.error());
+  Vehicles vehicles;
+  for (auto const* craft : *found) vehicles.push_back(ground.with_service(*craft));
+  co_return vehicles;
 }
 
 /// For verbs that concern one vehicle.
-base::Task<base::Result<std::uint8_t>> the_vehicle(ParamGround& ground, ParamArguments const& of) {
-  auto const ids = co_await wanted_vehicles(ground, of);
-  if (!ids) co_return std::unexpected(ids.error());
-  if (ids->size() == 1) co_return ids->front();
-  co_return base::fail(base::ErrorKind::invalid_input,
-                       fmt::format("several vehicles were heard: {}", fmt::join(*ids, ", ")),
-                       "say which one: --vehicle ID");
+base::Task<base::Result<ParamVehicle>> the_vehicle(ParamGround& ground, ParamArguments const& of) {
+  auto const names = parse_vehicles(of.vehicles);
+  if (!names) co_return std::unexpected(names.error());
+  auto wanted = *names;
+  auto const found = co_await find_vehicle(ground.ground, std::move(wanted), base::from_seconds(of.wait_s));
+  if (!found) co_return std::unexpected(found.error());
+  co_return ground.with_service(**found);
 }
 
 /// For verbs that change something: nothing is changed on vehicles that nobody named.
-base::Task<base::Result<std::vector<std::uint8_t>>> named_vehicles(ParamGround& ground, ParamArguments const& of) {
-  if (!of.vehicles.empty()) co_return co_await wanted_vehicles(ground, of);
+base::Task<base::Result<Vehicles>> named_vehicles(ParamGround& ground, ParamArguments const& of) {
+  if (!of.vehicles.empty()) {
+    auto names = of.vehicles;
+    co_return co_await wanted_vehicles(ground, of.wait_s, std::move(names));
+  }
   auto const one = co_await the_vehicle(ground, of);
   if (!one) co_return std::unexpected(one.error());
-  co_return std::vector<std::uint8_t>{*one};
+  co_return Vehicles{*one};
 }
 
 base::Task<int> list(ParamGround& ground, ParamArguments const& of) {
-  auto const ids = co_await wanted_vehicles(ground, of);
-  if (!ids) co_return refuse(ids.error());
+  auto names = of.vehicles;
+  auto const vehicles = co_await wanted_vehicles(ground, of.wait_s, std::move(names));
+  if (!vehicles) co_return refuse(vehicles.error());
   auto const wanted = of.cached ? Wanted::cached_too : Wanted::confirmed;
-  std::vector<std::uint8_t> const which = *ids;
+  Vehicles const which = *vehicles;
   std::vector<std::string> const patterns = of.names;
-  auto const listings = co_await list_parameters(ground.loop, ground.service, which, wanted, patterns);
+  auto const listings = co_await list_parameters(ground.loop, which, wanted, patterns);
   if (!listings) co_return refuse(listings.error());
   print(of.json ? listing_json(*listings) : listing_text(*listings));
   co_return exit_done;
 }
 
 base::Task<int> get(ParamGround& ground, ParamArguments const& of) {
-  auto const ids = co_await wanted_vehicles(ground, of);
-  if (!ids) co_return refuse(ids.error());
+  auto wanted = of.vehicles;
+  auto const vehicles = co_await wanted_vehicles(ground, of.wait_s, std::move(wanted));
+  if (!vehicles) co_return refuse(vehicles.error());
   std::vector<ParamListing> listings;
   bool is_whole = true;
-  for (auto const id : *ids) {
+  for (auto const vehicle : *vehicles) {
     std::vector<std::string> const names = of.names;
-    listings.push_back(co_await read_parameters(ground.service, id, names));
+    listings.push_back(co_await read_parameters(vehicle, names));
     listings.back().taken = ground.loop.utc_now();
     for (auto const& error : listings.back().errors) fmt::print(stderr, "lapwing: {}\n", error);
     is_whole = is_whole && listings.back().errors.empty();
@@ -154,12 +162,12 @@ base::Result<std::vector<Parameter>> assignments(std::vector<std::string> const&
 }
 
 /// The same values on every vehicle, one vehicle after the other; then the report.
-base::Task<int> apply(ParamGround& ground, ParamArguments const& of, std::vector<std::uint8_t> ids,
-                      std::vector<Parameter> values, ApplyOptions options) {
+base::Task<int> apply(ParamGround& ground, ParamArguments const& of, Vehicles vehicles, std::vector<Parameter> values,
+                      ApplyOptions options) {
   std::vector<ParamChanges> all;
   bool is_good = true;
-  for (auto const id : ids) {
-    auto const changes = co_await apply_parameters(ground.loop, ground.service, id, values, options);
+  for (auto const vehicle : vehicles) {
+    auto const changes = co_await apply_parameters(ground.loop, vehicle, values, options);
     if (!changes) co_return refuse(changes.error());
     is_good = is_good && changes->failed.empty();
     all.push_back(*changes);
@@ -171,9 +179,9 @@ base::Task<int> apply(ParamGround& ground, ParamArguments const& of, std::vector
 base::Task<int> set(ParamGround& ground, ParamArguments const& of) {
   auto const values = assignments(of.names);
   if (!values) co_return refuse(values.error());
-  auto const ids = co_await named_vehicles(ground, of);
-  if (!ids) co_return refuse(ids.error());
-  std::vector<std::uint8_t> const which = *ids;
+  auto const vehicles = co_await named_vehicles(ground, of);
+  if (!vehicles) co_return refuse(vehicles.error());
+  Vehicles const which = *vehicles;
   std::vector<Parameter> const what = *values;
   // Who names a parameter means it.
   co_return co_await apply(ground, of, which, what, ApplyOptions{.leave_out_own = false});
@@ -200,39 +208,37 @@ std::vector<Parameter> chosen(std::vector<Parameter> const& from, std::vector<st
 base::Task<int> load(ParamGround& ground, ParamArguments const& of) {
   auto const all = read_file(of.file);
   if (!all) co_return refuse(all.error());
-  auto const ids = co_await named_vehicles(ground, of);
-  if (!ids) co_return refuse(ids.error());
-  std::vector<std::uint8_t> const which = *ids;
+  auto const vehicles = co_await named_vehicles(ground, of);
+  if (!vehicles) co_return refuse(vehicles.error());
+  Vehicles const which = *vehicles;
   auto const values = chosen(*all, of.names);
   co_return co_await apply(ground, of, which, values,
                            ApplyOptions{.leave_out_own = !of.everything, .only_tell = of.only_tell});
 }
 
-parameters::FileHeader header_for(ParamGround const& ground, ParamListing const& listing) {
-  parameters::FileHeader header{.system_id = listing.system_id, .version = listing.firmware};
-  for (auto const& vehicle : ground.service.vehicles()) {
-    if (vehicle.address.system != listing.system_id) continue;
-    auto const autopilot = mavlink::autopilot_of(vehicle.autopilot);
-    if (autopilot == vehicle::Autopilot::ardupilot) header.stack = "ArduPilot";
-    if (autopilot == vehicle::Autopilot::px4) header.stack = "PX4";
-    header.vehicle = to_string(mavlink::family_of(vehicle.type));
-  }
+parameters::FileHeader header_for(fleet::Craft const& craft, ParamListing const& listing) {
+  parameters::FileHeader header{.system_id = craft.address.system, .version = listing.firmware};
+  if (craft.state.autopilot == vehicle::Autopilot::ardupilot) header.stack = "ArduPilot";
+  if (craft.state.autopilot == vehicle::Autopilot::px4) header.stack = "PX4";
+  header.vehicle = to_string(craft.state.family);
   return header;
 }
 
 base::Task<int> save(ParamGround& ground, ParamArguments const& of) {
-  auto const id = co_await the_vehicle(ground, of);
-  if (!id) co_return refuse(id.error());
-  std::vector<std::uint8_t> const which{*id};
+  auto const vehicle = co_await the_vehicle(ground, of);
+  if (!vehicle) co_return refuse(vehicle.error());
+  Vehicles const which{*vehicle};
   std::vector<std::string> const patterns = of.names;
-  auto const listings = co_await list_parameters(ground.loop, ground.service, which, Wanted::confirmed, patterns);
+  auto const listings = co_await list_parameters(ground.loop, which, Wanted::confirmed, patterns);
   if (!listings) co_return refuse(listings.error());
   auto const& listing = listings->front();
   bool const is_plain = of.file.ends_with(".param") || of.file.ends_with(".parm");
-  auto const text = is_plain ? parameters::mission_planner_text(listing.parameters)
-                             : parameters::qgroundcontrol_text(listing.parameters, header_for(ground, listing));
+  auto const text = is_plain
+                        ? parameters::mission_planner_text(listing.parameters)
+                        : parameters::qgroundcontrol_text(listing.parameters, header_for(*vehicle->craft, listing));
   if (auto const written = write_file(of.file, text); !written) co_return refuse(written.error());
-  fmt::print(stderr, "{} parameters of vehicle {} written to {}\n", listing.parameters.size(), *id, of.file);
+  fmt::print(stderr, "{} parameters of vehicle {} written to {}\n", listing.parameters.size(),
+             vehicle->craft->id().text, of.file);
   co_return exit_done;
 }
 
@@ -243,10 +249,13 @@ std::string title(std::string const& text) {
 /// The chosen parameters of a vehicle or file; what belongs to one vehicle only when it is asked for.
 base::Task<base::Result<std::vector<Parameter>>> side(ParamGround& ground, ParamArguments const& of, std::string text) {
   std::vector<Parameter> all;
-  if (auto const number = vehicle_number(text)) {
-    std::vector<std::uint8_t> const which{static_cast<std::uint8_t>(*number)};
+  if (is_vehicle(text)) {
+    std::vector<std::string> names{text};
+    auto const vehicles = co_await wanted_vehicles(ground, of.wait_s, std::move(names));
+    if (!vehicles) co_return std::unexpected(vehicles.error());
+    Vehicles const which = *vehicles;
     std::vector<std::string> const patterns;
-    auto const listings = co_await list_parameters(ground.loop, ground.service, which, Wanted::confirmed, patterns);
+    auto const listings = co_await list_parameters(ground.loop, which, Wanted::confirmed, patterns);
     if (!listings) co_return std::unexpected(listings.error());
     all = listings->front().parameters;
   } else {
@@ -263,14 +272,15 @@ base::Task<base::Result<std::vector<Parameter>>> side(ParamGround& ground, Param
 base::Task<int> compare(ParamGround& ground, ParamArguments const& of) {
   auto sides = of.sides;
   auto search = of;
-  for (auto const& text : sides)
-    if (auto const number = vehicle_number(text)) search.vehicles.push_back(*number);
+  std::ranges::copy_if(sides, std::back_inserter(search.vehicles), is_vehicle);
   if (sides.size() == 1) {
-    auto const id = co_await the_vehicle(ground, search);
-    if (!id) co_return refuse(id.error());
-    sides.insert(sides.begin(), std::to_string(*id));
+    auto const one = co_await the_vehicle(ground, search);
+    if (!one) co_return refuse(one.error());
+    sides.insert(sides.begin(), one->craft->id().text);
   } else if (!search.vehicles.empty()) {
-    if (auto const found = co_await wanted_vehicles(ground, search); !found) co_return refuse(found.error());
+    auto names = search.vehicles;
+    auto const found = co_await wanted_vehicles(ground, of.wait_s, std::move(names));
+    if (!found) co_return refuse(found.error());
   }
   std::vector<std::vector<Parameter>> both;
   for (auto const& text : sides) {
@@ -285,15 +295,15 @@ base::Task<int> compare(ParamGround& ground, ParamArguments const& of) {
 }
 
 base::Task<int> copy(ParamGround& ground, ParamArguments const& of) {
-  auto search = of;
-  search.vehicles = of.to;
-  search.vehicles.push_back(of.from);
-  if (auto const found = co_await wanted_vehicles(ground, search); !found) co_return refuse(found.error());
-  std::vector<std::uint8_t> const source{static_cast<std::uint8_t>(of.from)};
+  std::vector<std::string> names{of.from};
+  names.insert(names.end(), of.to.begin(), of.to.end());
+  auto const vehicles = co_await wanted_vehicles(ground, of.wait_s, std::move(names));
+  if (!vehicles) co_return refuse(vehicles.error());
+  Vehicles const source{vehicles->front()};
+  Vehicles const targets(vehicles->begin() + 1, vehicles->end());
   std::vector<std::string> const patterns = of.names;
-  auto const listings = co_await list_parameters(ground.loop, ground.service, source, Wanted::confirmed, patterns);
+  auto const listings = co_await list_parameters(ground.loop, source, Wanted::confirmed, patterns);
   if (!listings) co_return refuse(listings.error());
-  std::vector<std::uint8_t> const targets = ids_of(of.to);
   std::vector<Parameter> const values = listings->front().parameters;
   co_return co_await apply(ground, of, targets, values,
                            ApplyOptions{.leave_out_own = !of.everything, .only_tell = of.only_tell});
@@ -320,8 +330,8 @@ CLI::App* add_verb(CLI::App& param, Arguments const& arguments, int& exit_code, 
 }
 
 void add_vehicle(CLI::App& verb, Arguments const& arguments) {
-  verb.add_option("--vehicle", arguments->vehicles, "System id (may be repeated); default: those that are heard")
-      ->check(CLI::Range(1, 255))
+  verb.add_option("--vehicle", arguments->vehicles,
+                  fmt::format("{} (may be repeated); default: those that are heard", vehicle_help))
       ->allow_extra_args(false);
 }
 
@@ -344,7 +354,7 @@ void add_readers(CLI::App& param, Arguments const& arguments, int& exit_code) {
   add_vehicle(*verb, arguments);
   verb = add_verb(param, arguments, exit_code, "compare",
                   "Differences of two vehicles, a vehicle and a file, or two files", compare);
-  verb->add_option("side", arguments->sides, "Vehicle ids or files; one alone is compared with the vehicle")
+  verb->add_option("side", arguments->sides, "Vehicles (7, north/7) or files; one alone is compared with the vehicle")
       ->required()
       ->expected(1, 2);
   verb->add_option("--only", arguments->names, pattern_help)->allow_extra_args(false);
@@ -362,10 +372,8 @@ void add_writers(CLI::App& param, Arguments const& arguments, int& exit_code) {
       ->required();
   add_vehicle(*verb, arguments);
   auto* copying = add_verb(param, arguments, exit_code, "copy", "Set on vehicles what another one has", copy);
-  copying->add_option("from", arguments->from, "System id of the vehicle to read")
-      ->required()
-      ->check(CLI::Range(1, 255));
-  copying->add_option("to", arguments->to, "System ids of the vehicles to set")->required()->check(CLI::Range(1, 255));
+  copying->add_option("from", arguments->from, "The vehicle to read: 7, or north/7")->required();
+  copying->add_option("to", arguments->to, "The vehicles to set")->required();
   for (auto* writer : {verb, copying}) {
     writer->add_option("--only", arguments->names, pattern_help)->allow_extra_args(false);
     writer->add_flag("--all", arguments->everything, all_help);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "apps/progress.hpp"
 #include "base/notifier.hpp"
@@ -13,33 +12,24 @@
 
 namespace lapwing::apps {
 
-using base::ErrorKind;
 using parameters::Parameter;
-using parameters::ParameterService;
-using namespace std::chrono_literals;
 
 namespace {
 
-std::vector<std::uint8_t> heard_ids(ParameterService const& service) {
-  std::vector<std::uint8_t> ids;
-  for (auto const& vehicle : service.vehicles()) ids.push_back(vehicle.address.system);
-  return ids;
+std::string who(ParamVehicle const& vehicle) {
+  return fmt::format("vehicle {}", vehicle.craft->id().text);
 }
 
-std::string who(std::uint8_t id) {
-  return fmt::format("vehicle {}", id);
-}
-
-base::Task<base::Result<ParamListing>> list_one(base::Loop& loop, ParameterService& service, std::uint8_t id,
-                                                parameters::Wanted wanted, std::vector<std::string> patterns) {
-  Progress progress(who(id), "parameters");
+base::Task<base::Result<ParamListing>> list_one(base::Loop& loop, ParamVehicle vehicle, parameters::Wanted wanted,
+                                                std::vector<std::string> patterns) {
+  Progress progress(who(vehicle), "parameters");
   mavlink::ParamProgress const show = [&progress, &loop](std::size_t done, std::size_t total) {
     progress.show(done, total, loop.now());
   };
-  auto snapshot = co_await service.all(id, wanted, show);
+  auto snapshot = co_await vehicle.service->all(vehicle.craft->address.system, wanted, show);
   if (!snapshot) co_return std::unexpected(snapshot.error());
   ParamListing listing{
-      .system_id = id,
+      .vehicle = vehicle.craft->name(),
       .firmware = snapshot->identity.firmware ? parameters::firmware_text(snapshot->identity.firmware) : std::string(),
       .confirmed = snapshot->confirmed,
       .taken = snapshot->taken};
@@ -55,8 +45,8 @@ base::Task<> fill(base::Task<T> task, std::optional<T>& slot, std::size_t& left,
 }
 
 /// What is to be set, one value, as `ParamChanges` will have it.
-base::Task<> apply_one(ParameterService& service, Parameter value, ParamChanges& changes) {
-  auto const changed = co_await service.change(changes.system_id, value.name, value.value);
+base::Task<> apply_one(ParamVehicle vehicle, Parameter value, ParamChanges& changes) {
+  auto const changed = co_await vehicle.service->change(vehicle.craft->address.system, value.name, value.value);
   if (!changed) {
     changes.failed.push_back({value.name, changed.error().message});
   } else if (mavlink::same_value(changed->before, changed->after)) {
@@ -90,43 +80,17 @@ std::vector<Parameter> to_set(std::vector<Parameter> const& values, std::vector<
 
 }  // namespace
 
-base::Task<base::Result<std::vector<std::uint8_t>>> find_vehicles(base::Loop& loop, ParameterService& service,
-                                                                  std::vector<std::uint8_t> wanted,
-                                                                  base::Duration timeout) {
-  // Every vehicle says that it is there once a second.
-  constexpr auto others_follow = 1200ms;
-  auto const deadline = loop.now() + timeout;
-  auto const all_there = [&] {
-    auto const ids = heard_ids(service);
-    if (wanted.empty()) return !ids.empty();
-    return std::ranges::all_of(wanted, [&](auto id) { return std::ranges::find(ids, id) != ids.end(); });
-  };
-  while (!all_there() && loop.now() < deadline) co_await loop.sleep(10ms);
-  auto const ids = heard_ids(service);
-  if (!all_there()) {
-    auto const missing =
-        wanted.empty() ? std::string("no vehicle") : fmt::format("not every vehicle of {}", fmt::join(wanted, ", "));
-    co_return base::fail(ErrorKind::lost,
-                         fmt::format("{} was heard within {:g} s{}", missing, base::to_seconds(timeout),
-                                     ids.empty() ? "" : fmt::format(" (heard: {})", fmt::join(ids, ", "))),
-                         "lapwing doctor tells which links answer; --wait S waits longer");
-  }
-  if (!wanted.empty()) co_return wanted;
-  co_await loop.sleep(others_follow);
-  co_return heard_ids(service);
-}
-
-base::Task<base::Result<std::vector<ParamListing>>> list_parameters(base::Loop& loop, ParameterService& service,
-                                                                    std::vector<std::uint8_t> ids,
+base::Task<base::Result<std::vector<ParamListing>>> list_parameters(base::Loop& loop,
+                                                                    std::vector<ParamVehicle> vehicles,
                                                                     parameters::Wanted wanted,
                                                                     std::vector<std::string> patterns) {
   using One = base::Result<ParamListing>;
-  std::vector<std::optional<One>> slots(ids.size());
-  std::size_t left = ids.size();
+  std::vector<std::optional<One>> slots(vehicles.size());
+  std::size_t left = vehicles.size();
   base::Notifier done(loop);
   base::Scope scope(loop);
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    auto task = list_one(loop, service, ids[i], wanted, patterns);
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    auto task = list_one(loop, vehicles[i], wanted, patterns);
     scope.spawn(fill<One>(std::move(task), slots[i], left, done));
   }
   while (left > 0) co_await done.wait();
@@ -138,10 +102,10 @@ base::Task<base::Result<std::vector<ParamListing>>> list_parameters(base::Loop& 
   co_return listings;
 }
 
-base::Task<ParamListing> read_parameters(ParameterService& service, std::uint8_t id, std::vector<std::string> names) {
-  ParamListing listing{.system_id = id};
+base::Task<ParamListing> read_parameters(ParamVehicle vehicle, std::vector<std::string> names) {
+  ParamListing listing{.vehicle = vehicle.craft->name()};
   for (auto const& name : names) {
-    auto const value = co_await service.read(id, name);
+    auto const value = co_await vehicle.service->read(vehicle.craft->address.system, name);
     if (value) {
       listing.parameters.push_back(*value);
     } else {
@@ -151,11 +115,11 @@ base::Task<ParamListing> read_parameters(ParameterService& service, std::uint8_t
   co_return listing;
 }
 
-base::Task<base::Result<ParamChanges>> apply_parameters(base::Loop& loop, ParameterService& service, std::uint8_t id,
+base::Task<base::Result<ParamChanges>> apply_parameters(base::Loop& loop, ParamVehicle vehicle,
                                                         std::vector<Parameter> values, ApplyOptions options) {
   /// So few are asked for one by one; more are compared with the vehicle's list first.
   constexpr std::size_t few = 20;
-  ParamChanges changes{.system_id = id};
+  ParamChanges changes{.vehicle = vehicle.craft->name()};
   if (options.leave_out_own) {
     auto const own = std::ranges::stable_partition(
         values, [](Parameter const& value) { return !parameters::belongs_to_one_vehicle(value.name); });
@@ -167,13 +131,13 @@ base::Task<base::Result<ParamChanges>> apply_parameters(base::Loop& loop, Parame
     std::vector<Parameter> unknown;
     auto rest = values;
     if (!one_by_one) {
-      auto const there = co_await list_one(loop, service, id, parameters::Wanted::confirmed, {});
+      auto const there = co_await list_one(loop, vehicle, parameters::Wanted::confirmed, {});
       if (!there) co_return std::unexpected(there.error());
       rest = to_set(values, there->parameters, options.only_tell, changes, unknown);
     }
-    Progress progress(who(id), "values set");
+    Progress progress(who(vehicle), "values set");
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      co_await apply_one(service, rest[i], changes);
+      co_await apply_one(vehicle, rest[i], changes);
       progress.show(i + 1, rest.size(), loop.now());
     }
     // Some show only when another, such as FENCE_ENABLE, has been set.

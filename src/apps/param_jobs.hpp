@@ -4,29 +4,27 @@
 #include <vector>
 
 #include "apps/param_report.hpp"
+#include "fleet/craft.hpp"
 #include "parameters/service.hpp"
 
-/// What the verb `param` does with vehicles, as coroutines over a `parameters::ParameterService`.
+/// What the verb `param` does with vehicles, as coroutines over `parameters::ParameterService`.
 namespace lapwing::apps {
 
-/// The vehicles of these ids, or whichever are heard when none are given. Errors: lost (nobody, or not all of them,
-/// within `timeout`; tells who was heard).
-base::Task<base::Result<std::vector<std::uint8_t>>> find_vehicles(base::Loop& loop,
-                                                                  parameters::ParameterService& service,
-                                                                  std::vector<std::uint8_t> wanted,
-                                                                  base::Duration timeout);
+/// A vehicle, and the service that knows the parameters on its network.
+struct ParamVehicle {
+  fleet::Craft const* craft = nullptr;
+  parameters::ParameterService* service = nullptr;
+};
 
 /// All parameters that fit one of the patterns, with progress on standard error. Vehicles on different links are asked
 /// at the same time. The error of the first that fails.
 base::Task<base::Result<std::vector<ParamListing>>> list_parameters(base::Loop& loop,
-                                                                    parameters::ParameterService& service,
-                                                                    std::vector<std::uint8_t> ids,
+                                                                    std::vector<ParamVehicle> vehicles,
                                                                     parameters::Wanted wanted,
                                                                     std::vector<std::string> patterns);
 
 /// The parameters of these names, each asked of the vehicle.
-base::Task<ParamListing> read_parameters(parameters::ParameterService& service, std::uint8_t id,
-                                         std::vector<std::string> names);
+base::Task<ParamListing> read_parameters(ParamVehicle vehicle, std::vector<std::string> names);
 
 struct ApplyOptions {
   bool leave_out_own = true;  ///< skip what belongs to one vehicle
@@ -34,8 +32,8 @@ struct ApplyOptions {
 };
 /// Sets each value that the vehicle does not have already. A parameter that shows only after another was switched on
 /// is set in a second round.
-base::Task<base::Result<ParamChanges>> apply_parameters(base::Loop& loop, parameters::ParameterService& service,
-                                                        std::uint8_t id, std::vector<parameters::Parameter> values,
+base::Task<base::Result<ParamChanges>> apply_parameters(base::Loop& loop, ParamVehicle vehicle,
+                                                        std::vector<parameters::Parameter> values,
                                                         ApplyOptions options);
 
 }  // namespace lapwing::apps

@@ -30,6 +30,12 @@ ordered_json to_json(Parameter const& parameter) {
   return {{"name", parameter.name}, {"value", number(parameter)}, {"type", to_string(parameter.type)}};
 }
 
+ordered_json json_of(mavlink::SystemName const& vehicle) {
+  ordered_json json{{"id", vehicle.system_id}};
+  if (!vehicle.network.empty()) json["network"] = vehicle.network;
+  return json;
+}
+
 std::string text_or_dash(std::optional<Parameter> const& parameter) {
   return parameter ? value_text(*parameter) : "-";
 }
@@ -39,7 +45,7 @@ std::string text_or_dash(std::optional<Parameter> const& parameter) {
 std::string listing_text(std::vector<ParamListing> const& listings) {
   std::string text;
   for (auto const& listing : listings) {
-    if (listings.size() > 1) text += fmt::format("# vehicle {}\n", listing.system_id);
+    if (listings.size() > 1) text += fmt::format("# vehicle {}\n", to_string(listing.vehicle));
     if (listing.confirmed == Confirmed::not_at_all)
       text += fmt::format("# as of {}; not confirmed by the vehicle since\n", utc_text(listing.taken));
     for (auto const& parameter : listing.parameters)
@@ -53,7 +59,7 @@ std::string listing_json(std::vector<ParamListing> const& listings) {
   for (auto const& listing : listings) {
     auto all = ordered_json::array();
     for (auto const& parameter : listing.parameters) all.push_back(to_json(parameter));
-    ordered_json vehicle{{"id", listing.system_id}};
+    auto vehicle = json_of(listing.vehicle);
     if (!listing.firmware.empty()) vehicle["firmware"] = listing.firmware;
     vehicle["confirmed"] = to_string(listing.confirmed);
     vehicle["taken"] = utc_text(listing.taken);
@@ -68,14 +74,14 @@ std::string changes_text(std::vector<ParamChanges> const& changes) {
   std::string text;
   for (auto const& of : changes) {
     for (auto const& [before, after] : of.changed)
-      text += fmt::format("vehicle {}: {} = {} (was {})\n", of.system_id, after.name, value_text(after),
+      text += fmt::format("vehicle {}: {} = {} (was {})\n", to_string(of.vehicle), after.name, value_text(after),
                           value_text(before));
     for (auto const& [name, message] : of.failed)
-      text += fmt::format("vehicle {}: {} NOT set: {}\n", of.system_id, name, message);
+      text += fmt::format("vehicle {}: {} NOT set: {}\n", to_string(of.vehicle), name, message);
     if (!of.skipped.empty())
-      text += fmt::format("vehicle {}: left out, they belong to one vehicle: {}\n", of.system_id,
+      text += fmt::format("vehicle {}: left out, they belong to one vehicle: {}\n", to_string(of.vehicle),
                           fmt::join(of.skipped, " "));
-    text += fmt::format("vehicle {}: {} set, {} as they were, {} left out, {} failed\n", of.system_id,
+    text += fmt::format("vehicle {}: {} set, {} as they were, {} left out, {} failed\n", to_string(of.vehicle),
                         of.changed.size(), of.unchanged, of.skipped.size(), of.failed.size());
   }
   return text;
@@ -89,11 +95,12 @@ std::string changes_json(std::vector<ParamChanges> const& changes) {
       changed.push_back({{"name", after.name}, {"before", number(before)}, {"after", number(after)}});
     auto failed = ordered_json::array();
     for (auto const& [name, message] : of.failed) failed.push_back({{"name", name}, {"message", message}});
-    vehicles.push_back({{"id", of.system_id},
-                        {"changed", std::move(changed)},
-                        {"unchanged", of.unchanged},
-                        {"skipped", of.skipped},
-                        {"failed", std::move(failed)}});
+    auto vehicle = json_of(of.vehicle);
+    vehicle["changed"] = std::move(changed);
+    vehicle["unchanged"] = of.unchanged;
+    vehicle["skipped"] = of.skipped;
+    vehicle["failed"] = std::move(failed);
+    vehicles.push_back(std::move(vehicle));
   }
   return ordered_json{{"vehicles", std::move(vehicles)}}.dump(2) + "\n";
 }

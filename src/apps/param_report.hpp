@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "mavlink/system_name.hpp"
 #include "parameters/comparison.hpp"
 #include "parameters/service.hpp"
 
@@ -12,7 +12,7 @@ namespace lapwing::apps {
 
 /// The parameters of one vehicle, or some of them.
 struct ParamListing {
-  std::uint8_t system_id = 0;
+  mavlink::SystemName vehicle = {};
   std::string firmware = {};  ///< "4.6.0"; empty: not asked for
   parameters::Confirmed confirmed = parameters::Confirmed::by_vehicle;
   base::UtcTime taken{};
@@ -26,7 +26,7 @@ struct ParamChanges {
     std::string name;
     std::string message;
   };
-  std::uint8_t system_id = 0;
+  mavlink::SystemName vehicle = {};
   std::vector<mavlink::ParamChange> changed = {};
   std::size_t unchanged = 0;              ///< had the value already
   std::vector<std::string> skipped = {};  ///< belong to one vehicle

@@ -13,7 +13,7 @@ using nlohmann::json;
 using parameters::Parameter;
 
 TEST(ParamReport, ListsNamesValuesAndTypes) {
-  ParamListing const one{.system_id = 3, .parameters = {{"RTL_ALT", 1500, int32}, {"A", 0.5, real32}}};
+  ParamListing const one{.vehicle = {"", 3}, .parameters = {{"RTL_ALT", 1500, int32}, {"A", 0.5, real32}}};
   EXPECT_EQ(listing_text({one}),
             "RTL_ALT                     1500  int32\n"
             "A                            0.5  real32\n");
@@ -23,7 +23,7 @@ TEST(ParamReport, ListsNamesValuesAndTypes) {
 }
 
 TEST(ParamReport, WritesNumbersAsTheVehicleHoldsThem) {
-  ParamListing const one{.system_id = 3,
+  ParamListing const one{.vehicle = {"", 3},
                          .firmware = "4.6.0",
                          .parameters = {{"A", static_cast<double>(0.1F), real32},
                                         {"B", 4294967295.0, uint32},
@@ -37,8 +37,20 @@ TEST(ParamReport, WritesNumbersAsTheVehicleHoldsThem) {
   EXPECT_TRUE(all["parameters"][2]["value"].is_null());
 }
 
+TEST(ParamReport, NamesTheNetworkOfAVehicle) {
+  ParamListing const here{.vehicle = {"", 7}};
+  ParamListing const there{.vehicle = {"north", 7}};
+  auto const text = listing_text({here, there});
+  EXPECT_NE(text.find("# vehicle 7\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("# vehicle north/7\n"), std::string::npos) << text;
+  auto const vehicles = json::parse(listing_json({here, there}))["vehicles"];
+  EXPECT_FALSE(vehicles[0].contains("network"));
+  EXPECT_EQ(vehicles[1]["id"], 7);
+  EXPECT_EQ(vehicles[1]["network"], "north");
+}
+
 TEST(ParamReport, TellsWhatWasSetAndWhatNot) {
-  ParamChanges const changes{.system_id = 1,
+  ParamChanges const changes{.vehicle = {"", 1},
                              .changed = {{.before = {"A", 1, int8}, .after = {"A", 2, int8}}},
                              .unchanged = 4,
                              .skipped = {"SYSID_THISMAV"},

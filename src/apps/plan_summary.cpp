@@ -125,6 +125,7 @@ std::string to_json(fleet::Craft const* craft, std::vector<ListReport> const& re
   Json json;
   if (craft) {
     json["vehicle"] = craft->state.system_id;
+    if (!craft->network.empty()) json["network"] = craft->network;
     json["plans"] = Json::array();
     for (auto const& report : reports) json["plans"].push_back(report_json(report));
   }

@@ -1,3 +1,4 @@
+#include <array>
 #include <memory>
 
 #include <fmt/format.h>
@@ -73,7 +74,7 @@ class RouterProgram {
     station::Router pages;
     pages.add("GET", "/metrics", [this](auto const&) {
       base::OpenMetrics metrics;
-      route::write_metrics(*router_, metrics);
+      route::write_metrics(std::array<route::Router const*, 1>{router_.get()}, metrics);
       return station::HttpResponse{.content_type = std::string(base::OpenMetrics::content_type),
                                    .body = metrics.text()};
     });

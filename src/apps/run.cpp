@@ -73,12 +73,12 @@ base::Result<Equipment> equipment_for(RunOptions const& options, std::optional<s
 
 /// Simulated vehicles, or the links, or the default link; and who rides along.
 base::Result<> connect(Session& session, RunOptions const& options, std::optional<sim::WorldOptions> world) {
-  auto endpoints = forward_to(options.forward);
-  if (!endpoints) return std::unexpected(endpoints.error());
-  if (auto forwarded = session.forward(*std::move(endpoints)); !forwarded) return forwarded;
-  if (!world) return session.open_links(options.links.empty() ? std::vector<std::string>{default_link} : options.links);
-  if (auto opened = session.open_links(options.links); !opened) return opened;
-  return session.simulate(*std::move(world));
+  auto programs = forward_to(options.forward);
+  if (!programs) return std::unexpected(programs.error());
+  auto const links = options.links.empty() && !world ? std::vector<std::string>{default_link} : options.links;
+  if (auto opened = session.open_links(links); !opened) return opened;
+  if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return forwarded;
+  return world ? session.simulate(*std::move(world)) : base::Result<>{};
 }
 
 /// To the user's file and beside the recording, if there is one.

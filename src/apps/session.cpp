@@ -44,34 +44,26 @@ base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text) 
                     "use hold (stay in place, the default), land, rtl or terminate (motors off at once)");
 }
 
-base::Result<std::vector<route::EndpointOptions>> forward_to(std::vector<std::string> const& urls) {
-  std::vector<route::EndpointOptions> endpoints;
-  for (auto const& text : urls) {
-    auto url = link::parse_url(text);
-    if (!url) return std::unexpected(url.error());
-    endpoints.push_back({.url = *std::move(url)});
-  }
-  return endpoints;
-}
-
 Session::Session(Options const& options)
     : loop(pace_of(options)),
       log(hub, "lapwing"),
-      ground(loop, options.on_stop, log, {.payload = options.payload, .asks_for_messages = !options.listens_only},
-             options.plans.library, options.signing, options.emergency_action),
+      ground(loop, log, {.payload = options.payload, .asks_for_messages = !options.listens_only}, options.signing),
+      platform(ground.fleet, {.run = {.on_stop = options.on_stop}, .plan_library = options.plans.library},
+               log.named("fleet")),
+      control(ground.fleet, platform, {.stop_action = options.emergency_action}, log),
       console(make_console(loop, log)),
       host(
-          loop, ground.platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
+          loop, platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
       on_stop_(options.on_stop),
       events_(options.events) {
   hub.add_sink(terminal_sink(options.log_level));
-  ground.control.set_on_latched([this](std::string const& reason) { host.halt(reason); });
+  control.set_on_latched([this](std::string const& reason) { host.halt(reason); });
   host.set_bar([this] { return ground.fleet.authority().barred(); });
   bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
   if (is_real_time)
-    signing_time =
-        std::make_unique<SigningTimeKeeper>(ground.connection, options.signing.time_file, log.named("signing"));
+    signing_time = std::make_unique<SigningTimeKeeper>(
+        loop, [this] { return ground.signed_until(); }, options.signing.time_file, log.named("signing"));
   auto const plans = log.named("plans");
   for (auto const& note : options.plans.notes) plans.info(note);
   for (auto const& mistake : options.plans.mistakes) plans.warn(mistake.message);
@@ -88,6 +80,7 @@ base::Result<> Session::open_links(std::vector<std::string> const& urls) {
   if (auto opened = ground.open(urls); !opened) return opened;
   if (record_folder_.empty()) return {};
   for (auto& [name, network] : ground.networks) {
+    if (name.empty()) continue;  // `record` began it
     auto begun = Recording::begin(record_folder_, network, log.named("recording"));
     if (!begun) return std::unexpected(begun.error());
     log.info(fmt::format("recording network {} to {}", name, (*begun)->file().string()));
@@ -96,11 +89,17 @@ base::Result<> Session::open_links(std::vector<std::string> const& urls) {
   return {};
 }
 
-base::Result<> Session::forward(std::vector<route::EndpointOptions> endpoints) {
-  if (endpoints.empty()) return {};
-  forwarding = std::make_unique<route::Router>(loop, route::Router::Options{}, log.named("forward"));
-  forwarding->add({.name = "vehicles"}, mavlink::as_link(ground.connection));
-  return forwarding->open(std::move(endpoints));
+base::Result<> Session::forward(std::vector<Forward> programs) {
+  std::map<std::string, std::vector<route::EndpointOptions>> endpoints;
+  for (auto& program : programs) endpoints[program.network].push_back(std::move(program.endpoint));
+  for (auto& [name, of_network] : endpoints) {
+    auto const network = ground.network(name);
+    if (!network) return std::unexpected(network.error());
+    auto& router = forwarding.try_emplace(name, loop, route::Router::Options{}, log.named("forward")).first->second;
+    router.add({.name = name.empty() ? "vehicles" : fmt::format("vehicles of {}", name)}, mavlink::as_link(**network));
+    if (auto opened = router.open(std::move(of_network)); !opened) return opened;
+  }
+  return {};
 }
 
 base::Result<> Session::record(std::string const& folder) {
@@ -124,8 +123,8 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.program_version = LAPWING_VERSION;
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
-  options.control = script ? nullptr : &ground.control;
-  options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding.get(), loop.now()); };
+  options.control = script ? nullptr : &control;
+  options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
@@ -149,7 +148,7 @@ base::Task<> Session::finish(std::optional<base::Duration> timeout) {
   base::Scope scope(loop);
   if (timeout) scope.spawn(host.halt_after(*timeout));
   co_await host.ended();
-  co_await ground.platform.make_safe(on_stop_);
+  co_await platform.make_safe(on_stop_);
 }
 
 void Session::note(tasks::TaskEvent const& event) {
@@ -173,7 +172,7 @@ RunReport Session::report() const {
                                .type = std::string(to_string(vehicle->family)),
                                .track_m = vehicle->track_m,
                                .pictures = vehicle->pictures.value ? vehicle->pictures.value->taken : 0,
-                               .missions = ground.platform.missions(vehicle->id)});
+                               .missions = platform.missions(vehicle->id)});
   }
   report.tasks = host.task_trees();
   if (auto const& outcome = host.outcome(); outcome && outcome->kind != dolphin::Outcome::Kind::done) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "apps/equipment.hpp"
 #include "apps/event_file.hpp"
+#include "apps/forward.hpp"
 #include "apps/ground.hpp"
 #include "apps/plans.hpp"
 #include "apps/recording.hpp"
@@ -14,6 +16,8 @@
 #include "apps/station_config.hpp"
 #include "apps/web_access.hpp"
 #include "base/log.hpp"
+#include "fleet/control.hpp"
+#include "fleet/platform.hpp"
 #include "route/router.hpp"
 #include "sim/world.hpp"
 #include "station/station.hpp"
@@ -42,8 +46,9 @@ class Session {
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
-  /// Joins other programs with the vehicles, for as long as the session lives.
-  [[nodiscard]] base::Result<> forward(std::vector<route::EndpointOptions> endpoints);
+  /// Joins other programs with the vehicles, for as long as the session lives; call after `open_links`. Errors:
+  /// invalid_input for a network that no link belongs to, and those of `route::Router::open`.
+  [[nodiscard]] base::Result<> forward(std::vector<Forward> programs);
   /// Keeps everything that goes over the links in a new file of this folder, from now on; call before `open_links`.
   /// Further networks have files of their own.
   [[nodiscard]] base::Result<> record(std::string const& folder);
@@ -64,7 +69,9 @@ class Session {
   base::Loop loop;
   base::Logger log;
   Ground ground;
-  std::unique_ptr<route::Router> forwarding;  ///< null: nobody rides along
+  fleet::FleetPlatform platform;
+  fleet::Control control;                           ///< what operators do with the vehicles
+  std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
   std::unique_ptr<Recording> recording;
   std::vector<std::unique_ptr<Recording>> network_recordings;
   std::unique_ptr<dolphin::Output> console;
@@ -84,11 +91,6 @@ class Session {
 
 /// Values of --emergency-stop.
 [[nodiscard]] base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text);
-/// Of the option --forward.
-inline constexpr auto forward_help =
-    "Let another program ride along, e.g. udpout://127.0.0.1:14551 for QGroundControl (may be repeated)";
-/// Values of --forward.
-[[nodiscard]] base::Result<std::vector<route::EndpointOptions>> forward_to(std::vector<std::string> const& urls);
 /// Values of --on-stop.
 [[nodiscard]] base::Result<fleet::OnStop> parse_on_stop(std::string const& text);
 

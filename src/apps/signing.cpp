@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/key_file.hpp"
+#include "apps/find_vehicles.hpp"
 #include "apps/link_session.hpp"
 #include "apps/verb.hpp"
 #include "mavlink/key_store.hpp"
@@ -17,108 +19,102 @@ namespace {
 
 using base::ErrorKind;
 using mavlink::KeyRing;
+using mavlink::SystemName;
 
 struct SigningArguments {
   std::string keys;  ///< the key store
   std::string name;
   std::string import;
   std::vector<std::string> links;
-  std::vector<int> vehicles;
+  std::vector<std::string> vehicles;
   double wait_s = 10.0;
   double overlap_s = 5.0;
   bool insecure = false;
 };
 
-/// Changes of one vehicle's key, each on the disk before it is on the vehicle.
+/// Changes of one vehicle's key, each on the disk before it is on the vehicle. Its network is there.
 struct KeyChange {
   LinkSession& session;
   SigningArguments const& arguments;
   KeyRing ring;  ///< as it is on the disk
 
   /// The store on the disk, and at once on the links; there the vehicle is heard as it is, signed or not.
-  base::Result<> use(std::uint8_t system_id, KeyRing::Use names) {
-    ring.vehicles[system_id] = std::move(names);
-    return keep(system_id);
+  base::Result<> use(SystemName const& vehicle, KeyRing::Use names) {
+    vehicles_of(ring, vehicle.network)[vehicle.system_id] = std::move(names);
+    return keep(vehicle);
   }
-  base::Result<> keep(std::uint8_t system_id) {
+  /// The vehicle has no keys of its own any more.
+  base::Result<> forget(SystemName const& vehicle) {
+    vehicles_of(ring, vehicle.network).erase(vehicle.system_id);
+    return keep(vehicle);
+  }
+  base::Result<> keep(SystemName const& vehicle) {
     if (auto written = write_key_store(arguments.keys, ring); !written) return written;
-    listen(system_id);
+    listen(vehicle);
     return {};
   }
-  void listen(std::uint8_t system_id) {
-    auto live = ring;
-    live.unsigned_frames.systems.insert(system_id);
-    session.connection.set_keys(std::move(live));
+  void listen(SystemName const& vehicle) {
+    auto live = mavlink::ring_of_network(ring, vehicle.network);
+    live.unsigned_frames.systems.insert(vehicle.system_id);
+    session.ground.networks.at(vehicle.network).set_keys(std::move(live));
+  }
+  base::Task<base::Result<fleet::Craft*>> wait_for(SystemName const& vehicle) {
+    std::vector<SystemName> wanted{vehicle};
+    co_return co_await find_vehicle(session.ground, std::move(wanted), base::from_seconds(arguments.wait_s));
   }
 };
 
-KeyRing::Use use_of(KeyRing const& ring, std::uint8_t system_id) {
-  auto const own = ring.vehicles.find(system_id);
-  return own != ring.vehicles.end() ? own->second : ring.everybody;
-}
-
-base::Task<base::Result<>> wait_for(LinkSession& session, std::uint8_t system_id, double wait_s) {
-  using namespace std::chrono_literals;
-  auto const deadline = session.loop.now() + base::from_seconds(wait_s);
-  while (!session.connection.whereabouts(system_id)) {
-    if (session.loop.now() >= deadline)
-      co_return base::fail(
-          ErrorKind::lost, fmt::format("vehicle {} was not heard within {:g} s", system_id, wait_s),
-          "lapwing doctor tells which links answer; does it sign with a key that is not in the store?");
-    co_await session.loop.sleep(10ms);
-  }
-  co_return base::Result<>{};
+KeyRing::Use use_of(KeyRing const& ring, SystemName const& vehicle) {
+  auto const of_network = mavlink::ring_of_network(ring, vehicle.network);
+  auto const own = of_network.vehicles.find(vehicle.system_id);
+  return own != of_network.vehicles.end() ? own->second : ring.everybody;
 }
 
 /// The key is changed in steps of which each leaves vehicle and store able to talk: both keys are known on the disk
 /// before the vehicle hears of the new one, and the old one goes when the vehicle has signed with the new one for a
 /// while.
-base::Task<base::Result<>> change_key(KeyChange& change, std::uint8_t system_id, std::string name) {
-  auto& session = change.session;
-  auto both = use_of(change.ring, system_id);
+base::Task<base::Result<>> change_key(KeyChange& change, SystemName vehicle, std::string name) {
+  auto both = use_of(change.ring, vehicle);
   if (std::ranges::find(both, name) == both.end()) both.push_back(name);
-  if (auto kept = change.use(system_id, both); !kept) co_return kept;
-  if (auto heard = co_await wait_for(session, system_id, change.arguments.wait_s); !heard) co_return heard;
-  mavlink::Address const target{system_id, mavlink::autopilot_component};
-  if (auto given = co_await mavlink::give_key(session.connection, target, name); !given) co_return given;
+  if (auto kept = change.use(vehicle, both); !kept) co_return kept;
+  auto const heard = co_await change.wait_for(vehicle);
+  if (!heard) co_return std::unexpected(heard.error());
+  auto& connection = (*heard)->connection;
+  mavlink::Address const target{vehicle.system_id, mavlink::autopilot_component};
+  if (auto given = co_await mavlink::give_key(connection, target, name); !given) co_return given;
   std::erase(both, name);
   both.insert(both.begin(), name);
-  if (auto kept = change.use(system_id, both); !kept) co_return kept;
-  co_await session.loop.sleep(base::from_seconds(change.arguments.overlap_s));
-  if (session.connection.signing()->key_of(system_id) != name)
-    co_return base::fail(ErrorKind::refused, fmt::format("vehicle {} signs with its old key again", system_id),
+  if (auto kept = change.use(vehicle, both); !kept) co_return kept;
+  co_await change.session.loop.sleep(base::from_seconds(change.arguments.overlap_s));
+  if (connection.signing()->key_of(vehicle.system_id) != name)
+    co_return base::fail(ErrorKind::refused, fmt::format("vehicle {} signs with its old key again", to_string(vehicle)),
                          "both keys are kept; was it restarted before it had stored the new one?");
-  if (change.ring.everybody == KeyRing::Use{name}) {
-    change.ring.vehicles.erase(system_id);
-    co_return change.keep(system_id);
-  }
+  if (change.ring.everybody == KeyRing::Use{name}) co_return change.forget(vehicle);
   KeyRing::Use const only{name};
-  co_return change.use(system_id, only);
+  co_return change.use(vehicle, only);
 }
 
-base::Task<int> give(KeyChange& change) {
-  auto const& of = change.arguments;
-  for (int const number : of.vehicles) {
-    auto const id = static_cast<std::uint8_t>(number);
-    std::string const name = of.name;
-    if (auto const changed = co_await change_key(change, id, name); !changed) co_return refuse(changed.error());
-    fmt::print("vehicle {} signs with {}\n", number, name);
+base::Task<int> give(KeyChange& change, std::vector<SystemName> vehicles) {
+  for (auto const& vehicle : vehicles) {
+    SystemName const which = vehicle;
+    std::string const name = change.arguments.name;
+    if (auto const changed = co_await change_key(change, which, name); !changed) co_return refuse(changed.error());
+    fmt::print("vehicle {} signs with {}\n", to_string(vehicle), name);
   }
   co_return exit_done;
 }
 
-base::Task<int> take(KeyChange& change) {
-  auto const& of = change.arguments;
-  for (int const number : of.vehicles) {
-    auto const id = static_cast<std::uint8_t>(number);
-    change.listen(id);
-    if (auto heard = co_await wait_for(change.session, id, of.wait_s); !heard) co_return refuse(heard.error());
-    mavlink::Address const target{id, mavlink::autopilot_component};
-    if (auto done = co_await mavlink::take_key_away(change.session.connection, target); !done)
+base::Task<int> take(KeyChange& change, std::vector<SystemName> vehicles) {
+  for (auto const& vehicle : vehicles) {
+    change.listen(vehicle);
+    auto const heard = co_await change.wait_for(vehicle);
+    if (!heard) co_return refuse(heard.error());
+    mavlink::Address const target{vehicle.system_id, mavlink::autopilot_component};
+    if (auto done = co_await mavlink::take_key_away((*heard)->connection, target); !done)
       co_return refuse(done.error());
-    change.ring.vehicles.erase(id);
-    if (auto kept = change.keep(id); !kept) co_return refuse(kept.error());
-    fmt::print("vehicle {} signs nothing any more; with these keys it is heard only if [unsigned] says so\n", number);
+    if (auto kept = change.forget(vehicle); !kept) co_return refuse(kept.error());
+    fmt::print("vehicle {} signs nothing any more; with these keys it is heard only if [unsigned] says so\n",
+               to_string(vehicle));
   }
   co_return exit_done;
 }
@@ -126,26 +122,33 @@ base::Task<int> take(KeyChange& change) {
 /// A key goes over the link as it is: only where nobody else listens.
 base::Result<> check_links(SigningArguments const& of) {
   if (of.insecure) return {};
-  for (auto const& url : of.links)
-    if (!mavlink::is_local(url))
-      return base::fail(ErrorKind::invalid_input, fmt::format("whoever listens on {} would learn the key", url),
+  for (auto const& text : of.links) {
+    auto const link = parse_network_link(text);
+    if (!link) return std::unexpected(link.error());
+    if (!mavlink::is_local(to_string(link->url)))
+      return base::fail(ErrorKind::invalid_input, fmt::format("whoever listens on {} would learn the key", text),
                         "use a serial line or loopback, or --insecure-setup if nobody can listen there");
+  }
   return {};
 }
 
-int on_vehicles(SigningArguments const& of, base::Task<int> (*job)(KeyChange&)) {
+int on_vehicles(SigningArguments const& of, base::Task<int> (*job)(KeyChange&, std::vector<SystemName>)) {
+  auto vehicles = parse_vehicles(of.vehicles);
+  if (!vehicles) return refuse(vehicles.error());
   if (auto safe = check_links(of); !safe) return refuse(safe.error());
   auto const ring = read_key_store(of.keys);
   if (!ring) return refuse(ring.error());
   if (!of.name.empty() && !ring->keys.contains(of.name))
     return refuse({ErrorKind::not_found, fmt::format("key store {}: there is no key {}", of.keys, of.name),
                    fmt::format("make it: lapwing signing new {} --keys {}", of.name, of.keys)});
-  auto const signing = read_signing(of.keys);
+  auto signing = read_signing(of.keys);
   if (!signing) return refuse(signing.error());
-  LinkSession session(*signing, "signing");
+  LinkSession session(*std::move(signing), "signing");
   if (auto opened = session.open(of.links); !opened) return refuse(opened.error());
+  for (auto const& vehicle : *vehicles)  // before anything is written
+    if (auto const known = session.ground.network(vehicle.network); !known) return refuse(known.error());
   KeyChange change{session, of, *ring};
-  return session.run(job(change));
+  return session.run(job(change, *std::move(vehicles)));
 }
 
 int make_key(SigningArguments const& of) {
@@ -174,6 +177,15 @@ int make_key(SigningArguments const& of) {
   return exit_done;
 }
 
+/// With keys of their own, of every network.
+std::map<SystemName, KeyRing::Use> all_vehicles(KeyRing const& ring) {
+  std::map<SystemName, KeyRing::Use> all;
+  for (auto const& [id, use] : ring.vehicles) all[{"", id}] = use;
+  for (auto const& [network, vehicles] : ring.networks)
+    for (auto const& [id, use] : vehicles) all[{network, id}] = use;
+  return all;
+}
+
 /// Names only: what signs is nobody's to see.
 int show(SigningArguments const& of) {
   auto const ring = read_key_store(of.keys);
@@ -181,8 +193,9 @@ int show(SigningArguments const& of) {
   for (auto const& [name, key] : ring->keys) fmt::print("key {}\n", name);
   if (!ring->everybody.empty()) fmt::print("everybody: {}\n", fmt::join(ring->everybody, ", "));
   for (auto const& [url, use] : ring->links) fmt::print("link {}: {}\n", url, fmt::join(use, ", "));
-  for (auto const& [id, use] : ring->vehicles)
-    fmt::print("vehicle {}: {}{}\n", id, fmt::join(use, ", "), use.size() > 1 ? " (a change is under way)" : "");
+  for (auto const& [vehicle, use] : all_vehicles(*ring))
+    fmt::print("vehicle {}: {}{}\n", to_string(vehicle), fmt::join(use, ", "),
+               use.size() > 1 ? " (a change is under way)" : "");
   auto const& allowed = ring->unsigned_frames;
   fmt::print("heard without a signature: {}; systems {}; messages {}; RADIO_STATUS\n",
              allowed.local_links ? "whoever is on this machine or a serial line" : "nobody by the link",
@@ -196,9 +209,10 @@ int drop_key(SigningArguments const& of) {
   if (ring->keys.erase(of.name) == 0)
     return refuse({ErrorKind::not_found, fmt::format("key store {}: there is no key {}", of.keys, of.name), ""});
   auto const is_only = [&](KeyRing::Use& use) { return std::erase(use, of.name) > 0 && use.empty(); };
-  for (auto& [id, use] : ring->vehicles)
-    if (is_only(use))
-      return refuse({ErrorKind::invalid_input, fmt::format("{} is the only key of vehicle {}", of.name, id),
+  for (auto const& [vehicle, use] : all_vehicles(*ring))
+    if (is_only(vehicles_of(*ring, vehicle.network)[vehicle.system_id]))
+      return refuse({ErrorKind::invalid_input,
+                     fmt::format("{} is the only key of vehicle {}", of.name, to_string(vehicle)),
                      "change it first: lapwing signing rotate"});
   for (auto& [url, use] : ring->links)
     if (is_only(use))
@@ -223,9 +237,8 @@ CLI::App* add_verb(CLI::App& signing, Arguments const& arguments, std::string co
 CLI::App* add_vehicle_verb(CLI::App& signing, Arguments const& arguments, std::string const& name,
                            std::string const& help) {
   auto* verb = add_verb(signing, arguments, name, help);
-  verb->add_option("--vehicle", arguments->vehicles, "System id (may be repeated)")
+  verb->add_option("--vehicle", arguments->vehicles, fmt::format("{} (may be repeated)", vehicle_help))
       ->required()
-      ->check(CLI::Range(1, 255))
       ->allow_extra_args(false);
   verb->add_option("--link", arguments->links, "Where the vehicles are: a serial line, or loopback")
       ->allow_extra_args(false);

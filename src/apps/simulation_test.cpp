@@ -69,7 +69,7 @@ base::Task<> until_three_are_heard(base::Loop& loop, Ground& ground) {
 
 TEST(Simulation, VehiclesAreHeardByTheGround) {
   base::Loop loop({.unpaced = true});
-  Ground ground(loop, fleet::OnStop::loiter, {});
+  Ground ground(loop, {});
   sim::WorldOptions options;
   options.vehicles = *sim::parse_vehicles("copter:2,rover:1");
   auto const world = start_simulation(ground, std::move(options), {});

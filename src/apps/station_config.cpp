@@ -79,6 +79,11 @@ void read_emergency_stop(ConfigReader& root, Diagnostics& diagnostics, StationCo
                      hint.empty() ? "use hold (stay in place, the default), land, rtl or terminate" : hint);
 }
 
+Forward read_forward(base::Placed<ConfigReader> table) {
+  auto const network = table.value.text("network");
+  return {.network = network ? network->value : std::string(), .endpoint = route::read_endpoint(std::move(table))};
+}
+
 void read_web(ConfigReader web, base::SourceFile const& source, Diagnostics& diagnostics, WebAccess& access) {
   if (auto const bind = web.text("bind")) access.bind = bind->value;
   if (auto const port = web.integer("port", 0, 65535)) access.port = static_cast<int>(port->value);
@@ -144,7 +149,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
   read_emergency_stop(root, diagnostics, config);
-  for (auto& table : root.tables("forward")) config.forward.push_back(route::read_endpoint(std::move(table)));
+  for (auto& table : root.tables("forward")) config.forward.push_back(read_forward(std::move(table)));
   if (auto const file = root.text("signing_key")) config.signing_key = beside(source, file->value).string();
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);

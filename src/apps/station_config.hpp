@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "apps/equipment.hpp"
+#include "apps/forward.hpp"
 #include "apps/web_access.hpp"
 #include "base/diagnostic.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "geo/position.hpp"
-#include "route/endpoint.hpp"
 #include "vehicle/control.hpp"
 
 namespace lapwing::apps {
@@ -29,9 +29,9 @@ struct StationConfig {
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   vehicle::StopAction emergency_action = vehicle::StopAction::hold;
-  std::vector<route::EndpointOptions> forward = {};  ///< other programs that ride along
-  std::string signing_key = {};                      ///< file; empty: nothing is signed
-  std::string record = {};                           ///< folder for recordings; empty: none are made
+  std::vector<Forward> forward = {};  ///< other programs that ride along
+  std::string signing_key = {};       ///< file; empty: nothing is signed
+  std::string record = {};            ///< folder for recordings; empty: none are made
   WebAccess web;
   MapContent map;
 };

@@ -51,10 +51,10 @@ messages_per_s = 10
 )");
   EXPECT_EQ(read.complaints(), "");
   ASSERT_EQ(read.config.forward.size(), 2U);
-  EXPECT_EQ(read.config.forward[0].name, "qgc");
-  EXPECT_FALSE(read.config.forward[0].is_read_only);
-  EXPECT_TRUE(read.config.forward[1].is_read_only);
-  EXPECT_TRUE(read.config.forward[1].limits.any());
+  EXPECT_EQ(read.config.forward[0].endpoint.name, "qgc");
+  EXPECT_FALSE(read.config.forward[0].endpoint.is_read_only);
+  EXPECT_TRUE(read.config.forward[1].endpoint.is_read_only);
+  EXPECT_TRUE(read.config.forward[1].endpoint.limits.any());
   EXPECT_EQ(first_complaint("[[forward]]\nread_only = true\n"),
             "1:1 an endpoint needs a url | url = \"udpin://0.0.0.0:14550\"");
 }
@@ -90,10 +90,12 @@ scripts = "."
 }
 
 TEST(StationConfig, ReadsWhatVehiclesCarry) {
-  Read const read("payload = [\"3=Sidescan,Multibeam\", \"4=Camera\", \"3=Lamp\"]");
+  Read const read("payload = [\"3=Sidescan,Multibeam\", \"4=Camera\", \"3=Lamp\", \"north/3=Sonar\"]");
   EXPECT_EQ(read.complaints(), "");
-  EXPECT_EQ(read.config.payload, (Equipment{{3, {"Sidescan", "Multibeam", "Lamp"}}, {4, {"Camera"}}}));
-  for (auto const* wrong : {"Camera", "=Camera", "0=Camera", "256=Camera", "3=", "x3=Camera"}) {
+  EXPECT_EQ(
+      read.config.payload,
+      (Equipment{{{"", 3}, {"Sidescan", "Multibeam", "Lamp"}}, {{"", 4}, {"Camera"}}, {{"north", 3}, {"Sonar"}}}));
+  for (auto const* wrong : {"Camera", "=Camera", "0=Camera", "256=Camera", "3=", "x3=Camera", "/3=Camera"}) {
     auto const complaint = first_complaint("payload = [\"" + std::string(wrong) + "\"]");
     EXPECT_NE(complaint.find("is no payload of a vehicle"), std::string::npos) << wrong << ": " << complaint;
   }

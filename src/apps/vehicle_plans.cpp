@@ -16,29 +16,8 @@ using base::fail;
 using base::Result;
 using base::Task;
 using mavlink::MissionType;
-using namespace std::chrono_literals;
 
 namespace {
-
-std::vector<int> connected_ids(Ground const& ground) {
-  std::vector<int> ids;
-  for (auto const* craft : ground.fleet.all())
-    if (craft->is_connected()) ids.push_back(craft->state.system_id);
-  return ids;
-}
-
-fleet::Craft const* find(Ground const& ground, int system_id) {
-  for (auto const* craft : ground.fleet.all())
-    if (craft->state.system_id == system_id && craft->is_connected()) return craft;
-  return nullptr;
-}
-
-Result<> nothing_heard(std::optional<int> system_id, std::vector<int> const& ids) {
-  if (ids.empty())
-    return fail(ErrorKind::lost, "no vehicle was heard", "is it on, and does --link name where it sends to?");
-  return fail(ErrorKind::lost, fmt::format("vehicle {} was not heard", system_id.value_or(0)),
-              fmt::format("heard: {}", fmt::join(ids, ", ")));
-}
 
 /// Of a plan for one vehicle and one of the three lists.
 std::vector<mavlink::MissionItem> items_for(MissionType type, plan::Plan const& plan, fleet::Craft const& craft,
@@ -82,27 +61,6 @@ mavlink::TransferProgress transfer_progress(ShowProgress const& show, MissionTyp
 
 }  // namespace
 
-Task<Result<fleet::Craft const*>> find_craft(Ground& ground, std::optional<int> system_id, base::Duration patience) {
-  auto const deadline = ground.loop.now() + patience;
-  constexpr auto others_beat = 1500ms;  // heartbeats come every second
-  std::optional<base::TimePoint> first_heard;
-  while (ground.loop.now() < deadline) {
-    if (system_id) {
-      if (auto const* craft = find(ground, *system_id)) co_return craft;
-    } else if (!connected_ids(ground).empty()) {
-      if (!first_heard) first_heard = ground.loop.now();
-      if (ground.loop.now() - *first_heard >= others_beat) break;
-    }
-    co_await ground.loop.sleep(50ms);
-  }
-  auto const ids = connected_ids(ground);
-  if (!system_id && ids.size() == 1) co_return find(ground, ids.front());
-  if (!system_id && ids.size() > 1)
-    co_return fail(ErrorKind::invalid_input, fmt::format("there are {} vehicles: {}", ids.size(), fmt::join(ids, ", ")),
-                   "say which: --vehicle ID");
-  co_return std::unexpected(nothing_heard(system_id, ids).error());
-}
-
 Result<std::vector<MissionType>> parse_types(std::string const& text) {
   using enum MissionType;
   if (text == "all") return std::vector{fence, rally, mission};
@@ -139,7 +97,7 @@ Result<Uploads> uploads_for(std::string_view file, plan::Plan const& plan, std::
   return uploads;
 }
 
-Task<Result<>> upload_lists(Ground& ground, fleet::Craft const& craft, std::vector<UploadList> lists, ShowProgress show,
+Task<Result<>> upload_lists(fleet::Craft const& craft, std::vector<UploadList> lists, ShowProgress show,
                             std::vector<ListReport>& reports) {
   reports.reserve(lists.size());  // a replacement under way is written to while the list grows
   for (auto& list : lists) {
@@ -148,24 +106,25 @@ Task<Result<>> upload_lists(Ground& ground, fleet::Craft const& craft, std::vect
     options.progress = [&show, type = list.type](std::string_view phase, std::size_t done, std::size_t total) {
       if (show) show(fmt::format("{}: {}", to_string(type), phase), done, total);
     };
-    auto const replaced = co_await mavlink::replace_plan(ground.connection, craft.address, std::move(list.items),
+    auto const replaced = co_await mavlink::replace_plan(craft.connection, craft.address, std::move(list.items),
                                                          list.type, std::move(options), report.replacement);
     if (!replaced) {
       report.error = replaced.error().message;
-      co_return fail(replaced.error().kind, fmt::format("{}: {}", to_string(list.type), report.error));
+      co_return fail(replaced.error().kind, fmt::format("{}: {}", to_string(list.type), report.error),
+                     replaced.error().hint);
     }
     report.outcome = report.replacement.written == 0 ? "unchanged" : "uploaded";
   }
   co_return Result<>{};
 }
 
-Task<Result<>> download_lists(Ground& ground, fleet::Craft const& craft, std::vector<MissionType> types,
-                              ShowProgress show, plan::Plan& plan, std::vector<ListReport>& reports) {
+Task<Result<>> download_lists(fleet::Craft const& craft, std::vector<MissionType> types, ShowProgress show,
+                              plan::Plan& plan, std::vector<ListReport>& reports) {
   for (auto const type : types) {
     auto& report = reports.emplace_back(ListReport{.type = type, .outcome = "failed"});
     auto progress = transfer_progress(show, type);
     mavlink::HeldPlan none_known;
-    auto const held = co_await mavlink::download_mission(ground.connection, craft.address, type, patient_transfer,
+    auto const held = co_await mavlink::download_mission(craft.connection, craft.address, type, patient_transfer,
                                                          std::move(progress), std::move(none_known));
     if (!held) {
       report.error = held.error().message;
@@ -181,11 +140,11 @@ Task<Result<>> download_lists(Ground& ground, fleet::Craft const& craft, std::ve
   co_return Result<>{};
 }
 
-Task<Result<>> clear_lists(Ground& ground, fleet::Craft const& craft, std::vector<MissionType> types,
+Task<Result<>> clear_lists(fleet::Craft const& craft, std::vector<MissionType> types,
                            std::vector<ListReport>& reports) {
   for (auto const type : types) {
     auto& report = reports.emplace_back(ListReport{.type = type, .outcome = "failed"});
-    auto const cleared = co_await mavlink::clear_mission(ground.connection, craft.address, type, patient_transfer);
+    auto const cleared = co_await mavlink::clear_mission(craft.connection, craft.address, type, patient_transfer);
     if (!cleared) {
       report.error = cleared.error().message;
       co_return cleared;

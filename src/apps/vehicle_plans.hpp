@@ -6,17 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/ground.hpp"
+#include "fleet/craft.hpp"
 #include "mavlink/plan_replacement.hpp"
 #include "plan/plan_file.hpp"
 
 /// The plans of one vehicle, for `lapwing mission`.
 namespace lapwing::apps {
-
-/// Waits until the vehicle is there: `system_id`, or the only one. Errors: lost (none came), invalid_input (several,
-/// and none was named).
-base::Task<base::Result<fleet::Craft const*>> find_craft(Ground& ground, std::optional<int> system_id,
-                                                         base::Duration patience);
 
 /// "mission", "fence", "rally"; "all" are the three.
 [[nodiscard]] base::Result<std::vector<mavlink::MissionType>> parse_types(std::string const& text);
@@ -53,13 +48,12 @@ struct Uploads {
 inline constexpr mavlink::TransferOptions patient_transfer{.tries = 12, .outage_limit = std::chrono::seconds(60)};
 
 /// Uploads one list after the other; the first failure ends it. `reports` grows as they are begun.
-base::Task<base::Result<>> upload_lists(Ground& ground, fleet::Craft const& craft, std::vector<UploadList> lists,
-                                        ShowProgress show, std::vector<ListReport>& reports);
+base::Task<base::Result<>> upload_lists(fleet::Craft const& craft, std::vector<UploadList> lists, ShowProgress show,
+                                        std::vector<ListReport>& reports);
 /// Into `plan`. A list that the vehicle does not support is reported, not an error, unless it was the only one wanted.
-base::Task<base::Result<>> download_lists(Ground& ground, fleet::Craft const& craft,
-                                          std::vector<mavlink::MissionType> types, ShowProgress show, plan::Plan& plan,
-                                          std::vector<ListReport>& reports);
-base::Task<base::Result<>> clear_lists(Ground& ground, fleet::Craft const& craft,
-                                       std::vector<mavlink::MissionType> types, std::vector<ListReport>& reports);
+base::Task<base::Result<>> download_lists(fleet::Craft const& craft, std::vector<mavlink::MissionType> types,
+                                          ShowProgress show, plan::Plan& plan, std::vector<ListReport>& reports);
+base::Task<base::Result<>> clear_lists(fleet::Craft const& craft, std::vector<mavlink::MissionType> types,
+                                       std::vector<ListReport>& reports);
 
 }  // namespace lapwing::apps

@@ -16,6 +16,7 @@
 #include "fleet/status_text.hpp"
 #include "fleet/thrift.hpp"
 #include "mavlink/connection.hpp"
+#include "mavlink/system_name.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::fleet {
@@ -45,6 +46,7 @@ struct Craft {
 
   mavlink::Connection& connection;  ///< of its network
   vehicle::VehicleState& state;     ///< the registry's
+  std::string network;              ///< its name; empty: the one without
   mavlink::Address address{};
   mavlink::MavAutopilot mav_autopilot{};
   std::string type;  ///< "UAV"
@@ -96,6 +98,7 @@ struct Craft {
   base::Notifier changed;
 
   [[nodiscard]] vehicle::VehicleId const& id() const { return state.id; }
+  [[nodiscard]] mavlink::SystemName name() const { return {network, address.system}; }
   /// What is not known is tried.
   [[nodiscard]] bool takes_command_int() const {
     constexpr std::uint64_t command_int = 8;  // MAV_PROTOCOL_CAPABILITY_COMMAND_INT

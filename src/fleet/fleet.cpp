@@ -25,7 +25,6 @@ Fleet::~Fleet() {
 void Fleet::add(mavlink::Connection& connection, std::string name) {
   auto options = options_;
   options.name = std::move(name);
-  options.payload.clear();
   open(connection, std::move(options));
 }
 

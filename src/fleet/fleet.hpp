@@ -26,8 +26,7 @@ class Fleet {
   Fleet(Fleet const&) = delete;
   Fleet& operator=(Fleet const&) = delete;
 
-  /// A further network of this name; otherwise with the first one's options, but for the payload, which is told by
-  /// system id.
+  /// A further network of this name; otherwise with the first one's options.
   void add(mavlink::Connection& connection, std::string name);
 
   /// Null when there is none.

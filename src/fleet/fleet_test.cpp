@@ -77,7 +77,7 @@ TEST(Fleet, KeepsTheModeWhenAGimbalOfTheSameSystemSendsAHeartbeat) {
 }
 
 TEST(Fleet, AddsTheCameraThatItHearsToTheConfiguredPayload) {
-  TestWorld world({.payload = {{1, {"Lidar"}}}});
+  TestWorld world({.payload = {{{.system_id = 1}, {"Lidar"}}}});
   auto& copter = world.add();
   world.run_for(1s);
   EXPECT_EQ(world.state().payload, std::vector<std::string>{"Lidar"});

@@ -184,14 +184,15 @@ void Network::take_heartbeat(mavlink::Received const& received, mavlink::Heartbe
 
 Craft& Network::discover(mavlink::Received const& received) {
   auto const system_id = received.source.system;
-  auto& state = registry_.edit(VehicleId{in_network(std::to_string(system_id))});
+  mavlink::SystemName const name{options_.name, system_id};
+  auto& state = registry_.edit(VehicleId{to_string(name)});
   state.system_id = system_id;
   auto& craft = *crafts_.emplace(system_id, std::make_unique<Craft>(connection_, state)).first->second;
+  craft.network = name.network;
   craft.address = received.source;
   craft.connection_timeout = options_.connection_timeout;
   craft.from = received.from;
-  if (auto const names = options_.payload.find(system_id); names != options_.payload.end())
-    state.payload = names->second;
+  if (auto const names = options_.payload.find(name); names != options_.payload.end()) state.payload = names->second;
   if (cameras_.contains(system_id)) note_camera(system_id);
   return craft;
 }

@@ -11,6 +11,7 @@
 #include "base/scope.hpp"
 #include "fleet/craft.hpp"
 #include "mavlink/connection.hpp"
+#include "mavlink/system_name.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::fleet {
@@ -25,8 +26,8 @@ class Network {
  public:
   struct Options {
     base::Duration connection_timeout = std::chrono::seconds(20);  ///< of a vehicle for which nobody set another one
-    std::map<int, std::vector<std::string>> payload =
-        {};                         ///< system id -> names of its equipment, as scripts ask for them
+    /// Names of a vehicle's equipment, as scripts ask for them. May speak of vehicles of other networks, too.
+    std::map<mavlink::SystemName, std::vector<std::string>> payload = {};
     bool asks_for_messages = true;  ///< false: only listen
     /// Goes before ids and names, where there are several networks: "north/1", "north/copter 1".
     std::string name = {};

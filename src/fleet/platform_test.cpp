@@ -50,7 +50,7 @@ TEST(FleetPlatform, RefusesRawMessagesThatThereAreNot) {
 }
 
 TEST(FleetPlatform, ListsVehiclesBySystemIdWithWhatPickNeeds) {
-  TestWorld world({.payload = {{10, {"Sidescan"}}}});
+  TestWorld world({.payload = {{{.system_id = 10}, {"Sidescan"}}}});
   world.add({.address = {10, 1}});
   world.add({.address = {9, 1}, .type = mavlink::MavType::ground_rover});
   world.run_for(10s);

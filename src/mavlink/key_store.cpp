@@ -8,6 +8,7 @@
 
 #include "base/config.hpp"
 #include "mavlink/dialect_names.hpp"
+#include "mavlink/system_name.hpp"
 
 namespace lapwing::mavlink {
 
@@ -18,14 +19,6 @@ using base::ConfigValue;
 
 bool is_hex_digit(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
-}
-
-template <class T>
-std::optional<T> number(std::string_view text) {
-  T value{};
-  auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
 }
 
 /// Reads the tree; keeps the first mistake. Its messages tell what is expected, never what is there.
@@ -107,13 +100,13 @@ void Reader::read_uses(ConfigValue::Table const& uses) {
       auto const* content = table(entry);
       if (!content) return;
       for (auto const& item : *content) {
-        auto const system = number<std::uint8_t>(item.key);
+        auto const name = parse_system_name(item.key);
         if (entry.key == "links") {
           ring.links[item.key] = use(item.value);
-        } else if (system && *system > 0) {
-          ring.vehicles[*system] = use(item.value);
+        } else if (name) {
+          vehicles_of(ring, name->network)[name->system_id] = use(item.value);
         } else {
-          wrong(item.key_span, "a vehicle is named by its system id, 1 to 255");
+          wrong(item.key_span, "a vehicle is named by its system id, 1 to 255, or network/id");
         }
       }
     } else {
@@ -237,8 +230,11 @@ std::string to_text(KeyRing const& ring) {
   if (!ring.everybody.empty()) text += fmt::format("everybody = {}\n", quoted(ring.everybody));
   if (!ring.links.empty()) text += "\n[use.links]\n";
   for (auto const& [url, use] : ring.links) text += fmt::format("{} = {}\n", quoted(url), quoted(use));
-  if (!ring.vehicles.empty()) text += "\n[use.vehicles]\n";
+  if (!ring.vehicles.empty() || !ring.networks.empty()) text += "\n[use.vehicles]\n";
   for (auto const& [id, use] : ring.vehicles) text += fmt::format("{} = {}\n", id, quoted(use));
+  for (auto const& [network, vehicles] : ring.networks)
+    for (auto const& [id, use] : vehicles)
+      text += fmt::format("{} = {}\n", quoted(to_string(SystemName{network, id})), quoted(use));
   auto const& allowed = ring.unsigned_frames;
   text += fmt::format("\n[unsigned]\nlocal-links = {}\nsystems = {}\nmessages = {}\n", allowed.local_links,
                       std::vector<int>(allowed.systems.begin(), allowed.systems.end()),

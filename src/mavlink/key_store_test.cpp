@@ -17,13 +17,14 @@ TEST(KeyStore, ReadsWhatPeopleWrite) {
   auto const ring =
       parse_key_store("fleet.keys", "[keys]\nfleet = '" + digits + "'\nnew-one = '" + std::string(64, '0') +
                                         "'\n[use]\neverybody = 'fleet'\n[use.vehicles]\n7 = ['new-one', "
-                                        "'fleet']\n[use.links]\n'udpin://0.0.0.0:14550' = "
+                                        "'fleet']\n'north/7' = 'fleet'\n[use.links]\n'udpin://0.0.0.0:14550' = "
                                         "'new-one'\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages "
                                         "= ['ADSB_VEHICLE', 0]\n");
   ASSERT_TRUE(ring) << ring.error().message;
   EXPECT_EQ(ring->keys.at("fleet")[31], 0xAA);
   EXPECT_EQ(ring->everybody, KeyRing::Use{"fleet"});
   EXPECT_EQ(ring->vehicles.at(7), (KeyRing::Use{"new-one", "fleet"}));
+  EXPECT_EQ(ring->networks.at("north").at(7), KeyRing::Use{"fleet"});
   EXPECT_EQ(ring->links.at("udpin://0.0.0.0:14550"), KeyRing::Use{"new-one"});
   EXPECT_TRUE(ring->unsigned_frames.local_links);
   EXPECT_EQ(ring->unsigned_frames.systems, std::set<std::uint8_t>{51});
@@ -39,7 +40,7 @@ TEST(KeyStore, SaysWhereItIsWrong) {
   EXPECT_EQ(complaint(keys + "[use]\neverybody = 'b'\n"), "fleet.keys:4:13: expected the name of a key of [keys]");
   EXPECT_EQ(complaint(keys + "[use]\neverybody = []\n"), "fleet.keys:4:13: expected at least one key's name");
   EXPECT_EQ(complaint(keys + "[use.vehicles]\n256 = 'a'\n"),
-            "fleet.keys:4:1: a vehicle is named by its system id, 1 to 255");
+            "fleet.keys:4:1: a vehicle is named by its system id, 1 to 255, or network/id");
   EXPECT_EQ(complaint(keys + "[unsigned]\nlinks = true\n"),
             "fleet.keys:4:1: expected local-links, systems or messages");
   EXPECT_EQ(complaint(keys + "[unsigned]\nmessages = ['HEARTBEET']\n"),

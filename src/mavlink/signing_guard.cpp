@@ -1,6 +1,7 @@
 #include "mavlink/signing_guard.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "link/url.hpp"
 
@@ -13,8 +14,19 @@ constexpr SigningTime minute = 6'000'000;
 
 }  // namespace
 
+KeyRing::Vehicles& vehicles_of(KeyRing& ring, std::string const& network) {
+  return network.empty() ? ring.vehicles : ring.networks[network];
+}
+
+KeyRing ring_of_network(KeyRing ring, std::string const& network) {
+  if (!network.empty()) ring.vehicles = std::move(ring.networks[network]);
+  ring.networks.clear();
+  return ring;
+}
+
 KeyRing ring_of(SigningKey const& key) {
-  return {.keys = {{"key", key}}, .vehicles = {}, .links = {}, .everybody = {"key"}, .unsigned_frames = {}};
+  return {
+      .keys = {{"key", key}}, .vehicles = {}, .networks = {}, .links = {}, .everybody = {"key"}, .unsigned_frames = {}};
 }
 
 std::optional<KeyRing> ring_of(std::optional<SigningKey> const& key) {

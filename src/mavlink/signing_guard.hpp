@@ -26,13 +26,19 @@ struct KeyRing {
   };
 
   std::map<std::string, SigningKey, std::less<>> keys;
-  std::map<std::uint8_t, Use> vehicles;  ///< by system id; goes before
-  std::map<std::string, Use> links;      ///< by URL; goes before
+  using Vehicles = std::map<std::uint8_t, Use>;
+  Vehicles vehicles;                         ///< by system id; goes before
+  std::map<std::string, Vehicles> networks;  ///< the same for the vehicles of further networks, by name
+  std::map<std::string, Use> links;          ///< by URL; goes before
   Use everybody;
   Unsigned unsigned_frames;
   friend bool operator==(KeyRing const&, KeyRing const&) = default;
 };
 
+/// The vehicles of one network; empty: of the one without a name.
+[[nodiscard]] KeyRing::Vehicles& vehicles_of(KeyRing& ring, std::string const& network);
+/// What holds on one network: its vehicles are `vehicles`, and there are no others.
+[[nodiscard]] KeyRing ring_of_network(KeyRing ring, std::string const& network);
 /// A ring with one key, for everybody.
 [[nodiscard]] KeyRing ring_of(SigningKey const& key);
 [[nodiscard]] std::optional<KeyRing> ring_of(std::optional<SigningKey> const& key);

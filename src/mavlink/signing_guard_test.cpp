@@ -100,6 +100,20 @@ TEST(SigningGuard, SpeaksAheadOfAClockThatIsBehindWhatItHears) {
   EXPECT_TRUE(vehicle.accepts(sent, radio, now + 1h));
 }
 
+TEST(SigningGuard, KnowsTheVehiclesOfItsNetworkOnly) {
+  auto ring = ring_of(key_of(1));
+  ring.keys["b"] = key_of(2);
+  ring.vehicles[7] = {"b"};
+  vehicles_of(ring, "north")[8] = {"b"};
+  SigningGuard here(ring_of_network(ring, ""));
+  EXPECT_TRUE(here.accepts(heartbeat_by(key_of(2), 7, now), radio, now));
+  EXPECT_FALSE(here.accepts(heartbeat_by(key_of(2), 8, now), radio, now));
+  SigningGuard there(ring_of_network(ring, "north"));
+  EXPECT_FALSE(there.accepts(heartbeat_by(key_of(2), 7, now), radio, now));
+  EXPECT_TRUE(there.accepts(heartbeat_by(key_of(2), 8, now), radio, now));
+  EXPECT_TRUE(there.accepts(heartbeat_by(key_of(1), 9, now), radio, now)) << "everybody's key holds everywhere";
+}
+
 TEST(SigningGuard, HearsNobodyWithoutASignatureButRadios) {
   auto station = guard_of(ring_of(key_of(1)));
   EXPECT_FALSE(station.accepts(heartbeat(1), radio, now));

@@ -81,8 +81,13 @@ constexpr Plain gauges[] = {
 
 }  // namespace
 
-void write_metrics(Router const& router, base::OpenMetrics& metrics) {
-  auto const endpoints = router.status();
+void write_metrics(std::span<Router const* const> routers, base::OpenMetrics& metrics) {
+  std::vector<Status> endpoints;
+  std::uint64_t systems = 0;
+  for (auto const* router : routers) {
+    for (auto& status : router->status()) endpoints.push_back(std::move(status));
+    systems += router->systems();
+  }
   for (auto const& [name, help, by_direction] : traffic) {
     metrics.counter(name, help);
     for (auto const& s : endpoints) {
@@ -104,7 +109,7 @@ void write_metrics(Router const& router, base::OpenMetrics& metrics) {
     for (auto const& s : endpoints) metrics.sample({{"endpoint", s.name}}, value(s));
   }
   metrics.gauge("lapwing_router_systems", "MAVLink systems that were heard.");
-  metrics.sample({}, static_cast<std::uint64_t>(router.systems()));
+  metrics.sample({}, systems);
 }
 
 }  // namespace lapwing::route

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
+
 #include "base/open_metrics.hpp"
 #include "route/router.hpp"
 
 namespace lapwing::route {
 
-/// Everything that a router counts, by endpoint; drops by reason.
-void write_metrics(Router const& router, base::OpenMetrics& metrics);
+/// Everything that routers count, by endpoint; drops by reason. Endpoints of several routers have different names.
+void write_metrics(std::span<Router const* const> routers, base::OpenMetrics& metrics);
 
 }  // namespace lapwing::route

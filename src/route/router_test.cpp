@@ -1,5 +1,7 @@
 #include "route/router.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "link/pipe_link.hpp"
@@ -377,7 +379,7 @@ TEST_F(RouterTest, WritesItsMetrics) {
   vehicle.say(packet("COMMAND_LONG", {.source = {1, 1}, .target = {9, 1}, .seq = 1}));
   settle();
   base::OpenMetrics metrics;
-  write_metrics(router, metrics);
+  write_metrics(std::array<Router const*, 1>{&router}, metrics);
   auto const text = metrics.text();
   for (auto const* line :
        {"lapwing_router_frames_total{endpoint=\"a\",direction=\"in\"} 2\n",

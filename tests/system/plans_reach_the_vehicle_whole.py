@@ -5,8 +5,10 @@ import pathlib
 import signal
 import subprocess
 import tempfile
+import time
 
 import harness
+from mavlink_peer import Peer
 
 HOME = "41.178,-8.598,90"
 MISSION = [(22, 41.1780, -8.598, 20), (16, 41.1785, -8.598, 25), (16, 41.1785, -8.597, 25), (16, 41.1790, -8.597, 30),
@@ -90,6 +92,19 @@ def interrupted(folder: pathlib.Path):
         assert upload(whole, link)["mission"]["outcome"] == "unchanged"
 
 
+def unanswered():
+    """A vehicle that is heard and answers nothing is not waited for like a bad link."""
+    port = harness.free_udp_port()
+    process = subprocess.Popen([harness.LAPWING, "mission", "download", "--link", f"udpin://127.0.0.1:{port}"], stderr=subprocess.PIPE, text=True)
+    vehicle, began = Peer(port, 1), time.monotonic()
+    while process.poll() is None:
+        vehicle.heartbeat()
+        time.sleep(0.2)
+        assert time.monotonic() - began < 20, "it is waited for"
+    expect(process.stderr.read(), "vehicle 1 is heard, but answers nothing about its fence items", "does the link carry both ways?")
+    assert process.returncode == 3, process.returncode
+
+
 def refused(folder: pathlib.Path):
     """What is wrong is said before anything is sent, or with what became of the vehicle."""
     link = ("--link", f"udpin://127.0.0.1:{harness.free_udp_port()}")
@@ -144,5 +159,6 @@ with tempfile.TemporaryDirectory() as name:
     there_and_back(folder)
     there_and_back(folder, "--loss", "0.3")
     interrupted(folder)
+    unanswered()
     refused(folder)
     converted(folder)
