@@ -11,14 +11,9 @@ namespace {
 
 using namespace std::chrono_literals;
 using mavlink::MavCmd;
-using mavlink::MavType;
 using vehicle::Action;
 using vehicle::CommandState;
 using vehicle::VehicleId;
-
-TestAutopilot::Options rover(std::uint8_t system_id) {
-  return {.address = {system_id, 1}, .type = MavType::ground_rover};
-}
 
 TEST(Control, ShowsACommandFromWaitingToConfirmed) {
   ControlWorld world;
@@ -90,7 +85,7 @@ TEST(Control, SendsAVehicleToAPlaceWithoutLosingPrecision) {
 
 TEST(Control, RefusesWhatAVehicleCannotDo) {
   ControlWorld world;
-  world.add(rover(2));
+  world.add(a_rover(2));
   world.add_ready();
   auto const rovers = world.give({.action = Action::take_off}, {"2"});
   EXPECT_EQ(world.end_of(rovers), CommandState::refused);
@@ -128,7 +123,7 @@ TEST(Control, SetsModesByName) {
 
 TEST(Control, StartsPausesAndResumesAMission) {
   ControlWorld world;
-  auto& vehicle = world.add_ready(rover(1));
+  auto& vehicle = world.add_ready(a_rover(1));
   vehicle.mission.resize(4);
   EXPECT_EQ(world.end_of(world.give({.action = Action::start_mission})), CommandState::confirmed);
   EXPECT_EQ(vehicle.mode, rover_mode::automatic);
@@ -253,16 +248,9 @@ TEST(Control, SendsNothingThatMovesToALostVehicle) {
 // ---- beside a script
 
 struct WithScript : ControlWorld {
-  WithScript() {
-    copter = &add({});
-    run_for(4s);
-    run = platform->start(task_of(mission_ending_with(MavCmd::nav_loiter_unlim)), VehicleId{"1"});
-  }
-  bool is_flying() {
-    return run_until([this] { return run->progress().find("item") != std::string::npos; });
-  }
-  TestAutopilot* copter = nullptr;
-  std::unique_ptr<tasks::TaskRun> run;
+  TestAutopilot& copter = add_ready();
+  std::unique_ptr<tasks::TaskRun> run = start_mission();
+  bool is_flying() { return comes_to(*run, "item"); }
 };
 
 TEST(Control, KeepsItsHandsOffAVehicleThatAScriptCommands) {
@@ -300,7 +288,7 @@ TEST(Control, TakesAVehicleOverFromAScript) {
   EXPECT_EQ(world.run->error(), "operator 1 took copter 1 over");
   EXPECT_EQ(world.state().control.commander, "operator 1");
   EXPECT_EQ(world.end_of(number), CommandState::confirmed);
-  EXPECT_EQ(world.copter->modes_commanded().back(), copter_mode::rtl) << "the script's end sends nothing after it";
+  EXPECT_EQ(world.copter.modes_commanded().back(), copter_mode::rtl) << "the script's end sends nothing after it";
   auto const again = world.platform->start(task_of(mission_ending_with(MavCmd::nav_land)), VehicleId{"1"});
   EXPECT_EQ(again->error(), "copter 1 is commanded by operator 1");
 }
@@ -310,18 +298,18 @@ TEST(Control, LetsAStopThroughWhoeverCommands) {
   ASSERT_TRUE(world.is_flying());
   auto const number = world.give({.action = Action::hold});
   EXPECT_EQ(world.end_of(number), CommandState::confirmed);
-  EXPECT_EQ(world.copter->mode, copter_mode::brake);
+  EXPECT_EQ(world.copter.mode, copter_mode::brake);
   EXPECT_EQ(world.run->state(), tasks::RunState::failed);
 }
 
 TEST(Control, StopsInTheMiddleOfAnUpload) {
   WithScript world;
-  ASSERT_TRUE(world.run_until([&] { return world.run->progress().find("uploading") != std::string::npos; }));
+  ASSERT_TRUE(world.comes_to(*world.run, "uploading"));
   auto const number = world.give({.action = Action::hold});
   EXPECT_EQ(world.end_of(number), CommandState::confirmed);
-  EXPECT_TRUE(world.copter->was_upload_cancelled());
+  EXPECT_TRUE(world.copter.was_upload_cancelled());
   world.run_for(20s);
-  EXPECT_EQ(world.copter->commands_heard(MavCmd::component_arm_disarm), 0);
+  EXPECT_EQ(world.copter.commands_heard(MavCmd::component_arm_disarm), 0);
 }
 
 TEST(Control, GivesVehiclesBackWhenTheScriptHasEnded) {

@@ -10,27 +10,20 @@ namespace {
 
 using namespace std::chrono_literals;
 using mavlink::MavCmd;
-using mavlink::MavType;
 using vehicle::Action;
 using vehicle::CommandState;
 using vehicle::StopAction;
 using vehicle::VehicleId;
 
-bool all_confirmed(ControlWorld const& world) {
-  auto const& vehicles = world.control->emergency().vehicles;
-  return !vehicles.empty() && std::ranges::all_of(vehicles, &vehicle::StopOutcome::is_confirmed);
-}
-
 TEST(EmergencyStop, StopsEveryVehicleInItsOwnWay) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  auto& rover = world.add({.address = {2, 1}, .type = MavType::ground_rover});
+  auto& rover = world.add(a_rover(2));
   auto& standing = world.add({.address = {3, 1}});
   rover.is_armed = true;
   rover.change_mode(rover_mode::automatic);
   world.run_for(4s);
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   EXPECT_EQ(copter.mode, copter_mode::brake);
   EXPECT_TRUE(copter.is_flying);
   EXPECT_EQ(rover.mode, rover_mode::hold);
@@ -45,8 +38,7 @@ TEST(EmergencyStop, DoesWhatItIsSetTo) {
        {std::pair{StopAction::land, copter_mode::land}, std::pair{StopAction::return_home, copter_mode::rtl}}) {
     ControlWorld world;
     auto& copter = world.add_flying();
-    world.control->emergency_stop(action, "operator 1");
-    EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+    EXPECT_TRUE(world.stops_all(action));
     EXPECT_EQ(copter.mode, mode);
   }
 }
@@ -54,8 +46,7 @@ TEST(EmergencyStop, DoesWhatItIsSetTo) {
 TEST(EmergencyStop, StopsMotorsInTheAirOnlyWhenAskedTo) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  world.control->emergency_stop(StopAction::terminate, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all(StopAction::terminate));
   EXPECT_FALSE(copter.is_armed);
 }
 
@@ -85,15 +76,14 @@ TEST(EmergencyStop, IsRepeatedUntilItIsConfirmed) {
   EXPECT_FALSE(world.stop_of("1").is_confirmed);
   EXPECT_GT(world.stop_of("1").tries, 1);
   copter.ignored_commands.clear();
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.all_confirm());
   EXPECT_EQ(copter.mode, copter_mode::brake);
 }
 
 TEST(EmergencyStop, ReachesVehiclesThatComeLater) {
   ControlWorld world;
   world.add_flying();
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   auto& late = world.add({.address = {7, 1}});
   late.is_armed = late.is_flying = true;
   late.change_mode(copter_mode::automatic);
@@ -110,15 +100,14 @@ TEST(EmergencyStop, ReachesAVehicleThatIsBack) {
   world.run_for(60s);
   EXPECT_FALSE(world.stop_of("1").is_confirmed);
   copter.is_silent = false;
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 20s));
+  EXPECT_TRUE(world.all_confirm(20s));
   EXPECT_EQ(copter.mode, copter_mode::brake);
 }
 
 TEST(EmergencyStop, LetsNothingMoveAVehicleWhileItIsLatched) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   EXPECT_EQ(world.latched_with, "emergency stop by operator 1") << "scripts are told";
   for (auto const action : {Action::arm, Action::take_off, Action::start_mission, Action::resume_mission}) {
     auto const number = world.give({.action = action}, {"1"}, "operator 2", true);
@@ -165,7 +154,7 @@ TEST(EmergencyStop, EndsWhatIsUnderWay) {
   EXPECT_EQ(world.outcome(arming).reason, "emergency stop by operator 2");
   copter.heard.clear();
   copter.ignored_commands.clear();
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.all_confirm());
   for (auto const& message : copter.heard) {
     auto const* command = std::get_if<mavlink::CommandLong>(&message);
     EXPECT_FALSE(command && mavlink::is_hazardous({command->command, command->params}));
@@ -175,18 +164,17 @@ TEST(EmergencyStop, EndsWhatIsUnderWay) {
 TEST(EmergencyStop, EndsARunWithAClearReason) {
   ControlWorld world;
   world.add_ready();
-  auto const run = world.platform->start(task_of(mission_ending_with(MavCmd::nav_loiter_unlim)), VehicleId{"1"});
-  ASSERT_TRUE(world.run_until([&] { return run->progress().find("item") != std::string::npos; }));
+  auto const run = world.start_mission();
+  ASSERT_TRUE(world.comes_to(*run, "item"));
   world.control->emergency_stop(std::nullopt, "operator 1");
   EXPECT_EQ(run->error(), "emergency stop by operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.all_confirm());
 }
 
 TEST(EmergencyStop, StopsAgainWhatAnEarlierCommandMoves) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   copter.change_mode(copter_mode::automatic);  // what a link delivered late
   world.run_for(5s);
   EXPECT_EQ(copter.mode, copter_mode::brake);
@@ -196,8 +184,7 @@ TEST(EmergencyStop, StopsAgainWhatAnEarlierCommandMoves) {
 TEST(EmergencyStop, DoesNotFightAPilot) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   world.run_for(30s);
   copter.change_mode(copter_mode::stabilize);
   world.run_for(10s);
@@ -209,8 +196,7 @@ TEST(EmergencyStop, DoesNotFightAPilot) {
 TEST(EmergencyStop, LetsAnOperatorBringAVehicleDown) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   auto const number = world.give({.action = Action::land});
   EXPECT_EQ(world.end_of(number), CommandState::confirmed);
   world.run_for(10s);
@@ -221,8 +207,7 @@ TEST(EmergencyStop, LetsAnOperatorBringAVehicleDown) {
 TEST(EmergencyStop, IsReleasedByAnOperatorOnly) {
   ControlWorld world;
   auto& copter = world.add_flying();
-  world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.stops_all());
   world.run_for(3600s);
   EXPECT_TRUE(world.control->emergency().is_latched);
   world.control->release_emergency_stop("operator 2");
@@ -243,7 +228,7 @@ base::Duration time_to_stop_fifty(double loss) {
   world.run_for(10s);
   auto const pressed = world.loop.now();
   world.control->emergency_stop(std::nullopt, "operator 1");
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 60s));
+  EXPECT_TRUE(world.all_confirm(60s));
   EXPECT_EQ(world.control->emergency().vehicles.size(), 50u);
   return world.loop.now() - pressed;
 }

@@ -1,12 +1,20 @@
 #pragma once
 
+#include <algorithm>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fleet/control.hpp"
 #include "fleet/test_world.hpp"
 
 namespace lapwing::fleet {
+
+[[nodiscard]] inline TestAutopilot::Options a_rover(std::uint8_t system_id) {
+  return {.address = {system_id, 1}, .type = mavlink::MavType::ground_rover};
+}
 
 /// A ground station with an operator's hand on it, in virtual time.
 struct ControlWorld : TestWorld {
@@ -48,6 +56,26 @@ struct ControlWorld : TestWorld {
   vehicle::CommandState end_of(std::uint64_t number, std::size_t index = 0) {
     (void)run_until([&] { return vehicle::is_over(outcome(number, index).state); }, std::chrono::seconds(60));
     return outcome(number, index).state;
+  }
+  /// What a script starts on vehicle 1: a mission that flies until it is stopped.
+  std::unique_ptr<tasks::TaskRun> start_mission() {
+    return platform->start(task_of(mission_ending_with(mavlink::MavCmd::nav_loiter_unlim)), vehicle::VehicleId{"1"});
+  }
+  /// Whether the run gets to what its progress calls `phase`: "uploading", or "item" in flight.
+  [[nodiscard]] bool comes_to(tasks::TaskRun const& run, std::string_view phase) {
+    return run_until([&] { return run.progress().find(phase) != std::string::npos; });
+  }
+  /// Presses the emergency stop; whether every vehicle has confirmed it in time.
+  [[nodiscard]] bool stops_all(std::optional<vehicle::StopAction> action = std::nullopt) {
+    control->emergency_stop(action, "operator 1");
+    return all_confirm();
+  }
+  [[nodiscard]] bool all_confirm(base::Duration limit = std::chrono::seconds(10)) {
+    auto const is_confirmed = [this] {
+      auto const& stops = control->emergency().vehicles;
+      return !stops.empty() && std::ranges::all_of(stops, &vehicle::StopOutcome::is_confirmed);
+    };
+    return run_until(is_confirmed, limit);
   }
   [[nodiscard]] vehicle::StopOutcome stop_of(std::string const& id) const {
     for (auto const& stopped : control->emergency().vehicles)
