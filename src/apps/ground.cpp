@@ -1,6 +1,7 @@
 #include "apps/ground.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,10 @@ mavlink::Connection::Options connection_options(bool asks_for_messages, SigningS
 }
 
 }  // namespace
+
+parameters::Cache parameter_cache() {
+  return parameters::Cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")));
+}
 
 base::Result<NetworkLink> parse_network_link(std::string const& text) {
   // A name stands before the URL's first colon; a path or an option may have an equals sign, too.

@@ -10,12 +10,16 @@
 #include "fleet/fleet.hpp"
 #include "link/url.hpp"
 #include "mavlink/connection.hpp"
+#include "parameters/cache.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::apps {
 
 /// Where vehicles are waited for when the user names no link: loopback only.
 inline constexpr auto default_link = "udpin://127.0.0.1:14550";
+
+/// Where every program of this user keeps what vehicles' parameters were.
+[[nodiscard]] parameters::Cache parameter_cache();
 
 /// A link and the network of vehicles to which it belongs: "north=udpin://0.0.0.0:14551", or the URL alone for the one
 /// network without a name. Each network has system ids of its own, so that there can be more than 255 vehicles.

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -45,8 +44,7 @@ struct ParamGround : LinkSession {
 
   base::Result<> open(std::vector<std::string> const& urls) {
     if (auto opened = LinkSession::open(urls); !opened) return opened;
-    parameters::Cache const cache(parameters::cache_folder(std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")));
-    for (auto& [name, network] : ground.networks) services.try_emplace(name, network, cache, log);
+    for (auto& [name, network] : ground.networks) services.try_emplace(name, network, parameter_cache(), log);
     return {};
   }
   [[nodiscard]] ParamVehicle with_service(fleet::Craft const& craft) {

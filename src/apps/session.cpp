@@ -51,6 +51,7 @@ Session::Session(Options const& options)
       platform(ground.fleet, {.run = {.on_stop = options.on_stop}, .plan_library = options.plans.library},
                log.named("fleet")),
       control(ground.fleet, platform, {.stop_action = options.emergency_action}, log),
+      parameters(ground.fleet, parameter_cache(), log),
       console(make_console(loop, log)),
       host(
           loop, platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
@@ -124,6 +125,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
   options.control = script ? nullptr : &control;
+  options.parameters = script ? nullptr : &parameters;
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());

@@ -17,6 +17,7 @@
 #include "apps/web_access.hpp"
 #include "base/log.hpp"
 #include "fleet/control.hpp"
+#include "fleet/parameters.hpp"
 #include "fleet/platform.hpp"
 #include "route/router.hpp"
 #include "sim/world.hpp"
@@ -71,6 +72,7 @@ class Session {
   Ground ground;
   fleet::FleetPlatform platform;
   fleet::Control control;                           ///< what operators do with the vehicles
+  fleet::Parameters parameters;                     ///< asked for when an operator asks
   std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
   std::unique_ptr<Recording> recording;
   std::vector<std::unique_ptr<Recording>> network_recordings;

@@ -57,12 +57,8 @@ class Parameters::Loan {
 Parameters::Parameters(Fleet& fleet, parameters::Cache cache, base::Logger log)
     : fleet_(fleet), cache_(std::move(cache)), log_(log.named("parameters")), scope_(fleet.loop()) {}
 
-void Parameters::add(mavlink::Connection& connection) {
-  services_.try_emplace(&connection, connection, cache_, log_);
-}
-
 parameters::ParameterService& Parameters::service_of(Craft const& craft) {
-  return services_.at(&craft.connection);
+  return services_.try_emplace(&craft.connection, craft.connection, cache_, log_).first->second;
 }
 
 Result<Craft*> Parameters::find(VehicleId const& id) const {

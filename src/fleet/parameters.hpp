@@ -22,9 +22,6 @@ class Parameters final : public vehicle::VehicleParameters {
   Parameters(Parameters const&) = delete;
   Parameters& operator=(Parameters const&) = delete;
 
-  /// The connection of one of the fleet's networks; outlives this.
-  void add(mavlink::Connection& connection);
-
   [[nodiscard]] base::Task<base::Result<vehicle::ParameterList>> all(vehicle::VehicleId id, bool old_ones_do) override;
   [[nodiscard]] std::optional<vehicle::ParameterProgress> progress(vehicle::VehicleId const& id) const override;
   [[nodiscard]] base::Task<base::Result<std::string>> file(vehicle::VehicleId id, bool old_ones_do) override;
