@@ -43,7 +43,7 @@ std::string progress_body(VehicleId const& id, std::optional<vehicle::ParameterP
   return dump(json);
 }
 
-/// "copter-1.params" of what may be "north/1".
+/// "vehicle-north-1.params" of "north/1".
 std::string file_name(VehicleId const& id) {
   auto name = id.text;
   std::ranges::replace_if(name, [](unsigned char c) { return !std::isalnum(c); }, '-');
