@@ -41,6 +41,7 @@ with harness.lapwing("sim", "--vehicles", "copter:1", "--out", f"udpout://127.0.
     wind = ground.next("WIND")
     assert abs(wind.speed - 6) < 0.1 and abs(wind.direction % 360 - 270) < 1, wind
 
+    ground.set("AVOID_ENABLE", 0)  # else it would stop at the margin
     ground.set("FENCE_RADIUS", OUT)
     ground.set("FENCE_ENABLE", 1)
     ground.next("EKF_STATUS_REPORT", lambda report: report.flags & 0x10 and not report.flags & 0x80)
