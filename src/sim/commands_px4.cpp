@@ -38,7 +38,7 @@ MavResult FlightController::perform_on_px4(CommandInt const& command, Address fr
     case MavCmd::preflight_reboot_shutdown: return for_now(reboot(command));
     case MavCmd::run_prearm_checks: return autopilot_.armed() ? MavResult::temporarily_rejected : MavResult::accepted;
     case MavCmd::image_start_capture:
-    case MavCmd::image_stop_capture: return MavResult::accepted;
+    case MavCmd::image_stop_capture: return perform_payload(command).value_or(MavResult::accepted);
     case MavCmd::request_message: {
       auto const result = request_message(command, from);
       return result == MavResult::failed ? MavResult::denied : result;
@@ -49,7 +49,7 @@ MavResult FlightController::perform_on_px4(CommandInt const& command, Address fr
     case MavCmd::get_home_position:
     case MavCmd::request_autopilot_capabilities: return perform_request(command, from);
     // DO_SET_MISSION_CURRENT among the rest: PX4 only has the message MISSION_SET_CURRENT.
-    default: return MavResult::unsupported;
+    default: return perform_payload(command).value_or(MavResult::unsupported);
   }
 }
 

@@ -40,19 +40,6 @@ Connection::Options connection_options(FlightController::Setup const& setup, Mem
           .keys = ring_of(memory.signing_key)};
 }
 
-/// COMMAND_LONG says the same as COMMAND_INT with the place in floats and altitudes above home.
-CommandInt as_command_int(CommandLong const& command) {
-  auto const& p = command.params;
-  CommandInt same{.target = command.target,
-                  .frame = MavFrame::global_relative_alt,
-                  .command = command.command,
-                  .params = {p[0], p[1], p[2], p[3]},
-                  .place = {}};
-  auto const place = geo::Wgs84::from_degrees(p[4], p[5]);
-  same.place = {.lat_rad = place.lat_rad, .lon_rad = place.lon_rad, .x = p[4], .y = p[5], .z_m = p[6]};
-  return same;
-}
-
 }  // namespace
 
 FlightController::FlightController(base::Loop& loop, Setup const& setup, Site const& site, Memory& memory,
@@ -64,8 +51,9 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       autopilot_(setup.autopilot, site, memory.parameters, memory.plans),
       telemetry_(setup.autopilot.kind, setup.autopilot.boot.first_heartbeat),
       missions_(memory.plans, mission_ports(), autopilot_.kind()),
-      connection_(loop, connection_options(setup, memory), std::move(log)),
-      subscription_(connection_.subscribe([this](Received const& received) { receive(received); })) {
+      connection_(loop, connection_options(setup, memory), log),
+      subscription_(connection_.subscribe([this](Received const& received) { receive(received); })),
+      log_(std::move(log)) {
   connection_.add_link(std::move(link));
   for (auto const& [name, stream] : stream_rates) follow_stream_rate(name, stream);
   // File transfer has no typed message: nobody but this needs one.
@@ -221,8 +209,9 @@ void FlightController::say(MavSeverity severity, std::string text) {
 void FlightController::receive(Received const& received) {
   if (silent() || since_power_on() < autopilot_.boot().first_heartbeat) return;
   auto const target = target_of(received.message);
-  // Components are not told apart: what is meant for any of them is carried out.
+  // Components that have no link of their own are not told apart: what is meant for any of them is carried out.
   if (target && target->system != 0 && target->system != connection_.self().system) return;
+  if (target && is_for_a_node(*target)) return;
   ground_spoke_ = true;
   dispatch(received.message, received.source);
   drain_outbox();

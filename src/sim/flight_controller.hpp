@@ -11,6 +11,7 @@
 #include "sim/gimbal.hpp"
 #include "sim/mission_store.hpp"
 #include "sim/parameters.hpp"
+#include "sim/payload_node.hpp"
 #include "sim/reports.hpp"
 #include "sim/telemetry.hpp"
 
@@ -39,6 +40,13 @@ class FlightController {
                    std::unique_ptr<link::ByteLink> link, base::Logger log);
   FlightController(FlightController const&) = delete;
   FlightController& operator=(FlightController const&) = delete;
+
+  /// Whether its camera and its gimbal speak for themselves (PX4's TRIG_INTERFACE and MNT_MODE_OUT): then they want
+  /// links of their own.
+  [[nodiscard]] bool has_camera_node() const;
+  [[nodiscard]] bool has_gimbal_node() const;
+  void connect_camera(std::unique_ptr<link::ByteLink> link);
+  void connect_gimbal(std::unique_ptr<link::ByteLink> link);
 
   /// Moves the vehicle on by `dt` and sends what became due.
   void step(base::Duration dt, geo::Ned wind_m_s);
@@ -96,6 +104,11 @@ class FlightController {
   void perform_payload(mavlink::MissionItem const& item);
   void step_payload(base::Duration dt);
   [[nodiscard]] std::optional<mavlink::Message> payload_report(mavlink::MessageId id, float argument) const;
+  [[nodiscard]] std::optional<mavlink::Message> camera_report(mavlink::MessageId id, float argument) const;
+  [[nodiscard]] std::optional<mavlink::Message> gimbal_report(mavlink::MessageId id) const;
+  [[nodiscard]] std::unique_ptr<PayloadNode> make_node(std::uint8_t component, mavlink::MavType type,
+                                                       PayloadNode::Ports ports, std::unique_ptr<link::ByteLink> link);
+  [[nodiscard]] bool is_for_a_node(mavlink::Address target) const;
   [[nodiscard]] mavlink::CameraImageCaptured captured(Camera::Shot const& shot) const;
   [[nodiscard]] mavlink::CameraFeedback feedback(Camera::Shot const& shot) const;
   [[nodiscard]] int camera_type() const;
@@ -130,6 +143,10 @@ class FlightController {
   MissionStore missions_;
   mavlink::Connection connection_;
   mavlink::Subscription subscription_;
+  base::Logger log_;
+  std::unique_ptr<PayloadNode> camera_node_;
+  std::unique_ptr<PayloadNode> gimbal_node_;
+  base::Duration next_gimbal_status_{};
   geo::Ned wind_m_s_;
   base::Duration announced_ = base::Duration{-1};
   base::Duration next_timesync_{};

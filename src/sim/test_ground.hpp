@@ -19,6 +19,7 @@ class TestGround {
   struct Heard {
     base::TimePoint at;
     std::uint8_t system;
+    std::uint8_t component;
     link::Peer peer;
     mavlink::Message message;
   };
@@ -30,7 +31,8 @@ class TestGround {
         gcs(loop, gcs_options(heartbeats), base::Logger()) {
     gcs.add_link(hub_.take_server());
     subscription_ = gcs.subscribe([this](mavlink::Received const& received) {
-      heard.push_back({received.at, received.source.system, received.from.peer, received.message});
+      heard.push_back(
+          {received.at, received.source.system, received.source.component, received.from.peer, received.message});
     });
     auto const started = world.start();
     EXPECT_TRUE(started.has_value());
@@ -101,11 +103,12 @@ class TestGround {
   }
 
   template <class M>
-  std::vector<M> all(std::uint8_t system = 1, std::size_t from = 0) const {
+  std::vector<M> all(std::uint8_t system = 1, std::size_t from = 0,
+                     std::uint8_t component = mavlink::autopilot_component) const {
     std::vector<M> found;
     for (auto i = from; i < heard.size(); ++i) {
-      if (auto const* message = std::get_if<M>(&heard[i].message); message && heard[i].system == system)
-        found.push_back(*message);
+      auto const* message = std::get_if<M>(&heard[i].message);
+      if (message && heard[i].system == system && heard[i].component == component) found.push_back(*message);
     }
     return found;
   }

@@ -51,11 +51,26 @@ base::Result<> Vehicle::switch_on() {
       .powered_on = loop_.now(),
   };
   controller_ = std::make_unique<FlightController>(loop_, setup, site_, memory_, std::move(*link), log_);
+  connect_payload();
   controller_->autopilot().set_arming_fault(arming_fault_);
   controller_->fall_silent(silent_until_);
   next_step_ = loop_.now() + step_period;
   reboot_wanted_ = false;
   return {};
+}
+
+/// What speaks for itself is not heard when its link cannot be opened; the vehicle flies without.
+void Vehicle::connect_payload() {
+  auto const open = [this](std::string_view what) -> std::unique_ptr<link::ByteLink> {
+    auto link = open_link_();
+    if (link) return std::move(*link);
+    log_.warn(fmt::format("cannot open the link of its {}: {}", what, link.error().message));
+    return nullptr;
+  };
+  if (controller_->has_camera_node())
+    if (auto link = open("camera")) controller_->connect_camera(std::move(link));
+  if (controller_->has_gimbal_node())
+    if (auto link = open("gimbal")) controller_->connect_gimbal(std::move(link));
 }
 
 void Vehicle::switch_off() {

@@ -71,6 +71,7 @@ class Vehicle {
  private:
   base::Task<void> live();
   base::Result<> switch_on();
+  void connect_payload();
   void switch_off();
   void keep_up();
   void swap_battery_when_due();
