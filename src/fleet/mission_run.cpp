@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "fleet/failsafe_reason.hpp"
 #include "fleet/flight_plan.hpp"
 #include "mavlink/command.hpp"
 #include "mavlink/modes.hpp"
@@ -140,7 +141,7 @@ MissionSight look(Craft const& craft, TimePoint started, TimePoint now) {
           .current_seq = trace.current_seq,
           .reached_seq = trace.reached_seq,
           .on_ground_for = trace.on_ground_for(),
-          .failsafe = recent_failsafe(craft, now)};
+          .failsafe = recent_failsafe(craft.state, now)};
 }
 
 /// Phases 6 and 7.

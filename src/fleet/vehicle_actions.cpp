@@ -32,7 +32,6 @@ constexpr Duration armed_wait = 10s;         // language specification 5.4, phas
 constexpr Duration reason_wait = 1s;         // the text may come after the acknowledgement
 constexpr Duration prearm_repeats = 35s;     // ArduPilot repeats its objections every 30 s
 constexpr Duration prearm_patience = 10s;
-constexpr Duration failsafe_is_recent = 5s;
 constexpr std::uint32_t copter_stabilize = 0;
 
 std::optional<std::uint32_t> mode_for(Craft const& craft, ModeRole role) {
@@ -176,17 +175,6 @@ std::string given_reason(Craft const& craft, TimePoint since) {
     if (text.heard >= since && text.severity <= warning) return text.text;
   for (auto const& text : newest_first)
     if (text.heard + prearm_repeats >= since && text.text.starts_with("PreArm")) return text.text;
-  return {};
-}
-
-std::string recent_failsafe(Craft const& craft, TimePoint now) {
-  auto const tells = [](std::string const& text) {
-    // "Fence Breached" of ArduPilot 4.6, "Circle fence breached" of 4.7
-    return text.find("ailsafe") != std::string::npos || text.find("Fence") != std::string::npos ||
-           text.find("fence breached") != std::string::npos;
-  };
-  for (auto const& text : std::views::reverse(craft.state.recent_texts))
-    if (text.heard + failsafe_is_recent >= now && tells(text.text)) return text.text;
   return {};
 }
 

@@ -30,8 +30,6 @@ enum class OnStop {
 /// What the vehicle last gave as a reason, at or after `since`; its standing arming objection ("PreArm: ...")
 /// otherwise; or empty.
 [[nodiscard]] std::string given_reason(Craft const& craft, base::TimePoint since);
-/// A text in which the vehicle announced a failsafe or a fence breach in the last seconds, or empty.
-[[nodiscard]] std::string recent_failsafe(Craft const& craft, base::TimePoint now);
 
 /// How a command of this page is sent.
 struct ActionOptions {
