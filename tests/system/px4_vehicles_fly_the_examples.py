@@ -15,6 +15,7 @@ fly("survey", "px4:2,px4-rover:1")
 fly("patrol", "px4:1,copter:1", "Back home: the watch is over")
 fly("rover_and_drone", "px4:1,px4-rover:1", "Sample 3 is taken", "3 samples are in")
 fly("error_handling", "px4:2", "Both halves are surveyed")
+fly("relay", "px4:2", "4 turns, and nobody missed the quarry", options=("--swap-batteries", "30"))
 # Over a bad link.
 fly("patrol", "px4:1,copter:1", "Back home: the watch is over", options=("--loss", "0.1", "--delay", "0.1", "--seed", "3"))
 print("PX4 vehicles fly the examples")
