@@ -94,7 +94,8 @@ bool Autopilot::may_enter(FlightMode const& mode) {
     return false;
   };
   if (mode.needs_position && !position) return refuse("requires position");
-  if (mode.behaviour == Behaviour::retrace && !trail_.usable()) return refuse("init failed");
+  bool const has_trail = trail_.usable() && tuning_.trail.most_points > 0;
+  if (mode.behaviour == Behaviour::retrace && !has_trail) return refuse("init failed");
   if (kind_.is_px4()) {
     auto const objection = px4_objection(mode);
     return objection ? refuse(*objection) : true;

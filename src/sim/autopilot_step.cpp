@@ -167,7 +167,9 @@ Goal Autopilot::kept_in_the_fence(Goal goal) const {
 }
 
 void Autopilot::follow_trail() {
-  if (!armed_ || !navigation_.position_ok || mode_->behaviour == Behaviour::retrace || kind_.is_px4()) return;
+  bool const can_retrace = mode_for(kind_, Behaviour::retrace).behaviour == Behaviour::retrace;
+  if (!can_retrace || tuning_.trail.most_points == 0) return;
+  if (!armed_ || !navigation_.position_ok || mode_->behaviour == Behaviour::retrace) return;
   if (!trail_.note(body_.position_m, tuning_.trail))
     outbox_.say(MavSeverity::warning, "SmartRTL deactivated: buffer full");
 }

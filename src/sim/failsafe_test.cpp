@@ -123,6 +123,7 @@ TEST(RadioFailsafe, LetsAMissionGoOnIfToldSo) {
 TEST(RadioFailsafe, OfAPlaneWaitsBeforeItReturns) {
   TestGround ground("plane");
   circle(ground);
+  EXPECT_EQ(ground.said("SmartRTL"), 0) << "planes have no such mode";
   set(ground, "SIM_RC_FAIL", no_pulses);
   ground.run_for(2s);
   EXPECT_EQ(ground.said("Throttle failsafe on"), 1);

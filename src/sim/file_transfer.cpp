@@ -16,6 +16,7 @@ constexpr std::size_t opcode_at = packet_at + 3;
 constexpr std::size_t size_at = packet_at + 4;
 constexpr std::size_t asked_opcode_at = packet_at + 5;
 constexpr std::size_t data_at = packet_at + 12;
+constexpr std::uint8_t payload_size = 254;
 
 constexpr std::uint32_t file_transfer_protocol = 110;
 constexpr std::uint8_t ack = 128;
@@ -67,6 +68,7 @@ std::optional<mavlink::Frame> file_transfer_answer(mavlink::Frame const& request
   mavlink::Frame answer;
   answer.source = self;
   answer.message_id = file_transfer_protocol;
+  answer.payload_size = payload_size;
   auto& told = answer.payload;
   told[target_system_at] = request.source.system;
   told[target_component_at] = request.source.component;

@@ -30,6 +30,7 @@ TEST(FileTransfer, HasNoFileToOpen) {
   EXPECT_EQ(answer->payload[7], 1);
   EXPECT_EQ(answer->payload[8], 4);
   EXPECT_EQ(answer->payload[15], 10);
+  EXPECT_GT(mavlink::serialize(*answer).bytes().size(), 20u) << "the answer travels whole";
 }
 
 TEST(FileTransfer, RefusesWhatNeedsASessionAndWhatItDoesNotKnow) {
