@@ -216,8 +216,8 @@ TEST(Control, LeavesAnArmingAloneThatFollowsADisarmingAtOnce) {
   copter.ignored_commands.insert(MavCmd::component_arm_disarm);
   EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
   copter.ignored_commands.clear();
-  auto const disarming = world.give({.action = Action::disarm});
-  ASSERT_TRUE(world.comes_to(disarming, CommandState::accepted));
+  (void)world.give({.action = Action::disarm});
+  world.run_for(200ms);
   EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::confirmed);
   world.run_for(4s);
   EXPECT_TRUE(copter.is_armed);
