@@ -59,7 +59,7 @@ TEST(EmergencyStop, StaysAsStrongAsItWasWhenItIsPressedOnceMore) {
   world.control->emergency_stop(std::nullopt, "operator 2");
   EXPECT_EQ(world.control->emergency().action, StopAction::terminate);
   copter.ignored_commands.clear();
-  EXPECT_TRUE(world.run_until([&] { return all_confirmed(world); }, 10s));
+  EXPECT_TRUE(world.run_until([&] { return world.stop_of("1").is_confirmed; }, 10s));
   EXPECT_FALSE(copter.is_armed);
   world.control->release_emergency_stop("operator 1");
   world.control->emergency_stop(std::nullopt, "operator 1");

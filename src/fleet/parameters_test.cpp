@@ -72,10 +72,7 @@ class Copter {
 };
 
 struct ParametersTest : ::testing::Test {
-  ParametersTest() {
-    parameters.add(world.connection);
-    world.run_for(2s);
-  }
+  ParametersTest() { world.run_for(2s); }
   auto all(std::string id = "1", bool old_ones_do = false) {
     return world.loop.run_until_done(parameters.all({std::move(id)}, old_ones_do));
   }
