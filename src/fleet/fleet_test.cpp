@@ -172,7 +172,7 @@ TEST(Fleet, AsksOnlyForMessagesThatDoNotComeByThemselves) {
 
 TEST(Fleet, KnowsAtOnceWhereANewVehicleIs) {
   TestWorld world;
-  world.add();
+  world.add({.tells_place = true});
   ASSERT_TRUE(world.run_until([&] { return !world.registry.all().empty(); }));
   auto const found = world.loop.now();
   EXPECT_TRUE(world.run_until([&] { return world.state().position.known(); }));

@@ -55,10 +55,14 @@ class Parameters::Loan {
 };
 
 Parameters::Parameters(Fleet& fleet, parameters::Cache cache, base::Logger log)
-    : fleet_(fleet), cache_(std::move(cache)), log_(log.named("parameters")), scope_(fleet.loop()) {}
+    : fleet_(fleet), cache_(std::move(cache)), log_(log.named("parameters")), scope_(fleet.loop()) {
+  // A service knows the vehicles that it has heard, so it begins with its network's first message.
+  subscription_ = fleet.subscribe(
+      [this](Network const& network, mavlink::Received const&) { (void)service_of(network.connection()); });
+}
 
-parameters::ParameterService& Parameters::service_of(Craft const& craft) {
-  return services_.try_emplace(&craft.connection, craft.connection, cache_, log_).first->second;
+parameters::ParameterService& Parameters::service_of(mavlink::Connection& connection) {
+  return services_.try_emplace(&connection, connection, cache_, log_).first->second;
 }
 
 Result<Craft*> Parameters::find(VehicleId const& id) const {
@@ -92,7 +96,7 @@ base::Task<> Parameters::fetch(Craft& craft, std::shared_ptr<Fetch> into, parame
     into->progress = {done, total};
   };
   auto const system_id = craft.address.system;
-  into->result = co_await service_of(craft).all(system_id, wanted, note);
+  into->result = co_await service_of(craft.connection).all(system_id, wanted, note);
   fetches_.erase(craft.id());
   into->ended.notify_all();
 }
@@ -124,7 +128,7 @@ base::Task<Result<vehicle::Parameter>> Parameters::read(VehicleId id, std::strin
   auto const craft = find(id);
   if (!craft) co_return std::unexpected(craft.error());
   auto const system_id = (*craft)->address.system;
-  auto const value = co_await service_of(**craft).read(system_id, name);
+  auto const value = co_await service_of((*craft)->connection).read(system_id, name);
   if (!value) co_return std::unexpected(value.error());
   co_return shown(*value);
 }
@@ -138,7 +142,7 @@ base::Task<Result<vehicle::ParameterChange>> Parameters::change(VehicleId id, st
   if (auto const claimed = fleet_.authority().claim(craft, by); !claimed) co_return std::unexpected(claimed.error());
   Loan const loan(*this, craft, by, is_lent);
   auto const system_id = craft.address.system;
-  auto const changed = co_await service_of(craft).change(system_id, name, value);
+  auto const changed = co_await service_of(craft.connection).change(system_id, name, value);
   if (!changed) {
     log_.warn(
         fmt::format("{} could not set {} of {} to {}: {}", by, name, craft.state.name, value, changed.error().message));

@@ -41,7 +41,7 @@ class Parameters final : public vehicle::VehicleParameters {
   class Loan;
 
   [[nodiscard]] base::Result<Craft*> find(vehicle::VehicleId const& id) const;
-  [[nodiscard]] parameters::ParameterService& service_of(Craft const& craft);
+  [[nodiscard]] parameters::ParameterService& service_of(mavlink::Connection& connection);
   base::Task<Snapshot> snapshot(vehicle::VehicleId id, bool old_ones_do);
   base::Task<> fetch(Craft& craft, std::shared_ptr<Fetch> into, parameters::Wanted wanted);
 
@@ -51,6 +51,7 @@ class Parameters final : public vehicle::VehicleParameters {
   std::map<mavlink::Connection*, parameters::ParameterService> services_;
   std::map<vehicle::VehicleId, std::shared_ptr<Fetch>> fetches_;
   std::map<vehicle::VehicleId, int> loans_;  ///< changes under way on vehicles that nobody commanded before
+  std::shared_ptr<Fleet::Heard const> subscription_;
   base::Scope scope_;
 };
 

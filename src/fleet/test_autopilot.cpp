@@ -191,7 +191,8 @@ MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& par
       return MavResult::accepted;
     }
     case MavCmd::request_message:
-      if (static_cast<MessageId>(params[0]) != MessageId::global_position_int) return MavResult::unsupported;
+      if (!options_.tells_place || static_cast<MessageId>(params[0]) != MessageId::global_position_int)
+        return MavResult::unsupported;
       send_message(MessageId::global_position_int);
       return MavResult::accepted;
     case MavCmd::do_set_home: return MavResult::accepted;

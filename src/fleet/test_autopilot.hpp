@@ -46,6 +46,7 @@ class TestAutopilot {
     base::Duration position_ok_after{};  ///< boot to estimator
     bool asks_with_request_int = false;  ///< ArduPilot asks with MISSION_REQUEST
     base::Duration request_spacing = std::chrono::milliseconds(5);
+    bool tells_place = false;  ///< when asked for that message; not with two of them, which are too much alike then
   };
 
   TestAutopilot(base::Loop& loop, std::unique_ptr<link::ByteLink> link, Options options);
