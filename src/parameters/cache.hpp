@@ -20,6 +20,7 @@ struct Identity {
   std::uint32_t firmware = 0;
   std::string custom_version = {};  ///< of its source, hexadecimal
   mavlink::ParamEncoding encoding = mavlink::ParamEncoding::c_cast;
+  friend bool operator==(Identity const&, Identity const&) = default;
 };
 
 /// What a vehicle's parameters were at one time.

@@ -21,6 +21,9 @@ namespace {
 /// A vehicle asks again for a mission item that got lost after a second or so.
 constexpr base::Duration mission_pause = 2s;
 
+/// After that whoever speaks under a system id may be another vehicle.
+constexpr base::Duration longest_silence = 5s;
+
 template <class Bytes>
 std::string hexadecimal(Bytes const& bytes) {
   std::string text;
@@ -99,6 +102,9 @@ void ParameterService::receive(mavlink::Received const& received) {
   if (auto const* heartbeat = std::get_if<mavlink::Heartbeat>(&received.message)) {
     if (mavlink::family_of(heartbeat->type) == vehicle::Family::unknown) return;
     auto& vehicle = vehicles_[received.source.system];
+    bool const was_away = received.at - vehicle.heard > longest_silence;
+    if (was_away || heartbeat->autopilot != vehicle.info.autopilot) vehicle.may_be_another = true;
+    vehicle.heard = received.at;
     vehicle.info = {received.source, heartbeat->type, heartbeat->autopilot};
     vehicle.link = received.from.link;
   } else if (auto const* value = std::get_if<mavlink::ParamValue>(&received.message)) {
@@ -155,9 +161,10 @@ mavlink::ParamOptions ParameterService::options_for(Vehicle const& vehicle) cons
   return {.encoding = vehicle.identity->encoding};
 }
 
-/// Asks once in this program's life; a vehicle that does not answer is known by its heartbeat alone, and not cached.
+/// Asks once, and again after a silence; a vehicle that does not answer is known by its heartbeat alone, and not
+/// cached.
 base::Task<> ParameterService::identify(Vehicle& vehicle) {
-  if (vehicle.identity) co_return;
+  if (vehicle.identity && !vehicle.may_be_another) co_return;
   auto const& info = vehicle.info;
   mavlink::Inbox versions(
       connection_, info.address.system,
@@ -170,8 +177,12 @@ base::Task<> ParameterService::identify(Vehicle& vehicle) {
     auto const got = co_await versions.next(connection_.loop().now() + 500ms);
     if (got) version = std::get<mavlink::AutopilotVersion>(*got);
   }
-  if (vehicle.identity) co_return;  // another task was quicker
-  vehicle.identity = identity_of(version.value_or(mavlink::AutopilotVersion{}), info.autopilot);
+  if (vehicle.identity && !vehicle.may_be_another) co_return;  // another task was quicker
+  vehicle.may_be_another = false;
+  auto const identity = identity_of(version.value_or(mavlink::AutopilotVersion{}), info.autopilot);
+  if (vehicle.identity == identity && !identity.uid.empty()) co_return;
+  keep(vehicle);
+  vehicle.identity = identity;
   vehicle.cached = cache_.find(*vehicle.identity);
 }
 

@@ -63,7 +63,9 @@ class ParameterService {
   struct Vehicle {
     VehicleInfo info;
     std::size_t link = 0;
+    base::TimePoint heard{};
     std::optional<Identity> identity;
+    bool may_be_another = false;  ///< since `identity` was asked for
     std::optional<CachedParameters> cached;
     bool cache_changed = false;
     bool is_listing = false;

@@ -240,6 +240,17 @@ TEST_F(Service, WaitsForAMissionTransferOnTheLink) {
   EXPECT_NE(ended, base::TimePoint{});
 }
 
+TEST_F(Service, TakesAnotherVehicleOfTheSameIdForWhatItIs) {
+  EXPECT_EQ(all().parameters[0].value, 7);
+  first.reset();
+  loop.run_until_done(pass(loop, 10s));
+  first.emplace(loop, hub.connect(), 1);
+  first->version.uid2.fill(99);
+  first->values.assign(100, 8);
+  loop.run_until_done(pass(loop, 2s));
+  EXPECT_EQ(all(Wanted::cached_too).parameters[0].value, 8);
+}
+
 TEST_F(Service, KnowsOnlyVehiclesThatItHeard) {
   auto const got = loop.run_until_done(service->all(9));
   ASSERT_FALSE(got);
