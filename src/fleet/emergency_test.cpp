@@ -4,6 +4,7 @@
 
 #include "fleet/test_control.hpp"
 #include "mavlink/command.hpp"
+#include "mavlink/raw_message.hpp"
 
 namespace lapwing::fleet {
 namespace {
@@ -141,6 +142,18 @@ TEST(EmergencyStop, HoldsBackWhatAnotherStationSendsToOneOrToAll) {
   EXPECT_FALSE(passes({1, 1}, 1.0F));
   EXPECT_FALSE(passes({0, 0}, 1.0F)) << "system 0 is everybody";
   EXPECT_TRUE(passes({0, 0}, 0.0F)) << "a disarming moves nothing";
+  auto const goes_on = [&](mavlink::Frame frame) {
+    return world.connection.pass_on(vehicle, mavlink::serialize(frame).bytes());
+  };
+  for (auto const* name : {"SET_ATTITUDE_TARGET", "SET_POSITION_TARGET_LOCAL_NED", "SET_ACTUATOR_CONTROL_TARGET"}) {
+    auto const setpoint = mavlink::raw_message(name, {}, {254, 190}, {1, 1});
+    ASSERT_TRUE(setpoint) << name;
+    EXPECT_FALSE(goes_on(*setpoint)) << name;
+  }
+  mavlink::MissionItem item{.target = {1, 1}, .command = MavCmd::nav_waypoint};
+  EXPECT_TRUE(goes_on(mavlink::encode(item, {254, 190}, 0))) << "a plan moves nothing";
+  item.current = 2;
+  EXPECT_FALSE(goes_on(mavlink::encode(item, {254, 190}, 0))) << "a guided way point does";
 }
 
 TEST(EmergencyStop, EndsWhatIsUnderWay) {

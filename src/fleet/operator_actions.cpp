@@ -216,6 +216,11 @@ bool is_moving(Craft const& craft, mavlink::Message const& message) {
     return is_moving(craft, mavlink::Command{as_int->command, {p[0], p[1], p[2], p[3]}});
   }
   if (auto const* mode = std::get_if<mavlink::SetMode>(&message)) return !is_stop_mode(craft, mode->custom_mode);
+  if (auto const* item = std::get_if<mavlink::MissionItem>(&message)) {
+    constexpr std::uint8_t go_there = 2;  // ArduPilot's older ways of guiding: not an item of a mission
+    constexpr std::uint8_t climb_there = 3;
+    return item->current == go_there || item->current == climb_there;
+  }
   return std::holds_alternative<mavlink::SetPositionTargetGlobalInt>(message);
 }
 

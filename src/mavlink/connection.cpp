@@ -176,6 +176,19 @@ void Connection::set_frame_hook(FrameHook hook) {
 // ---- sending
 // -------------------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// As a send guard sees it: setpoints of which this program knows no fields count as the one that it does know.
+std::optional<Message> guarded(Frame const& frame) {
+  auto message = decode(frame);
+  auto const* traits = find_traits(frame.message_id);
+  if (message || !traits || !internal::is_setpoint(frame.message_id)) return message;
+  Address const target{frame.payload[traits->target_system_at], frame.payload[traits->target_component_at]};
+  return SetPositionTargetGlobalInt{.target = target};
+}
+
+}  // namespace
+
 base::Result<> Connection::send(Address target, Message message) {
   set_target(message, target);
   if (target.system == 0) {
@@ -187,7 +200,7 @@ base::Result<> Connection::send(Address target, Message message) {
 
 base::Result<> Connection::send(Address target, Frame frame) {
   if (send_guard_) {
-    auto const message = decode(frame);
+    auto const message = guarded(frame);
     if (auto allowed = message ? send_guard_(target, *message) : base::Result<>{}; !allowed) return allowed;
   }
   if (auto const both = conflict(target.system))
@@ -252,7 +265,7 @@ bool Connection::pass_on(PeerRef to, std::span<std::uint8_t const> packet) {
 /// By the guard, whoever sends it.
 bool Connection::is_held_back(Frame const& frame) const {
   if (!send_guard_) return false;
-  auto const message = decode(frame);
+  auto const message = guarded(frame);
   auto const target = message ? target_of(*message) : std::nullopt;
   return target && !send_guard_(*target, *message);
 }

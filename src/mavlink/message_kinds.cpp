@@ -62,6 +62,10 @@ bool is_perishable(std::uint32_t message_id) {
   return std::ranges::binary_search(perishable_ids, message_id);
 }
 
+bool is_setpoint(std::uint32_t message_id) {
+  return message_id == 82 || message_id == 84 || message_id == 86 || message_id == 139;
+}
+
 bool tells_state(std::uint32_t message_id) {
   return std::ranges::binary_search(state_ids, message_id);
 }
