@@ -20,6 +20,7 @@ for seed in (1, 2, 3, 8, 21, 25, 36):
     for vehicle in report["vehicles"]:
         assert [mission["outcome"] for mission in vehicle["missions"]] == ["done"], vehicle
         assert vehicle["track_m"] > 100, vehicle
-        # Ten exchanges of 0.4 s are the least that such a link allows: the losses were real.
-        assert vehicle["missions"][0]["upload_s"] > 4, vehicle["missions"]
+        # Count and items are asked for and answered one by one, 0.4 s each: the delay was real.
+        first = vehicle["missions"][0]
+        assert first["upload_s"] > 0.4 * (first["items"] + 1), first
 print("surveyed over seven bad links")
