@@ -1,6 +1,7 @@
 """Exchanges over bad links beside pymavlink and MAVSDK, in real time. For run.py. The whole matrix of badness is a unit test in
 virtual time (src/sim/exchange_matrix_test.cpp); these are a few of its cells with figures."""
 
+import concurrent.futures
 import statistics
 import subprocess
 
@@ -13,7 +14,7 @@ CELLS = (
 EXCHANGES = ("command", "parameter", "upload")
 
 
-def measure(programs: dict, simulator, free_udp_port, say, repeats: int = 3) -> list:
+def measure(programs: dict, simulator, free_udp_port, say, repeats: int = 12) -> list:
     rows = []
     for cell, options in CELLS:
         for exchange in EXCHANGES:
@@ -26,19 +27,21 @@ def measure(programs: dict, simulator, free_udp_port, say, repeats: int = 3) -> 
 
 
 def tried(program, exchange, options, simulator, free_udp_port, repeats) -> dict:
-    seconds, reasons = [], []
-    for repeat in range(repeats):
-        port = free_udp_port()
+    """All repeats at once: on such links they wait for nearly all of their time, and three would be a lottery."""
+    def once(repeat: int, port: int):
         with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{port}", "--seed", str(repeat + 1), *options):
             try:
                 done = subprocess.run([*program, str(port), exchange], capture_output=True, text=True, timeout=150)
             except subprocess.TimeoutExpired:
-                reasons.append("no end within 150 s")
-                continue
+                return None, "no end within 150 s"
         if done.returncode == 0:
-            seconds.append(float(done.stdout.split()[0]))
-        else:
-            reasons.append((done.stderr.strip().splitlines() or ["no reason"])[-1])
+            return float(done.stdout.split()[0]), None
+        return None, (done.stderr.strip().splitlines() or ["no reason"])[-1]
+
+    with concurrent.futures.ThreadPoolExecutor(repeats) as pool:
+        results = [future.result() for future in [pool.submit(once, repeat, free_udp_port()) for repeat in range(repeats)]]
+    seconds = [took for took, _ in results if took is not None]
+    reasons = [reason for _, reason in results if reason]
     return {"median_s": statistics.median(seconds) if seconds else None, "failed": len(reasons), "of": repeats, "reasons": reasons}
 
 

@@ -18,8 +18,8 @@ enum class Traffic {
 /// Worth little when it is late, because the next one says it anew: heartbeats, setpoints, corrections, telemetry.
 [[nodiscard]] bool is_perishable(std::uint32_t message_id);
 
-/// Where to go, which way to lie, or what to do with the motors, now: SET_ATTITUDE_TARGET, SET_POSITION_TARGET_LOCAL_NED
-/// and _GLOBAL_INT, SET_ACTUATOR_CONTROL_TARGET.
+/// Where to go, which way to lie, or what to do with the motors, now: SET_ATTITUDE_TARGET,
+/// SET_POSITION_TARGET_LOCAL_NED and _GLOBAL_INT, SET_ACTUATOR_CONTROL_TARGET.
 [[nodiscard]] bool is_setpoint(std::uint32_t message_id);
 
 /// A report that a vehicle repeats on each of its links, at each link's own rate. Of several links to one vehicle one
