@@ -45,9 +45,8 @@ base::Result<std::string> operator_member(Json const& object) {
   auto name = text_member(object, "operator", "");
   if (!name) return name;
   bool const is_plain = std::ranges::none_of(*name, [](unsigned char c) { return c < 0x20; });
-  bool const is_taken = *name == "script" || name->starts_with("operator ");  // the station names its viewers so
-  if (name->size() > longest || !is_plain || is_taken)
-    return wrong("\"operator\" must be a short name, other than script or that of a viewer (\"operator 1\").");
+  if (name->size() > longest || !is_plain || *name == "script")
+    return wrong("\"operator\" must be a short name, other than script.");
   return name;
 }
 

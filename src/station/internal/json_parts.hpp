@@ -20,8 +20,7 @@ namespace lapwing::station::internal {
 [[nodiscard]] base::Result<Json> parse_object(std::string_view text);
 /// A member that is text, or `fallback` when it is absent; an error when it is something else.
 [[nodiscard]] base::Result<std::string> text_member(Json const& object, char const* key, std::string fallback);
-/// Who asks, by a name that cannot be taken for the script or a viewer, and fits a line; empty when the client does not
-/// say.
+/// Who asks, by a name that cannot be taken for the script and fits a line; empty when the client does not say.
 [[nodiscard]] base::Result<std::string> operator_member(Json const& object);
 /// A member that is a finite number, or nothing when it is absent.
 [[nodiscard]] base::Result<std::optional<double>> number_member(Json const& object, char const* key);
