@@ -46,7 +46,7 @@ block_components = [100]
 [[endpoint]]
 url = "udpout://127.0.0.1:14560"
 sniffer = true
-coalesce = true
+coalesce = false
 
 [[endpoint]]
 url = "tcpin://127.0.0.1:5760"
@@ -73,7 +73,7 @@ read_only = true
   EXPECT_EQ(radio.limits.by_class[static_cast<std::size_t>(MessageClass::telemetry)].messages_per_s, 20.0);
   EXPECT_FALSE(radio.out.passes(packet("HEARTBEAT", {.source = {1, 100}}).view()));
   EXPECT_TRUE(read.config.endpoints[2].is_sniffer);
-  EXPECT_TRUE(read.config.endpoints[2].coalesces);
+  EXPECT_FALSE(read.config.endpoints[2].coalesces);
   EXPECT_TRUE(read.config.endpoints[3].is_read_only);
 }
 

@@ -290,20 +290,26 @@ TEST_F(RouterTest, ReleasesWhatWaitsThoughNothingElseHappens) {
   EXPECT_GE(slow.take().size(), 2u);
 }
 
-TEST_F(RouterTest, PacksSeveralFramesIntoADatagramWhereAsked) {
+TEST_F(RouterTest, PacksFramesThatAreReadyTogetherIntoADatagramUnlessToldNotTo) {
   auto& vehicle = join(add_hub());
-  auto& ground = join(add_hub({.name = "ground", .coalesces = true}));
+  auto& ground = join(add_hub({.name = "ground"}));
+  auto& one_by_one = join(add_hub({.name = "one by one", .coalesces = false}));
   ground.say(packet("HEARTBEAT", {.source = {255, 190}}));
+  one_by_one.say(packet("HEARTBEAT", {.source = {254, 190}}));
   settle();
   Bytes together;
   for (std::uint8_t seq = 0; seq < 5; ++seq) {
     auto const one = packet("ATTITUDE", {.seq = seq}).bytes;
     together.insert(together.end(), one.begin(), one.end());
   }
+  settle();
+  ground.take();
+  one_by_one.take();
   vehicle.say(together);
   settle();
   EXPECT_EQ(ground.take(), Packets{together});
-  EXPECT_EQ(counters(1).out.frames, 5u);
+  EXPECT_EQ(one_by_one.take().size(), 5u);
+  EXPECT_EQ(counters(2).out.frames, 5u);
 }
 
 TEST_F(RouterTest, CountsJunkAndMakesNoFarEndOfIt) {
