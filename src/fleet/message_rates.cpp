@@ -9,6 +9,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr base::Duration shortest_look = 2s;
+constexpr base::Duration shortest_first_look = 1s;  // people wait to see the vehicle on the map
 constexpr base::Duration longest_pause = 60s;
 constexpr base::Duration pause_after_no = 5min;
 constexpr int intervals_in_a_look = 3;
@@ -19,6 +20,10 @@ constexpr double enough = 0.5;
 
 base::Duration look_time(base::Duration interval) {
   return std::max(shortest_look, interval * intervals_in_a_look);
+}
+
+base::Duration first_look_time(base::Duration interval) {
+  return std::clamp(interval * intervals_in_a_look, shortest_first_look, shortest_look);
 }
 
 }  // namespace
@@ -38,7 +43,7 @@ void MessageRates::want(WantedMessage const& message, base::TimePoint now) {
   if (find(message.id)) return;
   auto& watched = watched_.emplace_back(Watched{.wanted = message, .usual = message.interval});
   if (message.may_wait) watched.wanted.interval *= thrift_;
-  look(watched, now, shortest_look);
+  look(watched, now, first_look_time(watched.wanted.interval));
 }
 
 void MessageRates::look(Watched& watched, base::TimePoint now, base::Duration time) const {
@@ -52,7 +57,7 @@ void MessageRates::restart(base::TimePoint now) {
     watched.asked = 0;
     watched.set.reset();
     watched.before.reset();
-    look(watched, now, shortest_look);
+    look(watched, now, first_look_time(watched.wanted.interval));
   }
 }
 

@@ -31,7 +31,14 @@ void hear(MessageRates& rates, mavlink::MessageId id, int times) {
 
 TEST(MessageRates, LooksBeforeItAsks) {
   MessageRates rates(wanted, at(0s));
-  EXPECT_TRUE(rates.due(at(1s)).empty());
+  EXPECT_TRUE(rates.due(at(900ms)).empty());
+}
+
+TEST(MessageRates, AsksSoonForWhatShouldComeOften) {
+  std::array<WantedMessage, 2> const some{WantedMessage{position, 200ms}, WantedMessage{attitude, 1s}};
+  MessageRates rates(some, at(0s));
+  EXPECT_EQ(ids(rates.due(at(1s))), std::vector{position});
+  EXPECT_EQ(ids(rates.due(at(2s))), std::vector{attitude});
 }
 
 TEST(MessageRates, AsksOnlyForWhatIsMissing) {
@@ -52,7 +59,7 @@ TEST(MessageRates, AsksAgainAfterGrowingPausesWhileNothingComes) {
   std::vector<int> asked_at;
   for (int second = 0; second <= 200; ++second)
     if (!rates.due(at(second * 1s)).empty()) asked_at.push_back(second);
-  EXPECT_EQ(asked_at, (std::vector{2, 4, 8, 16, 32, 64, 124, 184}));
+  EXPECT_EQ(asked_at, (std::vector{1, 3, 7, 15, 31, 63, 123, 183}));
 }
 
 TEST(MessageRates, NoticesThatAMessageStopped) {
@@ -119,7 +126,7 @@ TEST(MessageRates, GivesUpOnWhatIsOnlyShownWhenItNeverComes) {
   std::vector<int> asked_at;
   for (int second = 0; second <= 200; ++second)
     if (!rates.due(at(second * 1s)).empty()) asked_at.push_back(second);
-  EXPECT_EQ(asked_at, (std::vector{2, 4, 8, 16}));
+  EXPECT_EQ(asked_at, (std::vector{1, 3, 7, 15}));
 }
 
 }  // namespace
