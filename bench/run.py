@@ -84,29 +84,18 @@ EXCHANGERS = {
 
 
 def upload(repeats: int = 3) -> list:
+    """Without loss one after the other: there the processor sets the pace."""
+    import lossy as bad_links
+
     rows = []
     for items in (100, 500):
         for loss in (0.0, 0.1, 0.3):
             row = {"items": items, "loss": loss}
             for name, program in EXCHANGERS.items():
-                seconds, failures = [], 0
-                for repeat in range(repeats):
-                    port = free_udp_port()
-                    with simulator("--vehicles", "copter:1", "--out", f"udpout://127.0.0.1:{port}", "--loss", str(loss),
-                                   "--seed", str(repeat + 1)):
-                        try:
-                            done = subprocess.run([*program, str(port), "upload", str(items)], capture_output=True, text=True, timeout=400)
-                            if done.returncode == 0:
-                                seconds.append(float(done.stdout.split()[0]))
-                            else:
-                                failures += 1
-                        except subprocess.TimeoutExpired:
-                            failures += 1
-                row[name] = {"median_s": statistics.median(seconds) if seconds else None, "failed": failures, "of": repeats}
+                row[name] = bad_links.tried(program, ["upload", str(items)], ["--loss", str(loss)], simulator, free_udp_port, repeats,
+                                        at_once=1 if loss == 0.0 else None, patience=400)
             rows.append(row)
-            say(f"upload  {items:4} items {loss:4.0%} loss  " + "  ".join(
-                f"{name} {row[name]['median_s']:8.3f} s" + (f" ({row[name]['failed']}/{repeats} failed)" if row[name]["failed"] else "")
-                if row[name]["median_s"] is not None else f"{name}   failed {row[name]['failed']}/{repeats}" for name in EXCHANGERS))
+            say(f"upload  {items:4} items {loss:4.0%} loss  " + "  ".join(f"{name} {bad_links.text(row[name])}" for name in EXCHANGERS))
     return rows
 
 
