@@ -26,7 +26,7 @@ def measure(programs: dict, simulator, free_udp_port, say, repeats: int = 12) ->
     return rows
 
 
-def tried(program, [exchange], options, simulator, free_udp_port, repeats, at_once=None, patience: float = 150) -> dict:
+def tried(program, exchange, options, simulator, free_udp_port, repeats, at_once=None, patience: float = 150) -> dict:
     """On a bad link all repeats at once: there they wait for nearly all of their time, and three would be a lottery. `exchange` is what the
     program is told behind the port."""
     def once(repeat: int, port: int):
