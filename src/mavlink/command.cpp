@@ -102,7 +102,8 @@ base::Task<bool> is_alive(Exchange const& exchange) {
   if (!exchange.is_careful() || !heard || exchange.now() - *heard <= sign_of_life) co_return true;
   std::function<bool(Heartbeat const&)> any = [](Heartbeat const&) { return true; };
   auto const left = exchange.expires - exchange.now();
-  auto const got = co_await await_message<Heartbeat>(exchange.connection, exchange.target.system, any, left);
+  Address const anywhere{exchange.target.system, 0};
+  auto const got = co_await await_message<Heartbeat>(exchange.connection, anywhere, any, left);
   co_return got&& exchange.now() < exchange.expires;
 }
 
@@ -147,7 +148,7 @@ base::Task<base::Result<>> run_command(Connection& connection, Address target, C
   }
   Exchange exchange{
       connection, target, command, options, expires, CommandTurn(line), command.place && options.takes_int};
-  Inbox acks(connection, target.system, wanting<CommandAck>([id, self](CommandAck const& ack) {
+  Inbox acks(connection, target, wanting<CommandAck>([id, self](CommandAck const& ack) {
                return ack.command == id && addresses(ack.target, self);
              }));
   internal::Repeats repeats(connection, target, options.tries, options.ack_timeout);

@@ -28,6 +28,21 @@ TEST(Command, SucceedsWhenAccepted) {
   EXPECT_EQ(sent[0].params[0], 1.0F);
 }
 
+TEST(Command, TakesNoOtherComponentsAcknowledgement) {
+  Bench bench;
+  FakeVehicle camera(bench.loop, bench.hub.connect(), {1, 100});
+  bench.run_for(2s);
+  bench.vehicle->on = [&](Message const& message) {
+    auto const* command = std::get_if<CommandLong>(&message);
+    if (!command) return;
+    camera.answer(CommandAck{.command = command->command});
+    bench.vehicle->answer(CommandAck{.command = command->command, .result = MavResult::denied});
+  };
+  auto const result = run(bench, arm());
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message, "vehicle 1 answered COMPONENT_ARM_DISARM: denied");
+}
+
 TEST(Command, NamesCommandAndResultWhenRefused) {
   Bench bench;
   bench.vehicle->on = [&](Message const& message) {

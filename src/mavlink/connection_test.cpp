@@ -273,10 +273,10 @@ TEST(AwaitMessage, ReturnsTheFirstThatFitsOrTimesOut) {
     if (std::holds_alternative<Heartbeat>(message)) bench.vehicle->answer(MissionCurrent{.seq = 3});
   };
   std::function<bool(MissionCurrent const&)> const third = [](MissionCurrent const& m) { return m.seq == 3; };
-  auto const got = bench.loop.run_until_done(await_message<MissionCurrent>(bench.ground, 1, third, 5s));
+  auto const got = bench.loop.run_until_done(await_message<MissionCurrent>(bench.ground, {1, 0}, third, 5s));
   ASSERT_TRUE(got);
   std::function<bool(MissionCurrent const&)> const fourth = [](MissionCurrent const& m) { return m.seq == 4; };
-  auto const none = bench.loop.run_until_done(await_message<MissionCurrent>(bench.ground, 1, fourth, 5s));
+  auto const none = bench.loop.run_until_done(await_message<MissionCurrent>(bench.ground, {1, 0}, fourth, 5s));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, base::ErrorKind::timed_out);
 }

@@ -11,15 +11,13 @@
 
 namespace lapwing::mavlink {
 
-/// Collects the messages of one system that an exchange waits for, from its construction on: make it before sending,
-/// and no reply is lost in between.
+/// Collects the messages of one component (0: of all of its system) that an exchange waits for, from its construction
+/// on: make it before sending, and no reply is lost in between. What was asked of an autopilot, its camera does not
+/// answer.
 class Inbox {
  public:
   using Wanted = std::function<bool(Message const&)>;
 
-  Inbox(Connection& connection, std::uint8_t system_id, Wanted wanted)
-      : Inbox(connection, Address{system_id, 0}, std::move(wanted)) {}
-  /// Of one component alone; component 0: of all.
   Inbox(Connection& connection, Address from, Wanted wanted)
       : loop_(connection.loop()),
         arrived_(loop_),
@@ -61,12 +59,12 @@ template <class M>
   };
 }
 
-/// The next message of type M from the system that fulfils `condition`. Error: timed_out. For telemetry; where a
+/// The next message of type M from there that fulfils `condition`. Error: timed_out. For telemetry; where a
 /// request comes first, make an Inbox before sending it.
 template <class M>
-base::Task<base::Result<M>> await_message(Connection& connection, std::uint8_t system_id,
-                                          std::function<bool(M const&)> condition, base::Duration timeout) {
-  Inbox inbox(connection, system_id, wanting<M>(std::move(condition)));
+base::Task<base::Result<M>> await_message(Connection& connection, Address from, std::function<bool(M const&)> condition,
+                                          base::Duration timeout) {
+  Inbox inbox(connection, from, wanting<M>(std::move(condition)));
   auto const got = co_await inbox.next(connection.loop().now() + timeout);
   if (!got) co_return base::fail(base::ErrorKind::timed_out, "the vehicle did not send what was waited for");
   co_return std::get<M>(*got);

@@ -26,7 +26,7 @@ base::Task<base::Result<>> set_message_interval(Connection& connection, Address 
 base::Task<base::Result<std::optional<base::Duration>>> message_interval(Connection& connection, Address target,
                                                                          MessageId message, CommandOptions options) {
   auto const id = std::to_underlying(message);
-  Inbox told(connection, target.system,
+  Inbox told(connection, target,
              wanting<MessageInterval>([message](MessageInterval const& heard) { return heard.message == message; }));
   Command const command{MavCmd::get_message_interval, {static_cast<float>(id)}};
   auto const asked = co_await run_command(connection, target, command, options);

@@ -104,7 +104,7 @@ base::Task<base::Result<>> fetch_count(Download& download, Inbox& inbox) {
 /// Continues at the first item that is missing.
 base::Task<base::Result<>> fetch(Download& download) {
   auto const& party = download.party;
-  Inbox inbox(party.connection, party.target.system, meant_for<MissionCount, MissionItem, MissionAck>(party));
+  Inbox inbox(party.connection, party.target, meant_for<MissionCount, MissionItem, MissionAck>(party));
   if (auto counted = co_await fetch_count(download, inbox); !counted) co_return counted;
   auto& items = download.held.items;
   auto const total = download.list->count;
@@ -160,7 +160,7 @@ base::Task<base::Result<HeldPlan>> download_mission(Connection& connection, Addr
 base::Task<base::Result<>> clear_mission(Connection& connection, Address target, MissionType type,
                                          TransferOptions options) {
   Party const party{connection, target, type};
-  Inbox acks(connection, target.system, meant_for<MissionAck>(party));
+  Inbox acks(connection, target, meant_for<MissionAck>(party));
   std::optional<MavMissionResult> answered;
   Attention attention(party);
   for (Attempts attempts(party.now(), options); attempts.another(party.now());) {

@@ -196,8 +196,7 @@ Upload::Ended Upload::repeat() {
 }
 
 base::Task<base::Result<>> Upload::run() {
-  Inbox inbox(party_.connection, party_.target.system,
-              meant_for<MissionRequest, MissionRequestInt, MissionAck>(party_));
+  Inbox inbox(party_.connection, party_.target, meant_for<MissionRequest, MissionRequestInt, MissionAck>(party_));
   if (auto sent = send_opening(); !sent) co_return sent;
   CancelNotice notice(party_);
   auto heard = party_.now();

@@ -17,7 +17,7 @@ namespace {
 base::Task<bool> tell(Connection& connection, Address target, SigningKey key, SigningTime begin, std::string wanted,
                       SigningSetupOptions options, base::Result<>& sent) {
   auto& loop = connection.loop();
-  Inbox heard(connection, target.system, [](Message const&) { return true; });
+  Inbox heard(connection, Address{target.system, 0}, [](Message const&) { return true; });
   for (int attempt = 0; attempt < options.tries; ++attempt) {
     heard.clear();
     Message const message = SetupSigning{.key = key, .initial_timestamp = begin};

@@ -167,7 +167,7 @@ base::Task<> ParameterService::identify(Vehicle& vehicle) {
   if (vehicle.identity && !vehicle.may_be_another) co_return;
   auto const& info = vehicle.info;
   mavlink::Inbox versions(
-      connection_, info.address.system,
+      connection_, info.address,
       mavlink::wanting<mavlink::AutopilotVersion>([](mavlink::AutopilotVersion const&) { return true; }));
   auto const request = mavlink::request_message(mavlink::MessageId::autopilot_version);
   std::optional<mavlink::AutopilotVersion> version;

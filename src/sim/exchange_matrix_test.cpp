@@ -83,7 +83,7 @@ bool is_whole(MissionPlan const& plan, std::vector<MissionItem> const& wanted) {
 // ---- the exchanges: another one is two functions here and a line in the table below
 
 Task<Result<>> connect(TestGround& ground) {
-  auto const heard = co_await await_message<Heartbeat>(ground.gcs, 1, [](Heartbeat const&) { return true; }, 60s);
+  auto const heard = co_await await_message<Heartbeat>(ground.gcs, {1, 0}, [](Heartbeat const&) { return true; }, 60s);
   if (!heard) co_return std::unexpected(heard.error());
   co_return Result<>{};
 }
