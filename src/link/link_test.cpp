@@ -203,6 +203,33 @@ TEST(UdpLink, CallsToEverybodyUntilOneAnswers) {
   EXPECT_TRUE(loop.run_until_done(listener.hears("good")));
 }
 
+TEST(UdpLink, FindsAHostByItsName) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "udpin://127.0.0.1:0"));
+  Talker out(loop, opened(loop, "udpout://localhost:" + std::to_string(port_of(in.link()))));
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
+  EXPECT_EQ(out.link().state(), LinkState::open);
+  EXPECT_TRUE(out.say("hello"));
+  ASSERT_TRUE(loop.run_until_done(in.hears("hello")));
+  EXPECT_TRUE(in.answer("good day"));
+  EXPECT_TRUE(loop.run_until_done(out.hears("good day")));
+}
+
+base::Task<void> until_it_says_why(base::Loop& loop, ByteLink& link) {
+  for (int i = 0; i < 500 && link.last_error().empty(); ++i) co_await loop.sleep(10ms);
+}
+
+TEST(UdpLink, KeepsLookingForAHostThatIsNotKnownYet) {
+  base::Loop loop;
+  auto const name = std::string(64, 'x');  // longer than a name can be: no server has to be asked
+  Talker out(loop, opened(loop, "udpout://" + name + ":14550"));
+  EXPECT_FALSE(out.say("hello", Peer{}));
+  EXPECT_EQ(out.link().counters().send_failures, 1u);
+  loop.run_until_done(until_it_says_why(loop, out.link()));
+  EXPECT_EQ(out.link().last_error(), "cannot find host '" + name + "'");
+  EXPECT_EQ(out.link().state(), LinkState::opening);
+}
+
 TEST(UdpLink, NamesThePortThatIsTaken) {
   base::Loop loop;
   auto const first = opened(loop, "udpin://127.0.0.1:0");

@@ -9,6 +9,8 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/udp.hpp>
 
+#include "base/notifier.hpp"
+#include "base/scope.hpp"
 #include "link/internal/datagrams.hpp"
 #include "link/internal/links.hpp"
 
@@ -16,12 +18,15 @@ namespace lapwing::link::internal {
 
 namespace {
 
+using namespace std::chrono_literals;
 using boost::asio::ip::udp;
 using Error = boost::system::error_code;
 
 /// Room for a burst of parameters, or for a tenth of a second of a busy router in which the program does not listen. In
 /// more, telemetry would grow old before it is lost.
 int constexpr buffer_size = 4 * 1024 * 1024;
+
+base::Duration constexpr lookup_period = 1s;
 
 udp::endpoint endpoint_of(Peer peer) {
   return {boost::asio::ip::address_v4(static_cast<std::uint32_t>(peer.key >> 16U)),
@@ -34,22 +39,34 @@ Peer peer_at(udp::endpoint const& endpoint) {
 
 /// "in" is bound and answers whoever speaks. "out" is connected to one address and hears that alone, as ArduPilot's
 /// udpclient does. "bcast" calls to everybody until one answers, then speaks to that one, as pymavlink does. Each sends
-/// from the socket on which it listens.
+/// from the socket on which it listens. Far ends are looked up by name until one is found: a companion computer may
+/// come after the station.
 class UdpLink final : public ByteLink {
  public:
-  UdpLink(udp::socket socket, std::string name, Transport transport, std::optional<Peer> target)
-      : socket_(std::move(socket)),
-        name_(std::move(name)),
-        target_(target),
-        is_connected_(transport == Transport::udp_out),
-        is_calling_(transport == Transport::udp_bcast) {}
+  UdpLink(base::Loop& loop, udp::socket socket, Url url)
+      : loop_(loop),
+        socket_(std::move(socket)),
+        resolver_(loop.io()),
+        url_(std::move(url)),
+        is_connected_(url_.transport == Transport::udp_out),
+        is_calling_(url_.transport == Transport::udp_bcast),
+        answered_(loop),
+        scope_(loop) {}
 
-  [[nodiscard]] std::string name() const override { return name_; }
+  /// Where it goes to. What is heard on a connected socket is from there alone.
+  [[nodiscard]] Error aim(udp::endpoint const& target) {
+    Error error;
+    if (is_connected_) socket_.connect(target, error);
+    if (!error) target_ = peer_at(target);
+    return error;
+  }
+
+  [[nodiscard]] std::string name() const override { return to_string(url_); }
   [[nodiscard]] std::string peer_name(Peer peer) const override {
     auto const endpoint = endpoint_of(peer);
     return fmt::format("{}:{}", endpoint.address().to_string(), endpoint.port());
   }
-  [[nodiscard]] LinkState state() const override { return LinkState::open; }
+  [[nodiscard]] LinkState state() const override { return is_aimed() ? LinkState::open : LinkState::opening; }
   [[nodiscard]] std::string last_error() const override { return last_error_; }
   [[nodiscard]] std::vector<Peer> standing_peers() const override {
     return target_ ? std::vector<Peer>{*target_} : std::vector<Peer>{};
@@ -67,9 +84,14 @@ class UdpLink final : public ByteLink {
   void start(Receive receive) override {
     receive_ = std::move(receive);
     wait();
+    if (!is_aimed()) scope_.spawn(look_up());
   }
 
   bool send(Peer peer, Bytes bytes, Urgency urgency) override {
+    if (!is_aimed()) {
+      ++counters_.send_failures;
+      return false;
+    }
     bool const may_wait = urgency == Urgency::batched;
     if (!may_wait || writer_.is_full()) flush();
     writer_.add(peer, bytes);
@@ -82,6 +104,23 @@ class UdpLink final : public ByteLink {
 
  private:
   [[nodiscard]] int descriptor() const { return const_cast<udp::socket&>(socket_).native_handle(); }
+  [[nodiscard]] bool is_aimed() const { return url_.transport == Transport::udp_in || target_; }
+
+  base::Task<> look_up() {
+    while (!is_aimed()) {
+      bool has_answer = false;
+      resolver_.async_resolve(udp::v4(), url_.host, std::to_string(url_.port_or_baud),
+                              [this, &has_answer, alive = std::weak_ptr(alive_)](Error error, auto found) {
+                                if (alive.expired()) return;
+                                if (!error && !found.empty()) error = aim(found.begin()->endpoint());
+                                last_error_ = error ? fmt::format("cannot find host '{}'", url_.host) : "";
+                                has_answer = true;
+                                answered_.notify_all();
+                              });
+      while (!has_answer) co_await answered_.wait();
+      if (!is_aimed()) co_await loop_.sleep(lookup_period);
+    }
+  }
 
   bool write() {
     auto const outcome = writer_.write(descriptor(), is_connected_);
@@ -119,9 +158,11 @@ class UdpLink final : public ByteLink {
     tell_drained();
   }
 
+  base::Loop& loop_;
   udp::socket socket_;
-  std::string name_;
-  std::optional<Peer> target_;
+  udp::resolver resolver_;
+  Url url_;
+  std::optional<Peer> target_;  ///< of "out" and "bcast"
   bool is_connected_;
   bool is_calling_;
   Receive receive_;
@@ -129,16 +170,28 @@ class UdpLink final : public ByteLink {
   std::string last_error_;
   DatagramReader reader_;
   DatagramWriter writer_;
+  base::Notifier answered_;
   std::shared_ptr<int> alive_ = std::make_shared<int>(0);
+  base::Scope scope_;
 };
 
-base::Result<udp::endpoint> resolve(base::Loop& loop, Url const& url) {
+/// Where an address stands; a name is to be looked up.
+std::optional<udp::endpoint> literal(Url const& url) {
+  Error error;
+  auto const address = boost::asio::ip::make_address_v4(url.host, error);
+  if (error) return std::nullopt;
+  return udp::endpoint(address, static_cast<std::uint16_t>(url.port_or_baud));
+}
+
+/// One of this machine's own addresses, which has to be known at once.
+base::Result<udp::endpoint> own_address(base::Loop& loop, Url const& url) {
+  if (auto const address = literal(url)) return *address;
   udp::resolver resolver(loop.io());
   Error error;
   auto const found = resolver.resolve(udp::v4(), url.host, std::to_string(url.port_or_baud), error);
   if (error || found.empty())
     return base::fail(base::ErrorKind::io, fmt::format("link {}: cannot find host '{}'", to_string(url), url.host),
-                      "check the name, or write its IPv4 address");
+                      "listen on 127.0.0.1 (this machine only) or 0.0.0.0 (every network)");
   return found.begin()->endpoint();
 }
 
@@ -154,24 +207,26 @@ void enlarge_buffers(int socket) {
 }  // namespace
 
 base::Result<std::unique_ptr<ByteLink>> open_udp(base::Loop& loop, Url const& url) {
-  auto const address = resolve(loop, url);
-  if (!address) return std::unexpected(address.error());
-  bool const is_in = url.transport == Transport::udp_in;
   Error error;
+  Url actual = url;
   udp::socket socket(loop.io());
   socket.open(udp::v4(), error);
   if (!error) socket.non_blocking(true, error);
-  if (!error && is_in) socket.bind(*address, error);
   if (!error && url.transport == Transport::udp_bcast) socket.set_option(udp::socket::broadcast(true), error);
-  if (!error && url.transport == Transport::udp_out) socket.connect(*address, error);
+  if (!error && url.transport == Transport::udp_in) {
+    auto const address = own_address(loop, url);
+    if (!address) return std::unexpected(address.error());
+    socket.bind(*address, error);
+    Error ignored;
+    actual.port_or_baud = socket.local_endpoint(ignored).port();
+  }
   if (error) return cannot_bind(url, error.value());
   enlarge_buffers(socket.native_handle());
-
-  Error ignored;
-  Url actual = url;
-  if (is_in) actual.port_or_baud = socket.local_endpoint(ignored).port();
-  auto const target = is_in ? std::nullopt : std::optional(peer_at(*address));
-  return std::make_unique<UdpLink>(std::move(socket), to_string(actual), url.transport, target);
+  auto link = std::make_unique<UdpLink>(loop, std::move(socket), actual);
+  if (auto const target = literal(url); target && url.transport != Transport::udp_in) {
+    if (error = link->aim(*target); error) return cannot_bind(url, error.value());
+  }
+  return link;
 }
 
 }  // namespace lapwing::link::internal
