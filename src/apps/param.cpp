@@ -308,7 +308,6 @@ base::Task<int> copy(ParamGround& ground, ParamArguments const& of) {
 }
 
 // ---- options
-// -----------------------------------------------------------------------------------------------------------
 
 using Arguments = std::shared_ptr<ParamArguments>;
 

@@ -224,7 +224,6 @@ int drop_key(SigningArguments const& of) {
 }
 
 // ---- options
-// -----------------------------------------------------------------------------------------------------------
 
 using Arguments = std::shared_ptr<SigningArguments>;
 

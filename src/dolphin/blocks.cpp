@@ -154,7 +154,6 @@ class ChoiceBlock final : public Block {
 };
 
 // ---- blocks of the platform
-// ----------------------------------------------------------------------------------------------
 
 std::string_view type_name(tasks::Type type) {
   switch (type) {

@@ -104,7 +104,6 @@ std::uint32_t Fiber::line() const {
 }
 
 // ---- frames
-// --------------------------------------------------------------------------------------------------------------
 
 void Fiber::enter(Function const& function, Ref<Closure> closure, int passed) {
   std::size_t const base = stack_.size() - static_cast<std::size_t>(passed);
@@ -149,7 +148,6 @@ std::string const& Fiber::name(int index) const {
 }
 
 // ---- faults
-// --------------------------------------------------------------------------------------------------------------
 
 bool Fiber::is_heap_full() {
   if (runtime_.heap.bytes() <= runtime_.limits.heap_bytes) return false;
@@ -203,7 +201,6 @@ void Fiber::raise(Value error) {
 }
 
 // ---- instructions
-// --------------------------------------------------------------------------------------------------------
 
 void Fiber::execute(Instruction i) {
   switch (i.op) {

@@ -121,7 +121,6 @@ Checked<Value> decide(Runtime& /*runtime*/, Fiber& fiber, Arguments /*arguments*
 }
 
 // ---- execute
-// -------------------------------------------------------------------------------------------------------------
 
 bool is_picked(Runtime const& runtime, tasks::VehicleId const& id) {
   return std::ranges::find(runtime.picked, id) != runtime.picked.end();

@@ -18,7 +18,6 @@ using tasks::VehicleId;
 using tasks::VehicleInfo;
 
 // ---- pick
-// ----------------------------------------------------------------------------------------------------------------
 
 /// What a vehicle must be to be picked.
 struct Filter {
@@ -111,7 +110,6 @@ base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<
 }
 
 // ---- other instructions for vehicles
-// -------------------------------------------------------------------------------------
 
 std::optional<std::vector<VehicleId>> members(Value const& value) {
   if (auto const* set = value.as<Vehicles>()) return set->ids;
@@ -281,7 +279,6 @@ Checked<Value> send_message(Runtime& runtime, Fiber& /*fiber*/, Arguments argume
 }
 
 // ---- geometry
-// ------------------------------------------------------------------------------------------------------------
 
 Checked<Value> location(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   if (arguments.size() < 2 || arguments.size() > 3 || !std::ranges::all_of(arguments, &Value::is_number)) {

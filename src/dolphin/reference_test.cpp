@@ -61,7 +61,6 @@ std::string cell(std::string_view text) {
 }
 
 // ---- operators
-// -----------------------------------------------------------------------------------------------------------
 
 /// All but `as` and `instanceof`, behind which stands a type.
 constexpr std::array<std::string_view, 23> infix{"**", "*",   "/", "%",  "+", "-",  ">>", "<<",
@@ -193,7 +192,6 @@ std::string operator_table() {
 }
 
 // ---- words
-// ---------------------------------------------------------------------------------------------------------------
 
 /// "a number in metres, may be left out", for each parameter, each once.
 std::vector<std::string> parameters_of(InstructionSpec const& spec, BlockWords const* block, bool named) {
@@ -296,7 +294,6 @@ std::string mission_commands(Vocabulary const& vocabulary) {
 }
 
 // ---- what stands behind a point
-// ------------------------------------------------------------------------------------------------------------
 
 std::string owners(Kinds kinds) {
   if (kinds.is_any()) return "every value";
@@ -352,7 +349,6 @@ std::string all_methods() {
 }
 
 // ---- the rest
-// -------------------------------------------------------------------------------------------------------------------
 
 std::string unit_table() {
   std::string out = "\n## Units\n\n" + by_hand("units") + "\n| | makes of 1 | |\n|---|---|---|\n";

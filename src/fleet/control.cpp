@@ -73,7 +73,6 @@ Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::L
 }
 
 // ---- commands
-// ------------------------------------------------------------------------------------------------------------
 
 Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::span<VehicleId const> vehicles,
                                        Commander by, bool takes_over) {
@@ -205,7 +204,6 @@ base::Task<> Control::take_back(Craft& craft) {
 }
 
 // ---- emergency stop
-// ------------------------------------------------------------------------------------------------------
 
 void Control::emergency_stop(std::optional<vehicle::StopAction> action, Commander by) {
   auto const reason = fmt::format("emergency stop by {}", by);
@@ -227,7 +225,6 @@ void Control::release_emergency_stop(Commander by) {
 }
 
 // ---- who is in command
-// ---------------------------------------------------------------------------------------------------
 
 Result<> Control::request_control(VehicleId const& id, Commander by) {
   auto* const craft = fleet_.find(id);

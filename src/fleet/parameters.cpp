@@ -74,7 +74,6 @@ Result<Craft*> Parameters::find(VehicleId const& id) const {
 }
 
 // ---- all of them
-// --------------------------------------------------------------------------------------------------------
 
 base::Task<Parameters::Snapshot> Parameters::snapshot(VehicleId id, bool old_ones_do) {
   auto const craft = find(id);
@@ -122,7 +121,6 @@ base::Task<Result<std::string>> Parameters::file(VehicleId id, bool old_ones_do)
 }
 
 // ---- one of them
-// --------------------------------------------------------------------------------------------------------
 
 base::Task<Result<vehicle::Parameter>> Parameters::read(VehicleId id, std::string name) {
   auto const craft = find(id);

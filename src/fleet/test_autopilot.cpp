@@ -124,7 +124,6 @@ std::vector<MessageId> TestAutopilot::messages_asked_for() const {
 }
 
 // ---- what it hears
-// ---------------------------------------------------------------------------------------------------------
 
 void TestAutopilot::take(mavlink::Frame const& frame) {
   auto const message = mavlink::decode(frame);
@@ -283,7 +282,6 @@ void TestAutopilot::serve_download(mavlink::Message const& message, mavlink::Add
 }
 
 // ---- what it does by itself
-// ------------------------------------------------------------------------------------------------
 
 base::Task<> TestAutopilot::live() {
   while (true) {

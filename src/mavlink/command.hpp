@@ -58,7 +58,6 @@ base::Task<base::Result<>> run_command(Connection& connection, Address target, C
                                        CommandOptions options = {});
 
 // ---- commands by name
-// ----------------------------------------------------------------------------------------------------
 
 [[nodiscard]] Command arm();
 [[nodiscard]] Command disarm();

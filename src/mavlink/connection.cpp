@@ -94,7 +94,6 @@ void Connection::ask_who_they_are(bool with_conflicts) {
 }
 
 // ---- receiving
-// -----------------------------------------------------------------------------------------------------------
 
 void Connection::receive(PeerRef from, link::Bytes bytes) {
   auto& peer = routes_->hear(from, loop_.now());
@@ -174,7 +173,6 @@ void Connection::set_frame_hook(FrameHook hook) {
 }
 
 // ---- sending
-// -------------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -271,7 +269,6 @@ bool Connection::is_held_back(Frame const& frame) const {
 }
 
 // ---- what is known
-// -------------------------------------------------------------------------------------------------------
 
 std::string Connection::describe(PeerRef peer) const {
   auto const& link = *links_[peer.link];

@@ -20,7 +20,6 @@ namespace lapwing::mavlink {
 using base::Duration;
 
 // ---- identity and time
-// ---------------------------------------------------------------------------------------------------
 
 struct Heartbeat {
   MavType type = MavType::generic;
@@ -61,7 +60,6 @@ struct AutopilotVersion {
 };
 
 // ---- health
-// --------------------------------------------------------------------------------------------------------------
 
 struct SysStatus {
   std::uint32_t sensors_present = 0;  ///< bits of sensor_flag
@@ -138,7 +136,6 @@ struct RadioStatus {
 };
 
 // ---- motion
-// --------------------------------------------------------------------------------------------------------------
 
 struct GpsRaw {
   std::chrono::microseconds time{};
@@ -257,7 +254,6 @@ struct PositionTargetGlobalInt {
 };
 
 // ---- commands
-// ------------------------------------------------------------------------------------------------------------
 
 /// Parameters are in the units that the standard gives for the command (degrees, metres, seconds), not SI: their
 /// meaning is the command's. NaN means "leave as it is" where the command allows it.
@@ -314,7 +310,6 @@ struct MessageInterval {
 };
 
 // ---- parameters
-// ----------------------------------------------------------------------------------------------------------
 
 struct ParamRequestRead {
   Address target{};
@@ -350,7 +345,6 @@ struct ParamError {
 };
 
 // ---- signing
-// -------------------------------------------------------------------------------------------------------------
 
 /// Gives a vehicle the key with which it signs and checks from then on; zeros switch signing off. Whoever hears it has
 /// the key: never recorded, never passed on.
@@ -361,7 +355,6 @@ struct SetupSigning {
 };
 
 // ---- missions, fences, rally points
-// --------------------------------------------------------------------------------------
 
 /// Whether the item travels as MISSION_ITEM_INT or as the deprecated MISSION_ITEM, whose floats hold a position to
 /// about a metre.
@@ -451,7 +444,6 @@ struct MissionItemReached {
 };
 
 // ---- all of them
-// ---------------------------------------------------------------------------------------------------------
 
 using Message =
     std::variant<Heartbeat, SystemTime, Ping, Timesync, AutopilotVersion, SysStatus, BatteryStatus, EkfStatusReport,

@@ -17,7 +17,6 @@ namespace lapwing::mavlink {
 using base::Duration;
 
 // ---- people and payload
-// --------------------------------------------------------------------------------------------------
 
 struct RcChannels {
   Duration since_boot{};
@@ -88,7 +87,6 @@ struct MountStatus {
 };
 
 // ---- the vehicle's own list of its modes (development dialect)
-// -----------------------------------------------------------------------------
 
 struct AvailableModes {
   std::uint8_t count = 0;

@@ -55,7 +55,6 @@ void Routes::make_room() {
 }
 
 // ---- what comes in
-// -------------------------------------------------------------------------------------------------------
 
 Routes::Path* Routes::Source::find(PeerRef peer) {
   auto const found = std::ranges::find(paths, peer, &Path::peer);
@@ -126,7 +125,6 @@ void Routes::identify(PeerRef peer, Address source, Message const& message, base
 }
 
 // ---- twice a second
-// ------------------------------------------------------------------------------------------------------
 
 std::vector<std::uint8_t> Routes::examine(base::TimePoint now) {
   std::vector<std::uint8_t> conflicts;
@@ -177,7 +175,6 @@ std::vector<Routes::Suspect> Routes::suspects(bool with_conflicts, base::TimePoi
 }
 
 // ---- where to send
-// -------------------------------------------------------------------------------------------------------
 
 /// The time that an exchange takes: each try costs a round trip and the line's time, and both ways must be lucky.
 double Routes::cost_s(Path const& path, Traffic traffic, base::TimePoint now) const {

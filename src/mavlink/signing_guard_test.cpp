@@ -231,7 +231,6 @@ TEST(LocalLinks, AreThoseOnWhichNobodyListens) {
 }
 
 // ---- setting keys up
-// ---------------------------------------------------------------------------------------------------
 
 /// A vehicle that takes keys as ArduPilot does.
 void takes_keys(FakeVehicle& vehicle) {

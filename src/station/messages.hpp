@@ -45,7 +45,6 @@ struct Hello {
 };
 
 // ---- station to client
-// -----------------------------------------------------------------------------------------------
 [[nodiscard]] std::string hello_message(Hello const& hello);
 [[nodiscard]] std::string script_message(ScriptStatus const& status);
 [[nodiscard]] std::string tasks_message(std::span<tasks::TaskView const> trees);
@@ -57,7 +56,6 @@ struct Hello {
 [[nodiscard]] std::string refused_message(std::string_view request_id, StartFailure const& failure);
 
 // ---- bodies of HTTP answers
-// --------------------------------------------------------------------------------------------
 struct StationStatus {
   Hello hello;
   ScriptState script = ScriptState::idle;
@@ -74,7 +72,6 @@ struct StationStatus {
 [[nodiscard]] std::string start_failure_body(int http_status, std::string_view title, StartFailure const& failure);
 
 // ---- client to station
-// -------------------------------------------------------------------------------------------------
 struct StartScript {
   std::string name = "script";
   std::string source;

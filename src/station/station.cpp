@@ -72,7 +72,6 @@ base::Task<> Station::watch_membership() {
 }
 
 // ---- to the viewers
-// ----------------------------------------------------------------------------------------------------
 
 void Station::send_news() {
   auto const messages = news();
@@ -122,7 +121,6 @@ std::vector<LogLine> Station::log_after(std::uint64_t sequence) const {
 }
 
 // ---- from the viewers
-// --------------------------------------------------------------------------------------------------
 
 void Station::open_session(SessionId session) {
   auto& viewer = viewers_[session];
@@ -169,7 +167,6 @@ void Station::reply(SessionId session, std::string text) {
 }
 
 // ---- HTTP
-// --------------------------------------------------------------------------------------------------------------
 
 Router Station::make_router() {
   Router router;

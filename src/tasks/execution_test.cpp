@@ -347,7 +347,6 @@ TEST_F(ExecutionTest, RunsAThousandTasksAtOnce) {
 }
 
 // ---- from outside
-// --------------------------------------------------------------------------------------------------------
 
 class DrivenExecutionTest : public ExecutionTest {
  protected:
@@ -434,7 +433,6 @@ TEST_F(DrivenExecutionTest, ViewShowsTheTreeAndWhatRuns) {
 }
 
 // ---- names
-// ---------------------------------------------------------------------------------------------------------------
 
 TEST_F(ExecutionTest, TasksPrintAsInTheOriginal) {
   EXPECT_EQ(name(sequence(sequence(task("A:1"), task("B:1")), task("C:1"))), "A >> B >> C");

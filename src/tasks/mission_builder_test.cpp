@@ -178,7 +178,6 @@ TEST(Mission, WithoutHomeGetsTheVehiclesOnArduPilotAndNoneOnPx4) {  // case 78
 }
 
 // ---- every command, one by one
-// -------------------------------------------------------------------------------------------
 
 struct CommandCase {
   Command command;
@@ -288,7 +287,6 @@ TEST(Mission, TableHasEveryCommandOnceWithItsDocumentation) {
 }
 
 // ---- errors
-// --------------------------------------------------------------------------------------------------------------
 
 struct WrongCase {
   Command command;
@@ -338,7 +336,6 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCase{{"surveyArea", {n(10), n(10), n(0)}}, "legs of a survey need a spacing above 0, not 0 m"}));
 
 // ---- the task
-// ------------------------------------------------------------------------------------------------------------
 
 MissionTask task_of(std::vector<Command> const& commands) {
   return MissionTask(*build(commands));

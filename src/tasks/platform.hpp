@@ -26,7 +26,6 @@ namespace lapwing::tasks {
 using vehicle::VehicleId;
 
 // ---- what a platform adds to the language
-// -------------------------------------------------------------------------------
 
 /// A script value as a builder command receives it. Units are already SI (angles that users write in degrees stay
 /// degrees only where the parameter says so); a vehicle set never reaches a builder.
@@ -83,7 +82,6 @@ struct BuilderSpec {
 };
 
 // ---- tasks that run on one vehicle
-// ---------------------------------------------------------------------------------------
 
 /// A vehicle as the language sees it.
 struct VehicleInfo {

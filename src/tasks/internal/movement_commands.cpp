@@ -15,7 +15,6 @@ using plan::Offset;
 using Arguments = std::span<Argument const>;
 
 // ---- parameters
-// ----------------------------------------------------------------------------------------------------------
 
 Parameter length(std::string_view name, std::string_view doc, std::optional<Argument> fallback = std::nullopt) {
   return {
@@ -62,7 +61,6 @@ Parameters offset(std::optional<Argument> up = std::nullopt) {
 }
 
 // ---- arguments
-// -----------------------------------------------------------------------------------------------------------
 
 /// Where a command goes, and what remains of its arguments: overload 0 takes latitude, longitude and height, overload 1
 /// a position.
@@ -143,7 +141,6 @@ Result<> return_home_and_land(MissionBuilder& builder, std::size_t, Arguments ar
 }
 
 // ---- surveys
-// -------------------------------------------------------------------------------------------------------------
 
 constexpr std::pair<std::string_view, plan::SurveyDirection> directions[] = {
     {"NORTH_WEST", plan::SurveyDirection::north_west},
