@@ -19,6 +19,11 @@ std::string utc_text(base::UtcTime time) {
 }
 
 /// Numbers as the vehicle holds them: 0.1, not the double that is nearest to that float.
+/// Names come from vehicles and need not be UTF-8.
+std::string written(ordered_json const& json) {
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
 ordered_json number(Parameter const& parameter) {
   if (mavlink::is_integer(parameter.type)) return parameter.value;
   return ordered_json::parse(value_text(parameter), nullptr, false).is_number()
@@ -67,7 +72,7 @@ std::string listing_json(std::vector<ParamListing> const& listings) {
     vehicle["errors"] = listing.errors;
     vehicles.push_back(std::move(vehicle));
   }
-  return ordered_json{{"vehicles", std::move(vehicles)}}.dump(2) + "\n";
+  return written({{"vehicles", std::move(vehicles)}});
 }
 
 std::string changes_text(std::vector<ParamChanges> const& changes) {
@@ -102,7 +107,7 @@ std::string changes_json(std::vector<ParamChanges> const& changes) {
     vehicle["failed"] = std::move(failed);
     vehicles.push_back(std::move(vehicle));
   }
-  return ordered_json{{"vehicles", std::move(vehicles)}}.dump(2) + "\n";
+  return written({{"vehicles", std::move(vehicles)}});
 }
 
 std::string differences_text(std::string const& first, std::string const& second,
@@ -121,7 +126,7 @@ std::string differences_json(std::string const& first, std::string const& second
     all.push_back({{"name", name},
                    {"first", a ? number(*a) : ordered_json(nullptr)},
                    {"second", b ? number(*b) : ordered_json(nullptr)}});
-  return ordered_json{{"first", first}, {"second", second}, {"differences", std::move(all)}}.dump(2) + "\n";
+  return written({{"first", first}, {"second", second}, {"differences", std::move(all)}});
 }
 
 }  // namespace lapwing::apps

@@ -37,6 +37,11 @@ TEST(ParamReport, WritesNumbersAsTheVehicleHoldsThem) {
   EXPECT_TRUE(all["parameters"][2]["value"].is_null());
 }
 
+TEST(ParamReport, WritesNamesThatAreNoText) {
+  ParamListing const one{.vehicle = {"", 3}, .parameters = {{"\xFF", 1, int32}}};
+  EXPECT_EQ(json::parse(listing_json({one}))["vehicles"][0]["parameters"][0]["name"], "\uFFFD");
+}
+
 TEST(ParamReport, NamesTheNetworkOfAVehicle) {
   ParamListing const here{.vehicle = {"", 7}};
   ParamListing const there{.vehicle = {"north", 7}};

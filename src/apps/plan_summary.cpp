@@ -135,7 +135,7 @@ std::string to_json(fleet::Craft const* craft, std::vector<ListReport> const& re
   json["fence_zones"] = plan.fence.zones.size();
   json["rally_points"] = plan.rally.size();
   json["estimate_m"] = geo::rounded(plan::estimate(plan.mission, plan.mission.planned_home).path_m, 1);
-  return json.dump(1);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);  // errors may hold a vehicle's words
 }
 
 }  // namespace lapwing::apps

@@ -6,6 +6,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "base/printable.hpp"
+
 namespace lapwing::base {
 
 std::string_view to_string(LogLevel level) {
@@ -34,18 +36,6 @@ spdlog::level::level_enum to_spdlog(LogLevel level) {
   return spdlog::level::err;
 }
 
-/// With a question mark for every control character, those of Latin 1 in UTF-8 included: texts come from vehicles, and
-/// on a terminal such characters forge lines and do worse.
-std::string one_line(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    auto const byte = static_cast<unsigned char>(text[i]);
-    auto const next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
-    if (byte < 0x20U || byte == 0x7FU) text[i] = '?';
-    if (byte == 0xC2U && next >= 0x80U && next <= 0x9FU) text.replace(i, 2, "?");
-  }
-  return text;
-}
-
 }  // namespace
 
 LogHub::Sink standard_error_sink(LogLevel lowest) {
@@ -57,7 +47,7 @@ LogHub::Sink standard_error_sink(LogLevel lowest) {
   logger->set_pattern("%H:%M:%S.%e %^%-5l%$ %v");
   return [logger](LogRecord const& record) {
     logger->log(record.utc, spdlog::source_loc{}, to_spdlog(record.level),
-                one_line(fmt::format("{}: {}", record.source, record.text)));
+                printable(fmt::format("{}: {}", record.source, record.text)));
   };
 }
 

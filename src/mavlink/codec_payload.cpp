@@ -32,7 +32,7 @@ auto constexpr not_a_number = std::numeric_limits<float>::quiet_NaN();
 /// The standard keeps the names of cameras in bytes.
 std::string name_in(std::array<std::uint8_t, 32> const& field) {
   auto const end = std::ranges::find(field, 0);
-  return {field.begin(), end};
+  return base::printable({field.begin(), end});
 }
 std::array<std::uint8_t, 32> name_field(std::string_view name) {
   std::array<std::uint8_t, 32> field{};

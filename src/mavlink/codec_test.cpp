@@ -206,6 +206,11 @@ TEST(Codec, CutsTextsAtTheirField) {
   EXPECT_EQ(carried(StatusText{.text = ""}).text, "");
 }
 
+TEST(Codec, LetsNoControlCharactersIn) {
+  EXPECT_EQ(carried(StatusText{.text = "a\x1b[31m\nb\xc2\x9b"}).text, "a?[31m?b?");
+  EXPECT_EQ(carried(ParamValue{.name = "A\tB"}).name, "A?B");
+}
+
 TEST(Codec, CarriesWhatCamerasAndGimbalsSay) {
   CameraImageCaptured image{.camera = 0, .position = geo::Wgs84::from_degrees(40.0, -8.0, 120.5)};
   image.image = 17;

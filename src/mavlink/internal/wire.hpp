@@ -11,6 +11,7 @@
 
 #include <minimal/minimal.hpp>  // the generated dialect's base; each codec_*.cpp adds the messages that it converts
 
+#include "base/printable.hpp"
 #include "geo/position.hpp"
 #include "mavlink/frame.hpp"
 
@@ -97,10 +98,11 @@ template <class T>
   return static_cast<std::uint64_t>(time.count());
 }
 
-/// Texts end at the first NUL, or fill their field.
+/// Texts end at the first NUL, or fill their field. What a terminal or a file would take for more than text is not let
+/// in.
 template <std::size_t size>
 [[nodiscard]] std::string text(std::array<char, size> const& field) {
-  return {field.data(), strnlen(field.data(), size)};
+  return base::printable({field.data(), strnlen(field.data(), size)});
 }
 template <std::size_t size>
 [[nodiscard]] std::array<char, size> text_field(std::string_view value) {
