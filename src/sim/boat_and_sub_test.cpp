@@ -12,14 +12,10 @@ constexpr int rover_auto = 10;
 constexpr int sub_auto = 3;
 constexpr int sub_poshold = 16;
 
-ItemMaker maker(TestGround& ground) {
-  return {ground.world.options().home};
-}
-
 TEST(SubDive, FliesAMissionUnderWaterAndSurfaces) {
   TestGround ground("sub");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.waypoint(20, 0, -4), make.waypoint(20, 20, 5),
                            make.waypoint(0, 20, -2), make.at(MavCmd::nav_land, {0, 0, 0}, {0, 0, 0, 0})}),
             MavMissionResult::accepted);
@@ -38,7 +34,7 @@ TEST(SubDive, FliesAMissionUnderWaterAndSurfaces) {
 TEST(SubDive, HoldsItsDepthAndComesUpWithoutThrust) {
   TestGround ground("sub");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.waypoint(10, 0, -5)}), MavMissionResult::accepted);
   EXPECT_EQ(ground.set_mode(sub_auto), MavResult::accepted);
   EXPECT_EQ(ground.arm(), MavResult::accepted);
@@ -55,7 +51,7 @@ TEST(SubDive, HoldsItsDepthAndComesUpWithoutThrust) {
 TEST(BoatTrip, DrivesLikeARoverAndCallsItselfABoat) {
   TestGround ground("boat");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(ground.last<Heartbeat>()->type, MavType::surface_boat);
   EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.waypoint(30, 10, 0)}), MavMissionResult::accepted);
   EXPECT_EQ(ground.set_mode(rover_auto), MavResult::accepted);

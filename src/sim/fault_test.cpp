@@ -29,7 +29,7 @@ std::set<link::Peer> peers(TestGround const& ground, std::size_t from) {
 TEST(Reboot, ComesBackFromANewPortWithoutRatesButWithItsMission) {
   TestGround ground("copter");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(20, 0, 10)});
   ground.request(MessageId::attitude, 10);
   ground.set_mode(guided);

@@ -23,7 +23,7 @@ void set(TestGround& ground, std::initializer_list<std::pair<char const*, float>
 }
 
 MissionItem zone_item(TestGround& ground, MavCmd command, double north, double east, float p1) {
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   auto item = make.at(command, {north, east, 0.0}, {p1});
   item.type = MissionType::fence;
   return item;
@@ -207,7 +207,7 @@ TEST(Fence, BringsAPlaneBack) {
   ASSERT_EQ(ground.arm(), MavResult::accepted);
   ground.run_for(25s);
   ground.set_mode(15);
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   auto target = make.waypoint(4000, 0, 60);
   target.current = 2;
   ground.send(target);

@@ -15,10 +15,6 @@ constexpr int copter_land = 9;
 constexpr int plane_auto = 10;
 constexpr int rover_auto = 10;
 
-ItemMaker maker(TestGround& ground) {
-  return {ground.world.options().home};
-}
-
 TEST(CopterFlight, TakesOffInGuidedAfterSpoolingUpWithoutOvershoot) {
   TestGround ground("copter");
   ground.boot();
@@ -41,7 +37,7 @@ TEST(CopterFlight, TakesOffInGuidedAfterSpoolingUpWithoutOvershoot) {
 TEST(CopterFlight, FliesAnUploadedMissionAndEndsAtHome) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(
       ground.upload({make.waypoint(0, 0, 0), make.take_off(30), make.waypoint(100, 0, 30), make.waypoint(100, 100, 35),
                      make.waypoint(0, 100, 40), ItemMaker::plain(MavCmd::nav_return_to_launch)}),
@@ -66,7 +62,7 @@ TEST(CopterFlight, FliesAnUploadedMissionAndEndsAtHome) {
 TEST(CopterFlight, HoldsAfterTheLastWaypointAndStaysInAuto) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(15), make.waypoint(40, 0, 15)});
   ground.set_mode(copter_guided);
   ground.arm();
@@ -81,7 +77,7 @@ TEST(CopterFlight, HoldsAfterTheLastWaypointAndStaysInAuto) {
 TEST(CopterFlight, LandsAtALandItemAndDisarms) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(15), make.at(MavCmd::nav_land, {30, 10, 0})});
   ground.set_mode(copter_guided);
   ground.arm();
@@ -96,7 +92,7 @@ TEST(CopterFlight, LandsAtALandItemAndDisarms) {
 TEST(CopterFlight, PerformsEveryKindOfItemOfTheLanguage) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(15),
                            ItemMaker::plain(MavCmd::do_change_speed, {1, 6, -1, 0}),
                            make.at(MavCmd::nav_loiter_time, {20, 0, -15}, {5, 0, 15, 0}),
@@ -119,7 +115,7 @@ TEST(CopterFlight, PerformsEveryKindOfItemOfTheLanguage) {
 TEST(CopterFlight, ReportsTheItemBehindAWaypointAsReached) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10),
                  ItemMaker::plain(MavCmd::do_change_speed, {1, 4, -1, 0}), make.waypoint(60, 0, 10)});
   ground.set_mode(copter_guided);
@@ -136,7 +132,7 @@ TEST(CopterFlight, ReportsTheItemBehindAWaypointAsReached) {
 TEST(CopterFlight, SitsInAutoOnTheGroundUntilMissionStart) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10)});
   ground.set_mode(copter_guided);
   ground.arm();
@@ -152,7 +148,7 @@ TEST(CopterFlight, SitsInAutoOnTheGroundUntilMissionStart) {
 TEST(CopterFlight, TakesOffInAutoByItselfWhenAutoOptionsAllowIt) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.send(ParamSet{.target = {}, .name = "AUTO_OPTIONS", .value = 3.0F});
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10)});
   EXPECT_EQ(ground.set_mode(3), MavResult::accepted);
@@ -226,7 +222,7 @@ TEST(CopterFlight, SinksInLoiterButHoldsInBrake) {
 TEST(CopterFlight, ResumesTheMissionWhereItWasLeft) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(60, 0, 10), make.waypoint(60, 60, 10)});
   ground.set_mode(copter_guided);
   ground.arm();
@@ -243,7 +239,7 @@ TEST(CopterFlight, ResumesTheMissionWhereItWasLeft) {
 TEST(CopterFlight, FliesTheOldTargetToTheEndWhenAShorterMissionComes) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(20, 0, 10), make.waypoint(60, 0, 10)});
   ground.set_mode(copter_guided);
   ground.arm();
@@ -258,7 +254,7 @@ TEST(CopterFlight, FliesTheOldTargetToTheEndWhenAShorterMissionComes) {
 TEST(CopterFlight, RestartsTheCommandWhenItIsReplacedInFlight) {
   TestGround ground("copter");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(80, 0, 10)});
   ground.set_mode(copter_guided);
   ground.arm();
@@ -308,7 +304,7 @@ TEST(CopterFlight, KeepsItsPlaceInGustyWind) {
 TEST(PlaneFlight, FliesAMissionThenReturnsAndCircles) {
   TestGround ground("plane", {.wind_m_s = {0, 3, 0}});
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(
       ground.upload({make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(500, 0, 80), make.waypoint(500, 400, 80),
                      make.at(MavCmd::nav_loiter_turns, {0, 400, -80}, {1, 0, 70, 0})}),
@@ -327,7 +323,7 @@ TEST(PlaneFlight, FliesAMissionThenReturnsAndCircles) {
 TEST(PlaneFlight, LeavesTheMissionForRtlWhereItSaysReturn) {
   TestGround ground("plane");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(400, 0, 60),
                            ItemMaker::plain(MavCmd::nav_return_to_launch), make.waypoint(900, 0, 60)}),
             MavMissionResult::accepted);
@@ -343,7 +339,7 @@ TEST(PlaneFlight, LeavesTheMissionForRtlWhereItSaysReturn) {
 TEST(PlaneFlight, LandsAndDisarmsTwentySecondsLater) {
   TestGround ground("plane");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(40), make.waypoint(600, 0, 40), make.waypoint(600, 300, 40),
                  make.at(MavCmd::nav_land, {0, 300, 0})});
   ground.set_mode(plane_auto);
@@ -359,7 +355,7 @@ TEST(PlaneFlight, LandsAndDisarmsTwentySecondsLater) {
 TEST(PlaneFlight, ContinuesOnItsCourseWhileItChangesHeight) {
   TestGround ground("plane");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(50),
                  make.at(MavCmd::nav_continue_and_change_alt, {0, 0, -90}, {1, 0, 0, 0}),
                  make.at(MavCmd::nav_loiter_unlim, {300, 0, -90}, {0, 0, 70, 0})});
@@ -374,7 +370,7 @@ TEST(PlaneFlight, ContinuesOnItsCourseWhileItChangesHeight) {
 TEST(RoverFlight, DrivesAMissionAndStops) {
   TestGround ground("rover");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   EXPECT_EQ(ground.upload(
                 {make.waypoint(0, 0, 0), make.waypoint(30, 0, 0), make.waypoint(30, 30, 0), make.waypoint(0, 30, 0)}),
             MavMissionResult::accepted);
@@ -413,7 +409,7 @@ TEST(World, SameSeedGivesTheSameTrajectory) {
   auto fly = [](std::uint64_t seed) {
     TestGround ground("copter", {.seed = seed, .wind_m_s = {3, 0, 0}, .gust_m_s = 2.0});
     ground.boot();
-    ItemMaker const make{ground.world.options().home};
+    auto const make = ground.maker();
     ground.upload({make.waypoint(0, 0, 0), make.take_off(15), make.waypoint(50, 20, 15)});
     ground.set_mode(copter_guided);
     ground.arm();
@@ -437,7 +433,7 @@ TEST(World, SameSeedGivesTheSameTrajectory) {
 TEST(World, TenCoptersFlyTheirOwnMissionsAtOnce) {
   TestGround ground("copter:10");
   ground.boot();
-  auto const make = maker(ground);
+  auto const make = ground.maker();
   for (std::uint8_t id = 1; id <= 10; ++id) {
     EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(20 + id), make.waypoint(40, 4.0 * id, 20 + id),
                              ItemMaker::plain(MavCmd::nav_return_to_launch)},

@@ -437,7 +437,7 @@ TEST(RallyUpload, TakesRallyPoints) {
 TEST(MissionSetCurrent, IsAnsweredByMissionCurrentAndABadNumberByNothing) {
   TestGround station("copter");
   station.boot();
-  ItemMaker const make{station.world.options().home};
+  auto const make = station.maker();
   EXPECT_EQ(station.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(10, 0, 10)}), accepted);
   station.send(MissionSetCurrent{.target = {}, .seq = 2});
   station.run_for(100ms);
@@ -456,7 +456,7 @@ TEST(MissionSetCurrent, IsAnsweredByMissionCurrentAndABadNumberByNothing) {
 TEST(MissionClear, InAutoLeavesTheVehicleHolding) {
   TestGround station("copter");
   station.boot();
-  ItemMaker const make{station.world.options().home};
+  auto const make = station.maker();
   station.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(200, 0, 10)});
   station.set_mode(4);
   station.arm();

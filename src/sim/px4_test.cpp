@@ -25,7 +25,7 @@ base::Result<> upload(TestGround& ground, std::vector<MissionItem> items) {
 }
 
 std::vector<MissionItem> out_and_back(TestGround& ground) {
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   return {make.take_off(20), make.waypoint(60, 0, 20), make.waypoint(60, 40, 25),
           ItemMaker::plain(MavCmd::nav_return_to_launch)};
 }
@@ -141,7 +141,7 @@ TEST(Px4, KeepsTheOldMissionUntilTheNewOneIsWhole) {
 TEST(Px4, JumpsToTheItemThatTheWireNames) {
   TestGround ground("px4");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   std::vector<MissionItem> const items{make.take_off(10), make.waypoint(30, 0, 10), make.waypoint(0, 0, 10),
                                        ItemMaker::plain(MavCmd::do_jump, {1.0F, 1.0F}),
                                        ItemMaker::plain(MavCmd::nav_land)};

@@ -51,7 +51,7 @@ TEST(Rally, LeavesOutPointsBeyondTheLimit) {
 TEST(Rally, IsWhereACopterReturnsTo) {
   TestGround ground("copter");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   ground.vehicle().plans().rally = {make.at(MavCmd::nav_rally_point, {60, 0, -10})};
   EXPECT_EQ(ground.set_mode(4), MavResult::accepted);
   EXPECT_EQ(ground.arm(), MavResult::accepted);
@@ -70,7 +70,7 @@ TEST(Rally, IsWhereACopterReturnsTo) {
 TEST(Rally, IsWhereARoverReturnsTo) {
   TestGround ground("rover");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   ground.vehicle().plans().rally = {make.at(MavCmd::nav_rally_point, {30, 0, 0})};
   ground.set_mode(15);
   ASSERT_EQ(ground.arm(), MavResult::accepted);

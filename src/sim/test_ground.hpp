@@ -13,6 +13,40 @@
 
 namespace lapwing::sim {
 
+/// Mission items about a world's home, for tests.
+struct ItemMaker {
+  geo::Wgs84 home;
+
+  [[nodiscard]] mavlink::MissionItem at(mavlink::MavCmd command, geo::Ned offset,
+                                        std::array<float, 4> params = {}) const {
+    auto const place = geo::displaced(home, offset);
+    mavlink::MissionItem item;
+    item.frame = mavlink::MavFrame::global_relative_alt_int;
+    item.command = command;
+    item.params = params;
+    item.place.lat_rad = place.lat_rad;
+    item.place.lon_rad = place.lon_rad;
+    item.place.z_m = -offset.down;
+    return item;
+  }
+  [[nodiscard]] mavlink::MissionItem waypoint(double north, double east, double up, float hold_s = 0.0F) const {
+    return at(mavlink::MavCmd::nav_waypoint, {north, east, -up}, {hold_s});
+  }
+  [[nodiscard]] mavlink::MissionItem take_off(double up) const {
+    auto item = at(mavlink::MavCmd::nav_takeoff, {0, 0, -up});
+    item.place.lat_rad = 0.0;
+    item.place.lon_rad = 0.0;
+    return item;
+  }
+  [[nodiscard]] static mavlink::MissionItem plain(mavlink::MavCmd command, std::array<float, 4> params = {}) {
+    mavlink::MissionItem item;
+    item.frame = mavlink::MavFrame::mission;
+    item.command = command;
+    item.params = params;
+    return item;
+  }
+};
+
 /// A ground station for tests: a world on an unpaced loop, pipes to its vehicles, and everything they said.
 class TestGround {
  public:
@@ -124,6 +158,7 @@ class TestGround {
     return count;
   }
 
+  [[nodiscard]] ItemMaker maker() const { return {world.options().home}; }
   Vehicle& vehicle(int system = 1) { return *world.find(system); }
   Autopilot const& pilot(int system = 1) { return vehicle(system).autopilot(); }
   /// Metres from where the vehicle was parked.
@@ -160,40 +195,6 @@ class TestGround {
 
  private:
   mavlink::Subscription subscription_;
-};
-
-/// Mission items about a world's home, for tests.
-struct ItemMaker {
-  geo::Wgs84 home;
-
-  [[nodiscard]] mavlink::MissionItem at(mavlink::MavCmd command, geo::Ned offset,
-                                        std::array<float, 4> params = {}) const {
-    auto const place = geo::displaced(home, offset);
-    mavlink::MissionItem item;
-    item.frame = mavlink::MavFrame::global_relative_alt_int;
-    item.command = command;
-    item.params = params;
-    item.place.lat_rad = place.lat_rad;
-    item.place.lon_rad = place.lon_rad;
-    item.place.z_m = -offset.down;
-    return item;
-  }
-  [[nodiscard]] mavlink::MissionItem waypoint(double north, double east, double up, float hold_s = 0.0F) const {
-    return at(mavlink::MavCmd::nav_waypoint, {north, east, -up}, {hold_s});
-  }
-  [[nodiscard]] mavlink::MissionItem take_off(double up) const {
-    auto item = at(mavlink::MavCmd::nav_takeoff, {0, 0, -up});
-    item.place.lat_rad = 0.0;
-    item.place.lon_rad = 0.0;
-    return item;
-  }
-  [[nodiscard]] static mavlink::MissionItem plain(mavlink::MavCmd command, std::array<float, 4> params = {}) {
-    mavlink::MissionItem item;
-    item.frame = mavlink::MavFrame::mission;
-    item.command = command;
-    item.params = params;
-    return item;
-  }
 };
 
 }  // namespace lapwing::sim

@@ -17,7 +17,7 @@ constexpr int smart_rtl = 21;
 
 /// As a ground station sends it there.
 void go_to(TestGround& ground, double north, double east, double up) {
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   auto target = make.waypoint(north, east, up);
   target.current = 2;
   ground.send(target);

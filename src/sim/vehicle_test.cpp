@@ -230,7 +230,7 @@ TEST(Arming, NeedsAPositionInGuidedButNotInStabilize) {
 TEST(Arming, IsRefusedInModesThatAreNotArmable) {
   TestGround ground("copter");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10)});
   EXPECT_EQ(ground.set_mode(3), MavResult::accepted);
   EXPECT_EQ(ground.arm(), MavResult::failed);
@@ -335,7 +335,7 @@ TEST(Modes, AChangeIsShownByAHeartbeatAtOnce) {
 TEST(Modes, AutoOnTheGroundNeedsATakeOffWhenArmed) {
   TestGround ground("copter");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.waypoint(10, 0, 10)});
   ground.set_mode(guided);
   ground.arm();
@@ -346,7 +346,7 @@ TEST(Modes, AutoOnTheGroundNeedsATakeOffWhenArmed) {
 TEST(Modes, MissionStartAndRtlAreAcceptedWhileDisarmed) {
   TestGround ground("copter");
   ground.boot();
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10)});
   EXPECT_EQ(ground.command(MavCmd::mission_start), MavResult::accepted);
   EXPECT_EQ(ground.pilot().mode().name, "AUTO");

@@ -84,7 +84,7 @@ TEST(World, AnUploadSurvivesThirtyPercentLossAndDelay) {
   options.impairment = {.loss = 0.3, .duplication = 0.1, .delay = 200ms, .jitter = 50ms};
   TestGround ground("copter", options);
   ground.run_for(6s);
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   std::vector<MissionItem> items;
   for (int i = 0; i < 20; ++i) items.push_back(make.waypoint(10.0 * i, 0, 20));
   Address const vehicle{1, 1};
@@ -103,7 +103,7 @@ TEST(World, AnUploadOverALinkThatLosesHalfComesToAnEnd) {
   options.impairment = {.loss = 0.5};
   TestGround ground("copter", options);
   ground.run_for(6s);
-  ItemMaker const make{ground.world.options().home};
+  auto const make = ground.maker();
   std::vector<MissionItem> items;
   for (int i = 0; i < 500; ++i) items.push_back(make.waypoint(10.0 * (i % 50), 0, 20));
   auto const began = ground.loop.now();
