@@ -8,19 +8,14 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int rover_auto = 10;
 constexpr int sub_auto = 3;
 constexpr int sub_poshold = 16;
 
 TEST(SubDive, FliesAMissionUnderWaterAndSurfaces) {
   TestGround ground("sub");
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.waypoint(20, 0, -4), make.waypoint(20, 20, 5),
-                           make.waypoint(0, 20, -2), make.at(MavCmd::nav_land, {0, 0, 0}, {0, 0, 0, 0})}),
-            MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(sub_auto), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(sub_auto, {make.waypoint(0, 0, 0), make.waypoint(20, 0, -4), make.waypoint(20, 20, 5),
+                           make.waypoint(0, 20, -2), make.at(MavCmd::nav_land, {0, 0, 0}, {0, 0, 0, 0})});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 300s));
   ground.run_for(1s);
   // A place above the water is one at its surface.
@@ -33,11 +28,8 @@ TEST(SubDive, FliesAMissionUnderWaterAndSurfaces) {
 
 TEST(SubDive, HoldsItsDepthAndComesUpWithoutThrust) {
   TestGround ground("sub");
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.waypoint(10, 0, -5)}), MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(sub_auto), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(sub_auto, {make.waypoint(0, 0, 0), make.waypoint(10, 0, -5)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 100s));
   EXPECT_EQ(ground.set_mode(sub_poshold), MavResult::accepted);
   ground.run_for(60s);
@@ -50,12 +42,9 @@ TEST(SubDive, HoldsItsDepthAndComesUpWithoutThrust) {
 
 TEST(BoatTrip, DrivesLikeARoverAndCallsItselfABoat) {
   TestGround ground("boat");
-  ground.boot();
   auto const make = ground.maker();
+  ground.arm_in(rover_auto, {make.waypoint(0, 0, 0), make.waypoint(30, 10, 0)});
   EXPECT_EQ(ground.last<Heartbeat>()->type, MavType::surface_boat);
-  EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.waypoint(30, 10, 0)}), MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(rover_auto), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 60s));
   EXPECT_NEAR(ground.from_start(), 31.6, 3.0);
 }

@@ -13,48 +13,28 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int guided = 4;
 constexpr float no_pulses = 1;
 constexpr float low_throttle = 2;
 
-void set(TestGround& ground, char const* name, float value) {
-  EXPECT_TRUE(ground.vehicle().parameters().set(name, value)) << name;
-}
-
-void hover(TestGround& ground, float height_m) {
-  ground.boot();
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, height_m}), MavResult::accepted);
-  ground.run_for(8s + base::from_seconds(height_m / 2.0));
-}
-
 /// A copter on its mission, in the air.
 void fly_mission(TestGround& ground) {
-  ground.boot();
-  ItemMaker const make{ground.vehicle().place()};
-  ASSERT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(300, 0, 10)}),
-            MavMissionResult::accepted);
-  ground.set_mode(guided);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
-  ASSERT_EQ(ground.command(MavCmd::mission_start), MavResult::accepted);
+  auto const make = ground.maker();
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(300, 0, 10)});
   ground.run_for(12s);
 }
 
 /// A plane that circles at height.
 void circle(TestGround& ground) {
-  ground.boot();
-  ground.set_mode(13);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(plane_take_off);
   ground.run_for(30s);
   ASSERT_EQ(ground.set_mode(12), MavResult::accepted);
 }
 
 TEST(RadioFailsafe, ReturnsHomeASecondAfterTheLastPulse) {
   TestGround ground("copter");
-  hover(ground, 20);
+  ground.hover(20);
   ground.request(MessageId::sys_status, 5);
-  set(ground, "SIM_RC_FAIL", no_pulses);
+  ground.set("SIM_RC_FAIL", no_pulses);
   ground.run_for(800ms);
   EXPECT_EQ(ground.said("Radio Failsafe"), 0);
   ground.run_for(500ms);
@@ -62,7 +42,7 @@ TEST(RadioFailsafe, ReturnsHomeASecondAfterTheLastPulse) {
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
   EXPECT_EQ(ground.pilot().system_status(), MavState::critical);
   EXPECT_EQ(ground.last<SysStatus>()->sensors_health & sensor_flag::rc_receiver, 0u);
-  set(ground, "SIM_RC_FAIL", 0);
+  ground.set("SIM_RC_FAIL", 0);
   ground.run_for(500ms);
   EXPECT_EQ(ground.said("Radio Failsafe Cleared"), 1);
   EXPECT_EQ(ground.pilot().system_status(), MavState::active);
@@ -71,9 +51,9 @@ TEST(RadioFailsafe, ReturnsHomeASecondAfterTheLastPulse) {
 
 TEST(RadioFailsafe, ActsAtOnceOnAThrottleBelowTheLeast) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   ground.request(MessageId::rc_channels, 5);
-  set(ground, "SIM_RC_FAIL", low_throttle);
+  ground.set("SIM_RC_FAIL", low_throttle);
   ground.run_for(400ms);
   EXPECT_EQ(ground.said("Radio Failsafe"), 1);
   EXPECT_EQ(ground.last<RcChannels>()->pulses_us[2], 950);
@@ -87,9 +67,9 @@ TEST(RadioFailsafe, DoesWhatItsActionSays) {
   for (auto const& [enable, mode] :
        {Case{0, "GUIDED"}, {1, "RTL"}, {3, "LAND"}, {4, "SMART_RTL"}, {5, "SMART_RTL"}, {7, "BRAKE"}}) {
     TestGround ground("copter");
-    set(ground, "FS_THR_ENABLE", enable);
-    hover(ground, 10);
-    set(ground, "SIM_RC_FAIL", no_pulses);
+    ground.set("FS_THR_ENABLE", enable);
+    ground.hover(10);
+    ground.set("SIM_RC_FAIL", no_pulses);
     ground.run_for(1500ms);
     EXPECT_EQ(ground.pilot().mode().name, mode) << enable;
   }
@@ -97,10 +77,8 @@ TEST(RadioFailsafe, DoesWhatItsActionSays) {
 
 TEST(RadioFailsafe, DisarmsOnTheGroundAndRefusesArming) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(guided);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
-  set(ground, "SIM_RC_FAIL", no_pulses);
+  ground.arm_in(copter_guided);
+  ground.set("SIM_RC_FAIL", no_pulses);
   ground.run_for(1500ms);
   EXPECT_EQ(ground.said("Radio Failsafe - Disarming"), 1);
   EXPECT_FALSE(ground.pilot().armed());
@@ -112,9 +90,9 @@ TEST(RadioFailsafe, DisarmsOnTheGroundAndRefusesArming) {
 
 TEST(RadioFailsafe, LetsAMissionGoOnIfToldSo) {
   TestGround ground("copter");
-  set(ground, "FS_OPTIONS", 1);
+  ground.set("FS_OPTIONS", 1);
   fly_mission(ground);
-  set(ground, "SIM_RC_FAIL", no_pulses);
+  ground.set("SIM_RC_FAIL", no_pulses);
   ground.run_for(1500ms);
   EXPECT_EQ(ground.said("Radio Failsafe - Continuing Auto"), 1);
   EXPECT_EQ(ground.pilot().mode().name, "AUTO");
@@ -124,7 +102,7 @@ TEST(RadioFailsafe, OfAPlaneWaitsBeforeItReturns) {
   TestGround ground("plane");
   circle(ground);
   EXPECT_EQ(ground.said("SmartRTL"), 0) << "planes have no such mode";
-  set(ground, "SIM_RC_FAIL", no_pulses);
+  ground.set("SIM_RC_FAIL", no_pulses);
   ground.run_for(2s);
   EXPECT_EQ(ground.said("Throttle failsafe on"), 1);
   EXPECT_EQ(ground.said("RC Short Failsafe On"), 1);
@@ -132,7 +110,7 @@ TEST(RadioFailsafe, OfAPlaneWaitsBeforeItReturns) {
   ground.run_for(5s);
   EXPECT_EQ(ground.said("RC Long Failsafe On: RTL"), 1);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
-  set(ground, "SIM_RC_FAIL", 0);
+  ground.set("SIM_RC_FAIL", 0);
   ground.run_for(500ms);
   EXPECT_EQ(ground.said("Throttle failsafe off"), 1);
   EXPECT_EQ(ground.said("RC Long Failsafe Cleared"), 1);
@@ -142,21 +120,19 @@ TEST(RadioFailsafe, OfAPlaneMakesAPilotedOneCircleMeanwhile) {
   TestGround ground("plane");
   circle(ground);
   ground.set_mode(5);
-  set(ground, "SIM_RC_FAIL", no_pulses);
+  ground.set("SIM_RC_FAIL", no_pulses);
   ground.run_for(2s);
   EXPECT_EQ(ground.said("RC Short Failsafe: switched to CIRCLE"), 1);
-  set(ground, "SIM_RC_FAIL", 0);
+  ground.set("SIM_RC_FAIL", 0);
   ground.run_for(500ms);
   EXPECT_EQ(ground.said("Short Failsafe Cleared"), 1);
 }
 
 TEST(RadioFailsafe, OfARoverTakesTwoSecondsInAll) {
   TestGround ground("rover");
-  set(ground, "FS_ACTION", 1);
-  ground.boot();
-  ground.set_mode(15);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
-  set(ground, "SIM_RC_FAIL", no_pulses);
+  ground.set("FS_ACTION", 1);
+  ground.arm_in(rover_guided);
+  ground.set("SIM_RC_FAIL", no_pulses);
   ground.run_for(1800ms);
   EXPECT_EQ(ground.said("Radio Failsafe"), 0);
   ground.run_for(500ms);
@@ -167,11 +143,9 @@ TEST(RadioFailsafe, OfARoverTakesTwoSecondsInAll) {
 
 TEST(GroundStationFailsafe, DisarmsACopterThatStands) {
   TestGround ground("copter", {}, false);
-  set(ground, "FS_GCS_ENABLE", 1);
-  set(ground, "DISARM_DELAY", 0);
-  ground.boot();
-  ground.set_mode(guided);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.set("FS_GCS_ENABLE", 1);
+  ground.set("DISARM_DELAY", 0);
+  ground.arm_in(copter_guided);
   ground.send(Connection::ground_station_heartbeat());
   ground.run_for(6s);
   EXPECT_EQ(ground.said("GCS Failsafe - Disarming"), 1);
@@ -181,8 +155,8 @@ TEST(GroundStationFailsafe, DisarmsACopterThatStands) {
 TEST(GroundStationFailsafe, LetsAMissionGoOnIfToldSo) {
   for (auto const& [options, mode] : {std::pair{0.0F, "RTL"}, {2.0F, "AUTO"}}) {
     TestGround ground("copter", {}, false);
-    set(ground, "FS_GCS_ENABLE", 1);
-    set(ground, "FS_OPTIONS", options);
+    ground.set("FS_GCS_ENABLE", 1);
+    ground.set("FS_OPTIONS", options);
     fly_mission(ground);
     ground.send(Connection::ground_station_heartbeat());
     ground.run_for(6s);
@@ -193,7 +167,7 @@ TEST(GroundStationFailsafe, LetsAMissionGoOnIfToldSo) {
 
 TEST(GroundStationFailsafe, OfAPlaneNamesTheModeItIsInThen) {
   TestGround ground("plane", {}, false);
-  set(ground, "FS_GCS_ENABL", 1);
+  ground.set("FS_GCS_ENABL", 1);
   circle(ground);
   ground.send(Connection::ground_station_heartbeat());
   ground.run_for(6s);
@@ -207,8 +181,8 @@ TEST(GroundStationFailsafe, OfAPlaneNamesTheModeItIsInThen) {
 
 TEST(BatteryFailsafe, IsToldByACopterEvenWhenNothingIsDone) {
   TestGround ground("copter");
-  hover(ground, 10);
-  set(ground, "BATT_LOW_MAH", 9000);
+  ground.hover(10);
+  ground.set("BATT_LOW_MAH", 9000);
   ground.run_for(200ms);
   EXPECT_EQ(ground.said("Battery 1 is low"), 1);
   EXPECT_EQ(ground.said("Battery Failsafe"), 1);
@@ -218,11 +192,9 @@ TEST(BatteryFailsafe, IsToldByACopterEvenWhenNothingIsDone) {
 
 TEST(BatteryFailsafe, OfARoverIsNeitherToldNorCritical) {
   TestGround ground("rover");
-  set(ground, "BATT_FS_LOW_ACT", 1);
-  ground.boot();
-  ground.set_mode(15);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
-  set(ground, "BATT_LOW_MAH", 9000);
+  ground.set("BATT_FS_LOW_ACT", 1);
+  ground.arm_in(rover_guided);
+  ground.set("BATT_LOW_MAH", 9000);
   ground.run_for(500ms);
   EXPECT_EQ(ground.said("Battery 1 is low"), 1);
   EXPECT_EQ(ground.said("Battery Failsafe"), 0);
@@ -232,7 +204,7 @@ TEST(BatteryFailsafe, OfARoverIsNeitherToldNorCritical) {
 
 TEST(BatteryFailsafe, WaitsUntilTheVehicleIsArmed) {
   TestGround ground("copter");
-  set(ground, "BATT_LOW_MAH", 9000);
+  ground.set("BATT_LOW_MAH", 9000);
   ground.boot();
   ground.run_for(5s);
   EXPECT_EQ(ground.said("Battery 1 is low"), 0);

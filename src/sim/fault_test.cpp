@@ -10,16 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int guided = 4;
-
-void hover(TestGround& ground, float height_m) {
-  ground.boot();
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, height_m}), MavResult::accepted);
-  ground.run_for(8s + base::from_seconds(height_m / 2.0));
-}
-
 std::set<link::Peer> peers(TestGround const& ground, std::size_t from) {
   std::set<link::Peer> found;
   for (auto i = from; i < ground.heard.size(); ++i) found.insert(ground.heard[i].peer);
@@ -32,7 +22,7 @@ TEST(Reboot, ComesBackFromANewPortWithoutRatesButWithItsMission) {
   auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(20, 0, 10)});
   ground.request(MessageId::attitude, 10);
-  ground.set_mode(guided);
+  ground.set_mode(copter_guided);
   auto const before = peers(ground, 0);
   EXPECT_EQ(ground.command(MavCmd::preflight_reboot_shutdown, {1}), MavResult::accepted);
   ground.run_for(100ms);
@@ -49,7 +39,7 @@ TEST(Reboot, ComesBackFromANewPortWithoutRatesButWithItsMission) {
 
 TEST(Reboot, IsRefusedWhileArmedButAFaultRebootsAnyway) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   EXPECT_EQ(ground.command(MavCmd::preflight_reboot_shutdown, {1}), MavResult::failed);
   ground.vehicle().reboot();
   ground.run_for(3s);
@@ -59,7 +49,7 @@ TEST(Reboot, IsRefusedWhileArmedButAFaultRebootsAnyway) {
 
 TEST(Silence, StopsEverythingOnTheLinkWhileTheVehicleFliesOn) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   ground.vehicle().fall_silent(10s);
   ground.run_for(100ms);
   auto const from = ground.heard.size();
@@ -84,9 +74,9 @@ TEST(Silence, CanLastForGood) {
 
 TEST(BatteryFailsafe, ReturnsHomeAndShowsACriticalState) {
   TestGround ground("copter");
-  ground.vehicle().parameters().set("BATT_LOW_MAH", 1000.0F);
-  ground.vehicle().parameters().set("BATT_FS_LOW_ACT", 2.0F);
-  hover(ground, 20);
+  ground.set("BATT_LOW_MAH", 1000.0F);
+  ground.set("BATT_FS_LOW_ACT", 2.0F);
+  ground.hover(20);
   ground.vehicle().set_battery(0.19);
   ground.run_for(1500ms);
   EXPECT_EQ(ground.said("Battery 1 is low"), 1);
@@ -98,7 +88,7 @@ TEST(BatteryFailsafe, ReturnsHomeAndShowsACriticalState) {
 
 TEST(BatteryFailsafe, TakesTenSecondsOfLowVoltageAndDoesNothingByDefault) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   ground.vehicle().set_battery(0.04);
   ground.run_for(9s);
   EXPECT_EQ(ground.said("Battery 1 is low"), 0);
@@ -109,7 +99,7 @@ TEST(BatteryFailsafe, TakesTenSecondsOfLowVoltageAndDoesNothingByDefault) {
 
 TEST(Battery, DrainsInFlightAndIsReported) {
   TestGround ground("copter@90%");
-  hover(ground, 10);
+  ground.hover(10);
   ground.request(MessageId::sys_status, 2);
   ground.request(MessageId::battery_status, 2);
   ground.run_for(60s);
@@ -124,7 +114,7 @@ TEST(Battery, DrainsInFlightAndIsReported) {
 
 TEST(Battery, EmptyMeansFalling) {
   TestGround ground("copter");
-  hover(ground, 15);
+  ground.hover(15);
   ground.vehicle().set_battery(0.0);
   ground.run_for(4s);
   EXPECT_TRUE(ground.pilot().body().on_ground);
@@ -146,15 +136,15 @@ TEST(GroundStationFailsafe, IsOffByDefault) {
   TestGround ground("copter", {}, false);
   ground.boot();
   ground.send(Connection::ground_station_heartbeat());
-  hover(ground, 10);
+  ground.hover(10);
   ground.run_for(20s);
   EXPECT_EQ(ground.pilot().mode().name, "GUIDED");
 }
 
 TEST(GroundStationFailsafe, ReturnsHomeAfterFiveSecondsAndStaysInRtl) {
   TestGround ground("copter", {}, false);
-  ground.vehicle().parameters().set("FS_GCS_ENABLE", 1.0F);
-  hover(ground, 10);
+  ground.set("FS_GCS_ENABLE", 1.0F);
+  ground.hover(10);
   ground.send(Connection::ground_station_heartbeat());
   ground.run_for(4500ms);
   EXPECT_EQ(ground.pilot().mode().name, "GUIDED");
@@ -171,7 +161,7 @@ TEST(GroundStationFailsafe, ReturnsHomeAfterFiveSecondsAndStaysInRtl) {
 
 TEST(GpsLoss, LandsEightSecondsLater) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   ground.request(MessageId::gps_raw_int, 5);
   ground.request(MessageId::ekf_status_report, 5);
   ground.vehicle().lose_gps();
@@ -189,7 +179,7 @@ TEST(GpsLoss, LandsEightSecondsLater) {
 
 TEST(GpsLoss, IsAParameterAsInArduPilotsSimulator) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   ground.request(MessageId::gps_raw_int, 5);
   ground.send(ParamSet{.name = "SIM_GPS_DISABLE", .value = 1.0F});
   ground.run_for(1s);
@@ -210,8 +200,8 @@ TEST(EstimatorFailsafe, DoesWhatItsActionSays) {
   };
   for (auto const& [action, mode] : {Case{0, "GUIDED"}, {1, "LAND"}, {2, "ALT_HOLD"}, {3, "LAND"}}) {
     TestGround ground("copter");
-    ground.vehicle().parameters().set("FS_EKF_ACTION", action);
-    hover(ground, 10);
+    ground.set("FS_EKF_ACTION", action);
+    ground.hover(10);
     ground.vehicle().lose_gps();
     ground.run_for(9s);
     EXPECT_EQ(ground.pilot().mode().name, mode) << action;
@@ -223,9 +213,7 @@ TEST(EstimatorFailsafe, DoesWhatItsActionSays) {
 
 TEST(EstimatorFailsafe, StopsARover) {
   TestGround ground("rover");
-  ground.boot();
-  ground.set_mode(15);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(rover_guided);
   ground.vehicle().lose_gps();
   ground.run_for(9s);
   EXPECT_EQ(ground.pilot().mode().name, "HOLD");
@@ -239,8 +227,8 @@ TEST(GroundStationFailsafe, DoesWhatItsActionSays) {
   };
   for (auto const& [enable, mode] : {Case{1, "RTL"}, {5, "LAND"}, {7, "BRAKE"}}) {
     TestGround ground("copter", {}, false);
-    ground.vehicle().parameters().set("FS_GCS_ENABLE", enable);
-    hover(ground, 10);
+    ground.set("FS_GCS_ENABLE", enable);
+    ground.hover(10);
     ground.send(Connection::ground_station_heartbeat());
     ground.run_for(6s);
     EXPECT_EQ(ground.pilot().mode().name, mode);
@@ -253,8 +241,8 @@ TEST(BatteryFailsafe, BecomesCriticalAfterLow) {
                                     {"BATT_FS_LOW_ACT", 2.0F},
                                     {"BATT_CRT_MAH", 500.0F},
                                     {"BATT_FS_CRT_ACT", 1.0F}})
-    ground.vehicle().parameters().set(name, value);
-  hover(ground, 20);
+    ground.set(name, value);
+  ground.hover(20);
   ground.vehicle().set_battery(0.19);
   ground.run_for(1s);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
@@ -266,7 +254,7 @@ TEST(BatteryFailsafe, BecomesCriticalAfterLow) {
 
 TEST(Pilot, ChangesTheModeOfAFlyingVehicle) {
   TestGround ground("copter");
-  hover(ground, 10);
+  ground.hover(10);
   EXPECT_TRUE(ground.vehicle().pilot_sets_mode(9));
   ground.run_for(100ms);
   EXPECT_EQ(ground.last<Heartbeat>()->custom_mode, 9u);

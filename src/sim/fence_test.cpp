@@ -10,16 +10,10 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int guided = 4;
-
-/// Switches off what keeps guided flight inside, so that fences can be breached.
-void do_not_avoid(TestGround& ground) {
-  (void)ground.vehicle().parameters().set("AVOID_ENABLE", 0);
-}
-
+/// Besides, switches off what keeps guided flight inside, so that fences can be breached.
 void set(TestGround& ground, std::initializer_list<std::pair<char const*, float>> parameters) {
-  do_not_avoid(ground);
-  for (auto const& [name, value] : parameters) EXPECT_TRUE(ground.vehicle().parameters().set(name, value)) << name;
+  (void)ground.vehicle().parameters().set("AVOID_ENABLE", 0);
+  for (auto const& [name, value] : parameters) ground.set(name, value);
 }
 
 MissionItem zone_item(TestGround& ground, MavCmd command, double north, double east, float p1) {
@@ -58,14 +52,6 @@ std::optional<MavMissionResult> upload_fence(TestGround& ground, std::vector<Mis
   return result;
 }
 
-void hover(TestGround& ground, float height_m) {
-  ground.boot();
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, height_m}), MavResult::accepted);
-  ground.run_for(8s + base::from_seconds(height_m / 2.0));
-}
-
 /// Keeps a velocity as a ground station does: repeating it.
 void fly(TestGround& ground, geo::Ned velocity_m_s, base::Duration time) {
   SetPositionTargetGlobalInt target;
@@ -80,7 +66,7 @@ void fly(TestGround& ground, geo::Ned velocity_m_s, base::Duration time) {
 TEST(Fence, SendsACopterHomeThatLeavesTheCircleAndItsStateStaysActive) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 60}, {"FENCE_ACTION", 1}});
-  hover(ground, 10);
+  ground.hover(10);
   ground.request(MessageId::fence_status, 5);
   fly(ground, {8, 0, 0}, 5s);
   EXPECT_EQ(ground.said("Circle fence breached"), 0);
@@ -105,7 +91,7 @@ TEST(Fence, DoesWhatItsActionSays) {
   for (auto const& [action, mode] : {Case{0, "GUIDED"}, {1, "RTL"}, {2, "LAND"}, {4, "BRAKE"}}) {
     TestGround ground("copter");
     set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_ALT_MAX", 20}, {"FENCE_ACTION", action}});
-    hover(ground, 10);
+    ground.hover(10);
     ground.request(MessageId::fence_status, 5);
     fly(ground, {0, 0, -2.5}, 7s);
     EXPECT_EQ(ground.said("Max Alt fence breached"), 1) << action;
@@ -117,19 +103,19 @@ TEST(Fence, DoesWhatItsActionSays) {
 TEST(Fence, HoldsTheModeUntilTheVehicleIsBackInsideIfToldSo) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}, {"FENCE_OPTIONS", 1}});
-  hover(ground, 10);
+  ground.hover(10);
   fly(ground, {8, 0, 0}, 7s);
   ASSERT_EQ(ground.pilot().mode().name, "RTL");
-  EXPECT_EQ(ground.set_mode(guided), MavResult::failed);
+  EXPECT_EQ(ground.set_mode(copter_guided), MavResult::failed);
   EXPECT_EQ(ground.said("Mode change to GUIDED failed: in fence recovery"), 1);
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().fence().breached() == 0; }, 60s));
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
+  EXPECT_EQ(ground.set_mode(copter_guided), MavResult::accepted);
 }
 
 TEST(Fence, RefusesGuidedTargetsOutside) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 50}});
-  hover(ground, 10);
+  ground.hover(10);
   auto const to = [&](double north_m) {
     auto const place = geo::displaced(ground.world.options().home, {north_m, 0.0, -10.0});
     return ground.command(MavCmd::do_reposition, {-1, 0, 0, NAN, static_cast<float>(place.lat_deg()),
@@ -145,7 +131,7 @@ TEST(Fence, KeepsACopterInThePolygonThatWasUploaded) {
   ground.boot();
   auto const items = square(ground, MavCmd::nav_fence_polygon_vertex_inclusion, 0, 0, 50);
   ASSERT_EQ(upload_fence(ground, items), MavMissionResult::accepted);
-  hover(ground, 10);
+  ground.hover(10);
   fly(ground, {0, 8, 0}, 12s);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
   EXPECT_EQ(ground.said("Polygon fence breached"), 1);
@@ -158,7 +144,7 @@ TEST(Fence, RefusesArmingInsideAnExclusionZone) {
   auto const items = std::vector{zone_item(ground, MavCmd::nav_fence_circle_exclusion, 5, 0, 30.0F)};
   ASSERT_EQ(upload_fence(ground, items), MavMissionResult::accepted);
   ground.run_for(100ms);
-  ground.set_mode(guided);
+  ground.set_mode(copter_guided);
   EXPECT_EQ(ground.arm(), MavResult::failed);
   ground.run_for(100ms);
   EXPECT_EQ(ground.said("Arm: Vehicle breaching Polygon fence"), 1);
@@ -188,9 +174,7 @@ TEST(Fence, IsSwitchedByCommandAndReportsThatItIsOnWithItsHealth) {
 TEST(Fence, StopsARover) {
   TestGround ground("rover");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 30}, {"FENCE_ACTION", 2}});
-  ground.boot();
-  ground.set_mode(15);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(rover_guided);
   fly(ground, {4, 0, 0}, 14s);
   EXPECT_EQ(ground.said("Circle fence breached"), 0) << "ArduRover keeps it to itself";
   EXPECT_EQ(ground.last<FenceStatus>()->breach_count, 1) << "but for this, which is sent unasked";
@@ -202,15 +186,10 @@ TEST(Fence, StopsARover) {
 TEST(Fence, BringsAPlaneBack) {
   TestGround ground("plane");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_TYPE", 2}, {"FENCE_RADIUS", 1000}});
-  ground.boot();
-  ground.set_mode(13);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(plane_take_off);
   ground.run_for(25s);
-  ground.set_mode(15);
-  auto const make = ground.maker();
-  auto target = make.waypoint(4000, 0, 60);
-  target.current = 2;
-  ground.send(target);
+  ground.set_mode(plane_guided);
+  ground.go_to(4000, 0, 60, 1s);
   ASSERT_TRUE(ground.run_until([&] { return ground.said("Circle fence breached") == 1; }, 90s));
   ground.run_for(500ms);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");
@@ -220,7 +199,7 @@ TEST(Fence, BringsAPlaneBack) {
 TEST(Fence, IsBreachedAnewFartherOutAndSaysWhenItIsOver) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}, {"FENCE_ACTION", 0}});
-  hover(ground, 10);
+  ground.hover(10);
   ground.request(MessageId::fence_status, 10);
   fly(ground, {8, 0, 0}, 13s);
   EXPECT_EQ(ground.said("Circle fence breached"), 3) << "at 40, 60 and 80 m";
@@ -233,7 +212,7 @@ TEST(Fence, IsBreachedAnewFartherOutAndSaysWhenItIsOver) {
 TEST(Fence, BringsACopterDownThatIsFarOutside) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 0}, {"FENCE_RADIUS", 40}, {"FENCE_ACTION", 1}});
-  hover(ground, 10);
+  ground.hover(10);
   fly(ground, {10, 0, 0}, 17s);
   EXPECT_EQ(ground.command(MavCmd::do_fence_enable, {1}), MavResult::accepted);
   ground.run_for(500ms);
@@ -244,10 +223,10 @@ TEST(Fence, BringsACopterDownThatIsFarOutside) {
 TEST(Fence, LeavesAVehicleAloneForTenSecondsAfterAChangeOfItsMode) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 40}, {"FENCE_ACTION", 1}});
-  hover(ground, 10);
+  ground.hover(10);
   fly(ground, {8, 0, 0}, 7s);
   ASSERT_EQ(ground.pilot().mode().name, "RTL");
-  ASSERT_EQ(ground.set_mode(guided), MavResult::accepted);
+  ASSERT_EQ(ground.set_mode(copter_guided), MavResult::accepted);
   fly(ground, {8, 0, 0}, 5s);
   EXPECT_EQ(ground.pilot().mode().name, "GUIDED") << "20 m farther out";
 }
@@ -255,7 +234,7 @@ TEST(Fence, LeavesAVehicleAloneForTenSecondsAfterAChangeOfItsMode) {
 TEST(FenceMargin, IsWhereGuidedFlightStops) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 60}, {"FENCE_MARGIN", 8}, {"AVOID_ENABLE", 3}});
-  hover(ground, 10);
+  ground.hover(10);
   fly(ground, {6, 0, 0}, 25s);
   EXPECT_EQ(ground.pilot().mode().name, "GUIDED");
   EXPECT_NEAR(ground.from_start(), 52.0, 4.0);
@@ -264,7 +243,7 @@ TEST(FenceMargin, IsWhereGuidedFlightStops) {
 TEST(FenceMargin, IsToldIfWanted) {
   TestGround ground("copter");
   set(ground, {{"FENCE_ENABLE", 1}, {"FENCE_RADIUS", 60}, {"FENCE_MARGIN", 8}, {"FENCE_OPTIONS", 4}});
-  hover(ground, 10);
+  ground.hover(10);
   fly(ground, {6, 0, 0}, 12s);
   EXPECT_GE(ground.said("Circle fence in "), 1);
   EXPECT_EQ(ground.said("Circle fence breached"), 1);

@@ -10,16 +10,9 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int copter_guided = 4;
-constexpr int copter_land = 9;
-constexpr int plane_auto = 10;
-constexpr int rover_auto = 10;
-
 TEST(CopterFlight, TakesOffInGuidedAfterSpoolingUpWithoutOvershoot) {
   TestGround ground("copter");
-  ground.boot();
-  EXPECT_EQ(ground.set_mode(copter_guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(copter_guided);
   EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 20}), MavResult::accepted);
   ground.run_for(2900ms);
   EXPECT_TRUE(ground.pilot().body().on_ground);
@@ -36,15 +29,9 @@ TEST(CopterFlight, TakesOffInGuidedAfterSpoolingUpWithoutOvershoot) {
 
 TEST(CopterFlight, FliesAnUploadedMissionAndEndsAtHome) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(
-      ground.upload({make.waypoint(0, 0, 0), make.take_off(30), make.waypoint(100, 0, 30), make.waypoint(100, 100, 35),
-                     make.waypoint(0, 100, 40), ItemMaker::plain(MavCmd::nav_return_to_launch)}),
-      MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(copter_guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  EXPECT_EQ(ground.command(MavCmd::mission_start), MavResult::accepted);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(30), make.waypoint(100, 0, 30), make.waypoint(100, 100, 35),
+              make.waypoint(0, 100, 40), ItemMaker::plain(MavCmd::nav_return_to_launch)});
   auto const started = ground.loop.now();
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 300s));
   EXPECT_NEAR(base::to_seconds(ground.loop.now() - started), 115.0, 35.0);
@@ -61,12 +48,8 @@ TEST(CopterFlight, FliesAnUploadedMissionAndEndsAtHome) {
 
 TEST(CopterFlight, HoldsAfterTheLastWaypointAndStaysInAuto) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(15), make.waypoint(40, 0, 15)});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(15), make.waypoint(40, 0, 15)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 60s));
   ground.run_for(20s);
   EXPECT_TRUE(ground.pilot().armed());
@@ -76,12 +59,8 @@ TEST(CopterFlight, HoldsAfterTheLastWaypointAndStaysInAuto) {
 
 TEST(CopterFlight, LandsAtALandItemAndDisarms) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(15), make.at(MavCmd::nav_land, {30, 10, 0})});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(15), make.at(MavCmd::nav_land, {30, 10, 0})});
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 120s));
   auto const& here = ground.pilot().body().position_m;
   EXPECT_NEAR(here.north, 30.0, 0.5);
@@ -91,20 +70,14 @@ TEST(CopterFlight, LandsAtALandItemAndDisarms) {
 
 TEST(CopterFlight, PerformsEveryKindOfItemOfTheLanguage) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(15),
-                           ItemMaker::plain(MavCmd::do_change_speed, {1, 6, -1, 0}),
-                           make.at(MavCmd::nav_loiter_time, {20, 0, -15}, {5, 0, 15, 0}),
-                           make.at(MavCmd::nav_loiter_turns, {20, 20, -15}, {1, 0, 8, 0}),
-                           ItemMaker::plain(MavCmd::image_start_capture, {0, 1, 3, 0}),
-                           ItemMaker::plain(MavCmd::nav_delay, {4, -1, -1, -1}),
-                           ItemMaker::plain(MavCmd::image_stop_capture), make.waypoint(0, 20, 15, 3.0F),
-                           ItemMaker::plain(MavCmd::do_jump, {8, 1, 0, 0}), make.at(MavCmd::nav_land, {0, 0, 0})}),
-            MavMissionResult::accepted);
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(15), ItemMaker::plain(MavCmd::do_change_speed, {1, 6, -1, 0}),
+              make.at(MavCmd::nav_loiter_time, {20, 0, -15}, {5, 0, 15, 0}),
+              make.at(MavCmd::nav_loiter_turns, {20, 20, -15}, {1, 0, 8, 0}),
+              ItemMaker::plain(MavCmd::image_start_capture, {0, 1, 3, 0}),
+              ItemMaker::plain(MavCmd::nav_delay, {4, -1, -1, -1}), ItemMaker::plain(MavCmd::image_stop_capture),
+              make.waypoint(0, 20, 15, 3.0F), ItemMaker::plain(MavCmd::do_jump, {8, 1, 0, 0}),
+              make.at(MavCmd::nav_land, {0, 0, 0})});
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 300s));
   EXPECT_TRUE(ground.pilot().mission().complete());
   EXPECT_EQ(ground.all<CameraFeedback>().size(), 3u);
@@ -114,13 +87,9 @@ TEST(CopterFlight, PerformsEveryKindOfItemOfTheLanguage) {
 
 TEST(CopterFlight, ReportsTheItemBehindAWaypointAsReached) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10),
-                 ItemMaker::plain(MavCmd::do_change_speed, {1, 4, -1, 0}), make.waypoint(60, 0, 10)});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10),
+              ItemMaker::plain(MavCmd::do_change_speed, {1, 4, -1, 0}), make.waypoint(60, 0, 10)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 100s));
   ground.run_for(100ms);
   std::vector<int> reached;
@@ -131,12 +100,9 @@ TEST(CopterFlight, ReportsTheItemBehindAWaypointAsReached) {
 
 TEST(CopterFlight, SitsInAutoOnTheGroundUntilMissionStart) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10)});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  EXPECT_EQ(ground.set_mode(3), MavResult::accepted);
+  ground.arm_in(copter_guided, {make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10)});
+  EXPECT_EQ(ground.set_mode(copter_auto), MavResult::accepted);
   ground.run_for(6s);
   EXPECT_TRUE(ground.pilot().body().on_ground);
   EXPECT_EQ(ground.pilot().mission().state(), MissionState::active);
@@ -151,7 +117,7 @@ TEST(CopterFlight, TakesOffInAutoByItselfWhenAutoOptionsAllowIt) {
   auto const make = ground.maker();
   ground.send(ParamSet{.target = {}, .name = "AUTO_OPTIONS", .value = 3.0F});
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(30, 0, 10)});
-  EXPECT_EQ(ground.set_mode(3), MavResult::accepted);
+  EXPECT_EQ(ground.set_mode(copter_auto), MavResult::accepted);
   EXPECT_EQ(ground.arm(), MavResult::accepted);
   ground.run_for(10s);
   EXPECT_GT(ground.pilot().body().height_m(), 5.0);
@@ -159,11 +125,7 @@ TEST(CopterFlight, TakesOffInAutoByItselfWhenAutoOptionsAllowIt) {
 
 TEST(CopterFlight, ReturnsHomeAtTheReturnHeightWaitsAndLands) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 8});
-  ground.run_for(12s);
+  ground.hover(8);
   auto const far = geo::displaced(ground.world.options().home, {60, 0, 0});
   CommandInt go{.target = {},
                 .frame = MavFrame::global_relative_alt_int,
@@ -188,11 +150,7 @@ TEST(CopterFlight, ReturnsHomeAtTheReturnHeightWaitsAndLands) {
 
 TEST(CopterFlight, StopsThreeSecondsAfterTheLastVelocitySetpoint) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 10});
-  ground.run_for(14s);
+  ground.hover(10);
   SetPositionTargetGlobalInt target;
   target.setpoint.frame = MavFrame::global_relative_alt_int;
   target.setpoint.ignore = 0b110111000111;
@@ -206,11 +164,7 @@ TEST(CopterFlight, StopsThreeSecondsAfterTheLastVelocitySetpoint) {
 
 TEST(CopterFlight, SinksInLoiterButHoldsInBrake) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 30});
-  ground.run_for(22s);
+  ground.hover(30);
   ground.set_mode(17);
   ground.run_for(5s);
   EXPECT_NEAR(ground.pilot().body().height_m(), 30.0, 0.3);
@@ -221,29 +175,21 @@ TEST(CopterFlight, SinksInLoiterButHoldsInBrake) {
 
 TEST(CopterFlight, ResumesTheMissionWhereItWasLeft) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(60, 0, 10), make.waypoint(60, 60, 10)});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(60, 0, 10), make.waypoint(60, 60, 10)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().current() == 2; }, 30s));
   ground.set_mode(17);
   EXPECT_EQ(ground.pilot().mission().state(), MissionState::not_started);
   ground.run_for(5s);
-  ground.set_mode(3);
+  ground.set_mode(copter_auto);
   EXPECT_EQ(ground.pilot().mission().current(), 2);
   EXPECT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 60s));
 }
 
 TEST(CopterFlight, FliesTheOldTargetToTheEndWhenAShorterMissionComes) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(20, 0, 10), make.waypoint(60, 0, 10)});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(20, 0, 10), make.waypoint(60, 0, 10)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().current() == 3; }, 60s));
   EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(10)}), MavMissionResult::accepted);
   EXPECT_GE(ground.said("Auto mission changed but failed to restart command"), 1);
@@ -253,12 +199,8 @@ TEST(CopterFlight, FliesTheOldTargetToTheEndWhenAShorterMissionComes) {
 
 TEST(CopterFlight, RestartsTheCommandWhenItIsReplacedInFlight) {
   TestGround ground("copter");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(80, 0, 10)});
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(80, 0, 10)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().current() == 2; }, 60s));
   ground.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(0, 50, 10)});
   EXPECT_EQ(ground.said("Auto mission changed, restarted command"), 1);
@@ -268,11 +210,7 @@ TEST(CopterFlight, RestartsTheCommandWhenItIsReplacedInFlight) {
 
 TEST(CopterFlight, CannotBeDisarmedInTheAirUnlessForced) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 10});
-  ground.run_for(12s);
+  ground.hover(10);
   EXPECT_EQ(ground.command(MavCmd::component_arm_disarm, {0, 0}), MavResult::failed);
   EXPECT_EQ(ground.command(MavCmd::component_arm_disarm, {0, 21196}), MavResult::accepted);
   ground.run_for(4s);
@@ -281,36 +219,25 @@ TEST(CopterFlight, CannotBeDisarmedInTheAirUnlessForced) {
 
 TEST(CopterFlight, LandModeEndsDisarmed) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 12});
-  ground.run_for(14s);
+  ground.hover(12);
   EXPECT_EQ(ground.set_mode(copter_land), MavResult::accepted);
   EXPECT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 60s));
 }
 
 TEST(CopterFlight, KeepsItsPlaceInGustyWind) {
   TestGround ground("copter", {.wind_m_s = {4, -3, 0}, .gust_m_s = 1.5});
-  ground.boot();
-  ground.set_mode(copter_guided);
-  ground.arm();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 12});
-  ground.run_for(30s);
+  ground.hover(12);
+  ground.run_for(16s);
   EXPECT_LT(ground.from_start(), 1.0);
   EXPECT_GT(std::abs(ground.pilot().body().attitude.pitch_rad), 0.01);
 }
 
 TEST(PlaneFlight, FliesAMissionThenReturnsAndCircles) {
   TestGround ground("plane", {.wind_m_s = {0, 3, 0}});
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(
-      ground.upload({make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(500, 0, 80), make.waypoint(500, 400, 80),
-                     make.at(MavCmd::nav_loiter_turns, {0, 400, -80}, {1, 0, 70, 0})}),
-      MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(plane_auto), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(plane_auto,
+                {make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(500, 0, 80), make.waypoint(500, 400, 80),
+                 make.at(MavCmd::nav_loiter_turns, {0, 400, -80}, {1, 0, 70, 0})});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mode().name == "RTL"; }, 300s));
   EXPECT_EQ(ground.pilot().mission().state(), MissionState::complete);
   EXPECT_EQ(ground.said("Reached waypoint #"), 2);
@@ -322,13 +249,9 @@ TEST(PlaneFlight, FliesAMissionThenReturnsAndCircles) {
 
 TEST(PlaneFlight, LeavesTheMissionForRtlWhereItSaysReturn) {
   TestGround ground("plane");
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(400, 0, 60),
-                           ItemMaker::plain(MavCmd::nav_return_to_launch), make.waypoint(900, 0, 60)}),
-            MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(plane_auto), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(plane_auto, {make.waypoint(0, 0, 0), make.take_off(60), make.waypoint(400, 0, 60),
+                             ItemMaker::plain(MavCmd::nav_return_to_launch), make.waypoint(900, 0, 60)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mode().name == "RTL"; }, 120s));
   ground.run_for(90s);
   EXPECT_EQ(ground.said("Mission: 3 RTL"), 1);
@@ -338,12 +261,9 @@ TEST(PlaneFlight, LeavesTheMissionForRtlWhereItSaysReturn) {
 
 TEST(PlaneFlight, LandsAndDisarmsTwentySecondsLater) {
   TestGround ground("plane");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(40), make.waypoint(600, 0, 40), make.waypoint(600, 300, 40),
-                 make.at(MavCmd::nav_land, {0, 300, 0})});
-  ground.set_mode(plane_auto);
-  ground.arm();
+  ground.arm_in(plane_auto, {make.waypoint(0, 0, 0), make.take_off(40), make.waypoint(600, 0, 40),
+                             make.waypoint(600, 300, 40), make.at(MavCmd::nav_land, {0, 300, 0})});
   ASSERT_TRUE(ground.run_until(
       [&] { return ground.pilot().mission().current() == 4 && ground.pilot().body().on_ground; }, 300s));
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 60s));
@@ -354,13 +274,10 @@ TEST(PlaneFlight, LandsAndDisarmsTwentySecondsLater) {
 
 TEST(PlaneFlight, ContinuesOnItsCourseWhileItChangesHeight) {
   TestGround ground("plane");
-  ground.boot();
   auto const make = ground.maker();
-  ground.upload({make.waypoint(0, 0, 0), make.take_off(50),
-                 make.at(MavCmd::nav_continue_and_change_alt, {0, 0, -90}, {1, 0, 0, 0}),
-                 make.at(MavCmd::nav_loiter_unlim, {300, 0, -90}, {0, 0, 70, 0})});
-  ground.set_mode(plane_auto);
-  ground.arm();
+  ground.arm_in(plane_auto, {make.waypoint(0, 0, 0), make.take_off(50),
+                             make.at(MavCmd::nav_continue_and_change_alt, {0, 0, -90}, {1, 0, 0, 0}),
+                             make.at(MavCmd::nav_loiter_unlim, {300, 0, -90}, {0, 0, 70, 0})});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().current() == 3; }, 120s));
   EXPECT_GT(ground.pilot().body().height_m(), 80.0);
   ground.run_for(120s);
@@ -369,13 +286,9 @@ TEST(PlaneFlight, ContinuesOnItsCourseWhileItChangesHeight) {
 
 TEST(RoverFlight, DrivesAMissionAndStops) {
   TestGround ground("rover");
-  ground.boot();
   auto const make = ground.maker();
-  EXPECT_EQ(ground.upload(
-                {make.waypoint(0, 0, 0), make.waypoint(30, 0, 0), make.waypoint(30, 30, 0), make.waypoint(0, 30, 0)}),
-            MavMissionResult::accepted);
-  EXPECT_EQ(ground.set_mode(rover_auto), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
+  ground.arm_in(rover_auto,
+                {make.waypoint(0, 0, 0), make.waypoint(30, 0, 0), make.waypoint(30, 30, 0), make.waypoint(0, 30, 0)});
   ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mission().complete(); }, 120s));
   ground.run_for(3s);
   EXPECT_EQ(ground.said("Mission Complete"), 1);
@@ -386,9 +299,7 @@ TEST(RoverFlight, DrivesAMissionAndStops) {
 
 TEST(RoverFlight, DrivesToAGuidedPointAndHome) {
   TestGround ground("rover");
-  ground.boot();
-  ground.set_mode(15);
-  ground.arm();
+  ground.arm_in(rover_guided);
   auto const far = geo::displaced(ground.world.options().home, {25, 10, 0});
   CommandInt go{.target = {},
                 .frame = MavFrame::global_relative_alt_int,
@@ -408,12 +319,8 @@ TEST(RoverFlight, DrivesToAGuidedPointAndHome) {
 TEST(World, SameSeedGivesTheSameTrajectory) {
   auto fly = [](std::uint64_t seed) {
     TestGround ground("copter", {.seed = seed, .wind_m_s = {3, 0, 0}, .gust_m_s = 2.0});
-    ground.boot();
     auto const make = ground.maker();
-    ground.upload({make.waypoint(0, 0, 0), make.take_off(15), make.waypoint(50, 20, 15)});
-    ground.set_mode(copter_guided);
-    ground.arm();
-    ground.command(MavCmd::mission_start);
+    ground.fly({make.waypoint(0, 0, 0), make.take_off(15), make.waypoint(50, 20, 15)});
     std::vector<double> trajectory;
     ground.run_until(
         [&] {

@@ -455,12 +455,8 @@ TEST(MissionSetCurrent, IsAnsweredByMissionCurrentAndABadNumberByNothing) {
 
 TEST(MissionClear, InAutoLeavesTheVehicleHolding) {
   TestGround station("copter");
-  station.boot();
   auto const make = station.maker();
-  station.upload({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(200, 0, 10)});
-  station.set_mode(4);
-  station.arm();
-  station.command(MavCmd::mission_start);
+  station.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(200, 0, 10)});
   station.run_for(15s);
   station.request(MessageId::mission_current, 5);
   station.send(MissionClearAll{});

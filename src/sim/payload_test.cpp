@@ -55,15 +55,10 @@ TEST(SimulatedCamera, TakesPicturesAtIntervalsUntilItIsTold) {
 
 TEST(SimulatedCamera, IsTriggeredByDistanceInAMission) {
   TestGround ground("copter");
-  ground.boot();
-  ItemMaker const make{ground.vehicle().place()};
-  ASSERT_EQ(ground.upload({make.waypoint(0, 0, 0), make.take_off(20),
-                           ItemMaker::plain(MavCmd::do_set_cam_trigg_dist, {20, 0, 1, 0}), make.waypoint(200, 0, 20),
-                           ItemMaker::plain(MavCmd::do_set_cam_trigg_dist), make.at(MavCmd::nav_land, {220, 0, 0})}),
-            MavMissionResult::accepted);
-  ground.set_mode(4);
-  ground.arm();
-  ground.command(MavCmd::mission_start);
+  auto const make = ground.maker();
+  ground.fly({make.waypoint(0, 0, 0), make.take_off(20), ItemMaker::plain(MavCmd::do_set_cam_trigg_dist, {20, 0, 1, 0}),
+              make.waypoint(200, 0, 20), ItemMaker::plain(MavCmd::do_set_cam_trigg_dist),
+              make.at(MavCmd::nav_land, {220, 0, 0})});
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 300s));
   auto const pictures = ground.all<CameraFeedback>();
   EXPECT_NEAR(static_cast<double>(pictures.size()), 10.0, 1.5);
@@ -122,7 +117,7 @@ TEST(SimulatedGimbal, KeepsAPlaceInSight) {
   CommandInt roi{.target = {}, .frame = MavFrame::global_relative_alt, .command = MavCmd::do_set_roi_location};
   roi.place = {.lat_rad = place.lat_rad, .lon_rad = place.lon_rad, .z_m = 0};
   ground.send(roi);
-  ground.set_mode(4);
+  ground.set_mode(copter_guided);
   ground.arm();
   ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 30});
   ground.run_for(40s);

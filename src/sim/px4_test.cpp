@@ -99,7 +99,7 @@ TEST(Px4, TakesOffToAnAltitudeAboveTheSeaAndHoldsThere) {
 
 TEST(Px4, ClimbsToItsOwnHeightWhenNoneIsGiven) {
   TestGround ground("px4");
-  ground.vehicle().parameters().set("MIS_TAKEOFF_ALT", 6.0F);
+  ground.set("MIS_TAKEOFF_ALT", 6.0F);
   ground.boot();
   ground.command(MavCmd::nav_takeoff, {0, 0, 0, NAN, NAN, NAN, NAN});
   ground.arm();
@@ -212,7 +212,7 @@ TEST(Px4, GoesWhereItIsSentAndIsGuidedFromOutside) {
 
 TEST(Px4, HoldsAtItsFenceInACriticalState) {
   TestGround ground("px4");
-  ground.vehicle().parameters().set("GF_MAX_HOR_DIST", 30.0F);
+  ground.set("GF_MAX_HOR_DIST", 30.0F);
   ground.boot();
   ASSERT_TRUE(upload(ground, out_and_back(ground)));
   ground.command(MavCmd::mission_start);
@@ -272,7 +272,7 @@ TEST(Px4Parameters, HaveAHashThatChangesWithThemAndEndsTheirList) {
   EXPECT_EQ(hash->type, MavParamType::uint32);
   EXPECT_EQ(std::bit_cast<std::uint32_t>(hash->value), ground.vehicle().parameters().hash());
   auto const before = ground.vehicle().parameters().hash();
-  ground.vehicle().parameters().set("RTL_RETURN_ALT", 61.0F);
+  ground.set("RTL_RETURN_ALT", 61.0F);
   EXPECT_NE(ground.vehicle().parameters().hash(), before);
   auto const from = ground.heard.size();
   ground.send(ParamRequestList{});

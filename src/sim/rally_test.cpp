@@ -50,17 +50,9 @@ TEST(Rally, LeavesOutPointsBeyondTheLimit) {
 
 TEST(Rally, IsWhereACopterReturnsTo) {
   TestGround ground("copter");
-  ground.boot();
-  auto const make = ground.maker();
-  ground.vehicle().plans().rally = {make.at(MavCmd::nav_rally_point, {60, 0, -10})};
-  EXPECT_EQ(ground.set_mode(4), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 15});
-  ground.run_for(15s);
-  auto target = make.waypoint(80, 0, 15);
-  target.current = 2;
-  ground.send(target);
-  ground.run_for(20s);
+  ground.hover(15);
+  ground.vehicle().plans().rally = {ground.maker().at(MavCmd::nav_rally_point, {60, 0, -10})};
+  ground.go_to(80, 0, 15, 20s);
   EXPECT_EQ(ground.set_mode(6), MavResult::accepted);
   EXPECT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 120s));
   EXPECT_NEAR(ground.from_start(), 60.0, 1.0);
@@ -69,15 +61,9 @@ TEST(Rally, IsWhereACopterReturnsTo) {
 
 TEST(Rally, IsWhereARoverReturnsTo) {
   TestGround ground("rover");
-  ground.boot();
-  auto const make = ground.maker();
-  ground.vehicle().plans().rally = {make.at(MavCmd::nav_rally_point, {30, 0, 0})};
-  ground.set_mode(15);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
-  auto target = make.waypoint(50, 0, 0);
-  target.current = 2;
-  ground.send(target);
-  ground.run_for(20s);
+  ground.arm_in(rover_guided);
+  ground.vehicle().plans().rally = {ground.maker().at(MavCmd::nav_rally_point, {30, 0, 0})};
+  ground.go_to(50, 0, 0, 20s);
   EXPECT_EQ(ground.set_mode(11), MavResult::accepted);
   ground.run_for(20s);
   EXPECT_NEAR(ground.from_start(), 30.0, 3.0);

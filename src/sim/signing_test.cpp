@@ -8,8 +8,6 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int guided = 4;
-
 SigningKey some_key() {
   SigningKey key{};
   key.fill(7);
@@ -35,9 +33,9 @@ TEST(VehicleSigning, BeginsWithTheKeyThatItIsToldAndOutlastsARestart) {
   ground.vehicle().reboot();
   ground.run_for(10s);
   EXPECT_EQ(ground.gcs.signing()->key_of(1), "key");
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted) << "signed";
+  EXPECT_EQ(ground.set_mode(copter_guided), MavResult::accepted) << "signed";
   ground.gcs.set_keys(std::nullopt);
-  EXPECT_FALSE(ground.set_mode(guided)) << "not signed";
+  EXPECT_FALSE(ground.set_mode(copter_guided)) << "not signed";
 }
 
 TEST(VehicleSigning, EndsWithAKeyOfZeros) {
@@ -56,7 +54,7 @@ TEST(VehicleSigning, TakesNoKeyWhileItIsArmed) {
   TestGround ground("copter");
   ground.boot();
   listen_with_key(ground);
-  ASSERT_EQ(ground.set_mode(guided), MavResult::accepted);
+  ASSERT_EQ(ground.set_mode(copter_guided), MavResult::accepted);
   ASSERT_EQ(ground.arm(), MavResult::accepted);
   ground.send(SetupSigning{.key = some_key(), .initial_timestamp = 1});
   ground.run_for(2s);

@@ -13,6 +13,16 @@
 
 namespace lapwing::sim {
 
+/// ArduPilot's numbers of the modes that more than one test enters.
+constexpr int copter_auto = 3;
+constexpr int copter_guided = 4;
+constexpr int copter_land = 9;
+constexpr int plane_auto = 10;
+constexpr int plane_take_off = 13;
+constexpr int plane_guided = 15;
+constexpr int rover_auto = 10;
+constexpr int rover_guided = 15;
+
 /// Mission items about a world's home, for tests.
 struct ItemMaker {
   geo::Wgs84 home;
@@ -135,6 +145,35 @@ class TestGround {
         std::chrono::seconds(20));
     return result;
   }
+
+  /// Boots, uploads the mission if there is one, enters the mode and arms.
+  void arm_in(int mode, std::vector<mavlink::MissionItem> mission = {}) {
+    boot();
+    if (!mission.empty()) EXPECT_EQ(upload(std::move(mission)), mavlink::MavMissionResult::accepted);
+    EXPECT_EQ(set_mode(mode), mavlink::MavResult::accepted);
+    EXPECT_EQ(arm(), mavlink::MavResult::accepted);
+  }
+  /// A copter that begins this mission.
+  void fly(std::vector<mavlink::MissionItem> mission) {
+    arm_in(copter_guided, std::move(mission));
+    EXPECT_EQ(command(mavlink::MavCmd::mission_start), mavlink::MavResult::accepted);
+  }
+  /// A copter in guided mode at this height.
+  void hover(float height_m) {
+    arm_in(copter_guided);
+    EXPECT_EQ(command(mavlink::MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, height_m}), mavlink::MavResult::accepted);
+    run_for(std::chrono::seconds(8) + base::from_seconds(height_m / 2.0));
+  }
+  /// Sends the vehicle, which is in guided mode, there, as a ground station does, and lets `time` pass. Metres from
+  /// home.
+  void go_to(double north, double east, double up, base::Duration time) {
+    auto target = maker().waypoint(north, east, up);
+    target.current = 2;
+    send(target);
+    run_for(time);
+  }
+  /// Sets a parameter past the link.
+  void set(std::string_view name, float value) { EXPECT_TRUE(vehicle().parameters().set(name, value)) << name; }
 
   template <class M>
   std::vector<M> all(std::uint8_t system = 1, std::size_t from = 0,

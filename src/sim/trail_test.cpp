@@ -12,24 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int guided = 4;
 constexpr int smart_rtl = 21;
-
-/// As a ground station sends it there.
-void go_to(TestGround& ground, double north, double east, double up) {
-  auto const make = ground.maker();
-  auto target = make.waypoint(north, east, up);
-  target.current = 2;
-  ground.send(target);
-}
-
-void hover(TestGround& ground, float height_m) {
-  ground.boot();
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, height_m}), MavResult::accepted);
-  ground.run_for(8s + base::from_seconds(height_m / 2.0));
-}
 
 TEST(Trail, KeepsCornersAndForgetsStraightStretches) {
   Trail trail;
@@ -64,11 +47,9 @@ TEST(Trail, IsGivenUpWhenItCannotBeMadeShort) {
 
 TEST(SmartReturn, GoesBackTheWayThatLedThereAndLands) {
   TestGround ground("copter");
-  hover(ground, 20);
-  go_to(ground, 60, 0, 20);
-  ground.run_for(20s);
-  go_to(ground, 60, 60, 30);
-  ground.run_for(20s);
+  ground.hover(20);
+  ground.go_to(60, 0, 20, 20s);
+  ground.go_to(60, 60, 30, 20s);
   ASSERT_EQ(ground.set_mode(smart_rtl), MavResult::accepted);
   double farthest_from_path_m = 0.0;
   bool passed_corner = false;
@@ -90,11 +71,9 @@ TEST(SmartReturn, GoesBackTheWayThatLedThereAndLands) {
 
 TEST(SmartReturn, IsContinuedAfterAnInterruption) {
   TestGround ground("copter");
-  hover(ground, 10);
-  go_to(ground, 0, 50, 10);
-  ground.run_for(15s);
-  go_to(ground, 50, 50, 10);
-  ground.run_for(15s);
+  ground.hover(10);
+  ground.go_to(0, 50, 10, 15s);
+  ground.go_to(50, 50, 10, 15s);
   ground.set_mode(smart_rtl);
   ground.run_for(4s);
   EXPECT_EQ(ground.set_mode(17), MavResult::accepted);
@@ -106,11 +85,10 @@ TEST(SmartReturn, IsContinuedAfterAnInterruption) {
 
 TEST(SmartReturn, IsRefusedWhenTheTrailWasGivenUp) {
   TestGround ground("copter");
-  ground.vehicle().parameters().set("SRTL_POINTS", 5.0F);
-  hover(ground, 10);
+  ground.set("SRTL_POINTS", 5.0F);
+  ground.hover(10);
   for (int leg = 1; leg < 10; ++leg) {
-    go_to(ground, leg * 15.0, leg % 2 == 0 ? 40.0 : 0.0, 10);
-    ground.run_for(12s);
+    ground.go_to(leg * 15.0, leg % 2 == 0 ? 40.0 : 0.0, 10, 12s);
   }
   EXPECT_EQ(ground.said("SmartRTL deactivated: buffer full"), 1);
   EXPECT_EQ(ground.set_mode(smart_rtl), MavResult::failed);
@@ -119,13 +97,9 @@ TEST(SmartReturn, IsRefusedWhenTheTrailWasGivenUp) {
 
 TEST(SmartReturn, BringsARoverBackAndStopsIt) {
   TestGround ground("rover");
-  ground.boot();
-  ground.set_mode(15);
-  ASSERT_EQ(ground.arm(), MavResult::accepted);
-  go_to(ground, 40, 0, 0);
-  ground.run_for(25s);
-  go_to(ground, 40, 40, 0);
-  ground.run_for(25s);
+  ground.arm_in(rover_guided);
+  ground.go_to(40, 0, 0, 25s);
+  ground.go_to(40, 40, 0, 25s);
   EXPECT_EQ(ground.set_mode(12), MavResult::accepted);
   EXPECT_TRUE(ground.run_until([&] { return ground.said("Reached destination") == 1; }, 90s));
   EXPECT_LT(ground.from_start(), 4.0);

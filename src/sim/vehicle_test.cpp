@@ -12,8 +12,6 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
-constexpr int guided = 4;
-
 WorldOptions realistic() {
   WorldOptions options;
   options.boot = BootStyle::realistic;
@@ -219,7 +217,7 @@ TEST(Arming, IsRefusedBeforeTheChecksPassed) {
 TEST(Arming, NeedsAPositionInGuidedButNotInStabilize) {
   TestGround ground("copter", realistic());
   ground.run_for(25s);
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
+  EXPECT_EQ(ground.set_mode(copter_guided), MavResult::accepted);
   EXPECT_EQ(ground.arm(), MavResult::failed);
   EXPECT_EQ(ground.said("Arm: Need Position Estimate"), 1);
   EXPECT_EQ(ground.all<StatusText>().back().severity, MavSeverity::critical);
@@ -266,15 +264,13 @@ TEST(Arming, AnInjectedFaultIsRepeatedEveryThirtySeconds) {
   EXPECT_EQ(ground.arm(), MavResult::failed);
   EXPECT_EQ(ground.said("Arm: Compass not calibrated"), 1);
   ground.vehicle().refuse_arming("");
-  ground.set_mode(guided);
+  ground.set_mode(copter_guided);
   EXPECT_EQ(ground.arm(), MavResult::accepted);
 }
 
 TEST(Arming, EndsAfterTenSecondsOnTheGround) {
   TestGround ground("copter");
-  ground.boot();
-  ground.set_mode(guided);
-  ground.arm();
+  ground.arm_in(copter_guided);
   ground.run_for(9500ms);
   EXPECT_TRUE(ground.pilot().armed());
   ground.run_for(1s);
@@ -284,7 +280,7 @@ TEST(Arming, EndsAfterTenSecondsOnTheGround) {
 TEST(Arming, ShowsAtTheNextRegularHeartbeatAndAnnouncesHome) {
   TestGround ground("copter");
   ground.boot();
-  ground.set_mode(guided);
+  ground.set_mode(copter_guided);
   auto const homes = ground.all<HomePosition>().size();
   auto const from = ground.heard.size();
   ground.arm();
@@ -302,7 +298,7 @@ TEST(TakeOff, IsRefusedUnlessGuidedArmedAndLanded) {
   EXPECT_EQ(ground.command(MavCmd::nav_takeoff, height), MavResult::failed);
   ground.arm();
   EXPECT_EQ(ground.command(MavCmd::nav_takeoff, height), MavResult::failed);
-  ground.set_mode(guided);
+  ground.set_mode(copter_guided);
   EXPECT_EQ(ground.command(MavCmd::nav_takeoff, height), MavResult::accepted);
   ground.run_for(8s);
   EXPECT_EQ(ground.command(MavCmd::nav_takeoff, height), MavResult::failed);
@@ -337,7 +333,7 @@ TEST(Modes, AutoOnTheGroundNeedsATakeOffWhenArmed) {
   ground.boot();
   auto const make = ground.maker();
   ground.upload({make.waypoint(0, 0, 0), make.waypoint(10, 0, 10)});
-  ground.set_mode(guided);
+  ground.set_mode(copter_guided);
   ground.arm();
   EXPECT_EQ(ground.set_mode(3), MavResult::failed);
   EXPECT_EQ(ground.said("Auto: Missing Takeoff Cmd"), 1);
@@ -424,10 +420,8 @@ TEST(Battery, IsSwappedWhenTheVehicleHasStoodLongEnough) {
   TestGround ground("copter:1@40%", options);
   ground.boot();
   EXPECT_LT(ground.pilot().battery().remaining(), 0.41);
-  EXPECT_EQ(ground.set_mode(guided), MavResult::accepted);
-  EXPECT_EQ(ground.arm(), MavResult::accepted);
-  EXPECT_EQ(ground.command(MavCmd::nav_takeoff, {0, 0, 0, 0, 0, 0, 10}), MavResult::accepted);
-  ground.run_for(60s);
+  ground.hover(10);
+  ground.run_for(47s);
   EXPECT_LT(ground.pilot().battery().remaining(), 0.4);
   EXPECT_EQ(ground.set_mode(9), MavResult::accepted);
   ASSERT_TRUE(ground.run_until([&] { return !ground.pilot().armed(); }, 60s));
