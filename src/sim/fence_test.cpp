@@ -30,24 +30,8 @@ std::vector<MissionItem> square(TestGround& ground, MavCmd command, double north
   return items;
 }
 
-/// As `TestGround::upload`, for a fence.
 std::optional<MavMissionResult> upload_fence(TestGround& ground, std::vector<MissionItem> const& items) {
-  auto from = ground.heard.size();
-  ground.send(MissionCount{.count = static_cast<std::uint16_t>(items.size()), .type = MissionType::fence});
-  std::optional<MavMissionResult> result;
-  ground.run_until(
-      [&] {
-        for (; from < ground.heard.size() && !result; ++from) {
-          if (auto const* ack = std::get_if<MissionAck>(&ground.heard[from].message)) result = ack->result;
-          auto const* request = std::get_if<MissionRequest>(&ground.heard[from].message);
-          if (!request || request->seq >= items.size()) continue;
-          auto item = items[request->seq];
-          item.seq = request->seq;
-          ground.send(item);
-        }
-        return result.has_value();
-      },
-      10s);
+  auto const result = ground.upload(items);
   EXPECT_EQ(ground.vehicle().plans().fence.size(), items.size());
   return result;
 }

@@ -124,10 +124,11 @@ class TestGround {
                    system);
   }
 
-  /// Answers the vehicle's requests until it acknowledges; the acknowledgement, if one came.
+  /// Answers the vehicle's requests until it acknowledges; the acknowledgement, if one came. All items are of one type.
   std::optional<mavlink::MavMissionResult> upload(std::vector<mavlink::MissionItem> items, std::uint8_t system = 1) {
     auto from = heard.size();
-    send(mavlink::MissionCount{.target = {}, .count = static_cast<std::uint16_t>(items.size())}, system);
+    auto const type = items.empty() ? mavlink::MissionType::mission : items.front().type;
+    send(mavlink::MissionCount{.count = static_cast<std::uint16_t>(items.size()), .type = type}, system);
     std::optional<mavlink::MavMissionResult> result;
     run_until(
         [&] {
