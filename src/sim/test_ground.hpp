@@ -150,7 +150,9 @@ class TestGround {
   /// Boots, uploads the mission if there is one, enters the mode and arms.
   void arm_in(int mode, std::vector<mavlink::MissionItem> mission = {}) {
     boot();
-    if (!mission.empty()) EXPECT_EQ(upload(std::move(mission)), mavlink::MavMissionResult::accepted);
+    if (!mission.empty()) {
+      EXPECT_EQ(upload(std::move(mission)), mavlink::MavMissionResult::accepted);
+    }
     EXPECT_EQ(set_mode(mode), mavlink::MavResult::accepted);
     EXPECT_EQ(arm(), mavlink::MavResult::accepted);
   }
