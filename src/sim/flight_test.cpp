@@ -10,6 +10,12 @@ namespace {
 using namespace std::chrono_literals;
 using namespace mavlink;
 
+/// Sends a vehicle in guided mode to a place seen from home.
+void reposition(TestGround& ground, geo::Ned offset) {
+  auto const there = ground.maker().at(MavCmd::do_reposition, offset, {-1});
+  ground.send(CommandInt{.frame = there.frame, .command = there.command, .params = there.params, .place = there.place});
+}
+
 TEST(CopterFlight, TakesOffInGuidedAfterSpoolingUpWithoutOvershoot) {
   TestGround ground("copter");
   ground.arm_in(copter_guided);
@@ -126,14 +132,7 @@ TEST(CopterFlight, TakesOffInAutoByItselfWhenAutoOptionsAllowIt) {
 TEST(CopterFlight, ReturnsHomeAtTheReturnHeightWaitsAndLands) {
   TestGround ground("copter");
   ground.hover(8);
-  auto const far = geo::displaced(ground.world.options().home, {60, 0, 0});
-  CommandInt go{.target = {},
-                .frame = MavFrame::global_relative_alt_int,
-                .command = MavCmd::do_reposition,
-                .params = {-1, 0, 0, 0},
-                .place = {}};
-  go.place = {.lat_rad = far.lat_rad, .lon_rad = far.lon_rad, .x = 0, .y = 0, .z_m = 8};
-  ground.send(go);
+  reposition(ground, {60, 0, -8});
   ground.run_for(15s);
   EXPECT_NEAR(ground.from_start(), 60.0, 1.0);
   EXPECT_EQ(ground.command(MavCmd::nav_return_to_launch), MavResult::accepted);
@@ -300,14 +299,7 @@ TEST(RoverFlight, DrivesAMissionAndStops) {
 TEST(RoverFlight, DrivesToAGuidedPointAndHome) {
   TestGround ground("rover");
   ground.arm_in(rover_guided);
-  auto const far = geo::displaced(ground.world.options().home, {25, 10, 0});
-  CommandInt go{.target = {},
-                .frame = MavFrame::global_relative_alt_int,
-                .command = MavCmd::do_reposition,
-                .params = {-1, 0, 0, 0},
-                .place = {}};
-  go.place = {.lat_rad = far.lat_rad, .lon_rad = far.lon_rad, .x = 0, .y = 0, .z_m = 0};
-  ground.send(go);
+  reposition(ground, {25, 10, 0});
   ground.run_for(25s);
   EXPECT_NEAR(ground.from_start(), std::hypot(25.0, 10.0), 1.0);
   EXPECT_EQ(ground.command(MavCmd::nav_return_to_launch), MavResult::accepted);

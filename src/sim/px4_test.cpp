@@ -30,6 +30,14 @@ std::vector<MissionItem> out_and_back(TestGround& ground) {
           ItemMaker::plain(MavCmd::nav_return_to_launch)};
 }
 
+/// Brings it into the air to this altitude above the sea, where it loiters.
+void take_off(TestGround& ground, float altitude_m) {
+  ground.boot();
+  ground.command(MavCmd::nav_takeoff, {0, 0, 0, NAN, NAN, NAN, altitude_m});
+  ground.arm();
+  ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mode().number == loiter; }, 30s));
+}
+
 TEST(Px4, SaysWhoItIs) {
   TestGround ground("px4");
   ground.boot();
@@ -100,10 +108,7 @@ TEST(Px4, TakesOffToAnAltitudeAboveTheSeaAndHoldsThere) {
 TEST(Px4, ClimbsToItsOwnHeightWhenNoneIsGiven) {
   TestGround ground("px4");
   ground.set("MIS_TAKEOFF_ALT", 6.0F);
-  ground.boot();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, NAN, NAN, NAN, NAN});
-  ground.arm();
-  EXPECT_TRUE(ground.run_until([&] { return ground.pilot().mode().number == loiter; }, 30s));
+  take_off(ground, NAN);
   ground.run_for(5s);
   EXPECT_NEAR(ground.pilot().body().height_m(), 6.0, 0.5);
 }
@@ -183,10 +188,7 @@ TEST(Px4, DisarmsWhenNothingFollowsTheArming) {
 
 TEST(Px4, GoesWhereItIsSentAndIsGuidedFromOutside) {
   TestGround ground("px4");
-  ground.boot();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, NAN, NAN, NAN, 100});
-  ground.arm();
-  ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mode().number == loiter; }, 30s));
+  take_off(ground, 100);
   auto const there = geo::displaced(ground.world.options().home, {40, 0, -10});
   CommandInt const go{.frame = MavFrame::global,
                       .command = MavCmd::do_reposition,
@@ -224,10 +226,7 @@ TEST(Px4, HoldsAtItsFenceInACriticalState) {
 
 TEST(Px4, LandsWithoutGps) {
   TestGround ground("px4");
-  ground.boot();
-  ground.command(MavCmd::nav_takeoff, {0, 0, 0, NAN, NAN, NAN, 105});
-  ground.arm();
-  ASSERT_TRUE(ground.run_until([&] { return ground.pilot().mode().number == loiter; }, 30s));
+  take_off(ground, 105);
   ParamSet const set{.name = "SIM_GPS_USED", .value = std::bit_cast<float>(0), .type = MavParamType::int32};
   ground.send(set);
   ground.run_for(10s);
