@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mavlink/fake_vehicle_test.hpp"
+#include "mavlink/mission_store_test.hpp"
 
 namespace lapwing::mavlink {
 namespace {
@@ -10,18 +10,6 @@ namespace {
 using namespace testing;
 
 constexpr auto ardupilot = MavAutopilot::ardupilotmega;
-
-/// Way points at heights from `first_m` up.
-std::vector<MissionItem> plan_of(std::size_t size, double first_m) {
-  std::vector<MissionItem> items(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    items[i].frame = MavFrame::global;
-    items[i].command = MavCmd::nav_waypoint;
-    items[i].seq = static_cast<std::uint16_t>(i);
-    items[i].place = {.lat_rad = 0.7, .lon_rad = -0.1, .z_m = first_m + static_cast<double>(i)};
-  }
-  return items;
-}
 
 bool holds(MissionStore const& store, std::vector<MissionItem> const& items) {
   return compare_readback(items, store.items, ardupilot).empty();
@@ -41,9 +29,9 @@ struct Replacing : ::testing::Test {
 };
 
 TEST_F(Replacing, PutsTheNewPlanThereAndReadsItBack) {
-  store.items = plan_of(3, 50.0);
-  ASSERT_TRUE(replace(plan_of(5, 10.0)));
-  EXPECT_TRUE(holds(store, plan_of(5, 10.0)));
+  store.items = mission_of(3, 50.0);
+  ASSERT_TRUE(replace(mission_of(5, 10.0)));
+  EXPECT_TRUE(holds(store, mission_of(5, 10.0)));
   EXPECT_EQ(record.left, PlanLeft::new_one);
   EXPECT_EQ(record.written, 5u);
   EXPECT_EQ(record.before->items.size(), 3u);
@@ -51,16 +39,16 @@ TEST_F(Replacing, PutsTheNewPlanThereAndReadsItBack) {
 }
 
 TEST_F(Replacing, WritesNothingThatIsThereAlready) {
-  store.items = plan_of(5, 10.0);
-  ASSERT_TRUE(replace(plan_of(5, 10.0)));
+  store.items = mission_of(5, 10.0);
+  ASSERT_TRUE(replace(mission_of(5, 10.0)));
   EXPECT_EQ(record.written, 0u);
   EXPECT_EQ(record.left, PlanLeft::new_one);
   EXPECT_TRUE(bench.vehicle->all<MissionItem>().empty());
 }
 
 TEST_F(Replacing, WritesOnlyThePartThatChanges) {
-  store.items = plan_of(20, 10.0);
-  auto changed = plan_of(20, 10.0);
+  store.items = mission_of(20, 10.0);
+  auto changed = mission_of(20, 10.0);
   changed[7].place.z_m = 99.0;
   changed[9].place.z_m = 99.0;
   ASSERT_TRUE(replace(changed));
@@ -71,9 +59,9 @@ TEST_F(Replacing, WritesOnlyThePartThatChanges) {
 }
 
 TEST_F(Replacing, WritesTheWholeWhenAPartIsRefused) {
-  store.items = plan_of(20, 10.0);
+  store.items = mission_of(20, 10.0);
   store.refuses_part = MavMissionResult::error;
-  auto changed = plan_of(20, 10.0);
+  auto changed = mission_of(20, 10.0);
   changed[7].place.z_m = 99.0;
   auto const begun = bench.loop.now();
   ASSERT_TRUE(replace(changed));
@@ -83,7 +71,7 @@ TEST_F(Replacing, WritesTheWholeWhenAPartIsRefused) {
 }
 
 TEST_F(Replacing, PutsTheOldPlanBackWhenAnItemIsRefused) {
-  store.items = plan_of(4, 50.0);
+  store.items = mission_of(4, 50.0);
   auto const script = bench.vehicle->on;
   bench.vehicle->on = [&](Message const& message) {
     // Whatever is as low as the new plan's item 2.
@@ -92,21 +80,21 @@ TEST_F(Replacing, PutsTheOldPlanBackWhenAnItemIsRefused) {
     if (item && item->seq == 2 && item->place.z_m < 20.0) store.refuses = {2, MavMissionResult::invalid_param7};
     script(message);
   };
-  auto const result = replace(plan_of(6, 10.0));
+  auto const result = replace(mission_of(6, 10.0));
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, base::ErrorKind::refused);
   EXPECT_EQ(result.error().message,
             "upload: vehicle 1 refused item 2 (NAV_WAYPOINT): invalid altitude or parameter 7; the vehicle still holds "
             "its old plan");
   EXPECT_EQ(record.left, PlanLeft::old_one);
-  EXPECT_TRUE(holds(store, plan_of(4, 50.0)));
+  EXPECT_TRUE(holds(store, mission_of(4, 50.0)));
 }
 
 TEST_F(Replacing, ClearsWhatItCannotPutBack) {
-  store.items = plan_of(4, 50.0);
+  store.items = mission_of(4, 50.0);
   store.spoils_item_1 = true;
   store.refuses = {2, MavMissionResult::invalid_param7};  // the old plan's, too
-  auto const result = replace(plan_of(6, 10.0));
+  auto const result = replace(mission_of(6, 10.0));
   ASSERT_FALSE(result);
   EXPECT_EQ(record.left, PlanLeft::none);
   EXPECT_TRUE(store.items.empty());
@@ -114,35 +102,35 @@ TEST_F(Replacing, ClearsWhatItCannotPutBack) {
 }
 
 TEST_F(Replacing, ClearsWhereTheOldPlanWasNotKept) {
-  store.items = plan_of(4, 50.0);
+  store.items = mission_of(4, 50.0);
   store.refuses = {2, MavMissionResult::unsupported};
-  ASSERT_FALSE(replace(plan_of(6, 10.0), {.keeps_old = false}));
+  ASSERT_FALSE(replace(mission_of(6, 10.0), {.keeps_old = false}));
   EXPECT_EQ(record.left, PlanLeft::none);
   EXPECT_TRUE(store.items.empty());
 }
 
 TEST_F(Replacing, TouchesNothingWhenTheNumberOfItemsIsRefused) {
-  store.items = plan_of(4, 50.0);
+  store.items = mission_of(4, 50.0);
   store.refuses_count = MavMissionResult::no_space;
-  ASSERT_FALSE(replace(plan_of(6, 10.0)));
+  ASSERT_FALSE(replace(mission_of(6, 10.0)));
   EXPECT_EQ(record.left, PlanLeft::old_one);
-  EXPECT_TRUE(holds(store, plan_of(4, 50.0)));
+  EXPECT_TRUE(holds(store, mission_of(4, 50.0)));
   EXPECT_TRUE(bench.vehicle->all<MissionClearAll>().empty());
 }
 
 TEST_F(Replacing, DoesNotTrustAVehicleThatKeepsSomethingElse) {
-  store.items = plan_of(4, 50.0);
+  store.items = mission_of(4, 50.0);
   store.spoils_item_1 = true;
-  auto const result = replace(plan_of(6, 10.0));
+  auto const result = replace(mission_of(6, 10.0));
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message.find("item 1: altitude 16.00 m, sent 11.00 m"), std::string::npos);
   EXPECT_EQ(record.left, PlanLeft::none);
 }
 
 TEST_F(Replacing, SaysWhenItDoesNotKnowWhatIsLeft) {
-  store.items = plan_of(4, 50.0);
+  store.items = mission_of(4, 50.0);
   store.silent_at = 2;
-  auto const result = replace(plan_of(6, 10.0));
+  auto const result = replace(mission_of(6, 10.0));
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, base::ErrorKind::timed_out);
   EXPECT_EQ(record.left, PlanLeft::unknown);
@@ -151,7 +139,7 @@ TEST_F(Replacing, SaysWhenItDoesNotKnowWhatIsLeft) {
 }
 
 TEST_F(Replacing, CanBeUndoneWhenItWasGivenUp) {
-  store.items = plan_of(40, 50.0);
+  store.items = mission_of(40, 50.0);
   auto const script = bench.vehicle->on;
   bool drops = true;
   bench.vehicle->on = [&](Message const& message) {
@@ -160,7 +148,7 @@ TEST_F(Replacing, CanBeUndoneWhenItWasGivenUp) {
   };
   ReplaceOptions const options{.autopilot = ardupilot};
   {
-    auto task = replace_plan(bench.ground, Bench::target, plan_of(30, 10.0), MissionType::mission, options, record);
+    auto task = replace_plan(bench.ground, Bench::target, mission_of(30, 10.0), MissionType::mission, options, record);
     task.start();
     bench.run_for(2s);
     ASSERT_FALSE(task.done());
@@ -169,7 +157,7 @@ TEST_F(Replacing, CanBeUndoneWhenItWasGivenUp) {
   drops = false;
   bench.loop.run_until_done(undo_replacement(bench.ground, Bench::target, MissionType::mission, options, record));
   EXPECT_EQ(record.left, PlanLeft::old_one);
-  EXPECT_TRUE(holds(store, plan_of(40, 50.0)));
+  EXPECT_TRUE(holds(store, mission_of(40, 50.0)));
 }
 
 /// Whatever the link does: the new plan is there, or the old one, or none, or it is said that nobody knows.
@@ -177,15 +165,15 @@ TEST(ReplacingOverABadLink, LeavesWhatItSays) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Bench bench({.loss = seed % 2 ? 0.3 : 0.5, .duplication = 0.1, .delay = 50ms, .jitter = 20ms, .seed = seed});
     MissionStore store(*bench.vehicle);
-    store.items = plan_of(8, 50.0);
+    store.items = mission_of(8, 50.0);
     Replacement record;
     ReplaceOptions const options{.autopilot = ardupilot};
     auto const result = bench.loop.run_until_done(
-        replace_plan(bench.ground, Bench::target, plan_of(12, 10.0), MissionType::mission, options, record));
+        replace_plan(bench.ground, Bench::target, mission_of(12, 10.0), MissionType::mission, options, record));
     EXPECT_EQ(result.has_value(), record.left == PlanLeft::new_one);
     auto const is_true = [&] {
-      if (record.left == PlanLeft::new_one) return holds(store, plan_of(12, 10.0));
-      if (record.left == PlanLeft::old_one) return holds(store, plan_of(8, 50.0));
+      if (record.left == PlanLeft::new_one) return holds(store, mission_of(12, 10.0));
+      if (record.left == PlanLeft::old_one) return holds(store, mission_of(8, 50.0));
       return record.left == PlanLeft::unknown || store.items.empty();
     };
     EXPECT_TRUE(is_true()) << "with seed " << seed << ": " << to_string(record.left);
