@@ -51,6 +51,13 @@ TEST(VehicleFlow, RefusesTasksThatThePickedTypeCannotDo) {
             "      |     ^~~~\n");
 }
 
+TEST(VehicleFlow, RefusesTasksThatNoneOfThePickedTypesCanDo) {
+  auto const text = complaints("v = pick { type 'UGV' } + pick { type 'UAV' }\nexecute v: dive { }");
+  EXPECT_NE(text.find("t:2:9: error: v does not suit this dive: a UGV cannot dive [unsuited-vehicle]"),
+            std::string::npos)
+      << text;
+}
+
 TEST(VehicleFlow, SaysNothingOfTypesThatItDoesNotKnow) {
   EXPECT_EQ(complaints("v = pick { type 'UUV' }\nexecute v: dive { }"), "");
   EXPECT_EQ(complaints("v = pick { }\nexecute v: dive { }"), "");

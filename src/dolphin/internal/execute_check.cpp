@@ -44,8 +44,8 @@ class ExecuteCheck {
       collect(*argument.value, limit);
     }
     for (auto const& demand : demands_) {
-      if (demand.from && (is_released(demand) || is_too_few(demand) || is_unsuited(demand))) return;
-      if (!demand.from && demand.name.empty() && suits_nobody(demand)) return;
+      if (demand.from && (is_released(demand) || is_too_few(demand))) return;
+      if (is_unsuited(demand)) return;
     }
     bool const is_clear =
         std::ranges::none_of(demands_, [](Demand const& one) { return !one.from && !one.name.empty(); });
@@ -112,70 +112,68 @@ class ExecuteCheck {
     return true;
   }
 
-  /// Whether the vehicles, as they were asked for, cannot do what the task's blocks say.
+  /// Whether no vehicle that can be meant, as they were asked for, can do what one of the task's blocks says.
   bool is_unsuited(Demand const& demand) {
-    auto const& first = state_.pick(demand.from->picks.front());
-    for (auto const pick : demand.from->picks) {
-      auto const& other = state_.pick(pick);
-      if (other.type != first.type || other.payload != first.payload) return false;
-    }
-    if (first.type.empty() && first.payload.empty()) return false;
+    auto const picks = candidates(demand);
     for (auto const* block : tasks_.blocks(*demand.task)) {
       auto const built = tasks_.built(*block);
-      if (built && is_unsuited(demand, *block, *built, first)) return true;
-    }
-    return false;
-  }
-
-  /// Of all picks, when they are known: no other vehicle can be meant.
-  template <class Test>
-  [[nodiscard]] bool all_picked(Test test) const {
-    if (state_.most_picked().value_or(0) == 0) return false;
-    for (PickIndex pick = 0; pick < state_.picks().size(); ++pick) {
-      if (!test(pick)) return false;
-    }
-    return true;
-  }
-
-  bool is_unsuited(Demand const& demand, ast::Expr const& block, tasks::PlatformTask const& task, Pick const& pick) {
-    tasks::VehicleInfo vehicle;
-    vehicle.type = pick.type;
-    auto reason = task.unsuited(vehicle);
-    bool const is_certain = reason.has_value();
-    vehicle.payload = pick.payload;
-    if (!reason) reason = task.unsuited(vehicle);
-    if (!reason) return false;
-    auto const& callee = std::get<ast::Call>(block.node).callee;
-    diagnostics_.report(is_certain ? code("unsuited-vehicle") : code("missing-payload"), demand.place,
-                        fmt::format("{} does not suit this {}: {}", demand.name, task.kind(), *reason),
-                        is_certain ? "pick another type, or leave out what it cannot do" : "ask for it in pick",
-                        {{pick.place, "picked here"}, {callee->span, "made here"}});
-    return true;
-  }
-
-  /// Any vehicle would do, but every one that the script picks is of a type that cannot do what one of the blocks says.
-  bool suits_nobody(Demand const& demand) {
-    auto const picks = state_.picks();
-    if (!state_.most_picked() || picks.empty()) return false;
-    for (auto const* block : tasks_.blocks(*demand.task)) {
-      auto const built = tasks_.built(*block);
-      if (!built) continue;
-      std::optional<std::string> reason;
-      for (auto const& pick : picks) {
-        tasks::VehicleInfo vehicle;
-        vehicle.type = pick.type;
-        reason = pick.type.empty() ? std::nullopt : built->unsuited(vehicle);
-        if (!reason) break;
-      }
-      if (!reason) continue;
-      diagnostics_.report(
-          code("unsuited-vehicle"), demand.task->span,
-          fmt::format("no vehicle that is picked suits this {}: {}", built->kind(), *reason),
-          "pick another type, or leave out what it cannot do",
-          {{picks.back().place, "picked here"}, {std::get<ast::Call>(block->node).callee->span, "made here"}});
+      auto const misfit = built ? misfit_of(*built, picks) : std::nullopt;
+      // Which of the vehicles that any task may have carries what is found out when they are allocated.
+      if (!misfit || (!demand.from && !misfit->is_certain)) continue;
+      report_unsuited(demand, *block, built->kind(), *misfit);
       return true;
     }
     return false;
+  }
+
+  /// The picks that its vehicles can come from; none when they are not known.
+  [[nodiscard]] std::vector<Pick const*> candidates(Demand const& demand) const {
+    std::vector<Pick const*> out;
+    if (demand.from) {
+      for (auto const pick : demand.from->picks) out.push_back(&state_.pick(pick));
+    } else if (demand.name.empty() && state_.most_picked()) {
+      for (auto const& pick : state_.picks()) out.push_back(&pick);
+    }
+    return out;
+  }
+
+  struct Misfit {
+    Pick const* pick;
+    std::string reason;
+    bool is_certain;  ///< by its type; vehicles may carry more than was asked for
+  };
+
+  [[nodiscard]] static std::optional<Misfit> misfit_of(tasks::PlatformTask const& task, Pick const& pick) {
+    tasks::VehicleInfo vehicle;
+    vehicle.type = pick.type;
+    auto reason = pick.type.empty() ? std::nullopt : task.unsuited(vehicle);
+    if (reason) return Misfit{&pick, std::move(*reason), true};
+    if (pick.payload.empty()) return std::nullopt;
+    vehicle.payload = pick.payload;
+    reason = task.unsuited(vehicle);
+    return reason ? std::optional(Misfit{&pick, std::move(*reason), false}) : std::nullopt;
+  }
+
+  /// The least certain of all; nothing when one of the picks suits.
+  [[nodiscard]] static std::optional<Misfit> misfit_of(tasks::PlatformTask const& task,
+                                                       std::vector<Pick const*> const& picks) {
+    std::optional<Misfit> out;
+    for (auto const* pick : picks) {
+      auto misfit = misfit_of(task, *pick);
+      if (!misfit) return std::nullopt;
+      if (!out || (out->is_certain && !misfit->is_certain)) out = std::move(misfit);
+    }
+    return out;
+  }
+
+  void report_unsuited(Demand const& demand, ast::Expr const& block, std::string_view kind, Misfit const& misfit) {
+    auto const who =
+        demand.from ? fmt::format("{} does not suit", demand.name) : std::string("no vehicle that is picked suits");
+    diagnostics_.report(
+        misfit.is_certain ? code("unsuited-vehicle") : code("missing-payload"),
+        demand.from ? demand.place : demand.task->span, fmt::format("{} this {}: {}", who, kind, misfit.reason),
+        misfit.is_certain ? "pick another type, or leave out what it cannot do" : "ask for it in pick",
+        {{misfit.pick->place, "picked here"}, {std::get<ast::Call>(block.node).callee->span, "made here"}});
   }
 
   /// Two parts that have the same vehicles, and not enough of them.
@@ -219,6 +217,16 @@ class ExecuteCheck {
                         fmt::format("{} cannot be allocated: {} and {} are the same {}", text(task), earlier.name,
                                     later.name, there == 1 ? "vehicle" : counted(there)),
                         "run tasks one after the other with >>", {{earlier.place, "taken here already"}});
+  }
+
+  /// Of all picks, when they are known: no other vehicle can be meant.
+  template <class Test>
+  [[nodiscard]] bool all_picked(Test test) const {
+    if (state_.most_picked().value_or(0) == 0) return false;
+    for (PickIndex pick = 0; pick < state_.picks().size(); ++pick) {
+      if (!test(pick)) return false;
+    }
+    return true;
   }
 
   void are_too_many() {
