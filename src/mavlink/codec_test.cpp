@@ -10,10 +10,12 @@
 
 #include <gtest/gtest.h>
 
+#include "mavlink/frame_bytes_test.hpp"
+
 namespace lapwing::mavlink {
 namespace {
 
-using Data = std::vector<std::uint8_t>;
+using namespace testing;
 
 struct Golden {
   std::string name;
@@ -34,19 +36,6 @@ std::vector<Golden> golden_frames() {
   return all;
 }
 
-Frame frame_from(Data const& bytes) {
-  Frame result;
-  FrameParser parser;
-  parser.feed(bytes, [&](Frame const& frame) { result = frame; });
-  EXPECT_EQ(parser.counters().frames, 1u);
-  return result;
-}
-
-Data bytes_of(Frame const& frame) {
-  auto const out = serialize(frame);
-  return {out.bytes().begin(), out.bytes().end()};
-}
-
 /// Through the wire and back.
 template <class M>
 M carried(M const& message) {
@@ -59,7 +48,7 @@ TEST(Codec, ReadsAndRewritesWhatPymavlinkPacks) {
   ASSERT_GT(frames.size(), 50u);
   std::set<std::size_t> kinds;
   for (auto const& golden : frames) {
-    auto const frame = frame_from(golden.bytes);
+    auto const frame = parsed(golden.bytes);
     auto const message = decode(frame);
     ASSERT_TRUE(message) << golden.name;
     kinds.insert(message->index());
@@ -72,7 +61,7 @@ TEST(Codec, IsStableForEveryMessageWithAnyPayload) {
   // What was decoded once is encoded without further change, whatever bytes came first.
   std::mt19937 random(3);
   for (auto const& golden : golden_frames()) {
-    auto frame = frame_from(golden.bytes);
+    auto frame = parsed(golden.bytes);
     for (int i = 0; i < 200; ++i) {
       for (auto& byte : frame.payload)
         byte = static_cast<std::uint8_t>(random() % 3 == 0 ? random() % 2 * 255 : random());

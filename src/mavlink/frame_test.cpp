@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "mavlink/frame_bytes_test.hpp"
+
 namespace lapwing::mavlink {
 namespace {
 
-using Data = std::vector<std::uint8_t>;
+using namespace testing;
 
 // Packed by pymavlink: a ground station's HEARTBEAT (sequence 7), the same signed (sequence 200), and vehicle 1's
 // GLOBAL_POSITION_INT and MISSION_COUNT in MAVLink 1 (sequence 9).
@@ -36,11 +38,6 @@ std::vector<Frame> frames_of(FrameParser& parser, Data const& data) {
   std::vector<Frame> frames;
   parser.feed(data, [&](Frame const& frame) { frames.push_back(frame); });
   return frames;
-}
-
-Data bytes_of(Frame const& frame) {
-  auto const out = serialize(frame);
-  return {out.bytes().begin(), out.bytes().end()};
 }
 
 TEST(Crc, MatchesThePublishedCheckValue) {

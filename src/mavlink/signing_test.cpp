@@ -6,12 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "mavlink/codec.hpp"
+#include "mavlink/frame_bytes_test.hpp"
 
 namespace lapwing::mavlink {
 namespace {
 
 using namespace std::chrono_literals;
-using Data = std::vector<std::uint8_t>;
+using namespace testing;
 
 SigningKey counting_key() {
   SigningKey key{};
@@ -23,19 +24,6 @@ SigningKey counting_key() {
 Data const from_pymavlink = {0xFD, 0x09, 0x01, 0x00, 0xC8, 0xFF, 0xBE, 0x00, 0x00, 0x00, 0x00, 0x00,
                              0x00, 0x00, 0x06, 0x08, 0x00, 0x04, 0x03, 0x09, 0x52, 0x03, 0x05, 0x04,
                              0x03, 0x02, 0x01, 0x00, 0xF5, 0xCA, 0x9B, 0xEA, 0x92, 0x20};
-
-Frame parsed(Data const& data) {
-  Frame result;
-  FrameParser parser;
-  parser.feed(data, [&](Frame const& frame) { result = frame; });
-  EXPECT_EQ(parser.counters().frames, 1U);
-  return result;
-}
-
-Data bytes_of(Frame const& frame) {
-  auto const out = serialize(frame);
-  return {out.bytes().begin(), out.bytes().end()};
-}
 
 Frame heartbeat(std::uint8_t system, std::uint8_t seq = 0) {
   return encode(Heartbeat{.type = MavType::quadrotor}, {system, 1}, seq);
