@@ -133,10 +133,7 @@ void write(CommandLong const& m, Frame& frame) {
   put_target(w, m.target);
   w.command = static_cast<std::uint16_t>(m.command);
   w.confirmation = m.confirmation;
-  w.param1 = m.params[0];
-  w.param2 = m.params[1];
-  w.param3 = m.params[2];
-  w.param4 = m.params[3];
+  put_params(w, m.params);
   w.param5 = m.params[4];
   w.param6 = m.params[5];
   w.param7 = m.params[6];
@@ -149,10 +146,7 @@ void write(CommandInt const& m, Frame& frame) {
   put_target(w, m.target);
   w.frame = static_cast<std::uint8_t>(m.frame);
   w.command = static_cast<std::uint16_t>(m.command);
-  w.param1 = m.params[0];
-  w.param2 = m.params[1];
-  w.param3 = m.params[2];
-  w.param4 = m.params[3];
+  put_params(w, m.params);
   w.x = place.x;
   w.y = place.y;
   w.z = place.z;

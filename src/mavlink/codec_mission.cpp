@@ -64,10 +64,7 @@ Wire wire_without_place(MissionItem const& m) {
   w.seq = m.seq;
   w.frame = static_cast<std::uint8_t>(m.frame);
   w.command = static_cast<std::uint16_t>(m.command);
-  w.param1 = m.params[0];
-  w.param2 = m.params[1];
-  w.param3 = m.params[2];
-  w.param4 = m.params[3];
+  put_params(w, m.params);
   w.current = m.current;
   w.autocontinue = m.autocontinue ? 1 : 0;
   w.mission_type = static_cast<std::uint8_t>(m.type);

@@ -121,4 +121,13 @@ template <class Wire>
   return {wire.target_system, wire.target_component};
 }
 
+/// The first four, which commands and mission items have in common.
+template <class Wire, class Params>
+void put_params(Wire& wire, Params const& params) {
+  wire.param1 = params[0];
+  wire.param2 = params[1];
+  wire.param3 = params[2];
+  wire.param4 = params[3];
+}
+
 }  // namespace lapwing::mavlink::internal
