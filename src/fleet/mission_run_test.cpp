@@ -26,8 +26,17 @@ struct MissionRun : testing::Test {
     (void)world->run_until([&run] { return run.state() != RunState::in_progress; }, limit);
     return run.state();
   }
-  bool comes_to(tasks::TaskRun const& run, std::string_view progress, base::Duration limit = 120s) {
-    return world->run_until([&] { return run.progress().find(progress) != std::string::npos; }, limit);
+  /// Why a mission fails whose copter says this in flight and returns home.
+  std::string error_after(mavlink::MavSeverity severity, char const* text) {
+    auto& copter = world->add();
+    world->run_for(5s);
+    auto const run = start(mission_ending_with(MavCmd::nav_land));
+    EXPECT_TRUE(world->comes_to(*run, "item 2/"));
+    world->run_for(2s);
+    copter.say(severity, text);
+    copter.change_mode(copter_mode::rtl);
+    EXPECT_EQ(end_of(*run, 3s), RunState::failed);
+    return run->error();
   }
 
   std::unique_ptr<TestWorld> world = std::make_unique<TestWorld>();
@@ -146,7 +155,7 @@ TEST_F(MissionRun, FailsAsLostWhenTheVehicleFallsSilentInFlight) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_loiter_unlim));
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   copter.is_silent = true;
   EXPECT_EQ(end_of(*run, 19s), RunState::in_progress);
   EXPECT_EQ(end_of(*run, 5s), RunState::failed);
@@ -158,7 +167,7 @@ TEST_F(MissionRun, SurvivesASilenceShorterThanTheTimeout) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_land, 8));
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   copter.is_silent = true;
   world->run_for(12s);
   copter.is_silent = false;
@@ -190,7 +199,7 @@ TEST_F(MissionRun, KnowsACopterAsUavAndItsAutoAsMode3) {
   world->run_for(5s);
   EXPECT_EQ(world->platform->find(one)->type, "UAV");
   auto const run = start(mission_ending_with(MavCmd::nav_loiter_unlim));
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 2/"));
   EXPECT_EQ(copter.mode, 3u);
 }
 
@@ -213,7 +222,7 @@ TEST_F(MissionRun, LeavesTheVehicleToThePilotWhoChangesItsMode) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_land));
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 2/"));
   world->run_for(2s);
   auto const heard = copter.heard.size();
   copter.change_mode(copter_mode::stabilize);
@@ -224,27 +233,13 @@ TEST_F(MissionRun, LeavesTheVehicleToThePilotWhoChangesItsMode) {
 }
 
 TEST_F(MissionRun, NamesTheFailsafeThatTookTheVehicleOver) {
-  auto& copter = world->add();
-  world->run_for(5s);
-  auto const run = start(mission_ending_with(MavCmd::nav_land));
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
-  world->run_for(2s);
-  copter.say(mavlink::MavSeverity::critical, "Battery Failsafe");
-  copter.change_mode(copter_mode::rtl);
-  EXPECT_EQ(end_of(*run, 3s), RunState::failed);
-  EXPECT_EQ(run->error(), "mode changed to RTL by the vehicle: Battery Failsafe");
+  EXPECT_EQ(error_after(mavlink::MavSeverity::critical, "Battery Failsafe"),
+            "mode changed to RTL by the vehicle: Battery Failsafe");
 }
 
 TEST_F(MissionRun, NamesTheFenceThatEndedItInTheWordsOfArduPilot47) {
-  auto& copter = world->add();
-  world->run_for(5s);
-  auto const run = start(mission_ending_with(MavCmd::nav_land));
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
-  world->run_for(2s);
-  copter.say(mavlink::MavSeverity::notice, "Circle fence breached");
-  copter.change_mode(copter_mode::rtl);
-  EXPECT_EQ(end_of(*run, 3s), RunState::failed);
-  EXPECT_EQ(run->error(), "mode changed to RTL by the vehicle: Circle fence breached");
+  EXPECT_EQ(error_after(mavlink::MavSeverity::notice, "Circle fence breached"),
+            "mode changed to RTL by the vehicle: Circle fence breached");
 }
 
 TEST_F(MissionRun, IsDoneWhenTheAutopilotReturnsByItselfAfterTheLastItem) {
@@ -286,11 +281,11 @@ TEST_F(MissionRun, TakesAVehicleOutOfAutoBeforeTheUpload) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const first = start(mission_ending_with(MavCmd::nav_loiter_unlim));
-  ASSERT_TRUE(comes_to(*first, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*first, "item 3/"));
   auto const second = start(mission_ending_with(MavCmd::nav_land));
   EXPECT_EQ(first->state(), RunState::failed);
   EXPECT_EQ(first->error(), "another task took the vehicle");
-  ASSERT_TRUE(comes_to(*second, "uploading"));
+  ASSERT_TRUE(world->comes_to(*second, "uploading"));
   EXPECT_EQ(copter.mode, copter_mode::brake);
   EXPECT_EQ(end_of(*second), RunState::done) << second->error();
 }
@@ -333,7 +328,7 @@ TEST_F(MissionRun, FailsWhenTheVehicleRestartsInFlight) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_land));
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 2/"));
   copter.reboot(world->hub.connect());
   EXPECT_EQ(end_of(*run, 10s), RunState::failed);
   EXPECT_EQ(run->error(), "copter 1 restarted");
@@ -359,7 +354,7 @@ TEST_F(MissionRun, TakesASecondVehicleThatAppearsInFlightForNoRestart) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start(mission_ending_with(MavCmd::nav_land, 8));
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 2/"));
   auto& twin = world->add();
   EXPECT_EQ(end_of(*run, 10s), RunState::failed);
   EXPECT_NE(run->error().find("two vehicles use system id 1"), std::string::npos) << run->error();

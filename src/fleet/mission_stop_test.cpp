@@ -17,9 +17,6 @@ struct MissionStop : testing::Test {
   std::unique_ptr<tasks::TaskRun> start(MavCmd last = MavCmd::nav_loiter_unlim) {
     return world->platform->start(task_of(mission_ending_with(last)), one);
   }
-  bool comes_to(tasks::TaskRun const& run, std::string_view progress) {
-    return world->run_until([&] { return run.progress().find(progress) != std::string::npos; });
-  }
   void settle() { world->loop.run_until_done(world->platform->settle()); }
 
   std::unique_ptr<TestWorld> world = std::make_unique<TestWorld>();
@@ -43,7 +40,7 @@ TEST_F(MissionStop, CancelsAnUpload) {
   auto& copter = world->add({.request_spacing = 500ms});
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "uploading 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "uploading 2/"));
   run->stop();
   settle();
   world->run_for(60s);
@@ -58,7 +55,7 @@ TEST_F(MissionStop, LeavesNoPartsOfTwoPlansBehind) {
   copter.mission.resize(50);
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "uploading 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "uploading 2/"));
   run->stop();
   settle();
   EXPECT_TRUE(copter.mission.empty());
@@ -80,7 +77,7 @@ TEST_F(MissionStop, StartsNothingAfterAReadBack) {
   auto& copter = world->add({}, {.delay = 100ms});
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "reading back"));
+  ASSERT_TRUE(world->comes_to(*run, "reading back"));
   run->stop();
   settle();
   world->run_for(30s);
@@ -118,7 +115,7 @@ TEST_F(MissionStop, HoldsAFlyingCopterInPlace) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   run->stop();
   settle();
   EXPECT_EQ(copter.mode, copter_mode::brake);
@@ -133,7 +130,7 @@ TEST_F(MissionStop, HoldsARover) {
   auto mission = mission_ending_with(MavCmd::nav_waypoint);
   mission.items.erase(mission.items.begin());  // no take-off
   auto const run = world->platform->start(task_of(std::move(mission)), one);
-  ASSERT_TRUE(comes_to(*run, "item 2/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 2/"));
   run->stop();
   settle();
   EXPECT_EQ(rover.mode, rover_mode::hold);
@@ -143,7 +140,7 @@ TEST_F(MissionStop, LetsAPlaneCircle) {
   auto& plane = world->add({.type = mavlink::MavType::fixed_wing});
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   EXPECT_EQ(plane.mode, plane_mode::automatic);
   run->stop();
   settle();
@@ -168,7 +165,7 @@ TEST_F(MissionStop, LetsTheNextTaskUndoAStartThatTheVehicleHadNotConfirmed) {
   ASSERT_TRUE(world->run_until([&] { return copter.mode == copter_mode::automatic; }));
   first->stop();
   auto const second = start(MavCmd::nav_land);
-  ASSERT_TRUE(comes_to(*second, "uploading"));
+  ASSERT_TRUE(world->comes_to(*second, "uploading"));
   EXPECT_EQ(copter.mode, copter_mode::brake);
   ASSERT_TRUE(world->run_until([&] { return second->state() != RunState::in_progress; }));
   EXPECT_EQ(second->state(), RunState::done) << second->error();
@@ -180,7 +177,7 @@ TEST_F(MissionStop, UsesTheConfiguredStopMode) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   run->stop();
   settle();
   EXPECT_EQ(copter.mode, copter_mode::land);
@@ -190,7 +187,7 @@ TEST_F(MissionStop, RepeatsTheStopOnALossyLinkUntilAHeartbeatShowsIt) {
   auto& copter = world->add({}, {.loss = 0.3, .delay = 200ms, .seed = 7});
   world->run_for(10s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   run->stop();
   settle();
   EXPECT_EQ(copter.mode, copter_mode::brake);
@@ -201,7 +198,7 @@ TEST_F(MissionStop, LandsWhenItCannotHold) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   copter.refused_modes.insert(copter_mode::brake);
   run->stop();
   settle();
@@ -212,7 +209,7 @@ TEST_F(MissionStop, SaysWhyAVehicleCouldNotBeStopped) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   copter.is_silent = true;
   run->stop();
   settle();
@@ -223,7 +220,7 @@ TEST_F(MissionStop, LeavesTheStopToATaskThatStartsInTheSameTurn) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const first = start();
-  ASSERT_TRUE(comes_to(*first, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*first, "item 3/"));
   first->stop();
   auto const second = start(MavCmd::nav_land);
   settle();
@@ -237,10 +234,10 @@ TEST_F(MissionStop, HoldsAVehicleThatStillFliesTheTaskBefore) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const first = start();
-  ASSERT_TRUE(comes_to(*first, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*first, "item 3/"));
   copter.ignored_commands.insert(MavCmd::do_set_mode);
   auto const second = start();
-  ASSERT_TRUE(comes_to(*second, "stopping what it does"));
+  ASSERT_TRUE(world->comes_to(*second, "stopping what it does"));
   world->run_for(300ms);
   second->stop();
   copter.ignored_commands.clear();
@@ -253,7 +250,7 @@ TEST_F(MissionStop, HoldsAVehicleWhoseNextTaskCannotBeFlown) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const first = start();
-  ASSERT_TRUE(comes_to(*first, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*first, "item 3/"));
   auto const second = world->platform->start(task_of({.name = "nothing", .home = std::nullopt, .items = {}}), one);
   EXPECT_EQ(second->error(), "the mission has no items");
   settle();
@@ -264,7 +261,7 @@ TEST_F(MissionStop, SendsNothingWhenThePilotWasFaster) {
   auto& copter = world->add();
   world->run_for(5s);
   auto const run = start();
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
   copter.change_mode(copter_mode::rtl);
   world->run_until([&] { return world->state().mode.value == "RTL"; });
   auto const commanded = copter.modes_commanded();
@@ -297,8 +294,8 @@ TEST_F(MissionStop, MakesEveryVehicleWithARunOfOursSafeAndNoOther) {
   world->run_for(5s);
   auto const run = start();
   auto const other = world->platform->start(task_of(mission_ending_with(MavCmd::nav_loiter_unlim)), VehicleId{"2"});
-  ASSERT_TRUE(comes_to(*run, "item 3/"));
-  ASSERT_TRUE(comes_to(*other, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*run, "item 3/"));
+  ASSERT_TRUE(world->comes_to(*other, "item 3/"));
   world->loop.run_until_done(world->platform->make_safe(OnStop::rtl));
   EXPECT_EQ(first.mode, copter_mode::rtl);
   EXPECT_EQ(second.mode, copter_mode::rtl);

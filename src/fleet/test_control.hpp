@@ -49,6 +49,7 @@ struct ControlWorld : TestWorld {
       if (record.number == number) return record.outcomes.at(index);
     return {};
   }
+  using TestWorld::comes_to;
   [[nodiscard]] bool comes_to(std::uint64_t number, vehicle::CommandState state, std::size_t index = 0) {
     return run_until([&] { return outcome(number, index).state == state; }, std::chrono::seconds(40));
   }
@@ -60,10 +61,6 @@ struct ControlWorld : TestWorld {
   /// What a script starts on vehicle 1: a mission that flies until it is stopped.
   std::unique_ptr<tasks::TaskRun> start_mission() {
     return platform->start(task_of(mission_ending_with(mavlink::MavCmd::nav_loiter_unlim)), vehicle::VehicleId{"1"});
-  }
-  /// Whether the run gets to what its progress calls `phase`: "uploading", or "item" in flight.
-  [[nodiscard]] bool comes_to(tasks::TaskRun const& run, std::string_view phase) {
-    return run_until([&] { return run.progress().find(phase) != std::string::npos; });
   }
   /// Presses the emergency stop; whether every vehicle has confirmed it in time.
   [[nodiscard]] bool stops_all(std::optional<vehicle::StopAction> action = std::nullopt) {

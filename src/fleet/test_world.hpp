@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fleet/platform.hpp"
@@ -34,6 +35,12 @@ struct TestWorld {
   /// False when the condition did not come true within `limit`.
   bool run_until(std::function<bool()> condition, base::Duration limit = std::chrono::seconds(120)) {
     return loop.run_until_done(poll(std::move(condition), limit));
+  }
+
+  /// Whether the run gets to what its progress calls `phase`: "uploading", or "item" in flight.
+  [[nodiscard]] bool comes_to(tasks::TaskRun const& run, std::string_view phase,
+                              base::Duration limit = std::chrono::seconds(120)) {
+    return run_until([&] { return run.progress().find(phase) != std::string::npos; }, limit);
   }
 
   [[nodiscard]] vehicle::VehicleState const& state(std::string id = "1") const {
