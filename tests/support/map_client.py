@@ -25,20 +25,26 @@ class Station:
         self.process.send_signal(signal.SIGINT)
 
 
+def said_before_listening(process) -> str:
+    """What a station prints until its map can be reached, or until it ends."""
+    said = []
+    for line in process.stderr:
+        said.append(line)
+        if "listening" in line:
+            break
+    return "".join(said)
+
+
 @contextlib.contextmanager
 def station(*arguments):
     """A station on free ports of loopback, until the block ends."""
     port = harness.free_udp_port()
     command = [harness.LAPWING, "station", "--link", f"udpin://127.0.0.1:{port}", "--port", "0", *arguments]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    said = []
     try:
-        for line in process.stderr:
-            said.append(line)
-            if "listening" in line:
-                break
-        address = re.search(r"http://127\.0\.0\.1:\d+", "".join(said))
-        assert address, "".join(said)
+        said = said_before_listening(process)
+        address = re.search(r"http://127\.0\.0\.1:\d+", said)
+        assert address, said
         yield Station(process, address[0], port)
     finally:
         process.send_signal(signal.SIGINT)

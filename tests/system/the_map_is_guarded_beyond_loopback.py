@@ -14,6 +14,7 @@ import subprocess
 import tempfile
 
 import harness
+import map_client
 
 
 def status_of(port, path="/api/v1/status", **headers):
@@ -44,21 +45,17 @@ def station(*arguments):
     link = f"udpin://127.0.0.1:{harness.free_udp_port()}"
     command = [harness.LAPWING, "station", "--link", link, "--port", "0", *arguments]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    said = []
     try:
-        for line in process.stderr:
-            said.append(line)
-            if "listening" in line:
-                break
-        address = re.search(r"http://127\.0\.0\.1:(\d+)/(?:#token=(\S+))?", "".join(said))
-        assert address, "".join(said)
+        said = map_client.said_before_listening(process)
+        address = re.search(r"http://127\.0\.0\.1:(\d+)/(?:#token=(\S+))?", said)
+        assert address, said
         yield int(address[1]), address[2]
     finally:
         process.send_signal(signal.SIGINT)
-        said.append(process.communicate(timeout=20)[1])
+        said += process.communicate(timeout=20)[1]
     assert process.returncode == 0, process.returncode
     if address[2]:
-        logged = [line for line in "".join(said).splitlines() if address[2] in line and not line.startswith("    map  http")]
+        logged = [line for line in said.splitlines() if address[2] in line and not line.startswith("    map  http")]
         assert not logged, logged
 
 
