@@ -164,13 +164,22 @@ inline base::Result<HeldPlan> download(Bench& bench, TransferOptions options = {
                                                     std::move(progress), std::move(known)));
 }
 
-/// Nothing gets through for a time, either way.
-inline base::Task<void> cut_after(base::Loop& loop, Bench& bench, base::Duration after, base::Duration lasting) {
-  co_await loop.sleep(after);
-  bench.hub.cut(true);
-  co_await loop.sleep(lasting);
-  bench.hub.cut(false);
-}
+/// A bench with a mission store, through whose link nothing gets for a time, either way, from the third second on.
+struct CutBench : Bench {
+  explicit CutBench(base::Duration lasting) : Bench({.delay = 50ms}) { scope_.spawn(cut(lasting)); }
+
+  MissionStore store{*vehicle};
+
+ private:
+  base::Task<void> cut(base::Duration lasting) {
+    co_await loop.sleep(2s);
+    hub.cut(true);
+    co_await loop.sleep(lasting);
+    hub.cut(false);
+  }
+
+  base::Scope scope_{loop};
+};
 
 constexpr TransferOptions patient{.outage_limit = 60s};
 /// As `lapwing mission` is: for a bad link that is not too much.

@@ -75,11 +75,8 @@ TEST(Download, KeepsAskingWhereTheLinkLosesMuch) {
 }
 
 TEST(Download, GoesOnWhereTheLinkWasLost) {
-  Bench bench({.delay = 50ms});
-  MissionStore store(*bench.vehicle);
-  store.items = mission_of(40);
-  base::Scope scope(bench.loop);
-  scope.spawn(cut_after(bench.loop, bench, 2s, 50s));
+  CutBench bench(50s);
+  bench.store.items = mission_of(40);
   std::vector<std::size_t> steps;
   auto const got = download(bench, patient, [&](std::size_t done, std::size_t) { steps.push_back(done); });
   ASSERT_TRUE(got) << got.error().message;
@@ -88,17 +85,14 @@ TEST(Download, GoesOnWhereTheLinkWasLost) {
 }
 
 TEST(Download, BeginsAnewWhenThePlanIsAnotherAfterTheOutage) {
-  Bench bench({.delay = 50ms});
-  MissionStore store(*bench.vehicle);
-  store.items = mission_of(40);
-  base::Scope scope(bench.loop);
-  scope.spawn(cut_after(bench.loop, bench, 2s, 50s));
+  CutBench bench(50s);
+  bench.store.items = mission_of(40);
   auto other = mission_of(39);
   for (auto& item : other) item.place.z_m = 7.0;
   bool is_changed = false;
   auto const got = download(bench, patient, [&](std::size_t done, std::size_t) {
     if (done < 10 || is_changed) return;
-    store.items = other;
+    bench.store.items = other;
     is_changed = true;
   });
   ASSERT_TRUE(got) << got.error().message;

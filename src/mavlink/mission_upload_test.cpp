@@ -190,32 +190,23 @@ TEST(Upload, DoesNotWaitForAVehicleThatIsHeardAndAnswersNothing) {
 }
 
 TEST(Upload, BeginsAnewWhenTheLinkIsBack) {
-  Bench bench({.delay = 50ms});
-  MissionStore store(*bench.vehicle);
-  base::Scope scope(bench.loop);
-  scope.spawn(cut_after(bench.loop, bench, 2s, 40s));
+  CutBench bench(40s);
   auto const begun = bench.loop.now();
   ASSERT_TRUE(upload(bench, mission_of(40), patient));
-  EXPECT_EQ(store.items.size(), 40u);
+  EXPECT_EQ(bench.store.items.size(), 40u);
   EXPECT_LT(bench.loop.now() - begun, 50s);
 }
 
 TEST(Upload, GoesOnWithinTheVehiclesPatience) {
-  Bench bench({.delay = 50ms});
-  MissionStore store(*bench.vehicle);
-  base::Scope scope(bench.loop);
-  scope.spawn(cut_after(bench.loop, bench, 2s, 5s));
+  CutBench bench(5s);
   std::vector<std::size_t> steps;
   ASSERT_TRUE(upload(bench, mission_of(40), patient, [&](std::size_t done, std::size_t) { steps.push_back(done); }));
   EXPECT_TRUE(std::ranges::is_sorted(steps));  // never from the start again
-  EXPECT_EQ(store.finished, 1);
+  EXPECT_EQ(bench.store.finished, 1);
 }
 
 TEST(Upload, EndsWhenTheLinkStaysAway) {
-  Bench bench({.delay = 50ms});
-  MissionStore store(*bench.vehicle);
-  base::Scope scope(bench.loop);
-  scope.spawn(cut_after(bench.loop, bench, 2s, 1h));
+  CutBench bench(1h);
   auto const begun = bench.loop.now();
   auto const result = upload(bench, mission_of(40), patient);
   ASSERT_FALSE(result);
