@@ -179,27 +179,27 @@ TEST(GroundStationFailsafe, OfAPlaneNamesTheModeItIsInThen) {
   EXPECT_EQ(ground.pilot().system_status(), MavState::active);
 }
 
+/// What the vehicle does when its battery becomes low, and how often it tells of a failsafe.
+void expect_when_low(TestGround& ground, int told, std::string_view mode, MavState status) {
+  ground.set("BATT_LOW_MAH", 9000);
+  ground.run_for(500ms);
+  EXPECT_EQ(ground.said("Battery 1 is low"), 1);
+  EXPECT_EQ(ground.said("Battery Failsafe"), told);
+  EXPECT_EQ(ground.pilot().mode().name, mode);
+  EXPECT_EQ(ground.pilot().system_status(), status);
+}
+
 TEST(BatteryFailsafe, IsToldByACopterEvenWhenNothingIsDone) {
   TestGround ground("copter");
   ground.hover(10);
-  ground.set("BATT_LOW_MAH", 9000);
-  ground.run_for(200ms);
-  EXPECT_EQ(ground.said("Battery 1 is low"), 1);
-  EXPECT_EQ(ground.said("Battery Failsafe"), 1);
-  EXPECT_EQ(ground.pilot().mode().name, "GUIDED");
-  EXPECT_EQ(ground.pilot().system_status(), MavState::critical);
+  expect_when_low(ground, 1, "GUIDED", MavState::critical);
 }
 
 TEST(BatteryFailsafe, OfARoverIsNeitherToldNorCritical) {
   TestGround ground("rover");
   ground.set("BATT_FS_LOW_ACT", 1);
   ground.arm_in(rover_guided);
-  ground.set("BATT_LOW_MAH", 9000);
-  ground.run_for(500ms);
-  EXPECT_EQ(ground.said("Battery 1 is low"), 1);
-  EXPECT_EQ(ground.said("Battery Failsafe"), 0);
-  EXPECT_EQ(ground.pilot().mode().name, "RTL");
-  EXPECT_EQ(ground.pilot().system_status(), MavState::active);
+  expect_when_low(ground, 0, "RTL", MavState::active);
 }
 
 TEST(BatteryFailsafe, WaitsUntilTheVehicleIsArmed) {
