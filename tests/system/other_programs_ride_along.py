@@ -8,6 +8,7 @@ import tempfile
 import urllib.request
 
 import harness
+import map_client
 from mavlink_peer import Peer, mavlink
 
 CONFIG = """
@@ -36,12 +37,8 @@ with tempfile.TemporaryDirectory() as folder:
     northern = Peer(ports["northern"], 252, 190, listens=True)
     station = subprocess.Popen([harness.LAPWING, "station", "--config", str(file)], stderr=subprocess.PIPE, text=True)
     try:
-        said = []
-        for line in station.stderr:
-            said.append(line)
-            if "listening" in line:
-                break
-        address = re.search(r"http://127\.0\.0\.1:\d+/", "".join(said))
+        said = map_client.said_before_listening(station)
+        address = re.search(r"http://127\.0\.0\.1:\d+/", said)
         assert address, said
         vehicle = Peer(ports["vehicles"], 7)
         vehicle.heartbeat()
