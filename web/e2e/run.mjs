@@ -2,6 +2,7 @@
 // runs the tests whose name holds WORD; needs web/dist (npm run build) and the target station_demo.
 import assert from 'node:assert/strict';
 import { startBrowser, startStation } from './harness.mjs';
+import { addHoldTests } from './hold.mjs';
 import { addParameterTests } from './parameters.mjs';
 
 const tests = [];
@@ -172,6 +173,7 @@ test('says whose vehicle it takes over', async ({ open }) => {
   await page.getByText('You command copter 1').waitFor();
 });
 
+addHoldTests(test, row);
 addParameterTests(test, row);
 
 test('shows what is wrong with a script and leads there', async ({ open }) => {
