@@ -2,6 +2,7 @@
 // runs the tests whose name holds WORD; needs web/dist (npm run build) and the target station_demo.
 import assert from 'node:assert/strict';
 import { startBrowser, startStation } from './harness.mjs';
+import { addGoToTests } from './go_to.mjs';
 import { addHoldTests } from './hold.mjs';
 import { addParameterTests } from './parameters.mjs';
 
@@ -113,16 +114,6 @@ test('confirms with the keyboard, and stops without confirmation', async ({ open
   await page.locator('#command details[open] tr', { hasText: 'copter 2' }).getByText('confirmed').waitFor();
 });
 
-test('sends a vehicle to a place on the map', async ({ open }) => {
-  const page = await open();
-  await row(page, 'copter 2').click();
-  await page.getByRole('button', { name: 'Go to…' }).click();
-  await page.locator('.maplibregl-canvas').click({ position: { x: 700, y: 700 } });
-  await page.getByRole('img', { name: 'the chosen place' }).waitFor();
-  await hold(page, page.getByRole('button', { name: 'Go there' }));
-  await page.locator('#command summary', { hasText: 'Go to, 10 m' }).waitFor();
-});
-
 test('stops everything until it is released, for every viewer', async ({ open }) => {
   const page = await open();
   const other = await open();
@@ -173,6 +164,7 @@ test('says whose vehicle it takes over', async ({ open }) => {
   await page.getByText('You command copter 1').waitFor();
 });
 
+addGoToTests(test, row, hold);
 addHoldTests(test, row);
 addParameterTests(test, row);
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { boundsOf, contains, cover, gridLines, niceStep, rowsWithoutOverlap } from './geometry';
+import { boundsOf, contains, cover, gridLines, niceStep, placeText, rowsWithoutOverlap } from './geometry';
 
 const origin = { lat_deg: -35.363262, lon_deg: 149.165237, alt_m: 584 };
 
@@ -67,4 +67,14 @@ describe('rowsWithoutOverlap', () => {
   it('stacks those on one spot', () => expect(rowsWithoutOverlap([box(0, 0), box(0, 0), box(0, 0)])).toEqual([0, 1, 2]));
   it('keeps the topmost in its place', () => expect(rowsWithoutOverlap([box(0, 3), box(4, 0)])).toEqual([1, 0]));
   it('is nothing for nothing', () => expect(rowsWithoutOverlap([])).toEqual([]));
+});
+
+describe('placeText', () => {
+  const copter = { ...origin, name: 'copter 1' };
+  it('tells distance and bearing from a vehicle', () => {
+    expect(placeText({ lat_deg: origin.lat_deg + 0.001, lon_deg: origin.lon_deg }, copter)).toBe('111 m at 000° from copter 1');
+    expect(placeText({ lat_deg: origin.lat_deg, lon_deg: origin.lon_deg - 0.001 }, copter)).toBe('91 m at 270° from copter 1');
+  });
+  it('says when it is the vehicle\'s own', () => expect(placeText(origin, copter)).toBe('at copter 1'));
+  it('tells degrees without a vehicle', () => expect(placeText(origin)).toBe('35.36326° S, 149.16524° E'));
 });

@@ -1,3 +1,4 @@
+import { heading, latitude, longitude, metres } from './format';
 import type { Position } from './protocol';
 
 export type LonLat = [number, number];
@@ -135,6 +136,20 @@ function degrees(value: number, step: number, positive: string, negative: string
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   if (Math.abs(value) < step / 2) return '0°';
   return `${Math.abs(value).toFixed(decimals)}° ${value < 0 ? negative : positive}`;
+}
+
+interface Place {
+  lat_deg: number;
+  lon_deg: number;
+}
+
+/** Where a place is, seen from a vehicle near it: "120 m at 045° from copter 1"; in degrees without one. */
+export function placeText(place: Place, from?: Place & { name: string }): string {
+  if (!from) return `${latitude(place.lat_deg)}, ${longitude(place.lon_deg)}`;
+  const north = (place.lat_deg - from.lat_deg) * METRES_PER_DEGREE;
+  const east = (place.lon_deg - from.lon_deg) * metresPerDegreeEast(from.lat_deg);
+  const distance = Math.hypot(north, east);
+  return distance < 0.5 ? `at ${from.name}` : `${metres(distance)} at ${heading(Math.atan2(east, north))} from ${from.name}`;
 }
 
 function metresPerDegreeEast(latDeg: number): number {

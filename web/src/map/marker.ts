@@ -37,6 +37,8 @@ export class VehicleMarker {
   constructor(
     private readonly map: MapLibreMap,
     onSelect: (adds: boolean) => void,
+    /** Whether to click at it is to click at the map below, where a place is chosen. */
+    isGlass: () => boolean,
   ) {
     this.button.type = 'button';
     this.svg.setAttribute('viewBox', '-2 -2 36 36');
@@ -48,6 +50,7 @@ export class VehicleMarker {
     this.label.append(this.labelName, this.detail);
     this.button.append(this.svg, this.badge, this.label);
     this.button.addEventListener('click', (event) => {
+      if (isGlass() && event.detail > 0) return; // no key's
       event.stopPropagation();
       onSelect(event.shiftKey || event.ctrlKey || event.metaKey);
     });
