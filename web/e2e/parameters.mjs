@@ -59,4 +59,68 @@ export function addParameterTests(test, row) {
     await row(page, 'copter 2').click({ modifiers: ['Shift'] });
     await panel.getByText('Select one vehicle').waitFor();
   }, { complaintsAllowed: true });
+
+  /** The panel of copter 2 with its list. */
+  const fetched = async (page) => {
+    await row(page, 'copter 2').click();
+    const panel = page.locator('#parameters');
+    await panel.getByRole('button', { name: 'Parameters' }).click();
+    await panel.getByRole('button', { name: 'Fetch parameters' }).press('Enter');
+    await panel.getByText('19 parameters fetched.').waitFor();
+    return panel;
+  };
+
+  test('tells when parameters came, and Tab goes on beside the button that fetched them', async ({ open }) => {
+    const page = await open();
+    const panel = await fetched(page);
+    assert.match(await panel.locator('thead').innerText(), /Value, \d\d:\d\d:\d\d/);
+    await page.keyboard.press('Tab');
+    assert.equal(await page.evaluate(() => document.activeElement.ariaLabel), 'Filter by name');
+  });
+
+  test('leaves the operator alone who does something else when the answer to a change comes', async ({ open }) => {
+    const page = await open();
+    const panel = await fetched(page);
+    let answer;
+    await page.route('**/parameters/value?*', (route) => (answer = () => route.continue()));
+    await panel.getByRole('button', { name: 'Change RTL_ALT' }).press('Enter');
+    await panel.getByLabel('New value of RTL_ALT').fill('2000');
+    await page.keyboard.press('Enter');
+    await panel.getByText('Setting…').waitFor();
+    assert.ok(await panel.getByRole('button', { name: 'Fetch again' }).isDisabled());
+    await panel.getByLabel('Filter by name').fill('speed');
+    await answer();
+    await panel.getByText('RTL_ALT is 2000 now, was 1500.').waitFor();
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+    assert.equal(await page.evaluate(() => document.activeElement.ariaLabel), 'Filter by name');
+
+    await panel.getByRole('button', { name: 'Change WPNAV_SPEED' }).click();
+    await panel.getByLabel('New value of WPNAV_SPEED').fill('fast');
+    await page.keyboard.press('Enter');
+    await panel.getByText('This is no number.').waitFor();
+    await row(page, 'plane 3').click();
+    await panel.getByRole('button', { name: 'Fetch parameters' }).waitFor();
+    assert.equal(await panel.getByRole('alert').textContent(), '', "what was wrong with one vehicle's value is not said of another");
+  });
+
+  test('does not wait for parameters of a station that is lost', async ({ open, station }) => {
+    const page = await open();
+    await row(page, 'copter 2').click();
+    const panel = page.locator('#parameters');
+    await panel.getByRole('button', { name: 'Parameters' }).click();
+    await page.route('**/parameters?*', () => {}); // as over a link that is silent, not closed
+    await panel.getByRole('button', { name: 'Fetch parameters' }).click();
+    await panel.locator('progress').waitFor();
+    await station().stop();
+    await panel.getByRole('alert').getByText('The station did not answer.').waitFor();
+    assert.equal(await panel.locator('progress').count(), 0);
+  }, { complaintsAllowed: true });
+
+  test('can be opened however full the column is', async ({ open }) => {
+    const page = await open({ size: { width: 1280, height: 800 } });
+    await row(page, 'copter 2').click();
+    await page.getByRole('button', { name: 'Go to…' }).click();
+    const { height } = await page.locator('#parameters').boundingBox();
+    assert.ok(height >= 40, `only ${height} px of it are in sight`);
+  });
 }

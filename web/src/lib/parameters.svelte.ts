@@ -8,6 +8,8 @@ export type Ask = (address: string, init?: RequestInit) => Promise<Response | un
 /** One vehicle's parameters in this browser: nothing is asked for until `fetch` is called. */
 export class VehicleParameters {
   list = $state.raw<ParameterList | undefined>();
+  /** When the list came, by this browser's clock, ISO 8601. */
+  fetched = $state('');
   /** Of the list on its way; nothing when none is. */
   progress = $state.raw<Progress | undefined>();
   /** The parameter that is being set. */
@@ -21,7 +23,13 @@ export class VehicleParameters {
     private readonly ask: Ask,
   ) {}
 
+  /** One thing at a time: a list that was begun before a change would bring the old value back. */
+  get isBusy(): boolean {
+    return this.progress !== undefined || this.setting !== '';
+  }
+
   async fetch(): Promise<void> {
+    if (this.isBusy) return;
     this.tell('', '');
     this.progress = { fetching: true };
     const timer = setInterval(() => void this.look(), POLL_MS);
@@ -30,11 +38,13 @@ export class VehicleParameters {
     this.progress = undefined;
     if (!list) return;
     this.list = list;
+    this.fetched = new Date().toISOString();
     this.tell(`${list.parameters.length} parameters fetched.`, '');
   }
 
   /** Whether the vehicle holds the value now. */
   async set(name: string, value: number, operator: string): Promise<boolean> {
+    if (this.isBusy) return false;
     this.tell('', '');
     this.setting = name;
     const set = await this.answer<Parameter & { before: number | null }>(this.address('/value', { name }), {
@@ -54,12 +64,11 @@ export class VehicleParameters {
   async file(): Promise<{ text: string; name: string } | undefined> {
     this.tell('', '');
     const response = await this.ask(this.address('/file', { cached: 'true' }));
-    if (!response?.ok) {
-      await this.complain(response);
-      return undefined;
-    }
+    if (!response?.ok) return this.complain(response);
+    const text = await response.text().catch(() => undefined);
+    if (text === undefined) return this.complain(undefined);
     const name = /filename="([^"]+)"/.exec(response.headers.get('Content-Disposition') ?? '')?.[1];
-    return { text: await response.text(), name: name ?? 'vehicle.params' };
+    return { text, name: name ?? 'vehicle.params' };
   }
 
   private tell(outcome: string, problem: string): void {
@@ -83,19 +92,22 @@ export class VehicleParameters {
   }
 
   private async quietly<T>(address: string): Promise<T | undefined> {
-    const response = await this.ask(address);
-    return response?.ok ? ((await response.json()) as T) : undefined;
+    return body<T>(await this.ask(address));
   }
 
   private async answer<T>(address: string, init?: RequestInit): Promise<T | undefined> {
     const response = await this.ask(address, init);
-    if (response?.ok) return (await response.json()) as T;
-    await this.complain(response);
-    return undefined;
+    if (response && !response.ok) return this.complain(response);
+    return (await body<T>(response)) ?? this.complain(undefined);
   }
 
-  private async complain(response: Response | undefined): Promise<void> {
-    const body: unknown = await response?.json().catch(() => undefined);
-    this.tell('', problemText(response?.status, body));
+  private async complain(response: Response | undefined): Promise<undefined> {
+    const problem: unknown = await response?.json().catch(() => undefined);
+    this.tell('', problemText(response?.status, problem));
   }
+}
+
+/** Nothing of a refusal, and of an answer that breaks off. */
+async function body<T>(response: Response | undefined): Promise<T | undefined> {
+  return response?.ok ? ((await response.json().catch(() => undefined)) as T | undefined) : undefined;
 }

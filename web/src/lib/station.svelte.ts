@@ -60,6 +60,8 @@ class Station {
   private clockOffset_s = 0;
   private token: string | undefined;
   private connection: Connection;
+  /** Ends what is asked over HTTP when the station is lost. */
+  private asking = new AbortController();
 
   constructor() {
     this.token = takeToken(location, sessionStorage, history);
@@ -159,7 +161,7 @@ class Station {
     const headers = new Headers(init.headers);
     if (this.token) headers.set('Authorization', `Bearer ${this.token}`);
     try {
-      return await fetch(address, { ...init, headers });
+      return await fetch(address, { ...init, headers, signal: this.asking.signal });
     } catch {
       return undefined;
     }
@@ -176,6 +178,8 @@ class Station {
   private lose(): void {
     if (this.phase === 'live') this.alert = 'Station lost. The vehicles carry on; what you see is old.';
     if (this.phase !== 'locked') this.phase = 'lost';
+    this.asking.abort();
+    this.asking = new AbortController();
     void this.askWhetherLocked();
   }
 
