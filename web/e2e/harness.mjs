@@ -22,6 +22,8 @@ export async function startStation(port = 0, token = '') {
   return {
     url,
     port: Number(new URL(url).port),
+    /** From now on it says nothing and hears nothing, and its connections stay. */
+    silence: () => child.kill('SIGSTOP'),
     stop: async () => {
       child.kill('SIGKILL');
       await ended;

@@ -2,6 +2,7 @@
 // runs the tests whose name holds WORD; needs web/dist (npm run build) and the target station_demo.
 import assert from 'node:assert/strict';
 import { startBrowser, startStation } from './harness.mjs';
+import { addEmergencyTests } from './emergency.mjs';
 import { addGoToTests } from './go_to.mjs';
 import { addHoldTests } from './hold.mjs';
 import { addParameterTests } from './parameters.mjs';
@@ -114,32 +115,6 @@ test('confirms with the keyboard, and stops without confirmation', async ({ open
   await page.locator('#command details[open] tr', { hasText: 'copter 2' }).getByText('confirmed').waitFor();
 });
 
-test('stops everything until it is released, for every viewer', async ({ open }) => {
-  const page = await open();
-  const other = await open();
-  await page.bringToFront();
-  await row(page, 'link lost').waitFor();
-  await page.getByRole('button', { name: 'E-STOP' }).click();
-  const banner = other.getByRole('region', { name: 'Emergency stop' });
-  await banner.getByText('4 of 5 stopped').waitFor();
-  assert.match(await banner.innerText(), /rover 5\s+… try \d+/);
-  await row(page, 'copter 2').click();
-  assert.ok(await page.locator('#command').getByRole('button', { name: 'Arm', exact: true }).isDisabled());
-  assert.ok(await page.locator('#command').getByRole('button', { name: 'Land' }).isEnabled());
-  await hold(other, banner.getByRole('button', { name: 'Release' }));
-  await banner.waitFor({ state: 'detached' });
-  await page.getByRole('region', { name: 'Emergency stop' }).waitFor({ state: 'detached' });
-});
-
-test('stops everything with the keyboard alone', async ({ open }) => {
-  const page = await open();
-  await row(page, 'copter 1').waitFor();
-  await page.keyboard.press('Control+Shift+S');
-  const banner = page.getByRole('region', { name: 'Emergency stop' });
-  await banner.waitFor();
-  await hold(page, banner.getByRole('button', { name: 'Release' }));
-});
-
 test('hands a vehicle over to who asks for it', async ({ open }) => {
   const holder = await open();
   await row(holder, 'plane 3').waitFor();
@@ -164,6 +139,7 @@ test('says whose vehicle it takes over', async ({ open }) => {
   await page.getByText('You command copter 1').waitFor();
 });
 
+addEmergencyTests(test, row, hold);
 addGoToTests(test, row, hold);
 addHoldTests(test, row);
 addParameterTests(test, row);

@@ -13,6 +13,7 @@ import {
   type Picture,
   type Position,
   type Reply,
+  type Request,
   type Script,
   type ServerMessage,
   type StopAction,
@@ -46,6 +47,10 @@ class Station {
   emergency = $state.raw<Emergency>({ latched: false, action: 'hold', by: '', vehicles: [] });
   /** Why the last command or handover was refused; empty when it was not. */
   objection = $state('');
+  /** When an emergency stop, or its release, was asked for that the station has not answered yet; by this browser's clock in ms. */
+  stopAsked = $state<number | undefined>();
+  /** Why the last of them was not taken, or the stop of a script did not reach the station: told wherever the operator looks. */
+  stopProblem = $state.raw<{ what: string; why: string } | undefined>();
   /** Scripts in the station's folder, by name. */
   scripts = $state.raw<string[]>([]);
   version = $state('');
@@ -105,7 +110,9 @@ class Station {
   }
 
   async stop(): Promise<boolean> {
-    return this.noteRefusal(await this.connection.request({ type: 'stop_script' }));
+    const reply = await this.connection.request({ type: 'stop_script' });
+    if (!reply.ok && this.phase !== 'live') this.stopProblem = { what: 'STOP', why: reasonOf(reply) };
+    return this.noteRefusal(reply);
   }
 
   async command(action: Action, vehicles: string[], details: CommandDetails = {}, take_over = false): Promise<boolean> {
@@ -114,11 +121,21 @@ class Station {
 
   /** Without an action: the one that is latched, else what the station is set to. */
   async emergencyStop(action?: StopAction): Promise<boolean> {
-    return this.noteObjection(await this.connection.request({ type: 'emergency_stop', ...(action && { action }) }));
+    return this.askToStop(action === 'terminate' ? 'Motors off' : 'E-STOP', { type: 'emergency_stop', ...(action && { action }) });
   }
 
   async releaseEmergencyStop(): Promise<boolean> {
-    return this.noteObjection(await this.connection.request({ type: 'release_emergency_stop' }));
+    return this.askToStop('Release', { type: 'release_emergency_stop' });
+  }
+
+  private async askToStop(what: string, request: Request): Promise<boolean> {
+    if (this.phase === 'lost') this.retry();
+    this.stopAsked = performance.now();
+    const reply = await this.connection.request(request);
+    this.stopAsked = undefined;
+    this.stopProblem = reply.ok ? undefined : { what, why: reasonOf(reply) };
+    if (this.stopProblem) this.alert = `${what} failed. ${this.stopProblem.why}`;
+    return reply.ok;
   }
 
   async changeControl(type: 'request_control' | 'yield_control' | 'keep_control', vehicle: string): Promise<boolean> {
@@ -131,7 +148,7 @@ class Station {
   }
 
   private noteObjection(reply: Reply): boolean {
-    this.objection = reply.ok ? '' : [reply.error?.message, reply.error?.hint].filter(Boolean).join(' ');
+    this.objection = reply.ok ? '' : reasonOf(reply);
     if (this.objection) this.alert = this.objection;
     return reply.ok;
   }
@@ -237,6 +254,8 @@ class Station {
   private noteEmergency(emergency: Emergency): void {
     if (emergency.latched && !this.emergency.latched) this.alert = `Emergency stop by ${emergency.by}. Nothing moves until it is released.`;
     if (!emergency.latched && this.emergency.latched) this.alert = `Emergency stop released by ${emergency.by}.`;
+    // It was heard all the same.
+    if (this.stopProblem?.what === (emergency.latched ? 'E-STOP' : 'Release')) this.stopProblem = undefined;
     this.emergency = emergency;
   }
 
@@ -257,6 +276,10 @@ class Station {
     if (failure && before > 0) this.alert = `${failure.source}: ${failure.text}`;
     this.lastSeq = newest;
   }
+}
+
+function reasonOf({ error }: Reply): string {
+  return [error?.message, error?.hint].filter(Boolean).join(' ');
 }
 
 export const station = new Station();
