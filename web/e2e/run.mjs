@@ -56,6 +56,24 @@ for (const size of [{ width: 1280, height: 800 }, { width: 900, height: 800 }, {
   });
 }
 
+test('keeps the vehicle table whole, beside a long task tree and with long modes and links', async ({ open }) => {
+  const page = await open({ size: { width: 1280, height: 800 } });
+  await page.locator('#tasks li.running', { hasText: 'north' }).first().waitFor();
+  const cut = () =>
+    page.evaluate(() => {
+      const body = document.querySelector('#vehicles .body');
+      return { high: body.scrollHeight - body.clientHeight, wide: body.scrollWidth - body.clientWidth };
+    });
+  assert.ok((await cut()).high <= 1, 'every vehicle is in sight');
+  assert.ok((await row(page, 'copter 1').boundingBox()).height < 60, 'who commands it stands beside its state where there is room');
+  await page.evaluate(() => {
+    for (const mode of document.querySelectorAll('#vehicles .mode .part')) mode.textContent = 'STABILIZE';
+    for (const link of document.querySelectorAll('#vehicles .age .sub')) link.innerHTML = '12 % lost';
+  });
+  const { wide } = await cut();
+  assert.ok(wide <= 0, `${wide} px are beyond the edge`);
+});
+
 test('tells a lost vehicle by word, sign and age', async ({ open }) => {
   const page = await open();
   await row(page, 'link lost').waitFor();
