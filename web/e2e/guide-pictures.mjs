@@ -1,4 +1,4 @@
-// Takes the pictures of README.md and of docs/guide/first-mission.md, of the scripts that they tell of.
+// Takes the pictures of README.md, docs/guide/first-mission.md and docs/guide/fleet.md, of the scripts that they tell of.
 // usage: node e2e/guide-pictures.mjs; needs the built program (LAPWING, default build/release/bin/lapwing) and web/dist.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -29,7 +29,7 @@ async function withDemo(folder, demoArguments, options, look) {
       child.once('exit', (code) => reject(new Error(`${program} ended with ${code}: ${said}`)));
     });
     const { page, complaints } = await browser.open(url, options);
-    await look(page, (name) => page.screenshot({ path: path.join(root, 'docs/pictures', name) }));
+    await look(page, (name, more) => page.screenshot({ path: path.join(root, 'docs/pictures', name), ...more }));
     if (complaints.length > 0) throw new Error(complaints.join('\n'));
   } finally {
     child.kill('SIGINT');
@@ -45,12 +45,21 @@ try {
   await withDemo(root, [], { scheme: 'dark', size: { width: 1440, height: 810 } }, async (page, picture) => {
     await vehicle(page, 'copter 1').getByText(/item 9/).waitFor({ timeout: 180_000 });
     await picture('map.png');
+
+    await page.setViewportSize({ width: 1440, height: 1200 }); // a third of it is the panel's
+    await vehicle(page, 'copter 1').click();
+    for (const name of ['vehicles', 'tasks']) await page.locator(`#${name} h2 button`).click();
+    const panel = page.locator('#parameters');
+    await panel.getByRole('button', { name: 'Parameters' }).click();
+    await panel.getByRole('button', { name: 'Fetch parameters' }).click();
+    await panel.getByLabel('Filter by name').fill('rtl');
+    await panel.getByRole('button', { name: 'Change RTL_' }).first().click();
+    await picture('parameters.png', { clip: await panel.boundingBox() });
   });
 
   writeFileSync(path.join(folder, 'my.dolphin'), script);
   await withDemo(folder, ['--script', 'my.dolphin'], { scheme: 'light', size }, async (page, picture) => {
     await vehicle(page, 'copter 1').getByText(/item [45]/).waitFor({ timeout: 60_000 });
-    await page.waitForTimeout(1000);
     await picture('first-mission.png');
 
     await page.locator('#script .chip', { hasText: 'done' }).waitFor({ timeout: 120_000 });
