@@ -67,7 +67,7 @@ Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::L
       scope_(fleet.loop()) {
   fleet_.authority().set_on_loss([this](Craft& craft, Commander const& to) {
     auto const reason = fmt::format("{} took {} over", to, craft.state.name);
-    supersede(craft.id(), reason);
+    if (supersede(craft.id(), reason)) emergency_.resume(craft);
     platform_.yield(craft.id(), reason);
   });
 }
@@ -133,6 +133,7 @@ base::Task<> Control::carry(Craft& craft, std::uint64_t number, vehicle::Vehicle
   std::function<void()> const on_accepted = [this, number, id] { show(number, id, CommandState::accepted, ""); };
   ActionOptions const how{.not_after = expires, .is_urgent = is_stop(command.action), .on_accepted = on_accepted};
   auto const ended = co_await carry_out(craft.connection, craft, command, how);
+  if (!ended) emergency_.resume(craft);
   finish(craft, number, ended, expires);
 }
 
@@ -150,19 +151,20 @@ void Control::finish(Craft& craft, std::uint64_t number, Result<> const& ended, 
   show(number, craft.id(), state, ended ? mode_name(craft, craft.custom_mode) : ended.error().message);
 }
 
-void Control::supersede(VehicleId const& id, std::string const& reason) {
+bool Control::supersede(VehicleId const& id, std::string const& reason) {
   auto const found = running_.find(id);
-  if (found == running_.end()) return;
+  if (found == running_.end()) return false;
   auto const number = found->second.number;
-  bool const may_have_armed = !found->second.task.done();
+  bool const was_under_way = !found->second.task.done();
   running_.erase(found);  // from here on nothing of it is sent
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
-  if (record == records_.end()) return;
+  if (record == records_.end()) return was_under_way;
   auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
-  if (vehicle::is_over(outcome->state)) return;
+  if (vehicle::is_over(outcome->state)) return false;
   auto* const craft = fleet_.find(id);
-  if (may_have_armed && may_arm(record->command.action) && !craft->is_armed) craft->may_arm_late = true;
+  if (was_under_way && may_arm(record->command.action) && !craft->is_armed) craft->may_arm_late = true;
   show(number, id, CommandState::superseded, reason);
+  return was_under_way;
 }
 
 void Control::show(std::uint64_t number, VehicleId const& id, CommandState state, std::string reason) {

@@ -60,7 +60,8 @@ class Control final : public vehicle::VehicleControl {
   [[nodiscard]] base::Result<> let_through(Craft& craft, vehicle::CommandRecord const& record, bool takes_over);
   base::Task<> carry(Craft& craft, std::uint64_t number, vehicle::VehicleCommand command, base::TimePoint expires);
   void finish(Craft& craft, std::uint64_t number, base::Result<> const& ended, base::TimePoint expires);
-  void supersede(vehicle::VehicleId const& id, std::string const& reason);
+  /// Whether there was a command to end.
+  bool supersede(vehicle::VehicleId const& id, std::string const& reason);
   void show(std::uint64_t number, vehicle::VehicleId const& id, vehicle::CommandState state, std::string reason);
   void take_late_arming(Network& network, mavlink::Received const& received);
   base::Task<> take_back(Craft& craft);

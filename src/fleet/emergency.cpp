@@ -78,15 +78,23 @@ void Emergency::release(Commander const& by) {
 void Emergency::leave_to_operator(vehicle::VehicleId const& id) {
   auto const found = pursuits_.find(id);
   if (!state_.is_latched || found == pursuits_.end()) return;
-  pursuits_.erase(found);
+  if (!found->second.is_left_to_pilot) pursuits_.erase(found);
   auto const* craft = fleet_.find(id);
   tell(*craft, "left to the operator's command");
 }
 
+void Emergency::resume(Craft& craft) {
+  if (state_.is_latched && !pursuits_.contains(craft.id())) begin_pursuit(craft);
+}
+
 void Emergency::join(Craft& craft) {
   state_.vehicles.push_back({.vehicle = craft.id()});
-  auto& pursuit = pursuits_[craft.id()] = pursue(craft);
-  pursuit.start();
+  begin_pursuit(craft);
+}
+
+void Emergency::begin_pursuit(Craft& craft) {
+  auto& pursuit = pursuits_[craft.id()] = {.task = pursue(craft)};
+  pursuit.task.start();
 }
 
 base::Task<> Emergency::welcome() {
@@ -135,7 +143,9 @@ base::Task<> Emergency::pursue(Craft& craft) {
     while (!has_left(rest, craft)) co_await craft.changed.wait();
     outcome(craft).is_confirmed = false;
     tell(craft, fmt::format("left its stop: {}", posture(craft)));
-    if (loop.now() - since > late_commands_end) co_return;
+    if (loop.now() - since <= late_commands_end) continue;
+    pursuits_[craft.id()].is_left_to_pilot = true;
+    co_return;
   }
 }
 

@@ -28,10 +28,17 @@ class Emergency {
   void release(vehicle::Commander const& by);
   /// The operator commands this vehicle another kind of stop: it is no longer pursued with this one.
   void leave_to_operator(vehicle::VehicleId const& id);
+  /// That came to nothing: it is pursued again.
+  void resume(Craft& craft);
   [[nodiscard]] vehicle::EmergencyStop const& state() const { return state_; }
 
  private:
+  struct Pursuit {
+    base::Task<> task;
+    bool is_left_to_pilot = false;
+  };
   void join(Craft& craft);
+  void begin_pursuit(Craft& craft);
   base::Task<> welcome();
   base::Task<> pursue(Craft& craft);
   base::Task<bool> stop_once(Craft& craft);
@@ -42,7 +49,7 @@ class Emergency {
   std::function<void()> changed_;
   base::Logger log_;
   vehicle::EmergencyStop state_;
-  std::map<vehicle::VehicleId, base::Task<>> pursuits_;
+  std::map<vehicle::VehicleId, Pursuit> pursuits_;
   base::Task<> welcome_;
 };
 

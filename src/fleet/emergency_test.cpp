@@ -217,6 +217,57 @@ TEST(EmergencyStop, LetsAnOperatorBringAVehicleDown) {
   EXPECT_EQ(world.stop_of("1").detail, "left to the operator's command");
 }
 
+TEST(EmergencyStop, GoesOnWhenAVehicleRefusesTheOperatorsCommand) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.ignored_commands.insert(MavCmd::do_set_mode);
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(1s);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::disarm})), CommandState::refused) << "it is in the air";
+  copter.ignored_commands.clear();
+  EXPECT_TRUE(world.all_confirm());
+  EXPECT_EQ(copter.mode, copter_mode::brake);
+}
+
+TEST(EmergencyStop, GoesOnWhenTheOperatorsCommandGetsLost) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.ignored_commands.insert(MavCmd::do_set_mode);
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(1s);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::land})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  EXPECT_TRUE(world.all_confirm());
+}
+
+TEST(EmergencyStop, GoesOnWhenTheOperatorsCommandEndsWithHisCommand) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  ASSERT_TRUE(world.control->request_control(VehicleId{"1"}, "operator 1"));
+  ASSERT_TRUE(world.control->request_control(VehicleId{"1"}, "operator 2"));
+  world.run_for(7s);
+  copter.ignored_commands.insert(MavCmd::do_set_mode);
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(1s);
+  auto const landing = world.give({.action = Action::land});
+  EXPECT_EQ(world.end_of(landing), CommandState::superseded);
+  EXPECT_EQ(world.outcome(landing).reason, "operator 2 took copter 1 over");
+  copter.ignored_commands.clear();
+  EXPECT_TRUE(world.all_confirm());
+}
+
+TEST(EmergencyStop, LeavesAPilotAloneWhenAnOperatorsCommandIsRefused) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  EXPECT_TRUE(world.stops_all());
+  world.run_for(30s);
+  copter.change_mode(copter_mode::stabilize);
+  world.run_for(2s);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::disarm})), CommandState::refused);
+  world.run_for(10s);
+  EXPECT_EQ(copter.mode, copter_mode::stabilize);
+}
+
 TEST(EmergencyStop, IsReleasedByAnOperatorOnly) {
   ControlWorld world;
   auto& copter = world.add_flying();
