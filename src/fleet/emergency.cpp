@@ -32,6 +32,20 @@ bool has_left(Rest const& rest, Craft const& craft) {
   return craft.is_armed && craft.custom_mode != rest.custom_mode;
 }
 
+/// Heard from two places: perhaps two vehicles, and what the one shows says nothing of the other.
+bool may_be_two(Craft const& craft) {
+  auto const system = craft.address.system;
+  return craft.connection.is_contested(system) || craft.connection.conflict(system).has_value();
+}
+
+/// Neither can be told apart from the other, so both are stopped, whatever kind of stop it is.
+void hold_all(Craft& craft) {
+  auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::hold).value_or(0);
+  auto const command = mavlink::set_mode(craft.mav_autopilot, hold);
+  craft.connection.send_to_all(
+      mavlink::CommandLong{.target = craft.address, .command = command.id, .params = command.params});
+}
+
 std::string posture(Craft const& craft) {
   return fmt::format("{}, {}", mode_name(craft, craft.custom_mode), craft.is_armed ? "armed" : "disarmed");
 }
@@ -101,30 +115,33 @@ base::Task<> Emergency::welcome() {
   for (;;) {
     co_await fleet_.registry().membership_changed().wait();
     for (auto* craft : fleet_.all()) {
-      if (std::ranges::find(state_.vehicles, craft->id(), &StopOutcome::vehicle) != state_.vehicles.end()) continue;
+      bool const is_known =
+          std::ranges::find(state_.vehicles, craft->id(), &StopOutcome::vehicle) != state_.vehicles.end();
+      bool const are_two = craft->state.connection == vehicle::Connection::conflict;
+      if (is_known && are_two && is_left(*craft)) begin_pursuit(*craft);
+      if (is_known) continue;
       join(*craft);
       changed_();
     }
   }
 }
 
+bool Emergency::is_left(Craft const& craft) const {
+  auto const found = pursuits_.find(craft.id());
+  return found == pursuits_.end() || found->second.is_left_to_pilot;
+}
+
 base::Task<bool> Emergency::stop_once(Craft& craft) {
-  auto& connection = craft.connection;
   ++outcome(craft).tries;
+  if (may_be_two(craft)) hold_all(craft);
   std::function<void()> const on_accepted = [this, &craft] {
     outcome(craft).is_acknowledged = true;
     changed_();
   };
-  auto const stopped = co_await stop_at_once(connection, craft, state_.action, on_accepted);
-  if (stopped) co_return true;
-  // Two vehicles under one id: neither can be told apart from the other, so both are stopped.
-  if (connection.conflict(craft.address.system) && state_.action != StopAction::terminate) {
-    auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::hold).value_or(0);
-    auto const command = mavlink::set_mode(craft.mav_autopilot, hold);
-    connection.send_to_all(
-        mavlink::CommandLong{.target = craft.address, .command = command.id, .params = command.params});
-  }
-  tell(craft, stopped.error().message);
+  auto const stopped = co_await stop_at_once(craft.connection, craft, state_.action, on_accepted);
+  if (stopped && !may_be_two(craft)) co_return true;
+  tell(craft, stopped ? "heard from two places: stopped again until it is known to be one vehicle"
+                      : stopped.error().message);
   co_return false;
 }
 
@@ -140,8 +157,9 @@ base::Task<> Emergency::pursue(Craft& craft) {
     tell(craft, posture(craft));
     Rest const rest{craft.custom_mode, craft.is_armed};
     auto const since = loop.now();
-    while (!has_left(rest, craft)) co_await craft.changed.wait();
+    while (!has_left(rest, craft) && !may_be_two(craft)) co_await craft.changed.wait();
     outcome(craft).is_confirmed = false;
+    if (may_be_two(craft)) continue;
     tell(craft, fmt::format("left its stop: {}", posture(craft)));
     if (loop.now() - since <= late_commands_end) continue;
     pursuits_[craft.id()].is_left_to_pilot = true;

@@ -12,7 +12,8 @@
 namespace lapwing::fleet {
 
 /// The latched stop of a whole fleet: sends every vehicle its stop until the vehicle has acknowledged it and shows it,
-/// those that appear while it is latched too, and holds back every other message that would move one.
+/// those that appear while it is latched too, and holds back every other message that would move one. Where a second
+/// vehicle may have come under the same id, both are stopped until it is known that there is one.
 ///
 /// A vehicle that stood and leaves its stop within seconds carries out what was sent before: it is stopped again. Later
 /// than that its pilot has taken it, who knows better; that is only told. Thread-bound.
@@ -42,6 +43,8 @@ class Emergency {
   base::Task<> welcome();
   base::Task<> pursue(Craft& craft);
   base::Task<bool> stop_once(Craft& craft);
+  /// Given up to an operator or a pilot.
+  [[nodiscard]] bool is_left(Craft const& craft) const;
   [[nodiscard]] vehicle::StopOutcome& outcome(Craft const& craft);
   void tell(Craft const& craft, std::string detail);
 

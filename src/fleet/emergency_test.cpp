@@ -320,5 +320,35 @@ TEST(EmergencyStop, StopsBothVehiclesOfOneId) {
   EXPECT_FALSE(world.stop_of("1").is_confirmed) << "which of them shows it cannot be told";
 }
 
+TEST(EmergencyStop, StopsASecondVehicleOfOneIdThatComesLater) {
+  ControlWorld world;
+  auto& first = world.add_flying();
+  EXPECT_TRUE(world.stops_all());
+  world.run_for(30s);
+  auto& second = world.add({});
+  second.is_armed = second.is_flying = true;
+  second.change_mode(copter_mode::automatic);
+  EXPECT_TRUE(world.run_until([&] { return second.mode == copter_mode::brake; }, 5s));
+  world.run_for(10s);
+  EXPECT_EQ(first.mode, copter_mode::brake);
+  EXPECT_EQ(second.mode, copter_mode::brake);
+  EXPECT_FALSE(world.stop_of("1").is_confirmed);
+  second.is_silent = true;
+  EXPECT_TRUE(world.all_confirm(30s)) << "one is left, and it stands";
+}
+
+TEST(EmergencyStop, StopsASecondVehicleBesideOneThatAPilotHasTaken) {
+  ControlWorld world;
+  auto& first = world.add_flying();
+  EXPECT_TRUE(world.stops_all());
+  world.run_for(30s);
+  first.change_mode(copter_mode::stabilize);
+  world.run_for(30s);
+  auto& second = world.add({});
+  second.is_armed = second.is_flying = true;
+  second.change_mode(copter_mode::automatic);
+  EXPECT_TRUE(world.run_until([&] { return second.mode == copter_mode::brake; }, 10s));
+}
+
 }  // namespace
 }  // namespace lapwing::fleet
