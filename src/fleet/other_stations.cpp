@@ -68,6 +68,10 @@ void OtherStations::take_heartbeat(Network& network, mavlink::Received const& re
     bool const is_new = !stations_.contains(received.source);
     stations_[received.source] = received.at;
     if (is_new) log_.info(fmt::format("another ground station is on the link: {}", name_of(received.source)));
+    if (is_new && received.source == network.connection().self())
+      log_.warn(
+          "that is this station's id, too: what vehicles answer to one, both take for theirs; give the other "
+          "one another id (QGroundControl: Application Settings, Telemetry, Ground Station)");
     return;
   }
   if (received.source.component != mavlink::autopilot_component) return;

@@ -24,6 +24,18 @@ TEST(OtherStations, NameWhoCommandedAVehicle) {
   EXPECT_EQ(world.state().foreign_change.value, "station 252/190 commanded COMPONENT_ARM_DISARM: accepted");
 }
 
+TEST(OtherStations, AreNoticedThoughTheyHaveOurId) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  Address const same{255, 190};
+  copter.send_as(same, mavlink::Connection::ground_station_heartbeat());
+  copter.send_as(same, mavlink::CommandLong{.target = {1, 1}, .command = MavCmd::mission_start});
+  world.run_for(100ms);
+  EXPECT_EQ(world.state().foreign_change.value, "station 255/190 commanded MISSION_START");
+  auto const warns = [](std::string const& line) { return line.find("this station's id, too") != std::string::npos; };
+  EXPECT_EQ(std::ranges::count_if(world.lines, warns), 1);
+}
+
 TEST(OtherStations, AreNotBlamedForAskingForMessages) {
   ControlWorld world;
   auto& copter = world.add_ready();

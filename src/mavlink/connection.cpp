@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "mavlink/internal/echoes.hpp"
 #include "mavlink/internal/routes.hpp"
 
 namespace lapwing::mavlink {
@@ -27,6 +28,7 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
       options_(std::move(options)),
       log_(std::move(log)),
       routes_(std::make_unique<internal::Routes>()),
+      echoes_(std::make_unique<internal::Echoes>()),
       commands_(loop),
       scope_(loop) {
   set_keys(options_.keys);
@@ -101,7 +103,7 @@ void Connection::receive(PeerRef from, link::Bytes bytes) {
 }
 
 void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& frame) {
-  if (frame.source == options_.self) return;  // our own, come back over a broadcast address or another link
+  if (frame.source == options_.self && echoes_->has(frame.seq, frame.checksum)) return;
   if (guard_ && !may_be_heard(from, frame)) return;
   auto const now = loop_.now();
   if (frame.version == 2) peer.spoke_v2 = true;
@@ -228,6 +230,15 @@ void Connection::send_to_all(Message const& message) {
   for (auto const peer : peers) send_frame(peer, frame);
 }
 
+namespace {
+
+std::uint16_t checksum_in(std::span<std::uint8_t const> packet, bool is_signed) {
+  auto const end = packet.size() - (is_signed ? Frame{}.signature.size() : 0U);
+  return static_cast<std::uint16_t>(packet[end - 2] | packet[end - 1] << 8U);
+}
+
+}  // namespace
+
 /// Fills in what depends on the far end: sequence and protocol version.
 bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   auto& peer = routes_->speak_to(to);
@@ -240,6 +251,7 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   auto const urgency = internal::is_perishable(frame.message_id) ? link::Urgency::perishable : link::Urgency::prompt;
   if (!links_[to.link]->send(to.peer, out.bytes(), urgency)) return false;
   ++peer.next_seq;
+  echoes_->note_sent(frame.seq, checksum_in(out.bytes(), frame.is_signed()));
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
   return true;
 }

@@ -20,6 +20,7 @@
 namespace lapwing::mavlink {
 
 namespace internal {
+class Echoes;
 class Routes;
 struct PeerState;
 }  // namespace internal
@@ -170,6 +171,7 @@ class Connection {
   base::Logger log_;
   std::vector<std::unique_ptr<link::ByteLink>> links_;
   std::unique_ptr<internal::Routes> routes_;
+  std::unique_ptr<internal::Echoes> echoes_;  ///< ours that may come back
   std::vector<Listener> listeners_;
   int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
   FrameHook frame_hook_;

@@ -28,6 +28,30 @@ TEST(Connection, GreetsANewPeerAndBeatsOnceASecond) {
   EXPECT_EQ(bench.ground.counters({1, 1}).lost, 0u);
 }
 
+TEST(Connection, KnowsItsOwnPacketsWhenTheyComeBack) {
+  Bench bench;
+  auto mirror = bench.hub.connect();
+  int reflected = 0;
+  mirror->start([&](link::Peer peer, link::Bytes bytes) {
+    ++reflected;
+    mirror->send(peer, bytes);
+  });
+  int heard = 0;
+  auto const subscription =
+      bench.ground.subscribe(255, [&](Received const& received) { heard += received.source.component == 190; });
+  FakeVehicle other_station(bench.loop, bench.hub.connect(), {255, 190});
+  // Speaks, so that it is spoken to.
+  auto const hello = serialize(encode(Heartbeat{.type = MavType::gcs}, {7, 1}, 0));
+  mirror->send(mirror->standing_peers().front(), hello.bytes());
+  bench.run_for(500ms);
+  heard = 0;
+  reflected = 0;
+  bench.run_for(5s);
+  EXPECT_GT(reflected, 3);
+  EXPECT_GE(heard, 4);
+  EXPECT_LE(heard, 6) << "the heartbeats of another station with the same id alone";
+}
+
 TEST(Connection, SendsToNobodyThatItNeverHeard) {
   Bench bench;
   auto const sent = bench.ground.send({7, 1}, CommandLong{});
