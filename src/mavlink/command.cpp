@@ -98,12 +98,11 @@ std::unexpected<base::Error> overtaken(Address target, MavCmd id) {
 
 /// Waits until the vehicle is heard, if it has not just been.
 base::Task<bool> is_alive(Exchange const& exchange) {
-  auto const heard = exchange.connection.last_heard(exchange.target.system);
+  auto const heard = exchange.connection.last_heard(exchange.target);
   if (!exchange.is_careful() || !heard || exchange.now() - *heard <= sign_of_life) co_return true;
   std::function<bool(Heartbeat const&)> any = [](Heartbeat const&) { return true; };
   auto const left = exchange.expires - exchange.now();
-  Address const anywhere{exchange.target.system, 0};
-  auto const got = co_await await_message<Heartbeat>(exchange.connection, anywhere, any, left);
+  auto const got = co_await await_message<Heartbeat>(exchange.connection, exchange.target, any, left);
   co_return got&& exchange.now() < exchange.expires;
 }
 

@@ -130,6 +130,17 @@ TEST(Command, WaitsLongerWhileItIsInProgress) {
   EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 1u) << "a command that is being done is not repeated";
 }
 
+TEST(Command, OfDangerIsNotSentIntoSilenceThoughACompanionIsHeard) {
+  Bench bench;
+  FakeVehicle companion(bench.loop, bench.hub.connect(), {1, 191});
+  bench.run_for(2s);
+  bench.vehicle.reset();
+  bench.run_for(4s);
+  auto const result = run(bench, arm());
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message, "COMPONENT_ARM_DISARM for vehicle 1 expired before it could be sent");
+}
+
 TEST(Command, SaysWhenProgressEndsInSilence) {
   Bench bench;
   bench.vehicle->on = [&](Message const& message) {

@@ -314,8 +314,8 @@ std::optional<base::Duration> Connection::round_trip(std::uint8_t system_id) con
   return routes_->round_trip(system_id, loop_.now());
 }
 
-std::optional<base::TimePoint> Connection::last_heard(std::uint8_t system_id) const {
-  return routes_->last_heard(system_id);
+std::optional<base::TimePoint> Connection::last_heard(Address source) const {
+  return routes_->last_heard(source);
 }
 
 SourceCounters Connection::counters(Address source) const {

@@ -128,8 +128,8 @@ class Connection {
   [[nodiscard]] bool is_contested(std::uint8_t system_id) const;
   /// On the way over which commands go, as TIMESYNC has measured it (median of the last few); nothing until then.
   [[nodiscard]] std::optional<base::Duration> round_trip(std::uint8_t system_id) const;
-  /// When anything of the system was heard last.
-  [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
+  /// When that component was heard last: a companion on another link says nothing of the autopilot's.
+  [[nodiscard]] std::optional<base::TimePoint> last_heard(Address source) const;
   /// Both far ends are known to lead to one vehicle of this system id.
   [[nodiscard]] bool are_one(std::uint8_t system_id, PeerRef a, PeerRef b) const;
   /// Summed over all paths.

@@ -5,11 +5,12 @@
 
 namespace lapwing::mavlink::internal {
 
-std::optional<base::TimePoint> Routes::last_heard(std::uint8_t system_id) const {
+std::optional<base::TimePoint> Routes::last_heard(Address source) const {
+  auto const found = sources_.find(source);
+  if (found == sources_.end()) return std::nullopt;
   std::optional<base::TimePoint> last;
-  for (auto it = sources_.lower_bound({system_id, 0}); it != sources_.end() && it->first.system == system_id; ++it)
-    for (auto const& path : it->second.paths)
-      if (!last || path.meter.last_heard() > *last) last = path.meter.last_heard();
+  for (auto const& path : found->second.paths)
+    if (!last || path.meter.last_heard() > *last) last = path.meter.last_heard();
   return last;
 }
 

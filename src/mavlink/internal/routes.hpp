@@ -80,8 +80,7 @@ class Routes {
   /// Peers that spoke MAVLink not long before `now`.
   [[nodiscard]] std::vector<PeerRef> talkers(base::TimePoint now) const;
 
-  /// When any component of the system was heard last.
-  [[nodiscard]] std::optional<base::TimePoint> last_heard(std::uint8_t system_id) const;
+  [[nodiscard]] std::optional<base::TimePoint> last_heard(Address source) const;
   [[nodiscard]] SourceCounters counters(Address source) const;
   [[nodiscard]] ParserCounters parser_counters(std::size_t link) const;
   /// Fills in everything but names and what the link itself knows.

@@ -104,7 +104,7 @@ class Attention {
   /// It was asked for as long as the protocol has one ask (five times, 1.5 s each, and a little), and a link that loses
   /// what this one is seen to lose would hardly have lost every question or its answer.
   [[nodiscard]] bool is_denied() const {
-    auto const heard = party_.connection.last_heard(party_.target.system);
+    auto const heard = party_.connection.last_heard(party_.target);
     auto const now = party_.now();
     if (is_given_ || now - since_ < long_enough || !heard || now - *heard >= beats_missed) return false;
     auto const counters = party_.connection.counters(party_.target);
