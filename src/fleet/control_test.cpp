@@ -312,6 +312,79 @@ TEST(Control, StopsInTheMiddleOfAnUpload) {
   EXPECT_EQ(world.copter.commands_heard(MavCmd::component_arm_disarm), 0);
 }
 
+/// A script's upload over a plan of fifty items, which has come to its third.
+struct InMidUpload : ControlWorld {
+  TestAutopilot& copter = add_ready({.request_spacing = 500ms});
+  std::unique_ptr<tasks::TaskRun> run;
+  InMidUpload() {
+    copter.mission.resize(50);
+    run = start_mission();
+    EXPECT_TRUE(comes_to(*run, "uploading 2/"));
+  }
+  bool is_cleared() {
+    return run_until([&] { return copter.mission.empty(); }, 10s);
+  }
+};
+
+TEST(Control, LeavesNoPartsOfTwoPlansWhenItTakesAVehicleOver) {
+  InMidUpload world;
+  auto const number = world.give({.action = Action::hold}, {"1"}, "operator 1", true);
+  EXPECT_TRUE(world.is_cleared());
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_TRUE(world.has_logged("copter 1: the upload was given up: what the vehicle held was cleared"));
+}
+
+TEST(Control, LeavesNoPartsOfTwoPlansAfterAnEmergencyStop) {
+  InMidUpload world;
+  EXPECT_TRUE(world.stops_all());
+  EXPECT_TRUE(world.is_cleared());
+}
+
+TEST(Control, LeavesNoPartsOfTwoPlansWhenAVehicleIsBackThatWasLost) {
+  InMidUpload world;
+  world.copter.is_silent = true;
+  world.run_for(30s);
+  EXPECT_TRUE(world.run->vehicle_failed());
+  EXPECT_FALSE(world.copter.mission.empty());
+  world.copter.is_silent = false;
+  EXPECT_TRUE(world.is_cleared());
+}
+
+TEST(Control, ClearsPartsOfPlansThoughTheFirstStopIsFollowedByAnother) {
+  InMidUpload world;
+  world.run->stop();
+  world.run_for(1ms);
+  (void)world.give({.action = Action::hold}, {"1"}, "operator 1", true);
+  EXPECT_TRUE(world.is_cleared());
+}
+
+TEST(Control, FliesNoMixtureOfTwoPlans) {
+  InMidUpload world;
+  auto const start = world.give({.action = Action::start_mission}, {"1"}, "operator 1", true);
+  EXPECT_EQ(world.end_of(start), CommandState::refused);
+  EXPECT_EQ(world.outcome(start).reason,
+            "copter 1 may hold a part of one plan and a part of another: upload a plan first");
+  auto const by_mode = world.give({.action = Action::set_mode, .mode = "AUTO"});
+  EXPECT_EQ(world.end_of(by_mode), CommandState::refused);
+  EXPECT_FALSE(world.copter.is_armed);
+  EXPECT_TRUE(world.is_cleared());
+  world.run_for(1s);
+  auto const cleared = world.give({.action = Action::set_mode, .mode = "AUTO"});
+  EXPECT_EQ(world.end_of(cleared), CommandState::confirmed) << "an empty plan is no mixture";
+}
+
+TEST(Control, FliesAPlanThatSomebodyPutInPlaceOfAMixture) {
+  InMidUpload world;
+  world.copter.is_silent = true;
+  world.run_for(30s);
+  world.copter.is_silent = false;
+  world.copter.send(mavlink::MissionAck{.target = {254, 190}, .type = mavlink::MissionType::mission});
+  world.run_for(10s);
+  EXPECT_FALSE(world.copter.mission.empty()) << "it is theirs";
+  auto const start = world.give({.action = Action::set_mode, .mode = "AUTO"}, {"1"}, "operator 1", true);
+  EXPECT_EQ(world.end_of(start), CommandState::confirmed);
+}
+
 TEST(Control, GivesVehiclesBackWhenTheScriptHasEnded) {
   WithScript world;
   ASSERT_TRUE(world.is_flying());

@@ -59,6 +59,9 @@ struct Craft {
   bool is_armed = false;
   base::TimePoint armed_changed{};    ///< when a heartbeat first showed it
   bool mission_mode_pending = false;  ///< we commanded the mission mode, and no heartbeat has shown what came of it
+  /// An upload was given up in the middle: perhaps a part of one plan and a part of another. Until it has taken a whole
+  /// one, or was cleared.
+  bool holds_parts = false;
   MissionTrace trace;
   std::optional<std::uint32_t> asked_mode;  ///< the last that this station commanded
   base::TimePoint mode_asked{};

@@ -173,10 +173,14 @@ std::string_view to_string(RunRecord::Outcome outcome) {
   return "failed";
 }
 
-Task<> clear_part_of_plan(RunContext context, RunRecord& record) {
+Task<mavlink::PlanLeft> clear_part_of_plan(RunContext context) {
   auto options = replace_options(context);
+  mavlink::Replacement parts;
+  parts.left = mavlink::PlanLeft::unknown;
   co_await mavlink::undo_replacement(context.connection, context.craft.address, mavlink::MissionType::mission,
-                                     std::move(options), record.upload);
+                                     std::move(options), parts);
+  if (parts.left != mavlink::PlanLeft::unknown) context.craft.holds_parts = false;
+  co_return parts.left;
 }
 
 Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord& record) {
@@ -200,6 +204,7 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   record.items = static_cast<int>(plan.items.size());
   auto transferred = co_await transfer_mission(context, plan, record);
   if (!transferred) co_return transferred;
+  craft.holds_parts = false;
   craft.state.planned_path = plan.path;
 
   auto started = co_await start(context, mission, plan, record);

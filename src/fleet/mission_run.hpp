@@ -54,8 +54,8 @@ struct RunContext {
 };
 
 /// After a run that was given up in mid-upload: a vehicle must not keep a part of one plan and a part of another, so
-/// its plan is cleared.
-base::Task<> clear_part_of_plan(RunContext context, RunRecord& record);
+/// its plan is cleared. Tells what is left.
+base::Task<mavlink::PlanLeft> clear_part_of_plan(RunContext context);
 
 /// Flies `mission` from claim to completion (language specification 5.4, phases 1 to 7), keeping `record` up to date.
 /// Ends with the reason when it failed. Watches neither for the vehicle's loss nor for a stop: whoever owns the task

@@ -237,6 +237,10 @@ void Network::take_from_autopilot(Craft& craft, mavlink::Received const& receive
     tell(craft, take_text(craft, received.source.component, *chunk, received.at));
   if (auto const* version = std::get_if<mavlink::AutopilotVersion>(&received.message))
     craft.capabilities = version->capabilities;
+  // Whoever has sent it: the vehicle has taken a whole plan, or was cleared.
+  if (auto const* ack = std::get_if<mavlink::MissionAck>(&received.message);
+      ack && ack->result == mavlink::MavMissionResult::accepted && ack->type == mavlink::MissionType::mission)
+    craft.holds_parts = false;
   if (!take_telemetry(craft, received.message, received.at))
     (void)take_payload(craft, received.source.component, received.message, received.at);
   registry_.touch(craft.id());

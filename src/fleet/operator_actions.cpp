@@ -121,11 +121,22 @@ Task<Result<>> resume(mavlink::Connection& connection, Craft& craft, ActionOptio
   co_return co_await go_into_role(connection, craft, ModeRole::mission, "has no mission mode", how);
 }
 
+bool flies_the_plan(Craft const& craft, vehicle::VehicleCommand const& command) {
+  if (command.action == Action::start_mission || command.action == Action::resume_mission) return true;
+  if (command.action != Action::set_mode) return false;
+  auto const mode = mavlink::mode_number(craft.state.autopilot, craft.state.family, command.mode);
+  return mode && mode == mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::mission);
+}
+
 }  // namespace
 
 Task<Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle::VehicleCommand command,
                          ActionOptions how) {
   constexpr double usual_height_m = 10.0;
+  if (craft.holds_parts && flies_the_plan(craft, command))
+    co_return fail(ErrorKind::refused,
+                   fmt::format("{} may hold a part of one plan and a part of another: upload a plan first",
+                               craft.state.name));
   switch (command.action) {
     case Action::arm: co_return co_await arm(connection, craft, how);
     case Action::disarm: co_return co_await disarm(connection, craft, how);

@@ -18,6 +18,7 @@ std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
     flight_ = {};
   }
   rest_ = {};
+  tidy_ = {};
   if (std::exchange(is_settling_, false)) settled_.notify_all();
   run_ = std::make_shared<RunRecord>();
   run_->mission = mission.name;
@@ -47,9 +48,11 @@ void Pilot::stop(OnStop on_stop) {
 void Pilot::yield(std::string reason) {
   rest_ = {};
   if (std::exchange(is_settling_, false)) settled_.notify_all();
-  if (!is_flying()) return;
-  flight_ = {};
-  end(Outcome::failed, std::move(reason));
+  if (is_flying()) {
+    flight_ = {};
+    end(Outcome::failed, std::move(reason));
+  }
+  begin_tidying();
 }
 
 Task<> Pilot::fly(plan::Mission mission) {
@@ -90,11 +93,13 @@ Task<> Pilot::guard() {
   flight_ = {};
   run->vehicle_failed = true;
   end(Outcome::failed, std::move(reason));
+  begin_tidying();
 }
 
 void Pilot::end(Outcome outcome, std::string error) {
   run_->outcome = outcome;
   run_->error = std::move(error);
+  if (run_->upload.left == mavlink::PlanLeft::unknown) context_.craft.holds_parts = true;
   auto line = fmt::format("{}: '{}' {}", context_.craft.state.name, run_->mission, to_string(outcome));
   if (auto& flown = run_->flown) {
     flown->duration = context_.connection.loop().now() - run_->begun;
@@ -109,8 +114,7 @@ void Pilot::end(Outcome outcome, std::string error) {
 void Pilot::begin_rest(OnStop on_stop) {
   bool const flies_the_last = run_->took_over && in_mission_mode(context_.craft);
   bool const flies = context_.craft.mission_mode_pending || run_->has_begun || flies_the_last;
-  bool const holds_parts = run_->upload.left == mavlink::PlanLeft::unknown;
-  if (!flies && !run_->may_have_armed && !holds_parts) return;
+  if (!flies && !run_->may_have_armed && !context_.craft.holds_parts) return;
   is_settling_ = true;
   rest_ = rest(on_stop, flies);
   rest_.start();
@@ -120,14 +124,8 @@ Task<> Pilot::rest(OnStop on_stop, bool flies) {
   auto const run = run_;
   co_await context_.connection.loop()
       .turn();  // the next task on this vehicle may start in this turn and will deal with it
-  if (flies || run->may_have_armed) {
-    co_await bring_down(on_stop, flies);
-  } else {
-    co_await clear_part_of_plan(context_, *run);
-    auto const text =
-        fmt::format("{} stopped in mid-upload: {}", context_.craft.state.name, to_string(run->upload.left));
-    run->upload.left == mavlink::PlanLeft::unknown ? context_.log.error(text) : context_.log.info(text);
-  }
+  if (flies || run->may_have_armed) co_await bring_down(on_stop, flies);
+  if (context_.craft.holds_parts) co_await discard_parts();
   is_settling_ = false;
   settled_.notify_all();
 }
@@ -146,6 +144,32 @@ Task<> Pilot::bring_down(OnStop on_stop, bool flies) {
     context_.log.info(fmt::format("{} stopped: {}", craft.state.name, craft.state.mode.value.value_or("")));
   } else {
     context_.log.error(fmt::format("{} could not be stopped: {}", craft.state.name, done.error().message));
+  }
+}
+
+Task<> Pilot::discard_parts() {
+  auto const left = co_await clear_part_of_plan(context_);
+  auto const text = fmt::format("{}: the upload was given up: {}", context_.craft.state.name, to_string(left));
+  left == mavlink::PlanLeft::unknown ? context_.log.error(text) : context_.log.info(text);
+}
+
+void Pilot::begin_tidying() {
+  if (!context_.craft.holds_parts) return;
+  tidy_ = tidy();
+  tidy_.start();
+}
+
+/// Moves nothing, so it may be done to a vehicle that somebody else commands, or none may command.
+Task<> Pilot::tidy() {
+  constexpr int tries = 3;
+  auto& craft = context_.craft;
+  auto const may_be_cleared = [&] {
+    bool const flies_it = craft.is_armed && in_mission_mode(craft);
+    return craft.is_connected() && !flies_it && !context_.connection.is_contested(craft.address.system);
+  };
+  for (int attempt = 0; attempt < tries && craft.holds_parts; ++attempt) {
+    while (!may_be_cleared()) co_await craft.changed.wait();
+    if (craft.holds_parts) co_await discard_parts();
   }
 }
 

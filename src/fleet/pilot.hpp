@@ -29,7 +29,7 @@ class Pilot {
   void stop(OnStop on_stop);
 
   /// Gives the vehicle up to somebody else, who commands it from now on: ends the run and the rest after one, and sends
-  /// nothing but the end of an upload.
+  /// nothing but the end of an upload and what clears the parts of plans that it has left.
   void yield(std::string reason);
 
   [[nodiscard]] bool is_flying() const { return run_ && run_->outcome == RunRecord::Outcome::running; }
@@ -43,8 +43,11 @@ class Pilot {
   base::Task<> guard();
   base::Task<> rest(OnStop on_stop, bool flies);
   base::Task<> bring_down(OnStop on_stop, bool flies);
+  base::Task<> discard_parts();
+  base::Task<> tidy();
   void end(RunRecord::Outcome outcome, std::string error);
   void begin_rest(OnStop on_stop);
+  void begin_tidying();
 
   RunContext context_;
   base::Notifier& settled_;
@@ -54,6 +57,7 @@ class Pilot {
   base::Task<> flight_;
   base::Task<> guard_;
   base::Task<> rest_;
+  base::Task<> tidy_;  ///< the vehicle is not ours while it runs, or not there
 };
 
 }  // namespace lapwing::fleet
