@@ -104,6 +104,7 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   auto& running = running_[id];
   running.number = record.number;
   running.made_commander = was_nobodys;
+  craft->arming_begun.reset();
   running.task = carry(*craft, record.number, record.command, fleet_.loop().now() + patience);
   running.task.start();
 }
@@ -143,8 +144,8 @@ void Control::finish(Craft& craft, std::uint64_t number, Result<> const& ended, 
   auto const outcome = std::ranges::find(record->outcomes, craft.id(), &CommandOutcome::vehicle);
   bool const was_accepted = outcome->state == CommandState::accepted;
   auto const state = state_after(ended, was_accepted, fleet_.loop().now() >= expires);
-  // An arming that nobody answered may still be on its way.
-  if (may_arm(record->command.action) && !ended && !craft.is_armed) craft.may_arm_late = true;
+  bool const is_unanswered = !ended && ended.error().kind != ErrorKind::refused;
+  if (may_arm(record->command.action) && is_unanswered) expect_late_arming(craft);
   // Who asked for what the vehicle cannot do has not commanded it.
   if (!ended && ended.error().kind == ErrorKind::invalid_input && running_[craft.id()].made_commander)
     (void)fleet_.authority().yield(craft, record->by);
@@ -161,8 +162,7 @@ bool Control::supersede(VehicleId const& id, std::string const& reason) {
   if (record == records_.end()) return was_under_way;
   auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
   if (vehicle::is_over(outcome->state)) return false;
-  auto* const craft = fleet_.find(id);
-  if (was_under_way && may_arm(record->command.action) && !craft->is_armed) craft->may_arm_late = true;
+  if (was_under_way && may_arm(record->command.action)) expect_late_arming(*fleet_.find(id));
   show(number, id, CommandState::superseded, reason);
   return was_under_way;
 }
@@ -181,6 +181,15 @@ void Control::show(std::uint64_t number, VehicleId const& id, CommandState state
   state == CommandState::confirmed ? log_.info(line) : log_.warn(line);
 }
 
+/// The arming of a command that has ended may still be on its way, if it was sent at all.
+void Control::expect_late_arming(Craft& craft) {
+  constexpr base::Duration links_keep = std::chrono::seconds(60);
+  auto& commands = craft.connection.commands();
+  auto const sent = commands.last_sent(craft.address.system, mavlink::MavCmd::component_arm_disarm);
+  if (craft.is_armed || !craft.arming_begun || !sent || *sent < *craft.arming_begun) return;
+  craft.may_arm_late_until = fleet_.loop().now() + links_keep;
+}
+
 /// An acknowledgement to us of an arming that we have given up: the link had kept one or the other.
 void Control::take_late_arming(Network& network, mavlink::Received const& received) {
   auto const* ack = std::get_if<mavlink::CommandAck>(&received.message);
@@ -188,7 +197,9 @@ void Control::take_late_arming(Network& network, mavlink::Received const& receiv
     return;
   if (!mavlink::addresses(ack->target, network.connection().self())) return;
   auto* const craft = network.find(received.source.system);
-  if (!craft || !std::exchange(craft->may_arm_late, false)) return;
+  if (!craft || !craft->may_arm_late_until || received.at > *craft->may_arm_late_until) return;
+  // A station that rides along may have our id.
+  if (network.connection().commands().was_just_passed_on(received.source.system, ack->command, received.at)) return;
   scope_.spawn(take_back(*craft));
 }
 
@@ -199,6 +210,7 @@ base::Task<> Control::take_back(Craft& craft) {
   std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
   if (!co_await craft.changed.wait_for(std::move(is_armed), heartbeats)) co_return;
   if (craft.armings != armings) co_return;  // somebody here wants it armed meanwhile
+  if (!std::exchange(craft.may_arm_late_until, std::nullopt)) co_return;
   log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
   ActionOptions const how{.is_urgent = true};
   auto const disarmed = co_await disarm(craft.connection, craft, how);

@@ -63,6 +63,7 @@ class Control final : public vehicle::VehicleControl {
   /// Whether there was a command to end.
   bool supersede(vehicle::VehicleId const& id, std::string const& reason);
   void show(std::uint64_t number, vehicle::VehicleId const& id, vehicle::CommandState state, std::string reason);
+  void expect_late_arming(Craft& craft);
   void take_late_arming(Network& network, mavlink::Received const& received);
   base::Task<> take_back(Craft& craft);
 

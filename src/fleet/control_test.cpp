@@ -235,6 +235,67 @@ TEST(Control, LeavesAnArmingOfSomebodyElseAlone) {
   EXPECT_TRUE(copter.is_armed);
 }
 
+/// Armed by somebody else, under the id of this station.
+void arm_as_if_asked_here(ControlWorld& world, TestAutopilot& copter) {
+  copter.is_armed = copter.is_flying = true;
+  copter.send(mavlink::CommandAck{
+      .target = world.connection.self(), .command = MavCmd::component_arm_disarm, .progress = std::nullopt});
+  world.run_for(8s);
+}
+
+TEST(Control, TakesNoArmingBackAfterOneThatWasRefused) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.arming_refusal = "Arm: Throttle too high";
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::refused);
+  arm_as_if_asked_here(world, copter);
+  EXPECT_TRUE(copter.is_armed);
+}
+
+TEST(Control, TakesNoArmingBackThatComesMuchTooLate) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  world.run_for(61s);
+  arm_as_if_asked_here(world, copter);
+  EXPECT_TRUE(copter.is_armed);
+  copter.is_flying = false;
+}
+
+TEST(Control, TakesALateArmingBackThoughADisarmingWasAcknowledgedBefore) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  EXPECT_EQ(world.end_of(world.give({.action = Action::disarm})), CommandState::confirmed);
+  world.run_for(5s);
+  copter.is_armed = true;
+  copter.send(mavlink::CommandAck{
+      .target = world.connection.self(), .command = MavCmd::component_arm_disarm, .progress = std::nullopt});
+  EXPECT_TRUE(world.run_until([&] { return !copter.is_armed; }, 5s));
+  EXPECT_TRUE(world.has_logged("an arming that came too late"));
+}
+
+TEST(Control, TakesNoArmingBackThatItHasPassedOn) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  mavlink::PeerRef peer{};
+  auto const ear = world.connection.subscribe(1, [&](mavlink::Received const& heard) { peer = heard.from; });
+  copter.ignored_commands.insert(MavCmd::component_arm_disarm);
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::timed_out);
+  copter.ignored_commands.clear();
+  mavlink::CommandLong const arming{
+      .target = {1, 1}, .command = MavCmd::component_arm_disarm, .confirmation = 0, .params = {1.0F}};
+  auto const frame = mavlink::encode(arming, world.connection.self(), 0);
+  EXPECT_TRUE(world.connection.pass_on(peer, mavlink::serialize(frame).bytes()));
+  world.run_for(6s);
+  EXPECT_TRUE(copter.is_armed);
+  EXPECT_FALSE(world.has_logged("came too late"));
+}
+
 TEST(Control, SendsNothingThatMovesToALostVehicle) {
   ControlWorld world;
   auto& copter = world.add_ready();

@@ -67,7 +67,9 @@ struct Craft {
   base::TimePoint mode_asked{};
   std::optional<std::uint64_t> capabilities;  ///< MAV_PROTOCOL_CAPABILITY, once the vehicle has told
   unsigned armings = 0;                       ///< how often this station has set out to arm it
-  bool may_arm_late = false;  ///< an arming was given up unanswered: if the vehicle carries it out, it is taken back
+  std::optional<base::TimePoint> arming_begun;  ///< by the operator's present command
+  /// An arming was given up unanswered: if the vehicle carries it out before this, it is taken back.
+  std::optional<base::TimePoint> may_arm_late_until;
 
   // What telemetry keeps between messages.
   std::optional<base::Duration> since_boot;  ///< the vehicle's clock, to notice that it began anew

@@ -94,7 +94,8 @@ void note_asked(Craft& craft, std::uint32_t mode, TimePoint now) {
 }
 
 Task<Result<>> send_arming(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
-  craft.may_arm_late = false;  // from now on it is wanted
+  craft.may_arm_late_until.reset();  // from now on it is wanted
+  craft.arming_begun = connection.loop().now();
   ++craft.armings;
   auto const since = connection.loop().now();
   // Short waits and many tries: it must come through within the seconds before it expires.

@@ -32,6 +32,7 @@ CommandTurn::~CommandTurn() {
 
 void CommandTurn::note_sent(Command const& command, base::TimePoint now) {
   line_.unanswered_.push_back({fingerprint(command), now});
+  line_.last_sent_ = now;
 }
 
 bool CommandTurn::note_answer(Command const& command, base::TimePoint now) {
@@ -41,6 +42,11 @@ bool CommandTurn::note_answer(Command const& command, base::TimePoint now) {
   bool const is_meant = unanswered.front().fingerprint == fingerprint(command);
   unanswered.pop_front();
   return is_meant;
+}
+
+bool CommandLedger::was_just_passed_on(std::uint8_t system_id, MavCmd command, base::TimePoint now) {
+  auto const& last = line(system_id, command).last_passed_on_;
+  return last && now - *last <= answer_lasts;
 }
 
 }  // namespace lapwing::mavlink

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/notifier.hpp"
@@ -22,6 +23,7 @@ class CommandLine {
 
  private:
   friend class CommandTurn;
+  friend class CommandLedger;
   struct Unanswered {
     std::uint64_t fingerprint;  ///< of the command's parameters
     base::TimePoint sent;
@@ -29,6 +31,8 @@ class CommandLine {
   std::uint64_t owner_ = 0;
   std::uint64_t last_owner_ = 0;
   std::deque<Unanswered> unanswered_;
+  std::optional<base::TimePoint> last_sent_;
+  std::optional<base::TimePoint> last_passed_on_;
 };
 
 /// Holds the line while it lives, unless a later turn overtakes it.
@@ -57,6 +61,16 @@ class CommandLedger {
   [[nodiscard]] CommandLine& line(std::uint8_t system_id, MavCmd command) {
     return lines_.try_emplace({system_id, command}, loop_).first->second;
   }
+  /// When a try went out to the vehicle, whoever here has sent it.
+  [[nodiscard]] std::optional<base::TimePoint> last_sent(std::uint8_t system_id, MavCmd command) {
+    return line(system_id, command).last_sent_;
+  }
+  /// A command of somebody else, who may speak under our own id.
+  void note_passed_on(std::uint8_t system_id, MavCmd command, base::TimePoint now) {
+    line(system_id, command).last_passed_on_ = now;
+  }
+  /// What acknowledges the command now may be meant for him.
+  [[nodiscard]] bool was_just_passed_on(std::uint8_t system_id, MavCmd command, base::TimePoint now);
 
  private:
   base::Loop& loop_;

@@ -268,6 +268,7 @@ bool Connection::pass_on(PeerRef to, std::span<std::uint8_t const> packet) {
     });
   }
   if (!may_pass || !links_[to.link]->send(to.peer, packet)) return false;
+  if (seen) note_passed_on(*seen);
   if (seen && frame_hook_ && !tells_a_key(*seen)) frame_hook_(Direction::sent, *seen, loop_.now());
   return true;
 }
@@ -278,6 +279,18 @@ bool Connection::is_held_back(Frame const& frame) const {
   auto const message = guarded(frame);
   auto const target = message ? target_of(*message) : std::nullopt;
   return target && !send_guard_(*target, *message);
+}
+
+void Connection::note_passed_on(Frame const& frame) {
+  constexpr std::uint32_t command_int = 75;
+  constexpr std::uint32_t command_long = 76;
+  if (frame.message_id != command_int && frame.message_id != command_long) return;
+  auto const message = decode(frame);
+  if (!message) return;
+  if (auto const* as_long = std::get_if<CommandLong>(&*message))
+    commands_.note_passed_on(as_long->target.system, as_long->command, loop_.now());
+  if (auto const* as_int = std::get_if<CommandInt>(&*message))
+    commands_.note_passed_on(as_int->target.system, as_int->command, loop_.now());
 }
 
 // ---- what is known

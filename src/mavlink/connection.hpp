@@ -161,6 +161,7 @@ class Connection {
   bool send_frame(PeerRef to, Frame& frame, std::uint8_t system_id = 0);
   [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
   [[nodiscard]] bool is_held_back(Frame const& frame) const;
+  void note_passed_on(Frame const& frame);
   base::Task<void> beat();
   base::Task<void> watch();
   void ask_who_they_are(bool with_conflicts);
