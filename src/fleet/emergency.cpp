@@ -55,7 +55,7 @@ std::string posture(Craft const& craft) {
 Emergency::Emergency(Fleet& fleet, std::function<void()> changed, base::Logger log)
     : fleet_(fleet), changed_(std::move(changed)), log_(std::move(log)) {
   fleet_.set_send_guard([this](Craft const& craft, mavlink::Message const& message) -> base::Result<> {
-    if (!state_.is_latched || !is_moving(craft, message)) return {};
+    if (!state_.is_latched || passes_stop(craft, message)) return {};
     return base::fail(base::ErrorKind::refused, fmt::format("emergency stop by {}", state_.by),
                       "release the emergency stop first");
   });

@@ -1,5 +1,8 @@
 #include "fleet/emergency.hpp"
 
+#include <array>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "fleet/test_control.hpp"
@@ -154,6 +157,26 @@ TEST(EmergencyStop, HoldsBackWhatAnotherStationSendsToOneOrToAll) {
   EXPECT_TRUE(goes_on(mavlink::encode(item, {254, 190}, 0))) << "a plan moves nothing";
   item.current = 2;
   EXPECT_FALSE(goes_on(mavlink::encode(item, {254, 190}, 0))) << "a guided way point does";
+}
+
+TEST(EmergencyStop, LetsOnlyThoseCommandsThroughThatAreKnownToMoveNothing) {
+  ControlWorld world;
+  world.add_flying();
+  EXPECT_TRUE(world.stops_all());
+  auto const passes = [&](int number, std::array<float, 7> params = {}) {
+    auto const command = static_cast<MavCmd>(number);
+    return world.connection.send({1, 1}, mavlink::CommandLong{.command = command, .params = params}).has_value();
+  };
+  for (int const number : {22, 24, 34, 92, 183, 187, 189, 218, 224, 246, 3000, 31010, 43001})
+    EXPECT_FALSE(passes(number)) << number;
+  for (int const number : {17, 20, 21, 185, 193, 203, 205, 400, 410, 511, 512, 1000, 2000})
+    EXPECT_TRUE(passes(number)) << number;
+  EXPECT_FALSE(passes(193, {1.0F})) << "go on";
+  EXPECT_FALSE(passes(400, {1.0F})) << "arm";
+  EXPECT_TRUE(passes(176, {1.0F, float{copter_mode::rtl}}));
+  EXPECT_FALSE(passes(176, {1.0F, float{copter_mode::automatic}}));
+  EXPECT_FALSE(passes(176, {1.0F, std::nanf("")}));
+  EXPECT_FALSE(world.connection.send({1, 1}, mavlink::CommandInt{.command = static_cast<MavCmd>(34), .params = {}}));
 }
 
 TEST(EmergencyStop, EndsWhatIsUnderWay) {

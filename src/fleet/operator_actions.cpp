@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,7 @@ using base::ErrorKind;
 using base::fail;
 using base::Result;
 using base::Task;
+using mavlink::MavCmd;
 using mavlink::ModeRole;
 using vehicle::Action;
 using vehicle::Autopilot;
@@ -186,22 +189,44 @@ bool is_stop_mode(Craft const& craft, std::uint32_t custom_mode) {
   });
 }
 
+/// A parameter that holds a whole number; what is none, is that of no mode.
+std::uint32_t whole(float value) {
+  constexpr float limit = 4294967296.0F;
+  return value >= 0.0F && value < limit ? static_cast<std::uint32_t>(value) : std::numeric_limits<std::uint32_t>::max();
+}
+
 bool is_moving(Craft const& craft, mavlink::Command const& command) {
-  using mavlink::MavCmd;
   auto const& p = command.params;
   switch (command.id) {
     case MavCmd::do_set_mode: {
-      auto const whole = static_cast<std::uint32_t>(p[1]);
       bool const is_px4 = craft.state.autopilot == Autopilot::px4;
-      return !is_stop_mode(craft, is_px4 ? whole << 16U | static_cast<std::uint32_t>(p[2]) << 24U : whole);
+      return !is_stop_mode(craft, is_px4 ? whole(p[1]) << 16U | whole(p[2]) << 24U : whole(p[1]));
     }
     case MavCmd::nav_return_to_launch:
     case MavCmd::nav_land:
+    case MavCmd::nav_vtol_land:
     case MavCmd::nav_loiter_unlim:
+    case MavCmd::do_parachute:
     case MavCmd::do_flight_termination: return false;
     case MavCmd::do_pause_continue: return p[0] != 0.0F;
     default: return mavlink::is_hazardous(command);
   }
+}
+
+/// What a stopped vehicle may be told, as far as `is_moving` has nothing against it. By numbers of the standard: nobody
+/// knows what the others do.
+constexpr std::array<std::uint16_t, 44> harmless_when_stopped{
+    17,  20,  21,  85,  176, 185,                 // stops: LOITER_UNLIM, RTL, LAND, VTOL_LAND, SET_MODE, TERMINATION
+    193, 208, 400,                                // PAUSE_CONTINUE, PARACHUTE, COMPONENT_ARM_DISARM
+    202, 203, 204, 205, 206, 530, 531, 532, 533,  // cameras and mounts
+    534, 1000, 1001, 2000, 2001, 2002, 2003, 2004, 2500, 2501, 2502, 2503,
+    401, 410, 510, 511, 512, 519, 520, 521, 522,  // questions, and what is told regularly
+    525, 527, 528, 2504, 2505};
+
+std::optional<MavCmd> command_of(mavlink::Message const& message) {
+  if (auto const* as_long = std::get_if<mavlink::CommandLong>(&message)) return as_long->command;
+  if (auto const* as_int = std::get_if<mavlink::CommandInt>(&message)) return as_int->command;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -233,6 +258,12 @@ bool is_moving(Craft const& craft, mavlink::Message const& message) {
     return item->current == go_there || item->current == climb_there;
   }
   return std::holds_alternative<mavlink::SetPositionTargetGlobalInt>(message);
+}
+
+bool passes_stop(Craft const& craft, mavlink::Message const& message) {
+  if (is_moving(craft, message)) return false;
+  auto const command = command_of(message);
+  return !command || std::ranges::find(harmless_when_stopped, std::to_underlying(*command)) != harmless_when_stopped.end();
 }
 
 }  // namespace lapwing::fleet

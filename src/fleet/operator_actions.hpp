@@ -17,5 +17,8 @@ base::Task<base::Result<>> stop_at_once(mavlink::Connection& connection, Craft& 
 
 /// Whether a message makes the vehicle arm or move, or lets it go on. Modes that bring it to rest do not.
 [[nodiscard]] bool is_moving(Craft const& craft, mavlink::Message const& message);
+/// Whether an emergency stop lets the message through: of commands stops, questions, and what cameras and gimbals do;
+/// anything else that does not move the vehicle.
+[[nodiscard]] bool passes_stop(Craft const& craft, mavlink::Message const& message);
 
 }  // namespace lapwing::fleet

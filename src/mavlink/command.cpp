@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -167,6 +168,14 @@ base::Task<base::Result<>> run_command(Connection& connection, Address target, C
                  "check the link; the command may have taken effect all the same");
 }
 
+namespace {
+
+/// Commands of that kind which have no name here: DO_FOLLOW, DO_FOLLOW_REPOSITION, DO_ORBIT, DO_FIGURE_EIGHT,
+/// GUIDED_CHANGE_SPEED, _ALTITUDE and _HEADING.
+constexpr std::array<std::uint16_t, 7> nameless_moves{32, 33, 34, 35, 43000, 43001, 43002};
+
+}  // namespace
+
 bool is_hazardous(Command const& command) {
   switch (command.id) {
     case MavCmd::component_arm_disarm: return command.params[0] != 0.0F;
@@ -184,8 +193,24 @@ bool is_hazardous(Command const& command) {
     case MavCmd::do_motor_test:
     case MavCmd::do_flight_termination:
     case MavCmd::nav_set_yaw_speed:
+    case MavCmd::nav_takeoff_local:
+    case MavCmd::nav_land_local:
+    case MavCmd::nav_vtol_land:
+    case MavCmd::nav_follow:
+    case MavCmd::nav_guided_enable:
+    case MavCmd::do_land_start:
+    case MavCmd::do_rally_land:
+    case MavCmd::do_go_around:
+    case MavCmd::do_parachute:
+    case MavCmd::do_inverted_flight:
+    case MavCmd::do_autotune_enable:
+    case MavCmd::do_aux_function:
+    case MavCmd::do_engine_control:
+    case MavCmd::do_set_mission_current:
+    case MavCmd::do_vtol_transition:
+    case MavCmd::preflight_reboot_shutdown:
     case MavCmd::condition_yaw: return true;
-    default: return false;
+    default: return std::ranges::find(nameless_moves, std::to_underlying(command.id)) != nameless_moves.end();
   }
 }
 

@@ -383,6 +383,15 @@ TEST(Command, IsNotSentLaterThanWhoAskedForItWants) {
   EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 2u);
 }
 
+TEST(Command, IsHazardousWhenItMovesAVehicle) {
+  for (auto const number : {22, 24, 34, 84, 92, 115, 176, 189, 192, 218, 246, 300, 3000, 43001})
+    EXPECT_TRUE(is_hazardous({static_cast<MavCmd>(number), {}})) << number;
+  for (auto const number : {203, 410, 511, 512, 1000, 2000})
+    EXPECT_FALSE(is_hazardous({static_cast<MavCmd>(number), {}})) << number;
+  EXPECT_TRUE(is_hazardous(arm()));
+  EXPECT_FALSE(is_hazardous(disarm()));
+}
+
 TEST(Connection, LetsAGuardHoldBackWhatIsSent) {
   Bench bench;
   bench.ground.set_send_guard([](Address, Message const& message) -> base::Result<> {
