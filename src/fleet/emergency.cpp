@@ -40,10 +40,15 @@ bool may_be_two(Craft const& craft) {
 
 /// Neither can be told apart from the other, so both are stopped, whatever kind of stop it is.
 void hold_all(Craft& craft) {
-  auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::hold).value_or(0);
-  auto const command = mavlink::set_mode(craft.mav_autopilot, hold);
-  craft.connection.send_to_all(
-      mavlink::CommandLong{.target = craft.address, .command = command.id, .params = command.params});
+  auto const send = [&craft](mavlink::Command const& command) {
+    craft.connection.send_to_all(
+        mavlink::CommandLong{.target = craft.address, .command = command.id, .params = command.params});
+  };
+  auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::hold);
+  if (hold) return send(mavlink::set_mode(craft.mav_autopilot, *hold));
+  auto const stops = stops_without_mode(OnStop::loiter);
+  send(stops[0]);  // those that hold it; the further ones would take each other's place
+  send(stops[1]);
 }
 
 std::string posture(Craft const& craft) {
@@ -140,8 +145,8 @@ base::Task<bool> Emergency::stop_once(Craft& craft) {
   };
   auto const stopped = co_await stop_at_once(craft.connection, craft, state_.action, on_accepted);
   if (stopped && !may_be_two(craft)) co_return true;
-  tell(craft, stopped ? "heard from two places: stopped again until it is known to be one vehicle"
-                      : stopped.error().message);
+  tell(craft,
+       stopped ? "heard from two places: stopped again until it is known to be one vehicle" : stopped.error().message);
   co_return false;
 }
 

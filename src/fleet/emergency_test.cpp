@@ -343,6 +343,43 @@ TEST(EmergencyStop, StopsBothVehiclesOfOneId) {
   EXPECT_FALSE(world.stop_of("1").is_confirmed) << "which of them shows it cannot be told";
 }
 
+TEST(EmergencyStop, StopsAnAutopilotWithoutKnownModesByWhatItAccepts) {
+  ControlWorld world;
+  auto& copter = world.add_flying({.autopilot = mavlink::MavAutopilot::generic});
+  copter.modes_by_command[MavCmd::nav_land] = 77;
+  EXPECT_TRUE(world.stops_all());
+  EXPECT_EQ(copter.mode, 77u);
+  EXPECT_EQ(copter.commands_heard(MavCmd::do_pause_continue), 1) << "it would rather stay";
+  EXPECT_EQ(copter.commands_heard(MavCmd::nav_return_to_launch), 0);
+  EXPECT_EQ(copter.commands_heard(MavCmd::do_set_mode), 0);
+}
+
+TEST(EmergencyStop, GoesOnAskingAnAutopilotThatTakesNoStop) {
+  ControlWorld world;
+  auto& copter = world.add_flying({.autopilot = mavlink::MavAutopilot::generic});
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(10s);
+  EXPECT_GT(copter.commands_heard(MavCmd::nav_return_to_launch), 1);
+  EXPECT_FALSE(world.stop_of("1").is_confirmed);
+  EXPECT_TRUE(world.stop_of("1").detail.starts_with("no mode to stop in is known; vehicle 1 answered"))
+      << world.stop_of("1").detail;
+}
+
+TEST(EmergencyStop, SetsNoModeOfTwoVehiclesWhoseModesAreUnknown) {
+  ControlWorld world;
+  auto& first = world.add_flying({.autopilot = mavlink::MavAutopilot::generic});
+  auto& second = world.add({.autopilot = mavlink::MavAutopilot::generic});
+  second.is_armed = second.is_flying = true;
+  for (auto* const copter : {&first, &second}) copter->modes_by_command[MavCmd::nav_loiter_unlim] = 50;
+  ASSERT_TRUE(world.run_until([&] { return world.connection.conflict(1).has_value(); }));
+  world.control->emergency_stop(std::nullopt, "operator 1");
+  world.run_for(10s);
+  for (auto const* const copter : {&first, &second}) {
+    EXPECT_EQ(copter->mode, 50u);
+    EXPECT_EQ(copter->commands_heard(MavCmd::do_set_mode), 0);
+  }
+}
+
 TEST(EmergencyStop, StopsASecondVehicleOfOneIdThatComesLater) {
   ControlWorld world;
   auto& first = world.add_flying();

@@ -137,9 +137,9 @@ Task<Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle:
                          ActionOptions how) {
   constexpr double usual_height_m = 10.0;
   if (craft.holds_parts && flies_the_plan(craft, command))
-    co_return fail(ErrorKind::refused,
-                   fmt::format("{} may hold a part of one plan and a part of another: upload a plan first",
-                               craft.state.name));
+    co_return fail(
+        ErrorKind::refused,
+        fmt::format("{} may hold a part of one plan and a part of another: upload a plan first", craft.state.name));
   switch (command.action) {
     case Action::arm: co_return co_await arm(connection, craft, how);
     case Action::disarm: co_return co_await disarm(connection, craft, how);
@@ -216,12 +216,12 @@ bool is_moving(Craft const& craft, mavlink::Command const& command) {
 /// What a stopped vehicle may be told, as far as `is_moving` has nothing against it. By numbers of the standard: nobody
 /// knows what the others do.
 constexpr std::array<std::uint16_t, 44> harmless_when_stopped{
-    17,  20,  21,  85,  176, 185,                 // stops: LOITER_UNLIM, RTL, LAND, VTOL_LAND, SET_MODE, TERMINATION
-    193, 208, 400,                                // PAUSE_CONTINUE, PARACHUTE, COMPONENT_ARM_DISARM
-    202, 203, 204, 205, 206, 530, 531, 532, 533,  // cameras and mounts
-    534, 1000, 1001, 2000, 2001, 2002, 2003, 2004, 2500, 2501, 2502, 2503,
-    401, 410, 510, 511, 512, 519, 520, 521, 522,  // questions, and what is told regularly
-    525, 527, 528, 2504, 2505};
+    17,   20,   21,   85,   176,  185,  // stops: LOITER_UNLIM, RTL, LAND, VTOL_LAND, SET_MODE, TERMINATION
+    193,  208,  400,                    // PAUSE_CONTINUE, PARACHUTE, COMPONENT_ARM_DISARM
+    202,  203,  204,  205,  206,  530,  531,  532,  533,  // cameras and mounts
+    534,  1000, 1001, 2000, 2001, 2002, 2003, 2004, 2500, 2501, 2502,
+    2503, 401,  410,  510,  511,  512,  519,  520,  521,  522,  // questions, and what is told regularly
+    525,  527,  528,  2504, 2505};
 
 std::optional<MavCmd> command_of(mavlink::Message const& message) {
   if (auto const* as_long = std::get_if<mavlink::CommandLong>(&message)) return as_long->command;
@@ -263,7 +263,8 @@ bool is_moving(Craft const& craft, mavlink::Message const& message) {
 bool passes_stop(Craft const& craft, mavlink::Message const& message) {
   if (is_moving(craft, message)) return false;
   auto const command = command_of(message);
-  return !command || std::ranges::find(harmless_when_stopped, std::to_underlying(*command)) != harmless_when_stopped.end();
+  return !command ||
+         std::ranges::find(harmless_when_stopped, std::to_underlying(*command)) != harmless_when_stopped.end();
 }
 
 }  // namespace lapwing::fleet

@@ -150,6 +150,10 @@ void TestAutopilot::obey(MavCmd command, std::array<float, 7> const& params, mav
 }
 
 MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& params) {
+  if (auto const found = modes_by_command.find(command); found != modes_by_command.end()) {
+    change_mode(found->second);
+    return MavResult::accepted;
+  }
   switch (command) {
     case MavCmd::component_arm_disarm:
       if (params[0] == 1.0F) return arm();

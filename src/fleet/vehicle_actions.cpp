@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <ranges>
 
 #include <fmt/format.h>
@@ -110,7 +112,10 @@ Task<Result<>> send_arming(mavlink::Connection& connection, Craft& craft, Action
   // An acknowledgement may be lost and the vehicle armed all the same.
   std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
   auto const patience = asked ? armed_wait : heartbeat_wait;
-  if (co_await wait_for(craft, std::move(is_armed), patience)) co_return Result<>{};
+  if (co_await wait_for(craft, std::move(is_armed), patience)) {
+    craft.arming_begun.reset();
+    co_return Result<>{};
+  }
   if (!asked) co_return fail(asked.error().kind, fmt::format("arming: {}", asked.error().message));
   co_return fail(ErrorKind::timed_out,
                  with_reason("accepted arming but did not report armed", given_reason(craft, since)));
@@ -281,10 +286,57 @@ Task<Result<>> disarm(mavlink::Connection& connection, Craft& craft, ActionOptio
   co_return fail(ErrorKind::timed_out, "accepted disarming but still reports armed");
 }
 
+std::array<mavlink::Command, 4> stops_without_mode(OnStop on_stop) {
+  using mavlink::MavCmd;
+  constexpr auto as_it_is = std::numeric_limits<float>::quiet_NaN();
+  mavlink::Command const pause{MavCmd::do_pause_continue, {0.0F}};
+  mavlink::Command const stay{MavCmd::nav_loiter_unlim, {0, 0, 0, as_it_is, as_it_is, as_it_is, as_it_is}};
+  mavlink::Command const land{MavCmd::nav_land, {0, 0, 0, as_it_is, as_it_is, as_it_is, as_it_is}};
+  mavlink::Command const home{MavCmd::nav_return_to_launch, {}};
+  switch (on_stop) {
+    case OnStop::loiter: break;
+    case OnStop::land: return {land, pause, stay, home};
+    case OnStop::rtl: return {home, pause, stay, land};
+  }
+  return {pause, stay, land, home};
+}
+
+namespace {
+
+/// For an autopilot whose modes are not known: by the first command that it accepts, until something shows that it
+/// obeys: another mode, no speed, the ground, or motors that are off.
+Task<Result<>> stop_without_mode(mavlink::Connection& connection, Craft& craft, OnStop on_stop,
+                                 std::function<void()> on_accepted) {
+  constexpr double standing_m_s = 0.5;
+  mavlink::CommandOptions const options{.tries = 2, .ack_timeout = 500ms, .is_urgent = true};
+  auto const mode_before = craft.custom_mode;
+  auto const commands = stops_without_mode(on_stop);
+  Result<> asked;
+  for (auto const& command : commands) {
+    asked = co_await mavlink::run_command(connection, craft.address, command, options);
+    if (!asked) continue;
+    if (on_accepted) on_accepted();
+    auto const answered = connection.loop().now();
+    std::function<bool()> shown = [&craft, mode_before, answered] {
+      auto const& velocity = craft.state.velocity_m_s;
+      bool const stands = velocity.known() && velocity.heard >= answered &&
+                          std::hypot(velocity.value->north, velocity.value->east, velocity.value->down) < standing_m_s;
+      return stands || !craft.is_armed || craft.state.landed.value.value_or(false) || craft.custom_mode != mode_before;
+    };
+    if (co_await wait_for(craft, std::move(shown), heartbeat_wait)) co_return Result<>{};
+    co_return fail(ErrorKind::timed_out,
+                   fmt::format("accepted {}, but neither a mode nor its speed shows that it stops",
+                               mavlink::to_string(command.id)));
+  }
+  co_return fail(asked.error().kind, fmt::format("no mode to stop in is known; {}", asked.error().message));
+}
+
+}  // namespace
+
 Task<Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop,
                              std::function<void()> on_accepted) {
   auto const mode = stop_mode(craft, on_stop);
-  if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
+  if (!mode) co_return co_await stop_without_mode(connection, craft, on_stop, on_accepted);
   ActionOptions const how{.is_urgent = true, .on_accepted = on_accepted};
   ModeChange const change{.custom_mode = *mode, .even_if_shown = true, .tries = 25, .how = how};
   auto changed = co_await change_mode(connection, craft, change);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/task.hpp"
 #include "fleet/craft.hpp"
+#include "mavlink/command.hpp"
 #include "mavlink/connection.hpp"
 
 /// What the ground does to a vehicle outside the mission itself. Each is one coroutine; each is confirmed by the
@@ -63,6 +65,9 @@ base::Task<base::Result<>> arm_and_start(mavlink::Connection& connection, Craft&
 
 /// Takes back an arming, until a heartbeat shows it. An autopilot in the air refuses it.
 base::Task<base::Result<>> disarm(mavlink::Connection& connection, Craft& craft, ActionOptions how);
+
+/// What stops a vehicle of whose autopilot no modes are known, in the order in which it is tried.
+[[nodiscard]] std::array<mavlink::Command, 4> stops_without_mode(OnStop on_stop);
 
 /// Puts the vehicle into its stop mode; a flying machine that stands on the ground is disarmed.
 base::Task<base::Result<>> bring_to_rest(mavlink::Connection& connection, Craft& craft, OnStop on_stop,
