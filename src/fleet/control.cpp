@@ -95,9 +95,10 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   record.outcomes.push_back({.vehicle = id});
   auto* const craft = fleet_.find(id);
   if (!craft) return show(record.number, id, CommandState::refused, fmt::format("there is no vehicle {}", id.text));
-  bool const was_nobodys = craft->state.control.commander.empty();
+  bool const was_nobodys = craft->state.control.commander.empty() || craft->loans > 0;
   if (auto through = let_through(*craft, record, takes_over); !through)
     return show(record.number, id, CommandState::refused, through.error().message);
+  if (craft->state.control.commander == record.by) craft->loans = 0;  // from now on he has it for more than a parameter
   supersede(id, fmt::format("{} by {} came after it", to_string(record.command.action), record.by));
   // A stop is not given up while there is a chance; what makes a vehicle move must not come late.
   auto const patience = is_stop(record.command.action) ? 3 * options_.expiry : options_.expiry;

@@ -37,13 +37,13 @@ class Parameters::Loan {
  public:
   Loan(Parameters& owner, Craft& craft, Commander by, bool is_lent)
       : owner_(owner), craft_(craft), by_(std::move(by)), is_lent_(is_lent) {
-    if (is_lent_) ++owner_.loans_[craft_.id()];
+    if (is_lent_) ++craft_.loans;
   }
   Loan(Loan const&) = delete;
   Loan& operator=(Loan const&) = delete;
   ~Loan() {
-    if (!is_lent_ || --owner_.loans_[craft_.id()] > 0) return;
-    owner_.loans_.erase(craft_.id());
+    // None left although this one goes on: its holder has commanded the vehicle since, and keeps it.
+    if (!is_lent_ || craft_.loans == 0 || --craft_.loans > 0) return;
     (void)owner_.fleet_.authority().yield(craft_, by_);
   }
 
@@ -136,7 +136,7 @@ base::Task<Result<vehicle::ParameterChange>> Parameters::change(VehicleId id, st
   auto const found = find(id);
   if (!found) co_return std::unexpected(found.error());
   auto& craft = **found;
-  bool const is_lent = craft.state.control.commander.empty() || loans_.contains(id);
+  bool const is_lent = craft.state.control.commander.empty() || craft.loans > 0;
   if (auto const claimed = fleet_.authority().claim(craft, by); !claimed) co_return std::unexpected(claimed.error());
   Loan const loan(*this, craft, by, is_lent);
   auto const system_id = craft.address.system;

@@ -50,7 +50,6 @@ class Parameters final : public vehicle::VehicleParameters {
   base::Logger log_;
   std::map<mavlink::Connection*, parameters::ParameterService> services_;
   std::map<vehicle::VehicleId, std::shared_ptr<Fetch>> fetches_;
-  std::map<vehicle::VehicleId, int> loans_;  ///< changes under way on vehicles that nobody commanded before
   std::shared_ptr<Fleet::Heard const> subscription_;
   base::Scope scope_;
 };

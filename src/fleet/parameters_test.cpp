@@ -149,6 +149,15 @@ TEST_F(ParametersTest, SetOneAndGiveTheVehicleBack) {
   EXPECT_TRUE(world.has_logged("anna set P1 of copter 1 to 12.5 (was 7)"));
 }
 
+TEST_F(ParametersTest, LeaveTheVehicleToWhoCommandsItMeanwhile) {
+  auto change = parameters.change({"1"}, "P1", 12.5, "anna");
+  change.start();
+  auto const hold = world.give({.action = vehicle::Action::hold}, {"1"}, "anna");
+  EXPECT_TRUE(world.run_until([&] { return change.done(); }));
+  EXPECT_FALSE(vehicle::is_over(world.outcome(hold).state));
+  EXPECT_EQ(commander(), "anna");
+}
+
 TEST_F(ParametersTest, LeaveTheVehicleToWhoCommandsIt) {
   ASSERT_TRUE(world.control->request_control({"1"}, "anna"));
   EXPECT_TRUE(change("P1", 8.0));
