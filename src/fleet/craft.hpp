@@ -65,8 +65,8 @@ struct Craft {
   MissionTrace trace;
   std::optional<std::uint32_t> asked_mode;  ///< the last that this station commanded
   base::TimePoint mode_asked{};
-  std::optional<std::uint64_t> capabilities;    ///< MAV_PROTOCOL_CAPABILITY, once the vehicle has told
-  unsigned armings = 0;                         ///< how often this station has set out to arm it
+  std::optional<std::uint64_t> capabilities;  ///< MAV_PROTOCOL_CAPABILITY, once the vehicle has told
+  unsigned armings = 0;                       ///< how often this station has set out to arm it
   int loans = 0;  ///< changes of parameters under way by who commands it for their sake alone
   std::optional<base::TimePoint> arming_begun;  ///< by the operator's present command
   /// An arming was given up unanswered: if the vehicle carries it out before this, it is taken back.

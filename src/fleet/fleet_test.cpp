@@ -322,6 +322,19 @@ TEST(Fleet, NeverLowersARateThatTheLinkLoses) {
   EXPECT_EQ(copter.interval(MessageId::attitude), 150ms);
 }
 
+TEST(Fleet, KeepsAFewOfTheQuestionsToAVehicleThatCannotBeAsked) {
+  TestWorld world;
+  auto& copter = world.add();
+  world.run_for(2s);
+  copter.is_silent = true;
+  world.run_for(30s);
+  auto& craft = *world.fleet->find(vehicle::VehicleId{"1"});
+  for (int picture = 0; picture < 1000; ++picture)
+    ask(craft, {MessageId::camera_image_captured, 100, static_cast<float>(picture)});
+  EXPECT_EQ(craft.questions.size(), 200u);
+  EXPECT_EQ(craft.questions.front().argument, 800.0F) << "the latest";
+}
+
 TEST(Fleet, LeavesItsConnectionsToOthersWhenItEnds) {
   TestWorld world;
   world.add();

@@ -174,7 +174,7 @@ void Network::take_heartbeat(mavlink::Received const& received, mavlink::Heartbe
   state.link = connection_.whereabouts(received.source.system).value_or("");
   if (is_new) {
     // Whatever is streamed or asked for regularly takes seconds; people look for the vehicle on the map now.
-    craft.questions.push_back({mavlink::MessageId::global_position_int, craft.address.component});
+    ask(craft, {mavlink::MessageId::global_position_int, craft.address.component});
     ask_for_payload(craft);
     log_.info(fmt::format("{} found at {}", state.name, state.link));
     registry_.touch_membership(craft.id());

@@ -11,6 +11,7 @@ namespace lapwing::fleet {
 using base::ErrorKind;
 using base::fail;
 using base::Result;
+using parameters::Wanted;
 using vehicle::Commander;
 using vehicle::VehicleId;
 
@@ -78,24 +79,34 @@ Result<Craft*> Parameters::find(VehicleId const& id) const {
 base::Task<Parameters::Snapshot> Parameters::snapshot(VehicleId id, bool old_ones_do) {
   auto const craft = find(id);
   if (!craft) co_return std::unexpected(craft.error());
+  // What may bring old values is no answer to who wants the vehicle's own: that comes after it.
+  auto const is_too_little = [&] {
+    auto const running = fetches_.find(id);
+    return !old_ones_do && running != fetches_.end() && running->second->wanted == Wanted::cached_too;
+  };
+  while (is_too_little()) {
+    auto const running = fetches_.at(id);
+    co_await running->ended.wait();
+  }
   auto const running = fetches_.find(id);
-  auto const joined = running == fetches_.end() ? std::make_shared<Fetch>(fleet_.loop()) : running->second;
-  if (running == fetches_.end()) {
+  bool const is_first = running == fetches_.end();
+  auto const wanted = old_ones_do ? Wanted::cached_too : Wanted::confirmed;
+  auto const joined = is_first ? std::make_shared<Fetch>(fleet_.loop(), wanted) : running->second;
+  if (is_first) {
     fetches_[id] = joined;
-    auto const wanted = old_ones_do ? parameters::Wanted::cached_too : parameters::Wanted::confirmed;
-    scope_.spawn(fetch(**craft, joined, wanted));
+    scope_.spawn(fetch(**craft, joined));
   }
   while (!joined->result) co_await joined->ended.wait();
   co_return *joined->result;
 }
 
 /// Goes on when who asked has gone: others may have joined, and the cache is the better for it.
-base::Task<> Parameters::fetch(Craft& craft, std::shared_ptr<Fetch> into, parameters::Wanted wanted) {
+base::Task<> Parameters::fetch(Craft& craft, std::shared_ptr<Fetch> into) {
   mavlink::ParamProgress const note = [into = into.get()](std::size_t done, std::size_t total) {
     into->progress = {done, total};
   };
   auto const system_id = craft.address.system;
-  into->result = co_await service_of(craft.connection).all(system_id, wanted, note);
+  into->result = co_await service_of(craft.connection).all(system_id, into->wanted, note);
   fetches_.erase(craft.id());
   into->ended.notify_all();
 }

@@ -33,7 +33,8 @@ class Parameters final : public vehicle::VehicleParameters {
   using Snapshot = base::Result<parameters::Snapshot>;
   /// A list on its way, for everybody who has asked for it.
   struct Fetch {
-    explicit Fetch(base::Loop& loop) : ended(loop) {}
+    Fetch(base::Loop& loop, parameters::Wanted which) : wanted(which), ended(loop) {}
+    parameters::Wanted wanted;
     vehicle::ParameterProgress progress;
     std::optional<Snapshot> result;
     base::Notifier ended;
@@ -43,7 +44,7 @@ class Parameters final : public vehicle::VehicleParameters {
   [[nodiscard]] base::Result<Craft*> find(vehicle::VehicleId const& id) const;
   [[nodiscard]] parameters::ParameterService& service_of(mavlink::Connection& connection);
   base::Task<Snapshot> snapshot(vehicle::VehicleId id, bool old_ones_do);
-  base::Task<> fetch(Craft& craft, std::shared_ptr<Fetch> into, parameters::Wanted wanted);
+  base::Task<> fetch(Craft& craft, std::shared_ptr<Fetch> into);
 
   Fleet& fleet_;
   parameters::Cache cache_;

@@ -133,6 +133,20 @@ TEST_F(ParametersTest, ServeWhatWasFetchedWhenThatWillDo) {
   EXPECT_EQ(copter.lists, 2);
 }
 
+TEST_F(ParametersTest, FetchAnewForWhoWantsTheVehiclesOwnValues) {
+  ASSERT_TRUE(all());
+  copter.values[5] = 99.0F;
+  auto old = parameters.all({"1"}, true);
+  auto own = parameters.all({"1"}, false);
+  old.start();
+  own.start();
+  EXPECT_TRUE(world.run_until([&] { return old.done() && own.done(); }));
+  auto const list = own.take();
+  ASSERT_TRUE(list);
+  EXPECT_EQ(list->confirmed, vehicle::Confirmed::by_vehicle);
+  EXPECT_EQ(list->parameters[5].value, 99.0);
+}
+
 TEST_F(ParametersTest, SetOneAndGiveTheVehicleBack) {
   auto change = parameters.change({"1"}, "P1", 12.5, "anna");
   change.start();

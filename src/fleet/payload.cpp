@@ -54,7 +54,7 @@ void name_component(Craft& craft, int id, std::string_view kind, std::string mod
 
 void ask_about_missing_pictures(Craft& craft) {
   for (auto const& missing : craft.pictures.take_missing())
-    craft.questions.push_back({MessageId::camera_image_captured, missing.component, static_cast<float>(missing.image)});
+    ask(craft, {MessageId::camera_image_captured, missing.component, static_cast<float>(missing.image)});
 }
 
 /// One overload for each message that tells of payload; everything else falls through to the template.
@@ -135,13 +135,13 @@ void take_component_heartbeat(Craft& craft, mavlink::Address source, mavlink::He
   component->heard = now;
   bool const is_new = craft.state.components.size() > known;
   if (!is_new) return;
-  if (kind == "camera") craft.questions.push_back({MessageId::camera_information, source.component});
-  if (kind == "gimbal") craft.questions.push_back({MessageId::gimbal_manager_information, source.component});
+  if (kind == "camera") ask(craft, {MessageId::camera_information, source.component});
+  if (kind == "gimbal") ask(craft, {MessageId::gimbal_manager_information, source.component});
 }
 
 void ask_for_payload(Craft& craft) {
-  craft.questions.push_back({MessageId::gimbal_manager_information, craft.address.component});
-  craft.questions.push_back({MessageId::camera_information, craft.address.component});
+  ask(craft, {MessageId::gimbal_manager_information, craft.address.component});
+  ask(craft, {MessageId::camera_information, craft.address.component});
 }
 
 std::string name_of_mode(Craft& craft, mavlink::MavType type, std::uint32_t custom_mode) {
@@ -150,7 +150,7 @@ std::string name_of_mode(Craft& craft, mavlink::MavType type, std::uint32_t cust
   craft.mode_is_unnamed = known.empty();
   if (!known.empty()) return std::string(known);
   if (auto name = craft.modes.name(custom_mode)) return *std::move(name);
-  if (!craft.has_asked_for_modes) craft.questions.push_back({MessageId::available_modes, craft.address.component});
+  if (!craft.has_asked_for_modes) ask(craft, {MessageId::available_modes, craft.address.component});
   craft.has_asked_for_modes = true;
   return mavlink::mode_name(state.autopilot, state.family, custom_mode);
 }

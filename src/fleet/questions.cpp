@@ -31,6 +31,12 @@ PictureTrace::Missing picture_of(Question const& question) {
 
 }  // namespace
 
+void ask(Craft& craft, Question question) {
+  constexpr std::size_t most_waiting = 200;
+  if (craft.questions.size() >= most_waiting) craft.questions.pop_front();
+  craft.questions.push_back(question);
+}
+
 /// One after the other: acknowledgements name the command only, not the message that was asked for.
 base::Task<> Network::ask_questions(Craft& craft) {
   craft.is_questioning = true;
@@ -63,7 +69,7 @@ base::Task<> Network::ask_for_picture(Craft& craft, Question question) {
   if (!asked) co_return;
   auto const deadline = loop().now() + answer_time;
   while (craft.pictures.is_missing(picture) && loop().now() < deadline) co_await craft.changed.wait_until(deadline);
-  if (craft.pictures.is_missing(picture) && ++question.tries < most_tries) craft.questions.push_back(question);
+  if (craft.pictures.is_missing(picture) && ++question.tries < most_tries) ask(craft, question);
 }
 
 /// The whole list first (place 0), then what of it was lost.
@@ -73,7 +79,7 @@ base::Task<> Network::ask_for_modes(Craft& craft, Question question) {
   if (!asked || question.argument != 0.0F) co_return;
   co_await loop().sleep(whole_list_time);
   for (auto const place : craft.modes.missing())
-    craft.questions.push_back({question.message, question.component, static_cast<float>(place)});
+    ask(craft, {question.message, question.component, static_cast<float>(place)});
 }
 
 }  // namespace lapwing::fleet

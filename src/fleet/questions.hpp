@@ -18,4 +18,7 @@ struct Question {
   int tries = 0;  ///< before this one
 };
 
+/// Puts it behind those that wait. While the vehicle cannot be asked they do not pile up: the oldest are given up.
+void ask(Craft& craft, Question question);
+
 }  // namespace lapwing::fleet

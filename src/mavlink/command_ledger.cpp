@@ -30,14 +30,19 @@ CommandTurn::~CommandTurn() {
   line_.freed.notify_all();
 }
 
+void CommandLine::forget_old(base::TimePoint now) {
+  while (!unanswered_.empty() && now - unanswered_.front().sent > answer_lasts) unanswered_.pop_front();
+}
+
 void CommandTurn::note_sent(Command const& command, base::TimePoint now) {
+  line_.forget_old(now);
   line_.unanswered_.push_back({fingerprint(command), now});
   line_.last_sent_ = now;
 }
 
 bool CommandTurn::note_answer(Command const& command, base::TimePoint now) {
   auto& unanswered = line_.unanswered_;
-  while (!unanswered.empty() && now - unanswered.front().sent > answer_lasts) unanswered.pop_front();
+  line_.forget_old(now);
   if (unanswered.empty()) return true;
   bool const is_meant = unanswered.front().fingerprint == fingerprint(command);
   unanswered.pop_front();

@@ -18,6 +18,8 @@ class CommandLine {
  public:
   explicit CommandLine(base::Loop& loop) : freed(loop) {}
   [[nodiscard]] bool is_taken() const { return owner_ != 0; }
+  /// Tries of late that may still be answered.
+  [[nodiscard]] std::size_t unanswered() const { return unanswered_.size(); }
 
   base::Notifier freed;
 
@@ -28,6 +30,7 @@ class CommandLine {
     std::uint64_t fingerprint;  ///< of the command's parameters
     base::TimePoint sent;
   };
+  void forget_old(base::TimePoint now);
   std::uint64_t owner_ = 0;
   std::uint64_t last_owner_ = 0;
   std::deque<Unanswered> unanswered_;

@@ -392,6 +392,14 @@ TEST(Command, IsHazardousWhenItMovesAVehicle) {
   EXPECT_FALSE(is_hazardous(disarm()));
 }
 
+TEST(Command, KeepsNoLongAccountOfWhatNobodyAnswers) {
+  Bench bench;
+  bench.run_for(2s);
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(run(bench, disarm(), {.tries = 4, .ack_timeout = 500ms}));
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 80u);
+  EXPECT_LE(bench.ground.commands().line(1, MavCmd::component_arm_disarm).unanswered(), 12u);
+}
+
 TEST(Connection, LetsAGuardHoldBackWhatIsSent) {
   Bench bench;
   bench.ground.set_send_guard([](Address, Message const& message) -> base::Result<> {
