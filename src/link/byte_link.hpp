@@ -32,8 +32,9 @@ enum class LinkState {
 
 /// What a sender knows of how soon its bytes are wanted at the far end.
 enum class Urgency {
-  prompt,      ///< commands and answers: out now, before all that is perishable and waits
-  batched,     ///< the same, but may wait for others until `flush`: many for the price of one
+  urgent,   ///< what stops a vehicle: before everything that waits, and in the place of the oldest if there is no room
+  prompt,   ///< commands and answers: out now, before all that is perishable and waits
+  batched,  ///< the same, but may wait for others until `flush`: many for the price of one
   perishable,  ///< worth little when it is late: telemetry, heartbeats, corrections, setpoints
 };
 
@@ -43,7 +44,7 @@ struct LinkCounters {
   std::uint64_t chunks_received = 0;  ///< datagrams, or reads of a stream
   std::uint64_t chunks_sent = 0;
   std::uint64_t send_failures = 0;       ///< chunks that the operating system or a full queue refused
-  std::uint64_t perishable_dropped = 0;  ///< chunks that newer ones pushed out of a full queue
+  std::uint64_t perishable_dropped = 0;  ///< chunks that newer or more urgent ones pushed out of a full queue
   std::uint64_t bytes_queued = 0;        ///< now: accepted, not yet with the operating system
   std::uint64_t overruns = 0;            ///< datagrams that arrived and found the kernel's queue full: never seen here
 };
@@ -67,8 +68,9 @@ class ByteLink {
   /// `flush`. Call before `start`.
   void on_drained(std::function<void()> drained) { drained_ = std::move(drained); }
   /// Copies the bytes where they have to wait. False when they were dropped (peer unknown, link not open, queue full);
-  /// also counted. Where a slow link has a queue, the oldest of what is perishable is dropped (and counted) when there
-  /// is no room: each call's bytes as a whole, so hand it whole packets. True when the bytes are on their way for now.
+  /// also counted. Where a slow link has a queue, two seconds of the line at most wait in it, and the oldest of what is
+  /// perishable is dropped (and counted) when there is no room: each call's bytes as a whole, so hand it whole packets.
+  /// True when the bytes are on their way for now.
   virtual bool send(Peer peer, Bytes bytes, Urgency urgency = Urgency::prompt) = 0;
   /// Sends what was `batched`.
   virtual void flush() {}

@@ -1,37 +1,46 @@
 #include "link/internal/send_queue.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace lapwing::link::internal {
 
-void SendQueue::drop_oldest() {
-  bytes_ -= perishable_.front().size();
-  perishable_bytes_ -= perishable_.front().size();
-  perishable_.pop_front();
+SendQueue::Line SendQueue::line_of(Urgency urgency) {
+  if (urgency == Urgency::urgent) return Line::urgent;
+  return urgency == Urgency::perishable ? Line::perishable : Line::prompt;
+}
+
+void SendQueue::drop_oldest(Line line) {
+  auto const size = lines_[line].front().size();
+  bytes_ -= size;
+  if (line == Line::perishable) perishable_bytes_ -= size;
+  lines_[line].pop_front();
   ++dropped_;
 }
 
 bool SendQueue::push(Bytes packet, Urgency urgency) {
-  bool const is_perishable = urgency == Urgency::perishable;
+  auto const line = line_of(urgency);
   auto const has_room = [&] {
     return bytes_ + packet.size() <= limits_.all_bytes &&
-           (!is_perishable || perishable_bytes_ + packet.size() <= limits_.perishable_bytes);
+           (line != Line::perishable || perishable_bytes_ + packet.size() <= limits_.perishable_bytes);
   };
-  while (!has_room() && !perishable_.empty()) drop_oldest();
+  while (!has_room() && !lines_[Line::perishable].empty()) drop_oldest(Line::perishable);
+  if (line == Line::urgent)
+    while (!has_room() && !lines_[Line::prompt].empty()) drop_oldest(Line::prompt);
   if (!has_room()) return false;
   bytes_ += packet.size();
-  if (is_perishable) perishable_bytes_ += packet.size();
-  (is_perishable ? perishable_ : urgent_).emplace_back(packet.begin(), packet.end());
+  if (line == Line::perishable) perishable_bytes_ += packet.size();
+  lines_[line].emplace_back(packet.begin(), packet.end());
   return true;
 }
 
 Bytes SendQueue::front() {
   if (!going_out_) {
-    auto& next = urgent_.empty() ? perishable_ : urgent_;
-    if (next.empty()) return {};
-    if (&next == &perishable_) perishable_bytes_ -= next.front().size();
-    going_out_ = std::move(next.front());
-    next.pop_front();
+    auto const next = std::ranges::find_if(lines_, [](auto const& line) { return !line.empty(); });
+    if (next == lines_.end()) return {};
+    going_out_ = std::move(next->front());
+    next->pop_front();
+    if (next == lines_.begin() + Line::perishable) perishable_bytes_ -= going_out_->size();
     gone_ = 0;
   }
   return Bytes(*going_out_).subspan(gone_);

@@ -22,6 +22,8 @@ using boost::asio::posix::stream_descriptor;
 
 /// Perishable packets may wait for a slow line for this long.
 double constexpr perishable_wait_s = 1.0;
+/// All packets together: what comes later is no answer to what was, and its sender has said it again.
+double constexpr longest_wait_s = 2.0;
 /// What may wait in the driver of a slow line: enough to keep it busy until the next look.
 double constexpr driver_wait_s = 0.1;
 /// What may wait in the kernel for a TCP peer; it takes twice that. Enough for 1 MB/s over 50 ms.
@@ -31,7 +33,11 @@ SendQueue::Limits limits_for(std::optional<double> bytes_per_s) {
   SendQueue::Limits limits;
   if (!bytes_per_s) return limits;
   auto constexpr few_packets = 4 * std::size_t{280};
-  limits.perishable_bytes = std::max(few_packets, static_cast<std::size_t>(*bytes_per_s * perishable_wait_s));
+  auto const bytes_in = [&](double wait_s) {
+    return std::max(few_packets, static_cast<std::size_t>(*bytes_per_s * wait_s));
+  };
+  limits.perishable_bytes = bytes_in(perishable_wait_s);
+  limits.all_bytes = std::max(limits.perishable_bytes, bytes_in(longest_wait_s));
   return limits;
 }
 

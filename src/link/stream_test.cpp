@@ -88,6 +88,17 @@ TEST(SendQueue, DropsTelemetryForCommandsAndRefusesThemAtLast) {
   EXPECT_EQ(drained(queue, 100), "ABCDE");
 }
 
+TEST(SendQueue, LetsAStopGoBeforeEverythingAndMakesRoomForIt) {
+  SendQueue queue({.all_bytes = 500, .perishable_bytes = 300});
+  EXPECT_TRUE(queue.push(packet('a'), Urgency::perishable));
+  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt));
+  EXPECT_TRUE(queue.push(packet('1'), Urgency::urgent));
+  EXPECT_TRUE(queue.push(packet('2'), Urgency::urgent));
+  EXPECT_EQ(queue.dropped(), 3u) << "telemetry, then the oldest of what is prompt";
+  EXPECT_FALSE(queue.push(packet('F'), Urgency::prompt));
+  EXPECT_EQ(drained(queue, 100), "12CDE");
+}
+
 base::Task<void> pass(base::Loop& loop, base::Duration time) {
   co_await loop.sleep(time);
 }
@@ -131,6 +142,27 @@ TEST(Stream, KeepsCommandsMovingWhenNobodyReads) {
   ASSERT_NE(commands, std::string::npos);
   EXPECT_GT(letters.size() - commands, 40u) << "they overtook the telemetry that waited";
   ::close(ends[1]);
+}
+
+/// 9600 baud is the slowest line that flies.
+TEST(Stream, KeepsNoMoreThanTwoSecondsOfASlowLine) {
+  for (double const bytes_per_s : {960.0, 5760.0, 92'160.0}) {
+    base::Loop loop(base::Loop::Pace{.unpaced = true});
+    int ends[2];
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends), 0);
+    LinkCounters counters;
+    Stream stream(
+        loop, {.descriptor = ends[0], .bytes_per_s = bytes_per_s}, counters, [](Bytes) {}, [](std::string const&) {});
+    int taken = 0;
+    while (stream.send(packet('p'), Urgency::prompt) && taken < 10'000) {
+      ++taken;
+      if (taken % 10 == 0) loop.run_until_done(pass(loop, 1ms));
+    }
+    EXPECT_LE(counters.bytes_queued, 2.0 * bytes_per_s) << bytes_per_s;
+    EXPECT_GT(counters.bytes_queued, 1.5 * bytes_per_s) << bytes_per_s;
+    EXPECT_TRUE(stream.send(packet('s'), Urgency::urgent)) << "a stop always gets in";
+    ::close(ends[1]);
+  }
 }
 
 TEST(Stream, LeavesLittleInTheKernelOfASlowPeer) {

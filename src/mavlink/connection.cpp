@@ -248,8 +248,7 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   frame.incompat_flags = 0;  // signed anew for each far end, or not at all
   if (guard_) guard_->sign(frame, {to.link, to.peer.key}, system_id, loop_.utc_now());
   auto const out = serialize(frame);
-  auto const urgency = internal::is_perishable(frame.message_id) ? link::Urgency::perishable : link::Urgency::prompt;
-  if (!links_[to.link]->send(to.peer, out.bytes(), urgency)) return false;
+  if (!links_[to.link]->send(to.peer, out.bytes(), internal::urgency_of(frame))) return false;
   ++peer.next_seq;
   echoes_->note_sent(frame.seq, checksum_in(out.bytes(), frame.is_signed()));
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace lapwing::mavlink::internal {
 
@@ -52,14 +53,36 @@ auto constexpr clock_ids = std::to_array<std::uint32_t>({2, 24, 27, 30, 31, 32, 
 static_assert(std::ranges::is_sorted(bulk_ids) && std::ranges::is_sorted(perishable_ids));
 static_assert(std::ranges::is_sorted(state_ids) && std::ranges::is_sorted(event_ids));
 
+/// Arming excepted: that must not overtake what was said before it.
+bool may_stop(Frame const& frame) {
+  std::uint32_t constexpr set_mode = 11;
+  std::uint32_t constexpr command_int = 75;
+  std::uint32_t constexpr command_long = 76;
+  if (frame.message_id == set_mode) return true;
+  if (frame.message_id != command_int && frame.message_id != command_long) return false;
+  // In both the command stands behind 28 bytes, of which the first four are its first parameter.
+  auto const& bytes = frame.payload;
+  std::uint32_t const param1 =
+      bytes[0] | bytes[1] << 8U | bytes[2] << 16U | static_cast<std::uint32_t>(bytes[3]) << 24U;
+  switch (static_cast<MavCmd>(bytes[28] | bytes[29] << 8U)) {
+    case MavCmd::nav_return_to_launch:
+    case MavCmd::nav_land:
+    case MavCmd::do_set_mode:
+    case MavCmd::do_flight_termination: return true;
+    case MavCmd::component_arm_disarm: return std::bit_cast<float>(param1) == 0.0F;
+    default: return false;
+  }
+}
+
 }  // namespace
 
 Traffic traffic_of(std::uint32_t message_id) {
   return std::ranges::binary_search(bulk_ids, message_id) ? Traffic::bulk : Traffic::command;
 }
 
-bool is_perishable(std::uint32_t message_id) {
-  return std::ranges::binary_search(perishable_ids, message_id);
+link::Urgency urgency_of(Frame const& frame) {
+  if (std::ranges::binary_search(perishable_ids, frame.message_id)) return link::Urgency::perishable;
+  return may_stop(frame) ? link::Urgency::urgent : link::Urgency::prompt;
 }
 
 bool is_setpoint(std::uint32_t message_id) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -10,11 +11,12 @@
 
 namespace lapwing::link::internal {
 
-/// What waits for a slow stream, as whole packets, so that a drop never cuts one: commands before what is perishable,
-/// each in its order.
+/// What waits for a slow stream, as whole packets, so that a drop never cuts one: what is urgent before commands, and
+/// those before what is perishable, each in its order.
 ///
 /// Perishable packets beyond their limit push out the oldest of them; so do commands when the whole is full. Only when
-/// no perishable one is left is anything refused. A packet that has begun to go out is finished first, whatever comes.
+/// no perishable one is left is anything refused: commands, as an older one may be the cause of the newer. What is
+/// urgent pushes out the oldest command, too. A packet that has begun to go out is finished first, whatever comes.
 class SendQueue {
  public:
   struct Limits {
@@ -35,11 +37,13 @@ class SendQueue {
 
  private:
   using Packet = std::vector<std::uint8_t>;
-  void drop_oldest();
+  /// By what goes first.
+  enum Line : std::size_t { urgent, prompt, perishable };
+  [[nodiscard]] static Line line_of(Urgency urgency);
+  void drop_oldest(Line line);
 
   Limits limits_;
-  std::deque<Packet> urgent_;
-  std::deque<Packet> perishable_;
+  std::array<std::deque<Packet>, 3> lines_;
   std::optional<Packet> going_out_;
   std::size_t gone_ = 0;  ///< bytes of it
   std::size_t bytes_ = 0;

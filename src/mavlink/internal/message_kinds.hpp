@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-#include "mavlink/enums.hpp"
+#include "link/byte_link.hpp"
+#include "mavlink/frame.hpp"
 
 /// What kind of talk a message is, where several links lead to one vehicle or one link is slow. By the wire's ids: most
 /// of these are messages that this program passes on and never decodes.
@@ -15,8 +16,10 @@ enum class Traffic {
 };
 [[nodiscard]] Traffic traffic_of(std::uint32_t message_id);
 
-/// Worth little when it is late, because the next one says it anew: heartbeats, setpoints, corrections, telemetry.
-[[nodiscard]] bool is_perishable(std::uint32_t message_id);
+/// How soon it is wanted at the far end. Perishable: what is worth little when it is late, because the next one says it
+/// anew (heartbeats, setpoints, corrections). Urgent: what may stop a vehicle (a mode, return, land, disarm,
+/// terminate).
+[[nodiscard]] link::Urgency urgency_of(Frame const& frame);
 
 /// Where to go, which way to lie, or what to do with the motors, now: SET_ATTITUDE_TARGET,
 /// SET_POSITION_TARGET_LOCAL_NED and _GLOBAL_INT, SET_ACTUATOR_CONTROL_TARGET.
