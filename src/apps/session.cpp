@@ -97,7 +97,9 @@ base::Result<> Session::forward(std::vector<Forward> programs) {
     auto const network = ground.network(name);
     if (!network) return std::unexpected(network.error());
     auto& router = forwarding.try_emplace(name, loop, route::Router::Options{}, log.named("forward")).first->second;
-    router.add({.name = name.empty() ? "vehicles" : fmt::format("vehicles of {}", name)}, mavlink::as_link(**network));
+    // Packet by packet: each is looked at, held back or sent by itself, and counted so.
+    router.add({.name = name.empty() ? "vehicles" : fmt::format("vehicles of {}", name), .coalesces = false},
+               mavlink::as_link(**network));
     if (auto opened = router.open(std::move(of_network)); !opened) return opened;
   }
   return {};

@@ -255,21 +255,19 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   return true;
 }
 
-bool Connection::pass_on(PeerRef to, std::span<std::uint8_t const> packet) {
+bool Connection::pass_on(PeerRef to, std::span<std::uint8_t const> packets) {
   if (to.link >= links_.size()) return false;
-  bool may_pass = true;
-  std::optional<Frame> seen;
-  if (send_guard_ || frame_hook_) {
-    FrameParser parser;
-    parser.feed(packet, [&](Frame const& frame) {
-      seen = frame;
-      may_pass = may_pass && !is_held_back(frame);
-    });
-  }
-  if (!may_pass || !links_[to.link]->send(to.peer, packet)) return false;
-  if (seen) note_passed_on(*seen);
-  if (seen && frame_hook_ && !tells_a_key(*seen)) frame_hook_(Direction::sent, *seen, loop_.now());
-  return true;
+  bool have_all_gone = true;
+  FrameParser parser;
+  parser.feed(packets, [&](Frame const& frame) {
+    // One by one: what is held back, or finds no room, takes no other with it.
+    bool const has_gone = !is_held_back(frame) && links_[to.link]->send(to.peer, serialize_as_received(frame).bytes(),
+                                                                        internal::urgency_of(frame));
+    have_all_gone = have_all_gone && has_gone;
+    if (has_gone) note_passed_on(frame);
+    if (has_gone && frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
+  });
+  return have_all_gone;
 }
 
 /// By the guard, whoever sends it.

@@ -115,8 +115,9 @@ class Connection {
   /// Shows each received frame that is new and may be heard, with where it came from. For those who pass frames on.
   using ForwardHook = std::function<void(PeerRef, Frame const&)>;
   void set_forward_hook(ForwardHook hook) { forward_hook_ = std::move(hook); }
-  /// Sends a packet of somebody else as it is. False when its link did not take it, or the send guard holds it back.
-  bool pass_on(PeerRef to, std::span<std::uint8_t const> packet);
+  /// Sends packets of somebody else as they are, each by itself and as urgent as it is. False when a link did not take
+  /// one of them, or the send guard holds it back.
+  bool pass_on(PeerRef to, std::span<std::uint8_t const> packets);
 
   /// Link and address over which commands to the system go, for people: "udpin://0.0.0.0:14550 from 127.0.0.1:40001".
   [[nodiscard]] std::optional<std::string> whereabouts(std::uint8_t system_id) const;

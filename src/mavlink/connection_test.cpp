@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "link/testing/noting_link.hpp"
 #include "mavlink/connection_link.hpp"
 #include "mavlink/fake_vehicle_test.hpp"
 #include "mavlink/inbox.hpp"
@@ -277,6 +278,68 @@ TEST(ConnectionLink, PassesNothingOnThatTheSendGuardHoldsBack) {
   bench.run_for(1s);
   EXPECT_EQ(count(bench.vehicle->all<CommandLong>(), MavCmd::mission_start), 0);
   EXPECT_EQ(bench.vehicle->all<ParamRequestList>().size(), 1u);
+}
+
+std::vector<std::uint8_t> pack_of(std::vector<Frame> const& frames) {
+  std::vector<std::uint8_t> pack;
+  for (auto const& frame : frames) {
+    auto const out = serialize(frame);
+    pack.insert(pack.end(), out.bytes().begin(), out.bytes().end());
+  }
+  return pack;
+}
+
+TEST(ConnectionLink, HoldsBackOneFrameOfAPackAndPassesTheOthersOn) {
+  Bench bench;
+  auto const beside = as_link(bench.ground);
+  link::Peer vehicle;
+  beside->start([&](link::Peer peer, link::Bytes) { vehicle = peer; });
+  bench.run_for(3s);
+  bench.ground.set_send_guard([](Address, Message const& message) -> base::Result<> {
+    if (std::holds_alternative<SetPositionTargetGlobalInt>(message))
+      return base::fail(base::ErrorKind::refused, "stopped");
+    return {};
+  });
+  std::vector<std::uint8_t> recorded;
+  bench.ground.set_frame_hook([&](Connection::Direction direction, Frame const& frame, base::TimePoint) {
+    if (direction == Connection::Direction::sent && frame.source == Address{254, 190}) recorded.push_back(frame.seq);
+  });
+  Address const other{254, 190};
+  auto const pack = pack_of({
+      encode(ParamRequestList{.target = {1, 1}}, other, 1),
+      encode(SetPositionTargetGlobalInt{.target = {1, 1}}, other, 2),
+      encode(CommandLong{.target = {1, 1}, .command = MavCmd::nav_land}, other, 3),
+  });
+  EXPECT_FALSE(beside->send(vehicle, pack)) << "not all of it went";
+  bench.run_for(1s);
+  EXPECT_EQ(count(bench.vehicle->all<CommandLong>(), MavCmd::nav_land), 1) << "a stop is not lost with its neighbour";
+  EXPECT_EQ(bench.vehicle->all<ParamRequestList>().size(), 1u);
+  EXPECT_EQ(bench.vehicle->all<SetPositionTargetGlobalInt>().size(), 0u);
+  EXPECT_EQ(recorded, (std::vector<std::uint8_t>{1, 3})) << "each one that went, and no other";
+}
+
+TEST(ConnectionLink, LetsCommandsOvertakeWhatIsPerishableAndStopsEverything) {
+  base::Loop loop{base::Loop::Pace{.unpaced = true}};
+  auto const sent = std::make_shared<std::vector<link::testing::Noted>>();
+  Connection ground(loop, {.heartbeat = {}}, {});
+  ground.add_link(std::make_unique<link::testing::NotingLink>(sent));
+  Address const other{254, 190};
+  auto const command = [&](MavCmd what, float param1 = 0.0F) {
+    return encode(CommandLong{.target = {1, 1}, .command = what, .params = {param1}}, other, 0);
+  };
+  Frame corrections = encode(Heartbeat{}, other, 0);
+  corrections.message_id = 233;
+  std::vector<Frame> const frames{corrections,
+                                  command(MavCmd::component_arm_disarm, 1.0F),
+                                  encode(ParamRequestList{.target = {1, 1}}, other, 0),
+                                  command(MavCmd::component_arm_disarm, 0.0F),
+                                  command(MavCmd::nav_land),
+                                  encode(SetMode{1, 1, 9}, other, 0)};
+  EXPECT_TRUE(ground.pass_on({0, {}}, pack_of(frames)));
+  std::vector<link::Urgency> how;
+  for (auto const& one : *sent) how.push_back(one.urgency);
+  using enum link::Urgency;
+  EXPECT_EQ(how, (std::vector{perishable, prompt, prompt, urgent, urgent, urgent}));
 }
 
 TEST(Subscription, EndsWhenDestroyedEvenFromWithinItsCall) {
