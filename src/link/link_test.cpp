@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <deque>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,71 +9,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "base/notifier.hpp"
-#include "link/byte_link.hpp"
 #include "link/impaired_link.hpp"
 #include "link/pipe_link.hpp"
+#include "link/testing/talker.hpp"
 
 namespace lapwing::link {
 namespace {
 
-using namespace std::chrono_literals;
-
-std::vector<std::uint8_t> bytes(std::string_view text) {
-  return {text.begin(), text.end()};
-}
-
-/// One end with what it has heard.
-class Talker {
- public:
-  Talker(base::Loop& loop, std::unique_ptr<ByteLink> link) : arrived_(loop), link_(std::move(link)) {
-    link_->start([this](Peer peer, Bytes data) {
-      heard_ += std::string(data.begin(), data.end());
-      ++chunks_;
-      from_ = peer;
-      arrived_.notify_all();
-    });
-  }
-  base::Task<bool> hears(std::string text) {
-    return arrived_.wait_for([this, text] { return heard_.find(text) != std::string::npos; }, 5s);
-  }
-  bool say(std::string_view text, Peer peer) { return link_->send(peer, bytes(text)); }
-  bool say(std::string_view text) {
-    auto const peers = link_->standing_peers();
-    return !peers.empty() && say(text, peers.front());
-  }
-  bool answer(std::string_view text) { return say(text, from_); }
-
-  ByteLink& link() { return *link_; }
-  Peer from() const { return from_; }
-  std::string const& heard() const { return heard_; }
-  int chunks() const { return chunks_; }
-
- private:
-  base::Notifier arrived_;
-  std::unique_ptr<ByteLink> link_;
-  std::string heard_;
-  Peer from_;
-  int chunks_ = 0;
-};
-
-std::unique_ptr<ByteLink> opened(base::Loop& loop, std::string const& url) {
-  auto link = open(loop, parse_url(url).value());
-  EXPECT_TRUE(link) << link.error().message;
-  return std::move(*link);
-}
-
-std::uint32_t port_of(ByteLink const& link) {
-  return parse_url(link.name()).value().port_or_baud;
-}
-
-base::Task<bool> until_standing(base::Loop& loop, ByteLink& link, bool wanted) {
-  for (int i = 0; i < 500; ++i) {
-    if (link.standing_peers().empty() != wanted) co_return true;
-    co_await loop.sleep(10ms);
-  }
-  co_return false;
-}
+using namespace testing;
 
 TEST(UdpLink, CarriesDatagramsBothWaysFromOneSocket) {
   base::Loop loop;
@@ -248,73 +190,6 @@ TEST(UdpLink, RefusesAnAddressThatIsNotOurs) {
   EXPECT_NE(link.error().message.find("not an address of this machine"), std::string::npos);
 }
 
-TEST(TcpLink, CarriesBytesBothWaysAndNamesItsClients) {
-  base::Loop loop;
-  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
-  Talker out(loop, opened(loop, "tcpout://127.0.0.1:" + std::to_string(port_of(in.link()))));
-  EXPECT_FALSE(out.say("too early"));
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
-  EXPECT_TRUE(out.say("hello"));
-  ASSERT_TRUE(loop.run_until_done(in.hears("hello")));
-  EXPECT_EQ(in.link().peer_name(in.from()).rfind("127.0.0.1:", 0), 0u);
-  EXPECT_TRUE(in.answer("good day"));
-  EXPECT_TRUE(loop.run_until_done(out.hears("good day")));
-  EXPECT_EQ(in.link().standing_peers().size(), 1u);
-}
-
-TEST(TcpLink, ComesBackAfterTheServerDid) {
-  base::Loop loop(base::Loop::Pace{.speedup = 20.0});
-  auto in = std::make_unique<Talker>(loop, opened(loop, "tcpin://127.0.0.1:0"));
-  auto const url = in->link().name();
-  Talker out(loop, opened(loop, "tcpout" + url.substr(5)));
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
-  in.reset();
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), false)));
-  EXPECT_EQ(out.link().state(), LinkState::opening);
-  EXPECT_NE(out.link().last_error(), "");
-  in = std::make_unique<Talker>(loop, opened(loop, url));
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
-  EXPECT_TRUE(out.say("back"));
-  EXPECT_TRUE(loop.run_until_done(in->hears("back")));
-}
-
-TEST(TcpLink, ForgetsAClientThatLeft) {
-  base::Loop loop;
-  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
-  auto out = std::make_unique<Talker>(loop, opened(loop, "tcpout" + in.link().name().substr(5)));
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, in.link(), true)));
-  auto const peer = in.link().standing_peers().front();
-  out.reset();
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, in.link(), false)));
-  EXPECT_FALSE(in.say("anybody there?", peer));
-}
-
-TEST(TcpLink, ConnectsToAHostByItsName) {
-  base::Loop loop;
-  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
-  Talker out(loop, opened(loop, "tcpout://localhost:" + std::to_string(port_of(in.link()))));
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
-}
-
-TEST(TcpLink, SpeaksIpv6WhereThereIsOne) {
-  base::Loop loop;
-  auto listening = open(loop, parse_url("tcpin://[::1]:0").value());
-  if (!listening) GTEST_SKIP() << listening.error().message;
-  Talker in(loop, std::move(*listening));
-  Talker out(loop, opened(loop, "tcpout" + in.link().name().substr(5)));
-  ASSERT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true)));
-  EXPECT_TRUE(out.say("hello"));
-  EXPECT_TRUE(loop.run_until_done(in.hears("hello")));
-}
-
-TEST(TcpLink, NamesThePortThatIsTaken) {
-  base::Loop loop;
-  auto const first = opened(loop, "tcpin://127.0.0.1:0");
-  auto const taken = open(loop, parse_url(first->name()).value());
-  ASSERT_FALSE(taken);
-  EXPECT_NE(taken.error().message.find("is already in use"), std::string::npos);
-}
-
 TEST(SerialLink, TalksToATerminalLineAndWaitsForOneThatIsGone) {
   base::Loop loop(base::Loop::Pace{.speedup = 20.0});
   int const master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
@@ -413,10 +288,6 @@ TEST(PipeLink, KeepsClientsApartAndForgetsThoseThatLeft) {
   EXPECT_EQ(second.heard(), "");
   first.reset();
   EXPECT_FALSE(server.say("gone", peer));
-}
-
-base::Task<void> pass(base::Loop& loop, base::Duration time) {
-  co_await loop.sleep(time);
 }
 
 TEST(ImpairedLink, LosesDelaysAndDuplicatesByItsSeed) {

@@ -1,5 +1,9 @@
 #include <utility>  // before Asio: Boost 1.74 uses std::exchange without including it
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
 #include <map>
 
 #include <fmt/format.h>
@@ -22,11 +26,34 @@ using Error = boost::system::error_code;
 
 base::Duration constexpr retry_period = 1s;
 
+/// A far end that acknowledges nothing for so long is gone, and with it what was sent to it: a radio link that comes
+/// back after a minute must not bring the commands of a minute ago.
+base::Duration constexpr unacknowledged_for = 5s;
+/// With nothing on its way a far end is asked whether it is there: when it was silent for so long, so often, so many
+/// times.
+base::Duration constexpr asked_after = 5s;
+base::Duration constexpr asked_every = 2s;
+int constexpr asked_times = 2;
+
+void end_when_silent(int descriptor) {
+  auto const set = [descriptor](int level, int option, std::int64_t value) {
+    int const number = static_cast<int>(value);
+    (void)::setsockopt(descriptor, level, option, &number, sizeof(number));
+  };
+  using std::chrono::duration_cast;
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, duration_cast<std::chrono::milliseconds>(unacknowledged_for).count());
+  set(SOL_SOCKET, SO_KEEPALIVE, 1);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, duration_cast<std::chrono::seconds>(asked_after).count());
+  set(IPPROTO_TCP, TCP_KEEPINTVL, duration_cast<std::chrono::seconds>(asked_every).count());
+  set(IPPROTO_TCP, TCP_KEEPCNT, asked_times);
+}
+
 /// The socket's descriptor, ready for a Stream. Small messages must not wait for one another (Nagle).
 int release(tcp::socket socket) {
   Error ignored;
   socket.set_option(tcp::no_delay(true), ignored);
   socket.non_blocking(true, ignored);
+  end_when_silent(socket.native_handle());
   return socket.release(ignored);
 }
 
