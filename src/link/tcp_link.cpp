@@ -4,6 +4,7 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -25,6 +26,10 @@ using boost::asio::ip::tcp;
 using Error = boost::system::error_code;
 
 base::Duration constexpr retry_period = 1s;
+/// Of one server: more than a fleet and its programs, and no more descriptors than a process has.
+std::size_t constexpr max_clients = 256;
+/// Where no descriptor is left for another client, there is none at once.
+base::Duration constexpr accept_again_after = 100ms;
 
 /// A far end that acknowledges nothing for so long is gone, and with it what was sent to it: a radio link that comes
 /// back after a minute must not bring the commands of a minute ago.
@@ -154,7 +159,7 @@ class TcpOut final : public ByteLink {
 class TcpIn final : public ByteLink {
  public:
   TcpIn(base::Loop& loop, tcp::acceptor acceptor, std::string name)
-      : loop_(loop), acceptor_(std::move(acceptor)), name_(std::move(name)) {}
+      : loop_(loop), acceptor_(std::move(acceptor)), name_(std::move(name)), scope_(loop) {}
 
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::string peer_name(Peer peer) const override {
@@ -162,7 +167,7 @@ class TcpIn final : public ByteLink {
     return found == clients_.end() ? fmt::format("client {}", peer.key) : found->second.name;
   }
   [[nodiscard]] LinkState state() const override { return LinkState::open; }
-  [[nodiscard]] std::string last_error() const override { return {}; }
+  [[nodiscard]] std::string last_error() const override { return last_error_; }
   [[nodiscard]] LinkCounters counters() const override { return counters_; }
   [[nodiscard]] std::vector<Peer> standing_peers() const override {
     std::vector<Peer> peers;
@@ -184,28 +189,44 @@ class TcpIn final : public ByteLink {
   struct Client {
     std::string name;
     std::unique_ptr<Stream> stream;
+    base::TimePoint heard;
   };
 
   void accept() {
     acceptor_.async_accept([this, alive = std::weak_ptr(alive_)](Error error, tcp::socket socket) {
       if (alive.expired() || error == boost::asio::error::operation_aborted) return;
-      if (!error) adopt(std::move(socket));
+      last_error_ = error ? fmt::format("cannot take a client: {}", error.message()) : "";
+      if (error) return scope_.spawn(accept_later());
+      adopt(std::move(socket));
       accept();
     });
   }
 
+  base::Task<> accept_later() {
+    co_await loop_.sleep(accept_again_after);
+    accept();
+  }
+
   void adopt(tcp::socket socket) {
+    if (clients_.size() >= max_clients) make_room();
     Peer const peer{next_key_++};
     Error ignored;
     auto const far_end = socket.remote_endpoint(ignored);
     auto stream = std::make_unique<Stream>(
         loop_, Stream::End{release(std::move(socket))}, counters_,
         [this, peer](Bytes bytes) {
+          clients_.find(peer)->second.heard = loop_.now();
           receive_(peer, bytes);
           tell_drained();
         },
         [this, peer](std::string const&) { forget_later(peer); });
-    clients_[peer] = {fmt::format("{}:{}", far_end.address().to_string(), far_end.port()), std::move(stream)};
+    clients_[peer] = {fmt::format("{}:{}", far_end.address().to_string(), far_end.port()), std::move(stream),
+                      loop_.now()};
+  }
+
+  /// For one who wants to speak, the one that was silent for longest goes.
+  void make_room() {
+    clients_.erase(std::ranges::min_element(clients_, {}, [](auto const& entry) { return entry.second.heard; }));
   }
 
   void forget_later(Peer peer) {
@@ -221,7 +242,9 @@ class TcpIn final : public ByteLink {
   LinkCounters counters_;
   std::map<Peer, Client> clients_;
   std::uint64_t next_key_ = 1;
+  std::string last_error_;
   std::shared_ptr<int> alive_ = std::make_shared<int>(0);
+  base::Scope scope_;
 };
 
 }  // namespace

@@ -1,8 +1,10 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <deque>
 #include <string>
 
@@ -89,6 +91,50 @@ TEST(TcpLink, GivesAFarEndUpThatIsSilentForSeconds) {
     EXPECT_EQ(option_of<int>(one, IPPROTO_TCP, TCP_KEEPINTVL), 2);
     EXPECT_EQ(option_of<int>(one, IPPROTO_TCP, TCP_KEEPCNT), 2);
   }
+}
+
+TEST(TcpLink, LetsTheLongestSilentClientGoForANewOne) {
+  base::Loop loop(base::Loop::Pace{.speedup = 5.0});
+  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
+  auto const url = "tcpout" + in.link().name().substr(5);
+  std::deque<Talker> clients;
+  auto const connect = [&] {
+    clients.emplace_back(loop, opened(loop, url));
+    ASSERT_TRUE(loop.run_until_done(until_standing(loop, clients.back().link(), true)));
+  };
+  connect();
+  for (int i = 1; i < 256; ++i) connect();
+  EXPECT_TRUE(clients[0].say("I am here"));
+  ASSERT_TRUE(loop.run_until_done(in.hears("I am here")));
+  EXPECT_EQ(in.link().standing_peers().size(), 256u);
+  connect();
+  EXPECT_TRUE(clients.back().say("so am I"));
+  ASSERT_TRUE(loop.run_until_done(in.hears("so am I")));
+  EXPECT_EQ(in.link().standing_peers().size(), 256u);
+  ASSERT_TRUE(loop.run_until_done(until_standing(loop, clients[1].link(), false))) << "it had said nothing";
+  EXPECT_FALSE(clients[0].link().standing_peers().empty());
+}
+
+TEST(TcpLink, DoesNotSpinWhereNoDescriptorIsLeft) {
+  base::Loop loop;
+  Talker in(loop, opened(loop, "tcpin://127.0.0.1:0"));
+  Talker out(loop, opened(loop, "tcpout" + in.link().name().substr(5)));
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  int const next = dup(0);  // the lowest that is free
+  ::close(next);
+  rlimit const none{static_cast<rlim_t>(next) + 1, before.rlim_max};  // one for the client's end, none for the server's
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  EXPECT_TRUE(loop.run_until_done(until_standing(loop, out.link(), true))) << "the kernel has taken it";
+  auto const began = std::clock();
+  loop.run_until_done(pass(loop, 500ms));
+  double const busy_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  EXPECT_TRUE(in.link().standing_peers().empty());
+  EXPECT_NE(in.link().last_error(), "");
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_LT(busy_s, 0.1);
+  EXPECT_TRUE(loop.run_until_done(until_standing(loop, in.link(), true)));
+  EXPECT_EQ(in.link().last_error(), "");
 }
 
 TEST(TcpLink, ConnectsToAHostByItsName) {
