@@ -1,4 +1,8 @@
 #include <fcntl.h>
+#include <net/if.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -170,6 +174,45 @@ TEST(UdpLink, KeepsLookingForAHostThatIsNotKnownYet) {
   loop.run_until_done(until_it_says_why(loop, out.link()));
   EXPECT_EQ(out.link().last_error(), "cannot find host '" + name + "'");
   EXPECT_EQ(out.link().state(), LinkState::opening);
+}
+
+/// Exit codes of the child below.
+enum class Netless { works = 0, opens_not, says_not_why, reaches_not, cannot_try };
+
+/// In a network of its own, where at first not even loopback is up: a companion computer that has just been switched
+/// on.
+Netless open_before_there_is_a_network() {
+  if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return Netless::cannot_try;
+  base::Loop loop(base::Loop::Pace{.speedup = 20.0});
+  auto link = open(loop, parse_url("udpout://127.0.0.1:14550").value());
+  if (!link) return Netless::opens_not;
+  Talker out(loop, std::move(*link));
+  loop.run_until_done(until_it_says_why(loop, out.link()));
+  if (out.link().last_error() != "127.0.0.1:14550: Network is unreachable") return Netless::says_not_why;
+  int const any = socket(AF_INET, SOCK_DGRAM, 0);
+  ifreq loopback{};
+  std::string("lo").copy(loopback.ifr_name, sizeof(loopback.ifr_name) - 1);
+  loopback.ifr_flags = IFF_UP;
+  if (ioctl(any, SIOCSIFFLAGS, &loopback) != 0) return Netless::cannot_try;
+  ::close(any);
+  bool const is_there = loop.run_until_done(until_standing(loop, out.link(), true));
+  return is_there && out.link().last_error().empty() ? Netless::works : Netless::reaches_not;
+}
+
+TEST(UdpLink, WaitsForANetworkThatIsNotThereYet) {
+  auto const child = fork();
+  if (child == 0) _exit(static_cast<int>(open_before_there_is_a_network()));
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (static_cast<Netless>(WEXITSTATUS(status)) == Netless::cannot_try) GTEST_SKIP() << "no network of its own here";
+  EXPECT_EQ(WEXITSTATUS(status), static_cast<int>(Netless::works));
+}
+
+TEST(UdpLink, RefusesABroadcastAddressAtOnce) {
+  base::Loop loop;
+  auto const link = open(loop, parse_url("udpout://255.255.255.255:14550").value());
+  ASSERT_FALSE(link) << "no waiting makes that one right";
 }
 
 TEST(UdpLink, NamesThePortThatIsTaken) {

@@ -39,8 +39,8 @@ Peer peer_at(udp::endpoint const& endpoint) {
 
 /// "in" is bound and answers whoever speaks. "out" is connected to one address and hears that alone, as ArduPilot's
 /// udpclient does. "bcast" calls to everybody until one answers, then speaks to that one, as pymavlink does. Each sends
-/// from the socket on which it listens. Far ends are looked up by name until one is found: a companion computer may
-/// come after the station.
+/// from the socket on which it listens. Far ends are looked up until one is found and there is a way to it: a companion
+/// computer may come after the station, and its network after its programs.
 class UdpLink final : public ByteLink {
  public:
   UdpLink(base::Loop& loop, udp::socket socket, Url url)
@@ -58,6 +58,7 @@ class UdpLink final : public ByteLink {
     Error error;
     if (is_connected_) socket_.connect(target, error);
     if (!error) target_ = peer_at(target);
+    last_error_ = error ? fmt::format("{}: {}", peer_name(peer_at(target)), error.message()) : "";
     return error;
   }
 
@@ -112,8 +113,10 @@ class UdpLink final : public ByteLink {
       resolver_.async_resolve(udp::v4(), url_.host, std::to_string(url_.port_or_baud),
                               [this, &has_answer, alive = std::weak_ptr(alive_)](Error error, auto found) {
                                 if (alive.expired()) return;
-                                if (!error && !found.empty()) error = aim(found.begin()->endpoint());
-                                last_error_ = error ? fmt::format("cannot find host '{}'", url_.host) : "";
+                                if (error || found.empty())
+                                  last_error_ = fmt::format("cannot find host '{}'", url_.host);
+                                else
+                                  (void)aim(found.begin()->endpoint());  // it notes what is wrong
                                 has_answer = true;
                                 answered_.notify_all();
                               });
@@ -183,6 +186,12 @@ std::optional<udp::endpoint> literal(Url const& url) {
   return udp::endpoint(address, static_cast<std::uint16_t>(url.port_or_baud));
 }
 
+/// A network may come up after this program.
+bool may_come_right(Error error) {
+  using namespace boost::asio::error;
+  return error == network_unreachable || error == host_unreachable || error == network_down;
+}
+
 /// One of this machine's own addresses, which has to be known at once.
 base::Result<udp::endpoint> own_address(base::Loop& loop, Url const& url) {
   if (auto const address = literal(url)) return *address;
@@ -224,7 +233,8 @@ base::Result<std::unique_ptr<ByteLink>> open_udp(base::Loop& loop, Url const& ur
   enlarge_buffers(socket.native_handle());
   auto link = std::make_unique<UdpLink>(loop, std::move(socket), actual);
   if (auto const target = literal(url); target && url.transport != Transport::udp_in) {
-    if (error = link->aim(*target); error) return cannot_bind(url, error.value());
+    error = link->aim(*target);
+    if (error && !may_come_right(error)) return cannot_bind(url, error.value());
   }
   return link;
 }
