@@ -27,7 +27,9 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
     : loop_(loop),
       options_(std::move(options)),
       log_(std::move(log)),
-      routes_(std::make_unique<internal::Routes>()),
+      routes_(std::make_unique<internal::Routes>([this](PeerRef peer) {
+        if (guard_) guard_->forget({peer.link, peer.peer.key});
+      })),
       echoes_(std::make_unique<internal::Echoes>()),
       commands_(loop),
       scope_(loop) {

@@ -342,6 +342,23 @@ TEST(ConnectionLink, LetsCommandsOvertakeWhatIsPerishableAndStopsEverything) {
   EXPECT_EQ(how, (std::vector{perishable, prompt, prompt, urgent, urgent, urgent}));
 }
 
+TEST(Connection, ForgetsSourcesThatAFloodMadeUp) {
+  Bench bench;
+  Raw raw(bench.hub.connect());
+  for (int i = 0; i < 6000; ++i) {
+    Address const made_up{static_cast<std::uint8_t>(2 + i % 200), static_cast<std::uint8_t>(2 + i / 200)};
+    raw.say(encode(FakeVehicle::heartbeat(), made_up, 0));
+    if (i % 50 == 0) bench.run_for(10ms);
+  }
+  bench.run_for(1s);
+  auto const report = bench.ground.report();
+  EXPECT_LE(report[0].sources.size(), 2048u);
+  EXPECT_GE(report[0].counters.received, 6000u) << "what they sent stays counted";
+  EXPECT_TRUE(bench.ground.send({1, 1}, CommandLong{.command = MavCmd::mission_start}));
+  bench.run_for(1s);
+  EXPECT_EQ(count(bench.vehicle->all<CommandLong>(), MavCmd::mission_start), 1) << "who speaks on is not forgotten";
+}
+
 TEST(Subscription, EndsWhenDestroyedEvenFromWithinItsCall) {
   Bench bench;
   int calls = 0;

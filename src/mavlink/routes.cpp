@@ -11,6 +11,10 @@ using namespace std::chrono_literals;
 
 /// More far ends than any fleet has; a flood of datagrams from random ports must not fill the memory.
 std::size_t constexpr max_peers = 1024;
+/// The same for sources: a hundred vehicles with twenty components each. A flood can make up 65 536.
+std::size_t constexpr max_sources = 2048;
+/// One that said less has not shown that it is there to stay.
+std::uint64_t constexpr few_messages = 5;
 /// The same for one source.
 std::size_t constexpr max_paths = 8;
 /// A far end that has been silent for this long is not sent heartbeats any more, and one of several paths is forgotten.
@@ -51,7 +55,9 @@ PeerState& Routes::hear(PeerRef peer, base::TimePoint now) {
 void Routes::make_room() {
   auto const oldest = std::ranges::min_element(
       peers_, {}, [](auto const& entry) { return std::pair(entry.second.spoke, entry.second.heard); });
+  auto const peer = oldest->first;
   peers_.erase(oldest);
+  forgotten_(peer);
 }
 
 // ---- what comes in
@@ -67,6 +73,38 @@ void Routes::Source::forget(std::vector<Path>::iterator path) {
   if (paths.size() == 1) merge.reset();
 }
 
+base::TimePoint Routes::Source::last_heard() const {
+  auto last = base::TimePoint::min();
+  for (auto const& path : paths) last = std::max(last, path.meter.last_heard());
+  return last;
+}
+
+std::uint64_t Routes::Source::received() const {
+  std::uint64_t sum = 0;
+  for (auto const& path : paths) sum += path.sequence.counters().received;
+  return sum;
+}
+
+Routes::Source& Routes::source_of(Address address) {
+  auto const found = sources_.find(address);
+  if (found != sources_.end()) return found->second;
+  if (sources_.size() >= max_sources) make_room_for_source();
+  auto& source = sources_[address];
+  source.system = &systems_[address.system];
+  return source;
+}
+
+/// Those that hardly spoke first: while made-up sources pour in, vehicles speak on.
+void Routes::make_room_for_source() {
+  auto const rank = [](auto const& entry) {
+    return std::pair(entry.second.received() > few_messages, entry.second.last_heard());
+  };
+  auto const oldest = std::ranges::min_element(sources_, {}, rank);
+  for (auto const& path : oldest->second.paths) gone_[path.peer.link] += path.sequence.counters();
+  for (auto const& [link, counters] : oldest->second.gone) gone_[link] += counters;
+  sources_.erase(oldest);
+}
+
 Routes::Path& Routes::path_of(Source& source, PeerRef peer) {
   if (auto* path = source.find(peer)) return *path;
   if (source.paths.size() == max_paths)
@@ -77,8 +115,7 @@ Routes::Path& Routes::path_of(Source& source, PeerRef peer) {
 }
 
 Routes::Taken Routes::take(PeerRef peer, PeerState& state, Frame const& frame, base::TimePoint now) {
-  auto& source = sources_[frame.source];
-  if (!source.system) source.system = &systems_[frame.source.system];
+  auto& source = source_of(frame.source);
   auto& path = path_of(source, peer);
   path.meter.heard(wire_size(frame), path.sequence.counters(), now);
   if (!path.sequence.take(frame.seq, frame.checksum)) return {};
@@ -116,7 +153,7 @@ void Routes::identify(PeerRef peer, Address source, Message const& message, base
     auto const& asked = peers_[peer].asked;
     if (std::ranges::find(asked, base::TimePoint(answer->ts1)) == asked.end()) return;
     auto const round_trip = std::max(now - base::TimePoint(answer->ts1), base::Duration{});
-    if (auto* path = sources_[source].find(peer)) path->meter.answered(round_trip);
+    if (auto* path = source_of(source).find(peer)) path->meter.answered(round_trip);
     if (claim) claim->fingerprint.take(*answer, now);
   }
   if (!claim) return;
@@ -200,13 +237,10 @@ Routes::Source const* Routes::source_for(Address target) const {
   if (auto const exact = sources_.find(target); exact != sources_.end()) return &exact->second;
   if (auto const main = sources_.find({target.system, autopilot_component}); main != sources_.end())
     return &main->second;
-  auto const heard = [](Source const& source) {
-    return std::ranges::max(source.paths, {}, [](Path const& p) { return p.meter.last_heard(); }).meter.last_heard();
-  };
   Source const* latest = nullptr;
   for (auto it = sources_.lower_bound({target.system, 0}); it != sources_.end() && it->first.system == target.system;
        ++it)
-    if (!latest || heard(it->second) > heard(*latest)) latest = &it->second;
+    if (!latest || it->second.last_heard() > latest->last_heard()) latest = &it->second;
   return latest;
 }
 

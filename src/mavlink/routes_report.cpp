@@ -69,6 +69,7 @@ void Routes::report(std::vector<LinkReport>& links, base::TimePoint now) const {
     }
     for (auto const& [number, gone] : source.gone) links[number].counters += gone;
   }
+  for (auto const& [number, gone] : gone_) links[number].counters += gone;
   for (auto& link : links)
     if (link.messages_per_s > 0.0) link.loss /= link.messages_per_s;
 }

@@ -85,6 +85,8 @@ class SigningGuard {
   /// The name of the key with which the system's last frame was signed; empty: it was not signed; nothing: none was
   /// heard.
   [[nodiscard]] std::optional<std::string> key_of(std::uint8_t system_id) const;
+  /// This far end is gone.
+  void forget(Peer peer) { systems_at_.erase(peer); }
   /// The latest time that was sent or heard. To be kept for the program's next life.
   [[nodiscard]] SigningTime signed_until() const { return last_; }
   [[nodiscard]] SigningCounters const& counters() const { return counters_; }

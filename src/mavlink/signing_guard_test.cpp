@@ -286,6 +286,18 @@ TEST(SigningSetup, LosesNothingWhenTheVehicleTakesNoKey) {
   EXPECT_FALSE(bench.vehicle->heard.empty());
 }
 
+TEST(SigningGuard, ForgetsWhoWasAtAFarEndThatIsGone) {
+  auto ring = two_keys();
+  ring.everybody = {"a"};
+  ring.vehicles[7] = {"b"};
+  auto station = guard_of(ring);
+  ASSERT_TRUE(station.accepts(heartbeat_by(key_of(2), 7), radio, now));
+  station.forget(radio);
+  auto frame = heartbeat(255);
+  station.sign(frame, radio, 0, now);
+  EXPECT_TRUE(is_signed_with(frame, key_of(1)));
+}
+
 TEST(SigningSetup, KnowsOnlyKeysOfTheRing) {
   Bench bench;
   auto const without = bench.loop.run_until_done(give_key(bench.ground, Bench::target, "a"));

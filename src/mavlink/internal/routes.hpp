@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,6 +35,9 @@ struct PeerState {
 /// which path is the best.
 class Routes {
  public:
+  /// `forgotten` is told of far ends whose state is erased.
+  explicit Routes(std::function<void(PeerRef)> forgotten) : forgotten_(std::move(forgotten)) {}
+
   /// What a link can carry; call once for each, in order.
   void add_link(std::optional<double> bytes_per_s) { bytes_per_s_.push_back(bytes_per_s); }
 
@@ -48,7 +52,7 @@ class Routes {
     bool is_news = false;            ///< nor told by another path of the vehicle
     bool is_one_of_several = false;  ///< the autopilot is heard at several far ends: `identify` wants to see it
   };
-  /// Notes a frame that came from `peer`.
+  /// Notes a frame that came from `peer`. Sources are bounded as far ends are: one that hardly spoke makes room first.
   Taken take(PeerRef peer, PeerState& state, Frame const& frame, base::TimePoint now);
   /// What tells one vehicle from another: TIMESYNC answers, hardware numbers, positions of autopilots.
   void identify(PeerRef peer, Address source, Message const& message, base::TimePoint now);
@@ -102,11 +106,14 @@ class Routes {
   struct Source {
     System* system = nullptr;
     std::vector<Path> paths;
+    [[nodiscard]] base::TimePoint last_heard() const;
+    [[nodiscard]] std::uint64_t received() const;
     std::unique_ptr<Merge> merge;                ///< once there are several paths
     std::map<std::size_t, SourceCounters> gone;  ///< by link: of paths that are forgotten
     [[nodiscard]] Path* find(PeerRef peer);
     void forget(std::vector<Path>::iterator path);
   };
+  [[nodiscard]] Source& source_of(Address address);
   [[nodiscard]] Path& path_of(Source& source, PeerRef peer);
   [[nodiscard]] bool is_told_already(Source& source, PeerRef peer, Frame const& frame, base::TimePoint now);
   [[nodiscard]] std::vector<Candidate> candidates(Source const& source, Traffic traffic, base::TimePoint now) const;
@@ -114,11 +121,14 @@ class Routes {
   [[nodiscard]] SourceReport report(Address address, Source const& source, Path const& path, base::TimePoint now) const;
   [[nodiscard]] Source const* source_for(Address target) const;
   void make_room();
+  void make_room_for_source();
 
+  std::function<void(PeerRef)> forgotten_;
   std::vector<std::optional<double>> bytes_per_s_;  ///< of each link
   std::map<PeerRef, PeerState> peers_;
   std::map<std::uint8_t, System> systems_;  ///< before the sources that point into it
   std::map<Address, Source> sources_;
+  std::map<std::size_t, SourceCounters> gone_;  ///< by link: of sources that are forgotten
 };
 
 }  // namespace lapwing::mavlink::internal
