@@ -86,7 +86,7 @@ base::Task<base::Result<>> change_key(KeyChange& change, SystemName vehicle, std
   both.insert(both.begin(), name);
   if (auto kept = change.use(vehicle, both); !kept) co_return kept;
   co_await change.session.loop.sleep(base::from_seconds(change.arguments.overlap_s));
-  if (connection.signing()->key_of(vehicle.system_id) != name)
+  if (connection.signing()->key_of(target) != name)
     co_return base::fail(ErrorKind::refused, fmt::format("vehicle {} signs with its old key again", to_string(vehicle)),
                          "both keys are kept; was it restarted before it had stored the new one?");
   if (change.ring.everybody == KeyRing::Use{name}) co_return change.forget(vehicle);

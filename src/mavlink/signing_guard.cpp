@@ -69,12 +69,19 @@ void SigningGuard::sign(Frame& frame, Peer to, std::uint8_t system_id, base::Utc
   }
   auto const& use = use_for(system_id, to.link);
   if (use.empty()) return;
-  auto const last_used = key_of_.find(system_id);
-  bool const follows = last_used != key_of_.end() && std::ranges::find(use, last_used->second) != use.end();
-  auto const key = ring_.keys.find(follows ? last_used->second : use.front());
+  auto const* last_used = last_key_of(system_id);
+  bool const follows = last_used && std::ranges::find(use, *last_used) != use.end();
+  auto const key = ring_.keys.find(follows ? *last_used : use.front());
   if (key == ring_.keys.end()) return;
   last_ = std::max(last_ + 1, signing_time(now));
   mavlink::sign(frame, key->second, static_cast<std::uint8_t>(to.link), last_);
+}
+
+/// The autopilot's; of a system that has none, that of the first of its components. Null: nothing of it was heard.
+std::string const* SigningGuard::last_key_of(std::uint8_t system_id) const {
+  auto found = key_of_.find({system_id, autopilot_component});
+  if (found == key_of_.end()) found = key_of_.lower_bound({system_id, 0});
+  return found != key_of_.end() && found->first.system == system_id ? &found->second : nullptr;
 }
 
 /// The name of the key, of those that hold for the sender; null when it is none of them.
@@ -111,22 +118,22 @@ bool SigningGuard::accepts(Frame const& frame, Peer from, base::UtcTime now) {
       ++counters_.unsigned_frames;
       return false;
     }
-    key_of_[frame.source.system] = {};
+    key_of_[frame.source] = {};
   } else {
     auto const* name = signed_by(frame, from.link);
     if (!name || is_late(frame, now)) {
       ++(name ? counters_.replayed : counters_.wrong_key);
       return false;
     }
-    key_of_[frame.source.system] = *name;
+    key_of_[frame.source] = *name;
     ++counters_.accepted;
   }
   systems_at_[from].insert(frame.source.system);
   return true;
 }
 
-std::optional<std::string> SigningGuard::key_of(std::uint8_t system_id) const {
-  auto const known = key_of_.find(system_id);
+std::optional<std::string> SigningGuard::key_of(Address source) const {
+  auto const known = key_of_.find(source);
   return known != key_of_.end() ? std::optional(known->second) : std::nullopt;
 }
 

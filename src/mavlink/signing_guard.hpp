@@ -82,9 +82,9 @@ class SigningGuard {
 
   [[nodiscard]] KeyRing const& ring() const { return ring_; }
   void set_ring(KeyRing ring) { ring_ = std::move(ring); }
-  /// The name of the key with which the system's last frame was signed; empty: it was not signed; nothing: none was
-  /// heard.
-  [[nodiscard]] std::optional<std::string> key_of(std::uint8_t system_id) const;
+  /// The name of the key with which this component's last frame was signed; empty: it was not signed; nothing: none was
+  /// heard. An autopilot and its camera need not do alike.
+  [[nodiscard]] std::optional<std::string> key_of(Address source) const;
   /// This far end is gone.
   void forget(Peer peer) { systems_at_.erase(peer); }
   /// The latest time that was sent or heard. To be kept for the program's next life.
@@ -102,6 +102,7 @@ class SigningGuard {
     friend auto operator<=>(Sender const&, Sender const&) = default;
   };
   [[nodiscard]] KeyRing::Use const& use_for(std::uint8_t system_id, std::size_t link) const;
+  [[nodiscard]] std::string const* last_key_of(std::uint8_t system_id) const;
   [[nodiscard]] std::string const* signed_by(Frame const& frame, std::size_t link) const;
   [[nodiscard]] bool may_be_unsigned(Frame const& frame, std::size_t link) const;
   [[nodiscard]] bool is_late(Frame const& frame, base::UtcTime now);
@@ -110,7 +111,7 @@ class SigningGuard {
   std::map<std::size_t, Link> links_;
   SigningTime last_;
   std::map<Sender, SigningTime> heard_;
-  std::map<std::uint8_t, std::string> key_of_;
+  std::map<Address, std::string> key_of_;
   std::map<Peer, std::set<std::uint8_t>> systems_at_;
   SigningCounters counters_;
 };

@@ -122,7 +122,7 @@ TEST(SigningGuard, HearsNobodyWithoutASignatureButRadios) {
   auto status = heartbeat(51);
   status.message_id = 109;
   EXPECT_TRUE(station.accepts(status, radio, now));
-  EXPECT_FALSE(station.key_of(51)) << "that says nothing about its other messages";
+  EXPECT_FALSE(station.key_of({51, 1})) << "that says nothing about its other messages";
 }
 
 TEST(SigningGuard, HearsWithoutASignatureWhomItIsToldTo) {
@@ -184,7 +184,7 @@ TEST(SigningGuard, SignsWithTheKeyThatTheVehicleSignsWithWhileItIsChanged) {
   };
   EXPECT_TRUE(speaks_with(key_of(1)));
   ASSERT_TRUE(station.accepts(heartbeat_by(key_of(2), 7), radio, now));
-  EXPECT_EQ(station.key_of(7), "b");
+  EXPECT_EQ(station.key_of({7, 1}), "b");
   EXPECT_TRUE(speaks_with(key_of(2)));
   ASSERT_TRUE(station.accepts(heartbeat_by(key_of(1), 7, now + 1s), radio, now)) << "it was restarted";
   EXPECT_TRUE(speaks_with(key_of(1)));
@@ -257,13 +257,13 @@ TEST(SigningSetup, GivesChangesAndTakesAKey) {
   ring.vehicles[1] = {"a", "b"};
   bench.ground.set_keys(ring);
   ASSERT_TRUE(bench.loop.run_until_done(give_key(bench.ground, Bench::target, "b")));
-  EXPECT_EQ(bench.ground.signing()->key_of(1), "b");
+  EXPECT_EQ(bench.ground.signing()->key_of({1, 1}), "b");
   ring.vehicles[1] = {"b"};
   bench.ground.set_keys(ring);
   bench.vehicle->heard.clear();
   bench.run_for(10s);
   EXPECT_FALSE(bench.vehicle->all<Heartbeat>().empty()) << "they still hear each other";
-  EXPECT_EQ(bench.ground.signing()->key_of(1), "b");
+  EXPECT_EQ(bench.ground.signing()->key_of({1, 1}), "b");
 
   ring.unsigned_frames.systems = {1};
   bench.ground.set_keys(ring);
@@ -280,10 +280,47 @@ TEST(SigningSetup, LosesNothingWhenTheVehicleTakesNoKey) {
   auto const given = bench.loop.run_until_done(give_key(bench.ground, Bench::target, "b", {.tries = 3}));
   ASSERT_FALSE(given);
   EXPECT_EQ(given.error().kind, base::ErrorKind::timed_out);
-  EXPECT_EQ(bench.ground.signing()->key_of(1), "a");
+  EXPECT_EQ(bench.ground.signing()->key_of({1, 1}), "a");
   bench.vehicle->heard.clear();
   bench.run_for(3s);
   EXPECT_FALSE(bench.vehicle->heard.empty());
+}
+
+TEST(SigningSetup, IsNotDeceivedByACameraThatSignsNothing) {
+  Bench bench;
+  bench.vehicle->connection.set_keys(ring_of(key_of(1)));
+  auto ring = two_keys();
+  ring.vehicles[1] = {"a"};
+  ring.unsigned_frames.systems = {1};
+  bench.ground.set_keys(ring);
+  FakeVehicle const camera(bench.loop, bench.hub.connect(), {1, 100});
+  bench.run_for(3s);
+  auto const taken = bench.loop.run_until_done(take_key_away(bench.ground, Bench::target, {.tries = 3}));
+  ASSERT_FALSE(taken) << "the autopilot signs still";
+  EXPECT_EQ(taken.error().kind, base::ErrorKind::timed_out);
+  EXPECT_EQ(bench.ground.signing()->key_of({1, 1}), "a");
+  EXPECT_EQ(bench.ground.signing()->key_of({1, 100}), "");
+  EXPECT_FALSE(bench.ground.signing()->key_of({1, 154}));
+}
+
+TEST(SigningGuard, SpeaksToASystemWithItsAutopilotsKey) {
+  auto ring = two_keys();
+  ring.vehicles[7] = {"a", "b"};
+  auto station = guard_of(ring);
+  auto const by = [](std::uint8_t component, SigningKey const& key) {
+    auto frame = encode(Heartbeat{.type = MavType::quadrotor}, {7, component}, 0);
+    sign(frame, key, 0, signing_time(now));
+    return frame;
+  };
+  auto const speaks_with_b = [&] {
+    auto frame = heartbeat(255);
+    station.sign(frame, radio, 7, now);
+    return is_signed_with(frame, key_of(2));
+  };
+  ASSERT_TRUE(station.accepts(by(100, key_of(2)), radio, now));
+  EXPECT_TRUE(speaks_with_b()) << "nothing else of it was heard";
+  ASSERT_TRUE(station.accepts(by(1, key_of(1)), radio, now));
+  EXPECT_FALSE(speaks_with_b()) << "whatever its camera signs with";
 }
 
 TEST(SigningGuard, ForgetsWhoWasAtAFarEndThatIsGone) {

@@ -17,7 +17,7 @@ namespace {
 base::Task<bool> tell(Connection& connection, Address target, SigningKey key, SigningTime begin, std::string wanted,
                       SigningSetupOptions options, base::Result<>& sent) {
   auto& loop = connection.loop();
-  Inbox heard(connection, Address{target.system, 0}, [](Message const&) { return true; });
+  Inbox heard(connection, target, [](Message const&) { return true; });
   for (int attempt = 0; attempt < options.tries; ++attempt) {
     heard.clear();
     Message const message = SetupSigning{.key = key, .initial_timestamp = begin};
@@ -25,7 +25,7 @@ base::Task<bool> tell(Connection& connection, Address target, SigningKey key, Si
     if (!sent) co_return false;
     auto const deadline = loop.now() + options.wait;
     while (co_await heard.next(deadline))
-      if (connection.signing()->key_of(target.system) == wanted) co_return true;
+      if (connection.signing()->key_of(target) == wanted) co_return true;
   }
   co_return false;
 }
