@@ -46,13 +46,16 @@ void Channel::offer(mavlink::FrameView const& frame, base::TimePoint now) {
     case Shaper::Verdict::go: put(frame.bytes); break;
     case Shaper::Verdict::waits: break;
     case Shaper::Verdict::replaced: ++out.superseded; break;
+    case Shaper::Verdict::displaced:
     case Shaper::Verdict::refused: ++out.overflowed; break;
   }
+  out.expired += shaper_->take_expired();
 }
 
 void Channel::release(base::TimePoint now) {
   if (!shaper_) return;
-  while (auto const frame = shaper_->release(now)) put(*frame);
+  while (auto const frame = shaper_->release(now)) put(frame->bytes);
+  endpoint.counters.out.expired += shaper_->take_expired();
 }
 
 base::TimePoint Channel::next_release(base::TimePoint now) const {

@@ -46,6 +46,7 @@ struct EndpointCounters {
     std::uint64_t filtered = 0;    ///< dropped by the filter
     std::uint64_t superseded = 0;  ///< dropped: a newer value came while it waited for the rate limit
     std::uint64_t overflowed = 0;  ///< dropped: too many waited for the rate limit
+    std::uint64_t expired = 0;     ///< dropped: it waited for so long that it was worth nothing any more
     std::uint64_t refused = 0;     ///< dropped: the link did not take it
     std::uint64_t abandoned = 0;   ///< dropped: the far end went away while it waited
   } out = {};

@@ -18,6 +18,7 @@ auto constexpr bulk_ids = std::to_array<std::uint32_t>({
     134,  // TERRAIN_DATA
     184,  // REMOTE_LOG_DATA_BLOCK
     185,  // REMOTE_LOG_BLOCK_STATUS
+    233,  // GPS_RTCM_DATA: pieces, of which none replaces another
     266,  // LOGGING_DATA
     267,  // LOGGING_DATA_ACKED
     268,  // LOGGING_ACK
@@ -33,7 +34,6 @@ auto constexpr single_ids = std::to_array<std::uint32_t>({
     112,  // CAMERA_TRIGGER
     148,  // AUTOPILOT_VERSION
     180,  // CAMERA_FEEDBACK
-    233,  // GPS_RTCM_DATA
     253,  // STATUSTEXT
     263,  // CAMERA_IMAGE_CAPTURED
     322,  // PARAM_EXT_VALUE
@@ -42,6 +42,16 @@ auto constexpr single_ids = std::to_array<std::uint32_t>({
     411,  // CURRENT_EVENT_SEQUENCE
 });
 static_assert(std::ranges::is_sorted(single_ids));
+
+std::uint32_t constexpr gps_rtcm_data = 233;
+
+/// COMMAND_ACK and COMMAND_CANCEL, which are never too late.
+auto constexpr answer_ids = std::to_array<std::uint32_t>({77, 80});
+/// SET_MODE, COMMAND_INT, COMMAND_LONG.
+auto constexpr order_ids = std::to_array<std::uint32_t>({11, 75, 76});
+
+base::Duration constexpr order_life = std::chrono::seconds(2);
+base::Duration constexpr correction_life = std::chrono::seconds(5);
 
 /// For one vehicle, and yet values: an old position of a stick must not come after a new one has left.
 auto constexpr setpoint_ids = std::to_array<std::uint32_t>({
@@ -79,6 +89,17 @@ MessageClass class_of(mavlink::FrameView const& frame) {
   bool const has_target = frame.traits->target_system_at != mavlink::no_field;
   if (!has_target || std::ranges::binary_search(setpoint_ids, id)) return MessageClass::telemetry;
   return MessageClass::command;
+}
+
+bool is_order(mavlink::FrameView const& frame) {
+  return std::ranges::binary_search(order_ids, frame.message_id) ||
+         std::ranges::binary_search(answer_ids, frame.message_id);
+}
+
+std::optional<base::Duration> shelf_life(mavlink::FrameView const& frame) {
+  if (std::ranges::binary_search(order_ids, frame.message_id)) return order_life;
+  if (frame.message_id == gps_rtcm_data) return correction_life;
+  return std::nullopt;
 }
 
 StreamKey stream_of(mavlink::FrameView const& frame) {

@@ -25,6 +25,7 @@ constexpr Reason drops[] = {
     {"out", "filtered", [](Status const& s) { return s.counters.out.filtered; }},
     {"out", "superseded", [](Status const& s) { return s.counters.out.superseded; }},
     {"out", "overflowed", [](Status const& s) { return s.counters.out.overflowed; }},
+    {"out", "expired", [](Status const& s) { return s.counters.out.expired; }},
     {"out", "refused", [](Status const& s) { return s.counters.out.refused; }},
     {"out", "abandoned", [](Status const& s) { return s.counters.out.abandoned; }},
 };

@@ -312,6 +312,19 @@ TEST_F(RouterTest, PacksFramesThatAreReadyTogetherIntoADatagramUnlessToldNotTo) 
   EXPECT_EQ(counters(2).out.frames, 5u);
 }
 
+TEST_F(RouterTest, DropsACommandThatWaitedTooLongForItsRate) {
+  auto& ground = join(add_hub());
+  auto& vehicle = join(add_hub({.name = "slow", .limits = {.all = {.messages_per_s = 0.1}}}));
+  vehicle.say(packet("HEARTBEAT"));
+  settle();
+  for (std::uint8_t seq = 0; seq < 5; ++seq)
+    ground.say(packet("COMMAND_LONG", {.source = {255, 190}, .target = {1, 1}, .seq = seq}));
+  settle(60s);
+  EXPECT_EQ(vehicle.take().size(), 1u) << "what went at once";
+  EXPECT_EQ(counters(1).out.expired, 4u);
+  EXPECT_EQ(router.status()[1].waiting, 0u);
+}
+
 TEST_F(RouterTest, CountsJunkAndMakesNoFarEndOfIt) {
   auto& stranger = join(add_hub());
   stranger.say(Bytes(100, 0x55));

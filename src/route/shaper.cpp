@@ -11,8 +11,6 @@ namespace {
 /// What may be saved up for a burst, as a time of sending.
 double constexpr burst_s = 0.1;
 
-constexpr std::array classes{MessageClass::command, MessageClass::telemetry, MessageClass::bulk};
-
 bool is_limited(Rate const& rate) {
   return !std::isinf(rate.bytes_per_s) || !std::isinf(rate.messages_per_s);
 }
@@ -51,36 +49,66 @@ void Shaper::Ring::pop() {
 Shaper::Shaper(Limits const& limits)
     : all_(limits.all),
       gates_{Gate(limits.by_class[0]), Gate(limits.by_class[1]), Gate(limits.by_class[2])},
-      lines_{Line(max_single), Line(max_streams), Line(max_single)} {
-  line(MessageClass::command).kept.resize(max_single);
-  line(MessageClass::bulk).kept.resize(max_single);
-}
+      lines_{Line{MessageClass::command, std::vector<Kept>(max_single), Ring(max_single)},
+             Line{MessageClass::command, std::vector<Kept>(max_single), Ring(max_single)},
+             Line{MessageClass::telemetry, {}, Ring(max_streams)},
+             Line{MessageClass::bulk, std::vector<Kept>(max_single), Ring(max_single)}} {}
 
 // ---- going in
 
+Shaper::LineId Shaper::line_of(mavlink::FrameView const& frame) {
+  switch (class_of(frame)) {
+    case MessageClass::command: return is_order(frame) ? LineId::orders : LineId::commands;
+    case MessageClass::telemetry: return LineId::telemetry;
+    case MessageClass::bulk: break;
+  }
+  return LineId::bulk;
+}
+
+/// What waits was there before; but orders wait for orders alone, and other commands not for telemetry.
+bool Shaper::is_next(LineId line) const {
+  if (line == LineId::orders) return lines_[LineId::orders].order.count == 0;
+  if (line == LineId::commands) return lines_[LineId::orders].order.count + lines_[LineId::commands].order.count == 0;
+  return waiting() == 0;
+}
+
 Shaper::Verdict Shaper::offer(mavlink::FrameView const& frame, base::TimePoint now) {
-  auto const c = class_of(frame);
-  // What waits was there before; but commands do not wait for telemetry.
-  bool const is_next = c == MessageClass::command ? line(c).order.count == 0 : waiting() == 0;
-  if (is_next && ready(c, frame.bytes.size(), now) <= now) {
+  drop_expired(now);
+  auto const line = line_of(frame);
+  auto const c = lines_[line].message_class;
+  if (is_next(line) && ready(c, frame.bytes.size(), now) <= now) {
     pay(c, frame.bytes.size(), now);
     return Verdict::go;
   }
-  return c == MessageClass::telemetry ? keep_newest(frame) : keep_single(line(c), frame);
+  return line == LineId::telemetry ? keep_newest(frame) : keep_single(line, frame, now);
 }
 
 /// Places are taken in turn; the line is never longer than they are many, so the next one is free.
-Shaper::Verdict Shaper::keep_single(Line& line, mavlink::FrameView const& frame) {
-  auto& order = line.order;
-  if (order.full()) return Verdict::refused;
+Shaper::Verdict Shaper::keep_single(LineId id, mavlink::FrameView const& frame, base::TimePoint now) {
+  auto& [message_class, kept, order] = lines_[id];
+  bool const is_full = order.full();
+  if (is_full && id != LineId::orders) return Verdict::refused;
+  if (is_full) order.pop();  // the newest may be a stop
   auto const place = static_cast<std::uint32_t>((order.first + order.count) % max_single);
-  line.kept[place].keep(frame);
+  auto const life = shelf_life(frame);
+  kept[place].keep(frame);
+  kept[place].expires = life ? now + *life : base::TimePoint::max();
   order.push(place);
-  return Verdict::waits;
+  return is_full ? Verdict::displaced : Verdict::waits;
+}
+
+/// From the front: of one line all live about equally long.
+void Shaper::drop_expired(base::TimePoint now) {
+  for (auto& [message_class, kept, order] : lines_) {
+    while (order.count > 0 && kept[order.front()].expires < now) {
+      order.pop();
+      ++expired_;
+    }
+  }
 }
 
 Shaper::Verdict Shaper::keep_newest(mavlink::FrameView const& frame) {
-  auto& [kept, order] = line(MessageClass::telemetry);
+  auto& [message_class, kept, order] = lines_[LineId::telemetry];
   auto const stream = stream_of(frame);
   auto found = streams_.find(stream);
   if (found == streams_.end()) {
@@ -98,7 +126,7 @@ Shaper::Verdict Shaper::keep_newest(mavlink::FrameView const& frame) {
 
 /// Keeps what waits, in its order. Sources come and go; their kinds of messages must not fill the memory for good.
 void Shaper::forget_idle_streams() {
-  auto& [kept, order] = line(MessageClass::telemetry);
+  auto& [message_class, kept, order] = lines_[LineId::telemetry];
   if (order.count == kept.size()) return;
   std::vector<Kept> waiting;
   waiting.reserve(max_streams);
@@ -116,30 +144,28 @@ void Shaper::forget_idle_streams() {
 
 // ---- coming out
 
-std::optional<std::span<std::uint8_t const>> Shaper::release(base::TimePoint now) {
-  auto const may_go = [&](MessageClass c) { return front_ready(c, now) <= now; };
-  if (may_go(MessageClass::command)) return release_front(MessageClass::command, now);
-  auto first = MessageClass::telemetry;
-  auto second = MessageClass::bulk;
-  if (bulk_is_next_) std::swap(first, second);
-  if (may_go(first)) return release_front(first, now);
-  if (may_go(second)) return release_front(second, now);
+std::optional<Shaper::Released> Shaper::release(base::TimePoint now) {
+  drop_expired(now);
+  auto const turns = bulk_is_next_ ? std::array{LineId::orders, LineId::commands, LineId::bulk, LineId::telemetry}
+                                   : std::array{LineId::orders, LineId::commands, LineId::telemetry, LineId::bulk};
+  for (auto const id : turns)
+    if (front_ready(lines_[id], now) <= now) return release_front(id, now);
   return std::nullopt;
 }
 
-std::span<std::uint8_t const> Shaper::release_front(MessageClass c, base::TimePoint now) {
-  auto& [kept, order] = line(c);
+Shaper::Released Shaper::release_front(LineId id, base::TimePoint now) {
+  auto& [message_class, kept, order] = lines_[id];
   auto& front = kept[order.front()];
   front.waits = false;
   order.pop();
-  pay(c, front.size, now);
-  if (c != MessageClass::command) bulk_is_next_ = c == MessageClass::telemetry;
-  return front.view();
+  pay(message_class, front.size, now);
+  if (message_class != MessageClass::command) bulk_is_next_ = id == LineId::telemetry;
+  return {front.view(), message_class};
 }
 
 base::TimePoint Shaper::next_release(base::TimePoint now) const {
   auto next = base::TimePoint::max();
-  for (auto const c : classes) next = std::min(next, front_ready(c, now));
+  for (auto const& line : lines_) next = std::min(next, front_ready(line, now));
   return next;
 }
 
@@ -153,10 +179,9 @@ base::TimePoint Shaper::ready(MessageClass c, std::size_t size, base::TimePoint 
   return std::max(all_.ready(size, now), gates_[static_cast<std::size_t>(c)].ready(size, now));
 }
 
-base::TimePoint Shaper::front_ready(MessageClass c, base::TimePoint now) const {
-  auto const& [kept, order] = line(c);
-  if (order.count == 0) return base::TimePoint::max();
-  return ready(c, kept[order.front()].size, now);
+base::TimePoint Shaper::front_ready(Line const& line, base::TimePoint now) const {
+  if (line.order.count == 0) return base::TimePoint::max();
+  return ready(line.message_class, line.kept[line.order.front()].size, now);
 }
 
 void Shaper::pay(MessageClass c, std::size_t size, base::TimePoint now) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/time.hpp"
@@ -27,25 +28,33 @@ struct Limits {
   [[nodiscard]] bool any() const;
 };
 
-/// Lets as many frames go as a link may take, and of the others keeps those that are worth it: commands in order and
-/// first, of telemetry the newest of each kind, which takes the place of the one that waited. Telemetry and bulk take
-/// turns. Time comes from the caller; no memory is asked for once every kind of message was seen.
+/// Lets as many frames go as a link may take, and of the others keeps those that are worth it: orders in order and
+/// first, as long as they are fresh; then what else is of the class `command`; of telemetry the newest of each kind,
+/// which takes the place of the one that waited. Telemetry and bulk take turns. Time comes from the caller; no memory
+/// is asked for once every kind of message was seen.
 class Shaper {
  public:
-  static constexpr std::size_t max_single = 256;    ///< commands that wait; as many of bulk
+  static constexpr std::size_t max_single = 256;    ///< orders that wait; as many other commands, as many of bulk
   static constexpr std::size_t max_streams = 4096;  ///< kinds of telemetry
 
   explicit Shaper(Limits const& limits);
 
   enum class Verdict {
-    go,        ///< send it now
-    waits,     ///< kept until `release`
-    replaced,  ///< kept in the place of an older one, which is dropped
-    refused,   ///< dropped: too many wait
+    go,         ///< send it now
+    waits,      ///< kept until `release`
+    replaced,   ///< kept in the place of an older one, which is dropped
+    displaced,  ///< kept; too many orders wait, and the oldest is dropped
+    refused,    ///< dropped: too many wait
   };
   [[nodiscard]] Verdict offer(mavlink::FrameView const& frame, base::TimePoint now);
+  struct Released {
+    std::span<std::uint8_t const> bytes;
+    MessageClass message_class;
+  };
   /// The next frame that may go now; valid until the next call.
-  [[nodiscard]] std::optional<std::span<std::uint8_t const>> release(base::TimePoint now);
+  [[nodiscard]] std::optional<Released> release(base::TimePoint now);
+  /// How many were dropped since the last call because they had waited for too long (`shelf_life`).
+  [[nodiscard]] std::uint64_t take_expired() { return std::exchange(expired_, 0); }
   /// When the next may go; TimePoint::max() when none waits.
   [[nodiscard]] base::TimePoint next_release(base::TimePoint now) const;
   [[nodiscard]] std::size_t waiting() const;
@@ -66,6 +75,7 @@ class Shaper {
     std::array<std::uint8_t, mavlink::max_frame_size> bytes;
     std::size_t size = 0;
     bool waits = false;  ///< of telemetry
+    base::TimePoint expires = base::TimePoint::max();
     StreamKey stream;
     void keep(mavlink::FrameView const& frame);
     [[nodiscard]] std::span<std::uint8_t const> view() const { return {bytes.data(), size}; }
@@ -87,26 +97,29 @@ class Shaper {
     }
   };
   struct Line {
-    explicit Line(std::size_t capacity) : order(capacity) {}
+    MessageClass message_class;
     std::vector<Kept> kept;
     Ring order;  ///< of indices in `kept`
   };
-
-  [[nodiscard]] Line& line(MessageClass c) { return lines_[static_cast<std::size_t>(c)]; }
-  [[nodiscard]] Line const& line(MessageClass c) const { return lines_[static_cast<std::size_t>(c)]; }
+  /// Two lines are of the class `command`.
+  enum LineId : std::size_t { orders, commands, telemetry, bulk };
+  [[nodiscard]] static LineId line_of(mavlink::FrameView const& frame);
+  [[nodiscard]] bool is_next(LineId line) const;
   [[nodiscard]] base::TimePoint ready(MessageClass c, std::size_t size, base::TimePoint now) const;
-  [[nodiscard]] base::TimePoint front_ready(MessageClass c, base::TimePoint now) const;
+  [[nodiscard]] base::TimePoint front_ready(Line const& line, base::TimePoint now) const;
   void pay(MessageClass c, std::size_t size, base::TimePoint now);
-  [[nodiscard]] Verdict keep_single(Line& line, mavlink::FrameView const& frame);
+  [[nodiscard]] Verdict keep_single(LineId line, mavlink::FrameView const& frame, base::TimePoint now);
   [[nodiscard]] Verdict keep_newest(mavlink::FrameView const& frame);
+  void drop_expired(base::TimePoint now);
   void forget_idle_streams();
-  [[nodiscard]] std::span<std::uint8_t const> release_front(MessageClass c, base::TimePoint now);
+  [[nodiscard]] Released release_front(LineId id, base::TimePoint now);
 
   Gate all_;
   std::array<Gate, message_classes> gates_;
-  std::array<Line, message_classes> lines_;
+  std::array<Line, 4> lines_;
   std::unordered_map<StreamKey, std::uint32_t, KeyHash> streams_;  ///< index in the telemetry line's `kept`
   bool bulk_is_next_ = false;
+  std::uint64_t expired_ = 0;
 };
 
 }  // namespace lapwing::route

@@ -31,7 +31,7 @@ Packet command(std::int64_t number) {
 /// Takes what the shaper lets out now.
 Bytes released(Shaper& shaper, base::TimePoint now) {
   auto const out = shaper.release(now);
-  return out ? Bytes(out->begin(), out->end()) : Bytes();
+  return out ? Bytes(out->bytes.begin(), out->bytes.end()) : Bytes();
 }
 
 /// Uses up the burst, so that what follows waits.
@@ -127,13 +127,49 @@ TEST(Shaper, TellsBatteriesAndNamedValuesApart) {
   EXPECT_EQ(shaper.offer(named("speed").view(), at(0s)), Verdict::replaced);
 }
 
-TEST(Shaper, SendsCommandsFirstAndEveryOne) {
+Packet parameter(std::int64_t index) {
+  return packet("PARAM_VALUE", {.fields = {{"param_index", index}}});
+}
+
+TEST(Shaper, SendsOrdersFirstThenOtherCommandsThenTelemetry) {
   Shaper shaper(messages_per_s(10.0));
   exhaust(shaper, at(0s));
   EXPECT_EQ(shaper.offer(attitude(1).view(), at(0s)), Verdict::waits);
-  for (int i = 1; i <= 3; ++i) EXPECT_EQ(shaper.offer(command(i).view(), at(0s)), Verdict::waits);
-  for (int i = 0; i <= 3; ++i) EXPECT_EQ(released(shaper, at(1s * (i + 1))), command(i).bytes) << i;
-  EXPECT_EQ(released(shaper, at(5s)), attitude(1).bytes);
+  for (int i = 1; i <= 3; ++i) EXPECT_EQ(shaper.offer(parameter(i).view(), at(0s)), Verdict::waits);
+  auto const mode = packet("SET_MODE", {.source = {255, 190}, .target = {1, 0}});
+  auto const answer = packet("COMMAND_ACK");
+  for (auto const& order : {command(1), mode, answer}) EXPECT_EQ(shaper.offer(order.view(), at(0s)), Verdict::waits);
+  auto now = at(0s);
+  for (auto const& next : {command(0), command(1), mode, answer, parameter(1), parameter(2), parameter(3), attitude(1)})
+    EXPECT_EQ(released(shaper, now += 100ms), next.bytes);
+}
+
+TEST(Shaper, DropsOrdersThatHaveWaitedForTooLong) {
+  Shaper shaper(messages_per_s(1.0));
+  exhaust(shaper, at(0s));
+  for (int i = 1; i <= 3; ++i) EXPECT_EQ(shaper.offer(command(i).view(), at(500ms)), Verdict::waits);
+  auto const answer = packet("COMMAND_ACK");
+  EXPECT_EQ(shaper.offer(answer.view(), at(500ms)), Verdict::waits);
+  EXPECT_EQ(shaper.take_expired(), 0u);
+  EXPECT_EQ(released(shaper, at(1s)), command(0).bytes);
+  EXPECT_EQ(released(shaper, at(2s)), command(1).bytes);
+  EXPECT_EQ(released(shaper, at(3s)), answer.bytes) << "tells what was done, however late";
+  EXPECT_EQ(shaper.take_expired(), 2u);
+  EXPECT_EQ(shaper.take_expired(), 0u) << "counted once";
+  EXPECT_EQ(shaper.waiting(), 0u);
+}
+
+TEST(Shaper, KeepsCorrectionsOutOfTheWayOfCommandsAndDropsOldOnes) {
+  Shaper shaper(messages_per_s(1.0));
+  exhaust(shaper, at(0s));
+  auto const corrections = [](std::int64_t flags) { return packet("GPS_RTCM_DATA", {.fields = {{"flags", flags}}}); };
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(shaper.offer(corrections(i).view(), at(0s)), Verdict::waits);
+  EXPECT_EQ(shaper.offer(parameter(1).view(), at(0s)), Verdict::waits);
+  EXPECT_EQ(released(shaper, at(1s)), command(0).bytes);
+  EXPECT_EQ(released(shaper, at(2s)), parameter(1).bytes);
+  EXPECT_EQ(released(shaper, at(3s)), corrections(0).bytes);
+  EXPECT_EQ(released(shaper, at(10s)), Bytes());
+  EXPECT_EQ(shaper.take_expired(), 19u);
 }
 
 TEST(Shaper, KeepsTextsAndAnswersThatAreForAllInOrder) {
@@ -170,16 +206,29 @@ TEST(Shaper, LetsTelemetryAndBulkTakeTurns) {
   EXPECT_EQ(order, "tbtbtbtb");
 }
 
-TEST(Shaper, RefusesMoreCommandsThanItHasRoomFor) {
+TEST(Shaper, RefusesMoreParametersThanItHasRoomFor) {
   Shaper shaper(messages_per_s(1.0));
+  exhaust(shaper, at(0s));
+  std::int64_t constexpr room = Shaper::max_single;
+  for (std::int64_t i = 0; i < room; ++i) EXPECT_EQ(shaper.offer(parameter(i).view(), at(0s)), Verdict::waits);
+  EXPECT_EQ(shaper.offer(parameter(9999).view(), at(0s)), Verdict::refused);
+  EXPECT_EQ(released(shaper, at(1s)), command(0).bytes);
+  EXPECT_EQ(released(shaper, at(2s)), parameter(0).bytes);
+  EXPECT_EQ(shaper.offer(parameter(9999).view(), at(2s)), Verdict::waits);
+  for (std::int64_t i = 1; i < room; ++i) EXPECT_EQ(released(shaper, at(1s * (i + 2))), parameter(i).bytes) << i;
+}
+
+TEST(Shaper, TakesTheNewestOrderInThePlaceOfTheOldest) {
+  Shaper shaper(messages_per_s(1000.0));
   exhaust(shaper, at(0s));
   for (std::size_t i = 1; i < Shaper::max_single; ++i)
     EXPECT_EQ(shaper.offer(command(static_cast<std::int64_t>(i)).view(), at(0s)), Verdict::waits);
-  EXPECT_EQ(shaper.offer(command(9999).view(), at(0s)), Verdict::refused);
-  EXPECT_EQ(released(shaper, at(1s)), command(0).bytes);
-  EXPECT_EQ(shaper.offer(command(9999).view(), at(1s)), Verdict::waits);
+  EXPECT_EQ(shaper.offer(command(9999).view(), at(0s)), Verdict::displaced) << "it may be a stop";
+  EXPECT_EQ(shaper.waiting(), Shaper::max_single);
+  auto now = at(0s);
   for (std::size_t i = 1; i < Shaper::max_single; ++i)
-    EXPECT_EQ(released(shaper, at(1s * (i + 1))), command(static_cast<std::int64_t>(i)).bytes) << i;
+    EXPECT_EQ(released(shaper, now += 1ms), command(static_cast<std::int64_t>(i)).bytes) << i;
+  EXPECT_EQ(released(shaper, now += 1ms), command(9999).bytes);
 }
 
 TEST(Shaper, ForgetsKindsOfTelemetryThatNoLongerCome) {
