@@ -31,8 +31,9 @@ Channel::Channel(ChannelId number, Endpoint& on, link::Peer far_end, bool standi
       is_standing(standing),
       heard(now),
       shaper_(on.options.limits.any() ? std::make_unique<Shaper>(on.options.limits) : nullptr),
-      packs_(on.options.coalesces || is_stream(on.options.url.transport)) {
-  if (packs_) pack_.reserve(largest_pack);
+      is_stream_(is_stream(on.options.url.transport)),
+      largest_pack_(on.options.coalesces || is_stream_ ? largest_pack : 0) {
+  pack_.reserve(largest_pack);
 }
 
 void Channel::offer(mavlink::FrameView const& frame, base::TimePoint now) {
@@ -41,9 +42,9 @@ void Channel::offer(mavlink::FrameView const& frame, base::TimePoint now) {
     ++out.filtered;
     return;
   }
-  if (!shaper_) return put(frame.bytes);
+  if (!shaper_) return put(frame.bytes, is_stream_ ? urgency_of(class_of(frame)) : link::Urgency::batched);
   switch (shaper_->offer(frame, now)) {
-    case Shaper::Verdict::go: put(frame.bytes); break;
+    case Shaper::Verdict::go: put(frame.bytes, urgency_of(class_of(frame))); break;
     case Shaper::Verdict::waits: break;
     case Shaper::Verdict::replaced: ++out.superseded; break;
     case Shaper::Verdict::displaced:
@@ -54,7 +55,7 @@ void Channel::offer(mavlink::FrameView const& frame, base::TimePoint now) {
 
 void Channel::release(base::TimePoint now) {
   if (!shaper_) return;
-  while (auto const frame = shaper_->release(now)) put(frame->bytes);
+  while (auto const frame = shaper_->release(now)) put(frame->bytes, urgency_of(frame->message_class));
   endpoint.counters.out.expired += shaper_->take_expired();
 }
 
@@ -62,29 +63,32 @@ base::TimePoint Channel::next_release(base::TimePoint now) const {
   return shaper_ ? shaper_->next_release(now) : base::TimePoint::max();
 }
 
-void Channel::put(std::span<std::uint8_t const> frame) {
+/// The link of a slow stream drops the oldest of what is perishable; datagrams do not queue.
+link::Urgency Channel::urgency_of(MessageClass message_class) const {
+  return is_stream_ && message_class != MessageClass::command ? link::Urgency::perishable : link::Urgency::batched;
+}
+
+/// Only what is equally urgent goes together; all in the order in which it came, as gaps in the numbers of packets
+/// count as losses.
+void Channel::put(std::span<std::uint8_t const> frame, link::Urgency urgency) {
   endpoint.is_dirty = true;
-  if (!packs_) return hand_over(frame, 1);
-  if (pack_.size() + frame.size() > largest_pack) flush();
+  if (urgency != pack_urgency_ || pack_.size() + frame.size() > largest_pack_) flush();
+  pack_urgency_ = urgency;
   pack_.insert(pack_.end(), frame.begin(), frame.end());
   ++packed_frames_;
 }
 
 void Channel::flush() {
   if (pack_.empty()) return;
-  hand_over(pack_, packed_frames_);
+  auto& out = endpoint.counters.out;
+  if (endpoint.link->send(peer, pack_, pack_urgency_)) {
+    out.frames += packed_frames_;
+    out.bytes += pack_.size();
+  } else {
+    out.refused += packed_frames_;
+  }
   pack_.clear();
   packed_frames_ = 0;
-}
-
-void Channel::hand_over(std::span<std::uint8_t const> bytes, std::uint64_t frames) {
-  auto& out = endpoint.counters.out;
-  if (!endpoint.link->send(peer, bytes, link::Urgency::batched)) {
-    out.refused += frames;
-    return;
-  }
-  out.frames += frames;
-  out.bytes += bytes.size();
 }
 
 void Channel::abandon() {

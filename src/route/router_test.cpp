@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "link/pipe_link.hpp"
+#include "link/testing/noting_link.hpp"
 #include "route/metrics.hpp"
 #include "route/test_packets.hpp"
 
@@ -310,6 +311,36 @@ TEST_F(RouterTest, PacksFramesThatAreReadyTogetherIntoADatagramUnlessToldNotTo) 
   EXPECT_EQ(ground.take(), Packets{together});
   EXPECT_EQ(one_by_one.take().size(), 5u);
   EXPECT_EQ(counters(2).out.frames, 5u);
+}
+
+TEST_F(RouterTest, TellsAStreamWhatMayBeDroppedWhereItIsSlow) {
+  using link::Urgency;
+  auto& vehicle = join(add_hub());
+  auto const stream = std::make_shared<std::vector<link::testing::Noted>>();
+  auto const datagrams = std::make_shared<std::vector<link::testing::Noted>>();
+  router.add({.name = "tcp", .url = link::parse_url("tcpin://127.0.0.1:5760").value()},
+             std::make_unique<link::testing::NotingLink>(stream));
+  router.add({.name = "udp"}, std::make_unique<link::testing::NotingLink>(datagrams));
+  Bytes all;
+  std::uint8_t seq = 0;
+  for (auto const* name : {"ATTITUDE", "VFR_HUD", "STATUSTEXT", "PARAM_VALUE", "LOG_DATA", "ATTITUDE"}) {
+    auto const one = packet(name, {.seq = seq++}).bytes;
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  vehicle.say(all);
+  settle();
+  std::vector<Urgency> how;
+  Bytes joined;
+  for (auto const& chunk : *stream) {
+    how.push_back(chunk.urgency);
+    joined.insert(joined.end(), chunk.bytes.begin(), chunk.bytes.end());
+  }
+  EXPECT_EQ(how, (std::vector{Urgency::perishable, Urgency::batched, Urgency::perishable}));
+  EXPECT_EQ(joined, all) << "in order";
+  EXPECT_EQ(counters(1).out.frames, 6u);
+  ASSERT_EQ(datagrams->size(), 1u);
+  EXPECT_EQ(datagrams->front().bytes, all);
+  EXPECT_EQ(datagrams->front().urgency, Urgency::batched);
 }
 
 TEST_F(RouterTest, DropsACommandThatWaitedTooLongForItsRate) {

@@ -39,13 +39,15 @@ class Channel {
   mavlink::FrameParser parser;
 
  private:
-  void put(std::span<std::uint8_t const> frame);
-  void hand_over(std::span<std::uint8_t const> bytes, std::uint64_t frames);
+  void put(std::span<std::uint8_t const> frame, link::Urgency urgency);
+  [[nodiscard]] link::Urgency urgency_of(MessageClass message_class) const;
 
   std::unique_ptr<Shaper> shaper_;  ///< null: no limits
-  bool const packs_;
+  bool const is_stream_;
+  std::size_t const largest_pack_;
   std::vector<std::uint8_t> pack_;
   std::uint64_t packed_frames_ = 0;
+  link::Urgency pack_urgency_ = link::Urgency::batched;
 };
 
 struct Endpoint {
