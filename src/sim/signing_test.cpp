@@ -26,13 +26,13 @@ TEST(VehicleSigning, BeginsWithTheKeyThatItIsToldAndOutlastsARestart) {
   ground.boot();
   listen_with_key(ground);
   ground.run_for(2s);
-  EXPECT_EQ(ground.gcs.signing()->key_of(1), "");
+  EXPECT_EQ(ground.gcs.signing()->key_of({1, 1}), "");
   ground.send(SetupSigning{.key = some_key(), .initial_timestamp = 1});
   ground.run_for(2s);
-  EXPECT_EQ(ground.gcs.signing()->key_of(1), "key");
+  EXPECT_EQ(ground.gcs.signing()->key_of({1, 1}), "key");
   ground.vehicle().reboot();
   ground.run_for(10s);
-  EXPECT_EQ(ground.gcs.signing()->key_of(1), "key");
+  EXPECT_EQ(ground.gcs.signing()->key_of({1, 1}), "key");
   EXPECT_EQ(ground.set_mode(copter_guided), MavResult::accepted) << "signed";
   ground.gcs.set_keys(std::nullopt);
   EXPECT_FALSE(ground.set_mode(copter_guided)) << "not signed";
@@ -44,10 +44,10 @@ TEST(VehicleSigning, EndsWithAKeyOfZeros) {
   listen_with_key(ground);
   ground.send(SetupSigning{.key = some_key(), .initial_timestamp = 1});
   ground.run_for(2s);
-  ASSERT_EQ(ground.gcs.signing()->key_of(1), "key");
+  ASSERT_EQ(ground.gcs.signing()->key_of({1, 1}), "key");
   ground.send(SetupSigning{});
   ground.run_for(2s);
-  EXPECT_EQ(ground.gcs.signing()->key_of(1), "");
+  EXPECT_EQ(ground.gcs.signing()->key_of({1, 1}), "");
 }
 
 TEST(VehicleSigning, TakesNoKeyWhileItIsArmed) {
@@ -58,7 +58,7 @@ TEST(VehicleSigning, TakesNoKeyWhileItIsArmed) {
   ASSERT_EQ(ground.arm(), MavResult::accepted);
   ground.send(SetupSigning{.key = some_key(), .initial_timestamp = 1});
   ground.run_for(2s);
-  EXPECT_EQ(ground.gcs.signing()->key_of(1), "");
+  EXPECT_EQ(ground.gcs.signing()->key_of({1, 1}), "");
   EXPECT_EQ(ground.said("ERROR: Won't setup signing when armed"), 1);
 }
 
@@ -71,8 +71,8 @@ TEST(VehicleSigning, HasAKeyOfItsOwn) {
   TestGround ground("copter:2", options);
   ground.gcs.set_keys(ring);
   ground.boot();
-  EXPECT_EQ(ground.gcs.signing()->key_of(1), "key");
-  EXPECT_EQ(ground.gcs.signing()->key_of(2), "other");
+  EXPECT_EQ(ground.gcs.signing()->key_of({1, 1}), "key");
+  EXPECT_EQ(ground.gcs.signing()->key_of({2, 1}), "other");
 }
 
 }  // namespace
