@@ -63,8 +63,8 @@ class TestAutopilot {
   std::set<mavlink::MessageId> denied_intervals;
   std::set<std::uint32_t> refused_modes;
   std::map<mavlink::MavCmd, std::uint32_t> modes_by_command;  ///< of an autopilot without modes that are known
-  bool takes_set_current_message = false;  ///< instead of the command
-  bool forgets_items = false;              ///< stores every item a hundred metres too high
+  bool takes_set_current_message = false;                     ///< instead of the command
+  bool forgets_items = false;                                 ///< stores every item a hundred metres too high
   std::optional<double> battery = 0.8;
   bool ends_in_rtl = false;  ///< as ArduPlane does after its last item
   bool reports_complete = true;
