@@ -272,9 +272,8 @@ TEST(Control, TakesALateArmingBackThoughADisarmingWasAcknowledgedBefore) {
   copter.ignored_commands.clear();
   EXPECT_EQ(world.end_of(world.give({.action = Action::disarm})), CommandState::confirmed);
   world.run_for(5s);
-  // What the link had kept.
-  EXPECT_TRUE(
-      world.connection.send({1, 1}, mavlink::CommandLong{.command = MavCmd::component_arm_disarm, .params = {1.0F}}));
+  EXPECT_TRUE(world.connection.send({1, 1}, mavlink::CommandLong{.command = MavCmd::component_arm_disarm,
+                                                                 .params = {1.0F}}));  // as a link delivers it late
   EXPECT_TRUE(world.run_until([&] { return copter.is_armed; }, 1s));
   EXPECT_TRUE(world.run_until([&] { return !copter.is_armed; }, 5s));
   EXPECT_TRUE(world.has_logged("an arming that came too late"));
