@@ -37,7 +37,7 @@ class Copter {
     if (is_silent) return;
     if (auto const* command = std::get_if<mavlink::CommandLong>(&message);
         command && command->command == mavlink::MavCmd::request_message)
-      connection.send_to_all(mavlink::AutopilotVersion{.flight_sw_version = 0x04060000U});
+      connection.send_to_all(mavlink::AutopilotVersion{.flight_sw_version = 0x04060000U, .uid = 7});
     if (std::get_if<mavlink::ParamRequestList>(&message)) {
       ++lists;
       scope_.spawn(stream());
@@ -135,6 +135,10 @@ TEST_F(ParametersTest, ServeWhatWasFetchedWhenThatWillDo) {
 
 TEST_F(ParametersTest, FetchAnewForWhoWantsTheVehiclesOwnValues) {
   ASSERT_TRUE(all());
+  world.way->begin();
+  world.run_for(60s);
+  world.way->end();
+  world.run_for(2s);  // it has been away: who it is has to be asked before what is kept is given
   copter.values[5] = 99.0F;
   auto old = parameters.all({"1"}, true);
   auto own = parameters.all({"1"}, false);
