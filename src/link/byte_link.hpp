@@ -44,7 +44,7 @@ struct LinkCounters {
   std::uint64_t chunks_received = 0;  ///< datagrams, or reads of a stream
   std::uint64_t chunks_sent = 0;
   std::uint64_t send_failures = 0;       ///< chunks that the operating system or a full queue refused
-  std::uint64_t perishable_dropped = 0;  ///< chunks that newer or more urgent ones pushed out of a full queue
+  std::uint64_t perishable_dropped = 0;  ///< chunks that waited for too long, or had to make room in a full queue
   std::uint64_t bytes_queued = 0;        ///< now: accepted, not yet with the operating system
   std::uint64_t overruns = 0;            ///< datagrams that arrived and found the kernel's queue full: never seen here
 };

@@ -92,7 +92,7 @@ void Stream::read() {
 }
 
 bool Stream::send(Bytes packet, Urgency urgency) {
-  bool const is_taken = descriptor_->handle.is_open() && queue_.push(packet, urgency);
+  bool const is_taken = descriptor_->handle.is_open() && queue_.push(packet, urgency, loop_.now());
   if (is_taken)
     ++counters_.chunks_sent;
   else
@@ -121,7 +121,8 @@ void Stream::wait_to_write() {
 }
 
 void Stream::write() {
-  for (auto packet = queue_.front(); !packet.empty(); packet = queue_.front()) {
+  auto const now = loop_.now();
+  for (auto packet = queue_.front(now); !packet.empty(); packet = queue_.front(now)) {
     if (waits_for_line()) return;
     auto const fd = descriptor_->handle.native_handle();
     // A socket whose far end is gone must report it, not end the process with SIGPIPE.

@@ -38,9 +38,11 @@ std::string letters_in(std::string const& bytes) {
   return letters;
 }
 
+base::TimePoint constexpr start{};
+
 std::string drained(SendQueue& queue, std::size_t step) {
   std::string bytes;
-  for (auto front = queue.front(); !front.empty(); front = queue.front()) {
+  for (auto front = queue.front(start); !front.empty(); front = queue.front(start)) {
     auto const size = std::min(step, front.size());
     bytes.append(front.begin(), front.begin() + static_cast<std::ptrdiff_t>(size));
     queue.pop(size);
@@ -50,8 +52,8 @@ std::string drained(SendQueue& queue, std::size_t step) {
 
 TEST(SendQueue, LetsCommandsGoBeforeTelemetry) {
   SendQueue queue({});
-  for (char const letter : {'a', 'b'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable));
-  for (char const letter : {'C', 'D'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt));
+  for (char const letter : {'a', 'b'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable, start));
+  for (char const letter : {'C', 'D'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt, start));
   EXPECT_EQ(queue.bytes(), 400u);
   EXPECT_EQ(drained(queue, 7), "CDab");
   EXPECT_EQ(queue.bytes(), 0u);
@@ -59,12 +61,12 @@ TEST(SendQueue, LetsCommandsGoBeforeTelemetry) {
 
 TEST(SendQueue, FinishesThePacketThatHasBegun) {
   SendQueue queue({});
-  ASSERT_TRUE(queue.push(packet('a'), Urgency::perishable));
-  auto const begun = queue.front();
+  ASSERT_TRUE(queue.push(packet('a'), Urgency::perishable, start));
+  auto const begun = queue.front(start);
   std::string bytes(begun.begin(), begun.begin() + 30);
   queue.pop(30);
-  ASSERT_TRUE(queue.push(packet('C'), Urgency::prompt));
-  for (auto front = queue.front(); !front.empty(); front = queue.front()) {
+  ASSERT_TRUE(queue.push(packet('C'), Urgency::prompt, start));
+  for (auto front = queue.front(start); !front.empty(); front = queue.front(start)) {
     bytes.append(front.begin(), front.end());
     queue.pop(front.size());
   }
@@ -73,29 +75,49 @@ TEST(SendQueue, FinishesThePacketThatHasBegun) {
 
 TEST(SendQueue, DropsTheOldestTelemetryAndCountsIt) {
   SendQueue queue({.all_bytes = 1000, .perishable_bytes = 300});
-  for (char const letter : {'a', 'b', 'c', 'd', 'e'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable));
+  for (char const letter : {'a', 'b', 'c', 'd', 'e'})
+    EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable, start));
   EXPECT_EQ(queue.dropped(), 2u);
   EXPECT_EQ(drained(queue, 100), "cde");
 }
 
 TEST(SendQueue, DropsTelemetryForCommandsAndRefusesThemAtLast) {
   SendQueue queue({.all_bytes = 500, .perishable_bytes = 300});
-  for (char const letter : {'a', 'b', 'c'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable));
-  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt));
+  for (char const letter : {'a', 'b', 'c'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::perishable, start));
+  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt, start));
   EXPECT_EQ(queue.dropped(), 3u);
-  EXPECT_FALSE(queue.push(packet('F'), Urgency::prompt));
-  EXPECT_FALSE(queue.push(packet('f'), Urgency::perishable));
+  EXPECT_FALSE(queue.push(packet('F'), Urgency::prompt, start));
+  EXPECT_FALSE(queue.push(packet('f'), Urgency::perishable, start));
   EXPECT_EQ(drained(queue, 100), "ABCDE");
+}
+
+TEST(SendQueue, SendsNothingThatHasWaitedForSeconds) {
+  SendQueue queue({.wait = 3s});
+  EXPECT_TRUE(queue.push(packet('b'), Urgency::prompt, start));
+  auto const begun = queue.front(start);
+  std::string bytes(begun.begin(), begun.begin() + 30);
+  queue.pop(30);
+  for (auto const urgency : {Urgency::urgent, Urgency::prompt, Urgency::perishable})
+    EXPECT_TRUE(queue.push(packet('o'), urgency, start));
+  EXPECT_TRUE(queue.push(packet('n'), Urgency::prompt, start + 2s));
+  auto const later = start + 4s;
+  for (auto front = queue.front(later); !front.empty(); front = queue.front(later)) {
+    bytes.append(front.begin(), front.end());
+    queue.pop(front.size());
+  }
+  EXPECT_EQ(letters_in(bytes), "bn") << "what has begun is finished, what is old is gone";
+  EXPECT_EQ(queue.dropped(), 3u);
+  EXPECT_EQ(queue.bytes(), 0u);
 }
 
 TEST(SendQueue, LetsAStopGoBeforeEverythingAndMakesRoomForIt) {
   SendQueue queue({.all_bytes = 500, .perishable_bytes = 300});
-  EXPECT_TRUE(queue.push(packet('a'), Urgency::perishable));
-  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt));
-  EXPECT_TRUE(queue.push(packet('1'), Urgency::urgent));
-  EXPECT_TRUE(queue.push(packet('2'), Urgency::urgent));
+  EXPECT_TRUE(queue.push(packet('a'), Urgency::perishable, start));
+  for (char const letter : {'A', 'B', 'C', 'D', 'E'}) EXPECT_TRUE(queue.push(packet(letter), Urgency::prompt, start));
+  EXPECT_TRUE(queue.push(packet('1'), Urgency::urgent, start));
+  EXPECT_TRUE(queue.push(packet('2'), Urgency::urgent, start));
   EXPECT_EQ(queue.dropped(), 3u) << "telemetry, then the oldest of what is prompt";
-  EXPECT_FALSE(queue.push(packet('F'), Urgency::prompt));
+  EXPECT_FALSE(queue.push(packet('F'), Urgency::prompt, start));
   EXPECT_EQ(drained(queue, 100), "12CDE");
 }
 
@@ -140,7 +162,7 @@ TEST(Stream, KeepsCommandsMovingWhenNobodyReads) {
   EXPECT_EQ(letters.size() + counters.perishable_dropped, 5003u) << "every drop is counted";
   auto const commands = letters.find("ABC");
   ASSERT_NE(commands, std::string::npos);
-  EXPECT_GT(letters.size() - commands, 40u) << "they overtook the telemetry that waited";
+  EXPECT_GT(letters.size() - commands, 30u) << "they overtook the telemetry that waited";
   ::close(ends[1]);
 }
 

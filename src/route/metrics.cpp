@@ -68,7 +68,7 @@ constexpr Plain counters[] = {
     {"lapwing_router_receive_overruns", "Datagrams that the kernel dropped because its queue was full.",
      [](Status const& s) { return s.link.overruns; }},
     {"lapwing_router_perishable_drops",
-     "Pieces of a stream with telemetry or bulk, of up to 1400 bytes, that newer ones pushed out of its queue.",
+     "Pieces of a stream, of up to 1400 bytes, that waited for 3 s in its queue or made room for newer ones.",
      [](Status const& s) { return s.link.perishable_dropped; }},
     {"lapwing_router_send_failures", "Datagrams or pieces of a stream that the operating system did not take.",
      [](Status const& s) { return s.link.send_failures; }},
