@@ -103,7 +103,10 @@ void Emergency::leave_to_operator(vehicle::VehicleId const& id) {
 }
 
 void Emergency::resume(Craft& craft) {
-  if (state_.is_latched && !pursuits_.contains(craft.id())) begin_pursuit(craft);
+  if (!state_.is_latched || pursuits_.contains(craft.id())) return;
+  outcome(craft).is_confirmed = false;
+  tell(craft, "the operator's command came to nothing: stopped again");
+  begin_pursuit(craft);
 }
 
 void Emergency::join(Craft& craft) {

@@ -247,6 +247,7 @@ TEST(EmergencyStop, GoesOnWhenAVehicleRefusesTheOperatorsCommand) {
   world.control->emergency_stop(std::nullopt, "operator 1");
   world.run_for(1s);
   EXPECT_EQ(world.end_of(world.give({.action = Action::disarm})), CommandState::refused) << "it is in the air";
+  EXPECT_EQ(world.stop_of("1").detail, "the operator's command came to nothing: stopped again");
   copter.ignored_commands.clear();
   EXPECT_TRUE(world.all_confirm());
   EXPECT_EQ(copter.mode, copter_mode::brake);
