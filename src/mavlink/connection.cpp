@@ -180,6 +180,12 @@ void Connection::set_frame_hook(FrameHook hook) {
 
 namespace {
 
+/// Why a link took nothing, for people.
+std::string why_not_sent(link::ByteLink const& link) {
+  if (auto known = link.last_error(); !known.empty()) return known;
+  return link.state() == link::LinkState::open ? "more waits for it than it carries" : "it is not connected";
+}
+
 /// As a send guard sees it: setpoints of which this program knows no fields count as the one that it does know.
 std::optional<Message> guarded(Frame const& frame) {
   auto message = decode(frame);
@@ -216,8 +222,8 @@ base::Result<> Connection::send(Address target, Frame frame) {
   for (auto const route : routes)
     if (send_frame(route, frame, target.system)) return {};
   auto const& link = *links_[routes.front().link];
-  return fail(ErrorKind::lost, fmt::format("vehicle {} cannot be reached over {}: {}", target.system, link.name(),
-                                           link.last_error().empty() ? "it is not connected" : link.last_error()));
+  return fail(ErrorKind::lost,
+              fmt::format("vehicle {} cannot be reached over {}: {}", target.system, link.name(), why_not_sent(link)));
 }
 
 void Connection::send_to_all(Message const& message) {

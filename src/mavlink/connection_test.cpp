@@ -342,6 +342,20 @@ TEST(ConnectionLink, LetsCommandsOvertakeWhatIsPerishableAndStopsEverything) {
   EXPECT_EQ(how, (std::vector{perishable, prompt, prompt, urgent, urgent, urgent}));
 }
 
+TEST(Connection, TellsALineThatIsFullFromOneThatIsNotConnected) {
+  base::Loop loop{base::Loop::Pace{.unpaced = true}};
+  auto link = std::make_unique<link::testing::NotingLink>(std::make_shared<std::vector<link::testing::Noted>>());
+  auto& line = *link;
+  Connection ground(loop, {.heartbeat = {}}, {});
+  ground.add_link(std::move(link));
+  line.hear(serialize(encode(FakeVehicle::heartbeat(), {1, 1}, 0)).bytes());
+  EXPECT_TRUE(ground.send({1, 1}, CommandLong{}));
+  line.fill();
+  auto const sent = ground.send({1, 1}, CommandLong{});
+  ASSERT_FALSE(sent);
+  EXPECT_EQ(sent.error().message, "vehicle 1 cannot be reached over noting: more waits for it than it carries");
+}
+
 TEST(Connection, ForgetsSourcesThatAFloodMadeUp) {
   Bench bench;
   Raw raw(bench.hub.connect());
