@@ -47,7 +47,8 @@ inline Packet unknown_packet(std::uint32_t id, Address source = {1, 1}) {
   frame.message_id = id;
   frame.payload_size = 4;
   frame.payload[3] = 7;
-  auto bytes = mavlink::serialize_as_received(frame).bytes();
+  auto const whole = mavlink::serialize_as_received(frame);
+  auto const bytes = whole.bytes();
   Bytes out(bytes.begin(), bytes.end() - 2);
   std::uint8_t const seed = 99;  // only its sender knows it
   auto const sum = mavlink::crc_accumulate({&seed, 1}, mavlink::crc_accumulate(std::span(out).subspan(1)));
