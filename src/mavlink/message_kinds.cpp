@@ -61,10 +61,9 @@ bool may_stop(Frame const& frame) {
   if (frame.message_id == set_mode) return true;
   if (frame.message_id != command_int && frame.message_id != command_long) return false;
   // In both the command stands behind 28 bytes, of which the first four are its first parameter.
-  auto const& bytes = frame.payload;
-  std::uint32_t const param1 =
-      bytes[0] | bytes[1] << 8U | bytes[2] << 16U | static_cast<std::uint32_t>(bytes[3]) << 24U;
-  switch (static_cast<MavCmd>(bytes[28] | bytes[29] << 8U)) {
+  auto const at = [&frame](std::size_t place) { return std::uint32_t{frame.payload[place]}; };
+  auto const param1 = at(0) | at(1) << 8U | at(2) << 16U | at(3) << 24U;
+  switch (static_cast<MavCmd>(at(28) | at(29) << 8U)) {
     case MavCmd::nav_return_to_launch:
     case MavCmd::nav_land:
     case MavCmd::do_set_mode:
