@@ -1,4 +1,5 @@
-"""The scripts in the documents: fenced blocks of ```dolphin, and the ```text behind some of them. Not a test itself.
+"""What a reader does with the documents: scripts (```dolphin), commands (```sh), and the ```text that is shown behind them.
+Not a test itself.
 
 Words behind `dolphin` say what a block shows:
 
@@ -6,12 +7,24 @@ Words behind `dolphin` say what a block shows:
     warns       it checks, with warnings; the text is what `lapwing check` says
     continues   it goes on where the block before ended, and is read together with it
     events      the text has the events of its tasks too (`--events -`), but for who was chosen (ALLOC)
-    checked     it is checked and not run
+    flown=SPEC  it is flown on simulated vehicles (`run --sim SPEC`) instead of the test platform
     exit=N      how a run of it ends, 0 if left out
     input=A|B   the answers to its questions
     picture=P   docs/pictures/plan-P.svg is its dry run
+    file=NAME   the reader saves it so; my.dolphin if left out
 
 Every other block is run on the test platform; the text is what it writes, warnings and errors of the log behind it.
+
+Words behind `sh` say what a reader has at hand; each line ends with exit code 0 unless they say otherwise, and writes the lines
+of the text among others:
+
+    background     it goes on while the rest of the page is read,
+    until=TEXT     from when it has written this
+    ends=VERB      the reader ends `lapwing VERB` first
+    vehicles=SPEC  vehicles send to UDP port 14550
+    beside=VERB    `lapwing VERB` runs
+    exit=N|M       how it may end
+    skipped=WHY    no test can do this: it installs, or ends never
 """
 
 import dataclasses
@@ -20,6 +33,30 @@ import re
 import sys
 
 FENCE = re.compile(r"^```(\w*) ?(.*)$")
+SCRIPT_WORDS = ("mistake", "warns", "continues", "events", "flown", "exit", "input", "picture", "file")
+COMMAND_WORDS = ("background", "until", "ends", "vehicles", "beside", "exit", "skipped")
+
+
+@dataclasses.dataclass
+class Fence:
+    """A fenced block as it stands on the page."""
+
+    page: pathlib.Path
+    line: int
+    language: str
+    info: str
+    lines: list[str]
+
+    @property
+    def end(self) -> int:
+        return self.line + len(self.lines) + 1
+
+    def words(self, known: tuple[str, ...]) -> dict[str, str]:
+        words = dict(re.match(r"(\w+)=?(.*)", word).groups() for word in self.info.split())
+        for word in words:
+            if word not in known:
+                raise SystemExit(f"{self.page.name}:{self.line}: unknown word behind {self.language}: {word}")
+        return words
 
 
 @dataclasses.dataclass
@@ -45,36 +82,47 @@ class Block:
         return f"{self.page.name}:{self.line}"
 
 
-def words_of(info: str) -> dict[str, str]:
-    known = ("mistake", "warns", "continues", "events", "checked", "exit", "input", "picture")
-    pairs = (re.match(r"(\w+)=?(.*)", word).groups() for word in info.split())
-    words = dict(pairs)
-    for word in words:
-        if word not in known:
-            raise SystemExit(f"unknown word behind dolphin: {word}")
-    return words
+@dataclasses.dataclass
+class Commands(Block):
+    """Lines for a terminal; what stands behind a # is for people."""
+
+
+def fences_of(page: pathlib.Path) -> list[Fence]:
+    fences: list[Fence] = []
+    is_open = False
+    for number, line in enumerate(page.read_text().splitlines(), start=1):
+        fence = FENCE.match(line)
+        if fence and not is_open:
+            fences.append(Fence(page, number, fence[1], fence[2], []))
+        elif not fence and is_open:
+            fences[-1].lines.append(line)
+        is_open = is_open != bool(fence)
+    return fences
+
+
+def steps_of(page: pathlib.Path) -> list[Block]:
+    """Scripts and commands in order, with the texts that stand behind them."""
+    steps: list[Block] = []
+    scripts: list[Block] = []
+    last_end = -2
+    for fence in fences_of(page):
+        if fence.language == "dolphin":
+            words = fence.words(SCRIPT_WORDS)
+            scripts.append(Block(page, fence.line, words, fence.lines, scripts[-1] if "continues" in words else None))
+            steps.append(scripts[-1])
+        elif fence.language == "sh":
+            steps.append(Commands(page, fence.line, fence.words(COMMAND_WORDS), fence.lines))
+        else:
+            if fence.language == "text" and fence.line - last_end <= 2:
+                steps[-1].text, steps[-1].text_line = fence.lines, fence.line
+            continue
+        last_end = fence.end
+    return steps
 
 
 def blocks_of(page: pathlib.Path) -> list[Block]:
-    blocks: list[Block] = []
-    language, info, begin, lines, last_end = None, "", 0, [], -2
-    for number, line in enumerate(page.read_text().splitlines(), start=1):
-        fence = FENCE.match(line)
-        if language is None:
-            if fence:
-                language, info, begin, lines = fence[1], fence[2], number, []
-            continue
-        if not fence:
-            lines.append(line)
-            continue
-        if language == "dolphin":
-            words = words_of(info)
-            blocks.append(Block(page, begin, words, lines, blocks[-1] if "continues" in words else None))
-            last_end = number
-        elif language == "text" and begin - last_end <= 2:
-            blocks[-1].text, blocks[-1].text_line = lines, begin
-        language = None
-    return blocks
+    """The scripts alone."""
+    return [step for step in steps_of(page) if not isinstance(step, Commands)]
 
 
 def replace_texts(page: pathlib.Path, fresh: dict[int, list[str]]):
