@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/spelling.hpp"
+
 namespace lapwing::base {
 
 namespace {
@@ -98,6 +100,12 @@ std::string_view to_string(Severity severity) {
   return "error";
 }
 
+Hint did_you_mean(Span place, std::string_view word, std::span<std::string_view const> candidates) {
+  auto found = closest(word, candidates);
+  if (!found) return {};
+  return {fmt::format("did you mean {}?", *found), {{place, *std::move(found)}}};
+}
+
 void Diagnostics::report(Diagnostic diagnostic) {
   auto& count = diagnostic.severity == Severity::error     ? errors_
                 : diagnostic.severity == Severity::warning ? warnings_
@@ -105,9 +113,10 @@ void Diagnostics::report(Diagnostic diagnostic) {
   if (++count <= limit_) kept_.push_back(std::move(diagnostic));
 }
 
-void Diagnostics::report(DiagnosticKind const& kind, Span span, std::string message, std::string hint,
+void Diagnostics::report(DiagnosticKind const& kind, Span span, std::string message, Hint hint,
                          std::vector<DiagnosticNote> notes) {
-  report({kind.severity, kind.code, span, std::move(message), std::move(hint), std::move(notes)});
+  report({kind.severity, kind.code, span, std::move(message), std::move(hint.words), std::move(notes),
+          std::move(hint.fix)});
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {

@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/edit.hpp"
 #include "base/source.hpp"
 
 /// Messages about texts that people wrote. Readers append to a sink and recover, so that one run shows every mistake.
@@ -28,6 +31,22 @@ struct DiagnosticNote {
   std::string message;
 };
 
+/// What to write instead: the words for people, and the changes that carry them out, so that an editor can: in order of
+/// place, without overlap. `fix` is empty where the words leave a choice. A text alone is a hint without a fix.
+struct Hint {
+  Hint() = default;
+  Hint(std::string text) : words(std::move(text)) {}
+  Hint(char const* text) : words(text) {}
+  Hint(std::string text, std::vector<Edit> edits) : words(std::move(text)), fix(std::move(edits)) {}
+  [[nodiscard]] bool empty() const { return words.empty(); }
+
+  std::string words;
+  std::vector<Edit> fix;
+};
+
+/// "did you mean takeOff?", with the fix that puts the candidate in the place of `word`; or nothing.
+[[nodiscard]] Hint did_you_mean(Span place, std::string_view word, std::span<std::string_view const> candidates);
+
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string_view code = {};              ///< of its DiagnosticKind
@@ -35,6 +54,7 @@ struct Diagnostic {
   std::string message;                     ///< what is wrong, lower case, no full stop
   std::string hint = {};                   ///< what to write instead: "did you mean takeOff?" (may be empty)
   std::vector<DiagnosticNote> notes = {};  ///< further places
+  std::vector<Edit> fix = {};              ///< the hint as changes of the text (may be empty)
 };
 
 /// One diagnostic with its places worked out, for `--json` and editors. Lines and columns count from 1; the end is
@@ -59,7 +79,7 @@ class Diagnostics {
   explicit Diagnostics(SourceFile const& source, std::size_t limit = default_limit) : source_(source), limit_(limit) {}
 
   void report(Diagnostic diagnostic);
-  void report(DiagnosticKind const& kind, Span span, std::string message, std::string hint = {},
+  void report(DiagnosticKind const& kind, Span span, std::string message, Hint hint = {},
               std::vector<DiagnosticNote> notes = {});
 
   [[nodiscard]] SourceFile const& source() const { return source_; }

@@ -98,6 +98,23 @@ TEST(Diagnostics, KeepTheOrderOfThePlacesAndCountWhatTheyDrop) {
   EXPECT_TRUE(render(diagnostics).ends_with("... and 1 more\n"));
 }
 
+TEST(Diagnostics, KeepTheFixOfAHintAndShowItsWordsOnly) {
+  SourceFile const source("f", "takeof p");
+  constexpr std::string_view words[] = {"takeOff", "land"};
+  Diagnostics diagnostics(source);
+  diagnostics.report(mistake, {0, 6}, "m", did_you_mean({0, 6}, "takeof", words));
+  diagnostics.report(oddity, {7, 8}, "n", Hint{"write f(p)", {{{7, 7}, "f("}, {{8, 8}, ")"}}});
+  diagnostics.report(oddity, {7, 8}, "o", "words alone");
+  auto const all = diagnostics.sorted();
+  EXPECT_EQ(all[0].hint, "did you mean takeOff?");
+  EXPECT_EQ(applied(source.text(), all[0].fix), "takeOff p");
+  EXPECT_EQ(applied(source.text(), all[1].fix), "takeof f(p)");
+  EXPECT_EQ(applied(source.text(), all[1].fix, all[1].span), "f(p)");
+  EXPECT_TRUE(all[2].fix.empty());
+  EXPECT_EQ(render(all[0], source).find("fix"), std::string::npos);
+  EXPECT_TRUE(did_you_mean({0, 6}, "zzzzzz", words).empty());
+}
+
 TEST(Diagnostics, BecomeRecordsWithPlaces) {
   SourceFile const source("f", "a\nbc");
   Diagnostics diagnostics(source);

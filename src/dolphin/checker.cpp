@@ -8,6 +8,7 @@
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/characters.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/fixes.hpp"
 #include "dolphin/internal/loop_shape.hpp"
 #include "dolphin/internal/vehicle_flow.hpp"
 
@@ -133,13 +134,13 @@ void Checker::statement(ast::Stmt const& statement, bool is_value) {
   std::visit([&](auto const& node) { check(node, statement, is_value); }, statement.node);
 }
 
-void Checker::check(ast::ExprStmt const& n, ast::Stmt const&, bool is_value) {
+void Checker::check(ast::ExprStmt const& n, ast::Stmt const& statement, bool is_value) {
   expression(n.expr);
   if (is_value) return;
   auto const kinds = inference_.facts(*n.expr).kinds;
   if (kinds == Kinds(Kind::task)) {
     diagnostics_.report(code("never-executed"), n.expr->span, "this task is never executed",
-                        "write execute before it, or give it a name");
+                        executed(diagnostics_.source(), statement.span));
   } else if (std::holds_alternative<ast::Closure>(n.expr->node)) {
     diagnostics_.report(code("never-called"), n.expr->span, "this closure is never called");
   }
@@ -164,7 +165,7 @@ void Checker::assigned_field(ast::Expr const& target) {
   if (contexts_.empty() || !block_word(name)) return;
   diagnostics_.report(code("assigned-field"), target.span,
                       fmt::format("this makes a variable; the {} of {} is not set", name, contexts_.back().name),
-                      fmt::format("write {} without =", name));
+                      without_equals_sign(diagnostics_.source(), target.span));
 }
 
 void Checker::check(ast::VarDecl const& n, ast::Stmt const&, bool) {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/spelling.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/fixes.hpp"
 
 namespace lapwing::dolphin {
 
@@ -93,11 +93,11 @@ void Checker::call(ast::Expr const& expr) {
   if (n.style == ast::CallStyle::label) {
     if (!word) {
       diagnostics_.report(code("label"), n.callee->span, fmt::format("a label does nothing: {}:", text),
-                          is_callable(text) ? fmt::format("write {} without the colon", text) : "");
+                          is_callable(text) ? without_colon(diagnostics_.source(), n.callee->span) : base::Hint());
       return arguments(n, std::nullopt);
     }
     diagnostics_.report(code("legacy-spelling"), n.callee->span, fmt::format("{} takes no colon", text),
-                        fmt::format("write {} without the colon", text));
+                        without_colon(diagnostics_.source(), n.callee->span));
   }
   if (word) return instruction_call(n, expr.span, *word);
   auto const local = resolution_.locals.find(n.callee.get());
@@ -114,7 +114,7 @@ void Checker::call(ast::Expr const& expr) {
 void Checker::undefined_call(ast::Call const& call, base::Span span) {
   auto const& text = std::get<ast::Name>(call.callee->node).text;
   if (!may_be_defined_in_unread(text) && reported_.insert(text).second) {
-    auto hint = suggestion(text);
+    auto hint = suggestion(text, span);
     if (hint.empty()) hint = block_of(text);
     if (hint.empty()) hint = in_our_words(text);
     auto const where = contexts_.empty() ? "" : fmt::format(" inside {}", contexts_.back().name);
@@ -214,7 +214,7 @@ void Checker::vehicle_keys(ast::Call const& call, InstructionSpec const& spec) {
     if (runs_tasks && !value.meets(Kind::task)) {
       diagnostics_.report(code("not-a-task"), argument.value->span,
                           fmt::format("execute runs tasks, this is {}", describe(value)),
-                          value == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
+                          value == Kinds(Kind::closure) ? wrapped_in_action(*argument.value) : base::Hint());
     }
     if (!runs_tasks) connection_timeout(*argument.value);
   }
@@ -285,11 +285,10 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
   auto const facts = inference_.facts(value);
   auto const* text = std::get_if<ast::StringLiteral>(&value.node);
   if (text && parameter.kinds.meets(Kind::text)) {
-    auto const hint = base::did_you_mean(text->value, parameter.choices);
     diagnostics_.report(code("argument-choice"), value.span,
                         fmt::format("{} of {} is one of {}, not {}", parameter.name, spec.name,
                                     fmt::join(parameter.choices, ", "), text->value),
-                        hint);
+                        did_you_mean_in_quotes(diagnostics_.source(), value, text->value, parameter.choices));
     return;
   }
   auto const chosen =
@@ -305,7 +304,7 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
   bool const is_closure_for_task = parameter.kinds == Kinds(Kind::task) && facts.kinds == Kinds(Kind::closure);
   auto const& kind = is_number ? code("argument-dimension") : code("argument-type");
   diagnostics_.report(kind, value.span, fmt::format("{} of {} is {}, not {}", parameter.name, spec.name, needed, found),
-                      is_closure_for_task ? "wrap it: action { ... }" : fmt::format("write {}", hint));
+                      is_closure_for_task ? wrapped_in_action(value) : base::Hint(fmt::format("write {}", hint)));
 }
 
 // ---- functions and builders ---------------------------------------------------------------------
@@ -334,9 +333,12 @@ bool Checker::is_closure(ast::Call const& call, Variable const& variable) {
   auto const kinds = inference_.facts(variable).kinds;
   if (kinds.is_none() || kinds.meets(Kinds(Kind::closure) | Kind::other)) return true;
   auto const is_command = call.style == ast::CallStyle::command;
+  auto const behind = call.callee->span.end;
   diagnostics_.report(code("unknown-instruction"), call.callee->span,
                       fmt::format("{} is {}, which cannot be called", variable.name, describe(kinds)),
-                      is_command ? fmt::format("to change its value write {} = ...", variable.name) : "");
+                      is_command ? base::Hint(fmt::format("to change its value write {} = ...", variable.name),
+                                              {{{behind, behind}, " ="}})
+                                 : base::Hint());
   return false;
 }
 

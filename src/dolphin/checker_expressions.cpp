@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/spelling.hpp"
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/fixes.hpp"
 
 namespace lapwing::dolphin {
 
@@ -52,11 +52,11 @@ bool Checker::may_be_defined_in_unread(std::string_view name) const {
 
 /// Looks for what was meant among variables, functions and instructions alike; the words of the block one is in come
 /// first.
-std::string Checker::suggestion(std::string_view name) const {
+base::Hint Checker::suggestion(std::string_view name, base::Span span) const {
   if (diagnostics_.error_count() >= base::Diagnostics::default_limit) return {};  // nobody would see it
   std::vector<std::string_view> near;
   for (auto const& context : contexts_) std::ranges::copy(names_of(context.words), std::back_inserter(near));
-  if (auto const found = base::did_you_mean(name, near); !found.empty()) return found;
+  if (auto found = base::did_you_mean(span, name, near); !found.empty()) return found;
   std::vector<std::string_view> all;
   for (auto const& variable : resolution_.variables) {
     if (variable.name != "it") all.push_back(variable.name);
@@ -65,7 +65,7 @@ std::string Checker::suggestion(std::string_view name) const {
   for (auto const& builder : builders_) all.push_back(builder.spec->name);
   std::ranges::copy(names_of(instructions()), std::back_inserter(all));
   std::ranges::copy(names_of(constants()), std::back_inserter(all));
-  return base::did_you_mean(name, all);
+  return base::did_you_mean(span, name, all);
 }
 
 std::string Checker::block_of(std::string_view name) const {
@@ -97,7 +97,7 @@ void Checker::undefined_name(std::string const& name, base::Span span) {
                         "def makes a local; assign without def to see it everywhere");
     return;
   }
-  auto hint = suggestion(name);
+  auto hint = suggestion(name, span);
   if (hint.empty()) hint = block_of(name);
   diagnostics_.report(code("unknown-name"), span, fmt::format("{} is not defined", name), std::move(hint));
 }
@@ -129,7 +129,7 @@ bool Checker::used_too_early(ast::Expr const& expr, Variable const& variable) {
 void Checker::type_name(ast::Identifier const& type) {
   if (has_name(types(), type.text) || type.text.ends_with("Exception") || type.text.ends_with("Error")) return;
   diagnostics_.report(code("unknown-type"), type.span, fmt::format("there is no type {}", type.text),
-                      base::did_you_mean(type.text, names_of(types())));
+                      base::did_you_mean(type.span, type.text, names_of(types())));
 }
 
 // ---- expressions --------------------------------------------------------------------------------
@@ -198,7 +198,7 @@ void Checker::member(ast::Expr const& expr) {
     });
     if (is_member) return;
     diagnostics_.report(code("unknown-unit"), n.name.span, fmt::format("there is no unit {}", n.name.text),
-                        base::did_you_mean(n.name.text, names_of(units())));
+                        base::did_you_mean(n.name.span, n.name.text, names_of(units())));
     return;
   }
   constexpr auto closed_kinds = Kinds(Kind::position) | Kind::displacement | Kind::area | Kind::vehicles | Kind::task;
@@ -210,7 +210,7 @@ void Checker::member(ast::Expr const& expr) {
   if (std::ranges::find(known, n.name.text) != known.end()) return;
   diagnostics_.report(code("unknown-member"), n.name.span,
                       fmt::format("{} has no member {}", describe(facts.kinds), n.name.text),
-                      base::did_you_mean(n.name.text, known));
+                      base::did_you_mean(n.name.span, n.name.text, known));
 }
 
 /// `message [1, 2]` indexes something called message.
@@ -218,9 +218,12 @@ void Checker::index(ast::Expr const& expr) {
   auto const& n = std::get<ast::Index>(expr.node);
   auto const* callee = std::get_if<ast::Name>(&n.object->node);
   if (callee && !resolution_.find(*n.object) && is_callable(callee->text)) {
-    diagnostics_.report(code("instruction-as-value"), expr.span,
-                        fmt::format("this takes an element of {}, which is an instruction", callee->text),
-                        fmt::format("write {}([...])", callee->text));
+    auto const between = diagnostics_.source().text({n.object->span.end, expr.span.end});
+    auto const bracket = n.object->span.end + static_cast<std::uint32_t>(std::min(between.find('['), between.size()));
+    diagnostics_.report(
+        code("instruction-as-value"), expr.span,
+        fmt::format("this takes an element of {}, which is an instruction", callee->text),
+        {fmt::format("write {}([...])", callee->text), in_parentheses(n.object->span, {bracket, expr.span.end})});
     return expression(n.index);
   }
   expression(n.object);
@@ -233,8 +236,11 @@ void Checker::index(ast::Expr const& expr) {
   }
   if (facts.kinds == Kinds(Kind::vehicles) && inside.kinds == Kinds(Kind::task)) {
     auto const& source = diagnostics_.source();
+    auto const limited = fmt::format("{}[{}]", source.text(n.index->span), source.text(n.object->span));
+    base::Hint hint(fmt::format("write {}", limited));
+    if (std::holds_alternative<ast::Name>(n.index->node)) hint.fix = {{expr.span, limited}};
     diagnostics_.report(code("not-a-task"), expr.span, "a task is limited to vehicles, not vehicles to a task",
-                        fmt::format("write {}[{}]", source.text(n.index->span), source.text(n.object->span)));
+                        std::move(hint));
   }
 }
 
@@ -269,7 +275,7 @@ void Checker::chain(ast::Expr const& expr) {
   if (!facts.kinds.meets(Kind::task)) {
     diagnostics_.report(code("not-a-task"), task->span,
                         fmt::format("a task is needed here, this is {}", describe(facts.kinds)),
-                        facts.kinds == Kinds(Kind::closure) ? "wrap it: action { ... }" : "");
+                        facts.kinds == Kinds(Kind::closure) ? wrapped_in_action(*task) : base::Hint());
   }
   auto const limit = inference_.facts(*n.subject);
   bool const wrong_dimension = n.kind == ast::ChainKind::during && limit.dimension &&

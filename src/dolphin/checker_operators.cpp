@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/fixes.hpp"
 
 /// What the checker knows of operators (language specification 2) and of the values that they join.
 namespace lapwing::dolphin {
@@ -123,7 +124,8 @@ bool Checker::missing_parentheses(ast::Expr const& expr, ast::Binary const& bina
   auto const argument = diagnostics_.source().text({binary.right->span.begin, expr.span.end});
   diagnostics_.report(code("missing-parentheses"), expr.span,
                       fmt::format("this calculates with {}, which is an instruction", callee->text),
-                      fmt::format("write {} ({}{})", callee->text, sign, argument));
+                      {fmt::format("write {} ({}{})", callee->text, sign, argument),
+                       argument_in_parentheses(diagnostics_.source(), binary.left->span, expr.span)});
   return true;
 }
 
@@ -193,7 +195,7 @@ void Checker::battery_comparison(ast::Binary const& binary) {
     known = static_cast<double>(std::get<std::int64_t>(*value));
   if (known > 1.0) {
     diagnostics_.report(code("battery-ratio"), limit->span, "battery gives 0 to 1",
-                        fmt::format("write {}.percent", diagnostics_.source().text(limit->span)));
+                        with_unit(diagnostics_.source(), *limit, "percent"));
   }
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "base/spelling.hpp"
 #include "dolphin/ast_walk.hpp"
 #include "dolphin/internal/checker.hpp"
+#include "dolphin/internal/fixes.hpp"
 #include "dolphin/vehicle_types.hpp"
 
 /// What the checker knows of tasks and of the numbers that instructions refuse.
@@ -128,7 +128,7 @@ void Checker::vehicle_type(ast::Call const& call) {
   auto const constant = inference_.constant(wanted);
   auto const* type = constant ? std::get_if<std::string>(&*constant) : nullptr;
   if (!type || std::ranges::find(vehicle_types, *type) != vehicle_types.end()) return;
-  auto hint = base::did_you_mean(*type, vehicle_types);
+  auto hint = did_you_mean_in_quotes(diagnostics_.source(), wanted, *type, vehicle_types);
   if (hint.empty()) return;
   diagnostics_.report(code("misspelt-type"), wanted.span, fmt::format("no vehicle is of type {}", *type),
                       std::move(hint));

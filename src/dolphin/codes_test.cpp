@@ -93,6 +93,83 @@ std::string case_name(testing::TestParamInfo<base::DiagnosticKind> const& info) 
 
 INSTANTIATE_TEST_SUITE_P(All, CodeGolden, testing::ValuesIn(kinds_with_examples()), case_name);
 
+// ---- fixes
+
+struct Checked {
+  std::vector<base::Diagnostic> all;
+  std::string text;
+};
+
+Checked checked(std::string const& script) {
+  auto const source = std::make_shared<base::SourceFile const>("test.dolphin", script);
+  base::Diagnostics diagnostics(*source);
+  std::array const builders{tasks::mission_builder()};
+  (void)load(source, builders, diagnostics);
+  return {diagnostics.sorted(), render(diagnostics)};
+}
+
+TEST(Fixes, EachTakesAwayWhatItIsAboutAndAddsNothing) {
+  std::set<std::string_view> mended;
+  for (auto const* const place : {"codes", "check"}) {
+    for (auto const& entry : fs::directory_iterator(folder.parent_path() / place)) {
+      if (entry.path().extension() != ".dolphin") continue;
+      auto const script = text_of(entry.path());
+      auto const before = checked(script).all;
+      for (auto const& one : before) {
+        if (one.fix.empty()) continue;
+        auto const fixed = base::applied(script, one.fix);
+        auto const after = checked(fixed);
+        auto const is_same = [&](base::Diagnostic const& other) {
+          return other.code == one.code && other.message == one.message && other.span.begin == one.span.begin;
+        };
+        EXPECT_TRUE(std::ranges::none_of(after.all, is_same)) << entry.path() << '\n' << after.text;
+        EXPECT_LE(after.all.size(), before.size()) << entry.path() << '\n' << one.message << '\n' << after.text;
+        mended.insert(one.code);
+      }
+    }
+  }
+  EXPECT_GT(mended.size(), 12u);
+}
+
+struct Mended {
+  std::string_view script;
+  std::string_view fixed;
+};
+
+TEST(Fixes, WriteWhatTheHintsSay) {
+  for (auto const& [script, fixed] : std::initializer_list<Mended>{
+           {"v = pick { type: 'UAV' }", "v = pick { type 'UAV' }"},
+           {"v = pick { type:'UAV' }", "v = pick { type 'UAV' }"},
+           {"v = pick { type = 'UAV' }", "v = pick { type 'UAV' }"},
+           {"v = pick { type 'UVA' }", "v = pick { type 'UAV' }"},
+           {"execute { message 'x' }", "execute action { message 'x' }"},
+           {"execute waitFor { true } then { message 'x' }", "execute waitFor { true } then action { message 'x' }"},
+           {"v = pick { }; execute v: { message 'x' }", "v = pick { }; execute v: action { message 'x' }"},
+           {"v = pick { }\nif (battery(v) < 30) { release v }",
+            "v = pick { }\nif (battery(v) < 30.percent) { release v }"},
+           {"m = mission { home 1, 2; move -5, 0 }\nexecute m", "m = mission { home 1, 2; move (-5), 0 }\nexecute m"},
+           {"x = pos { lat 38; lon -8.64 }", "x = pos { lat 38; lon (-8.64) }"},
+           {"idle(5)", "execute idle(5)"},
+           {"(idle(5) | idle(6)) / { true }", "execute((idle(5) | idle(6)) / { true })"},
+           {"execute (idle(5) | idle(6)) / { true }", "execute((idle(5) | idle(6)) / { true })"},
+           {"execute waitFor { true } run idle(5)", "execute waitFor { true } then idle(5)"},
+           {"execute until { true } then idle(5)", "execute until { true } run idle(5)"},
+           {"execute idle(5) during 2.seconds", "execute during 2.seconds run idle(5)"},
+           {"execute idle(5).during(2.seconds) >> idle(1)", "execute (during(2.seconds) run idle(5)) >> idle(1)"},
+           {"x = .5", "x = 0.5"},
+           {"pause 5seconds", "pause 5.seconds"},
+           {"message \u201Chello\u201D", "message \"hello\""},
+           {"x = 3 \u2212 2", "x = 3 - 2"},
+           {"message [1]", "message([1])"},
+           {"x = 1\nx 2", "x = 1\nx = 2"},
+       }) {
+    auto const all = checked(std::string(script)).all;
+    auto const found = std::ranges::find_if(all, [](base::Diagnostic const& one) { return !one.fix.empty(); });
+    ASSERT_NE(found, all.end()) << script;
+    EXPECT_EQ(base::applied(script, found->fix), fixed);
+  }
+}
+
 TEST(Codes, AreUniqueAndExplained) {
   std::set<std::string_view> seen;
   for (auto const& kind : diagnostic_kinds) {

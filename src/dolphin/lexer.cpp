@@ -237,7 +237,8 @@ void Lexer::skip_unreadable() {
   if (first.looks_like == Unreadable::Like::quote) return read_typographic_string(first);
   if (first.looks_like == Unreadable::Like::dash) {
     at_ += first.size;
-    diagnostics_.report(code("invalid-character"), since(begin), std::string(first.message), std::string(first.hint));
+    diagnostics_.report(code("invalid-character"), since(begin), std::string(first.message),
+                        {std::string(first.hint), {{since(begin), "-"}}});
     return emit(minus, begin);
   }
   do {
@@ -249,12 +250,18 @@ void Lexer::skip_unreadable() {
 void Lexer::read_typographic_string(Unreadable const& quote) {
   auto const begin = at_;
   at_ += quote.size;
-  diagnostics_.report(code("invalid-character"), since(begin), std::string(quote.message), std::string(quote.hint));
+  auto const opening = since(begin);
+  auto const plain = std::string(quote.hint.substr(quote.hint.size() - 1));  // it ends with the quote to write
+  base::Hint hint(std::string(quote.hint), {{opening, plain}});
   while (!at_end() && peek() != '\n' && peek() != '\r') {
+    auto const place = at_;
     auto const c = unreadable_character(text_.substr(at_));
     at_ += c.size;
-    if (c.looks_like == Unreadable::Like::quote) break;
+    if (c.looks_like != Unreadable::Like::quote) continue;
+    hint.fix.push_back({since(place), plain});
+    break;
   }
+  diagnostics_.report(code("invalid-character"), opening, std::string(quote.message), std::move(hint));
   emit(string, begin);
 }
 
@@ -274,11 +281,14 @@ void Lexer::read_number() {
   at_ += number.size;
   if (number.junk > 0) {
     auto const end = static_cast<std::uint32_t>(at_);
+    auto const junk = static_cast<std::uint32_t>(number.junk);
     auto const tail = text_.substr(at_ - number.junk, number.junk);
     auto const digits = text_.substr(begin, number.size - number.junk);
     diagnostics_.report(code("invalid-number"), {static_cast<std::uint32_t>(at_ - number.junk), end},
                         fmt::format("'{}' cannot follow a number", tail),
-                        digits == "0" ? "" : fmt::format("a unit is written with a point: {}.{}", digits, tail));
+                        digits == "0" ? base::Hint()
+                                      : base::Hint(fmt::format("a unit is written with a point: {}.{}", digits, tail),
+                                                   {{{end - junk, end - junk}, "."}}));
   }
   emit(number.is_decimal ? decimal : integer, begin);
 }

@@ -87,7 +87,7 @@ Span Parser::here() const {
 
 // ---- mistakes -----------------------------------------------------------------------------------
 
-void Parser::error(base::DiagnosticKind const& kind, Span span, std::string message, std::string hint) {
+void Parser::error(base::DiagnosticKind const& kind, Span span, std::string message, base::Hint hint) {
   if (std::exchange(quiet_, true)) return;
   diagnostics_.report(kind, span, std::move(message), std::move(hint));
 }
@@ -100,7 +100,7 @@ std::string Parser::describe(Token const& token) const {
   return fmt::format("'{}'", text(token));
 }
 
-void Parser::expected(std::string_view what, std::string hint) {
+void Parser::expected(std::string_view what, base::Hint hint) {
   error(code("syntax"), here(), fmt::format("expected {}, found {}", what, describe(token())), std::move(hint));
 }
 

@@ -189,7 +189,8 @@ ast::ExprPtr Parser::primary() {
     case kw_new: return new_object();
     case dot:
       if (kind(1) == integer) {
-        expected("an expression", fmt::format("write 0.{}", text(token(1))));
+        auto const begin = token().span.begin;
+        expected("an expression", {fmt::format("write 0.{}", text(token(1))), {{{begin, begin}, "0"}}});
         return broken();
       }
       [[fallthrough]];

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "dolphin/internal/fixes.hpp"
 #include "dolphin/internal/literals.hpp"
 #include "dolphin/internal/parser.hpp"
 
@@ -87,8 +88,10 @@ void Parser::statement_into(ast::Block& block) {
       auto const span = expr->expr->span;
       auto const argument = diagnostics_.source().text(span).substr(name->text.size());
       auto const begin = argument.find_first_not_of(" \t");
+      auto const word_end = span.begin + static_cast<std::uint32_t>(name->text.size());
       error(code("missing-parentheses"), span, fmt::format("this subtracts from '{}'", name->text),
-            fmt::format("write {} ({}), ...", name->text, argument.substr(begin)));
+            {fmt::format("write {} ({}), ...", name->text, argument.substr(begin)),
+             argument_in_parentheses(diagnostics_.source(), {span.begin, word_end}, span)});
       made = nullptr;
     }
   }

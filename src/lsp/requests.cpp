@@ -138,7 +138,7 @@ Result<Json> Server::semantic_tokens(Json const& parameters) {
   return semantic_result(dolphin::semantic_tokens(document), document.source());
 }
 
-/// "did you mean takeOff?" as something to click.
+/// The fixes of what is wrong in the range, as something to click.
 Result<Json> Server::code_actions(Json const& parameters) {
   auto const script = script_of(parameters);
   if (!script) return std::unexpected(script.error());
@@ -146,22 +146,14 @@ Result<Json> Server::code_actions(Json const& parameters) {
   auto const begin = position(member(member(parameters, "range"), "start"));
   auto const end = position(member(member(parameters, "range"), "end"));
   if (!begin || !end) return base::fail(base::ErrorKind::invalid_input, "a range is missing");
-  constexpr std::string_view question = "did you mean ";
-  Positions positions((*script)->document->source());
+  auto const& source = (*script)->document->source();
+  Positions positions(source);
   auto const from = positions.offset(*begin);
   auto const to = positions.offset(*end);
   auto out = Json::array();
   for (auto const& one : (*script)->diagnostics) {
     bool const is_here = one.span.begin <= to && from <= one.span.end;
-    if (!is_here || !one.hint.starts_with(question) || !one.hint.ends_with('?')) continue;
-    auto const word = one.hint.substr(question.size(), one.hint.size() - question.size() - 1);
-    Json changes;
-    changes[uri] = {{{"range", range(one.span, positions)}, {"newText", word}}};
-    out.push_back({{"title", fmt::format("Change to {}", word)},
-                   {"kind", "quickfix"},
-                   {"isPreferred", true},
-                   {"diagnostics", {diagnostic(one, uri, positions)}},
-                   {"edit", {{"changes", std::move(changes)}}}});
+    if (is_here && !one.fix.empty()) out.push_back(quick_fix(one, uri, source));
   }
   return out;
 }

@@ -162,6 +162,29 @@ TEST(Server, PublishesDiagnosticsWithCodesAndQuickFixes) {
   EXPECT_EQ(actions[0]["diagnostics"][0]["code"], "unknown-instruction");
 }
 
+TEST(Server, OffersEachFixAsAnEditThatSaysWhatItDoes) {
+  struct Case {
+    std::string_view script;
+    std::string_view title;
+    std::size_t edits;
+  };
+  for (auto const& [script, title, edits] : std::initializer_list<Case>{
+           {"v = pick { type 'UVA' }", "Change to UAV", 1},
+           {"idle(5)", "Insert execute", 1},
+           {"(idle(5) | idle(6)) / { true }", "Change to execute((idle(5) | idle(6)) / { true })", 2},
+           {"v = pick { }\nmessage(battery(v) < 30)", "Insert .percent", 1},
+       }) {
+    Talk talk;
+    auto const all = talk.open(std::string(script)).at(0)["params"]["diagnostics"];
+    ASSERT_EQ(all.size(), 1u) << all;
+    Json const parameters{{"textDocument", {{"uri", uri}}}, {"range", all[0]["range"]}, {"context", Json::object()}};
+    auto const actions = talk.ask("textDocument/codeAction", parameters);
+    ASSERT_EQ(actions.size(), 1u) << script;
+    EXPECT_EQ(actions[0]["title"], title);
+    EXPECT_EQ(actions[0]["edit"]["changes"][uri].size(), edits);
+  }
+}
+
 TEST(Server, FollowsChangesAndPublishesOnceForABurst) {
   Talk talk("x = 1\nmessage y\n");
   auto const change = [](int version, Json changes) {

@@ -72,6 +72,25 @@ Json completion_item(dolphin::CompletionItem const& item, Json const& range, boo
   return out;
 }
 
+/// "Change to takeOff", "Insert .percent": what a click will do to the text.
+std::string title_of(base::Diagnostic const& one, base::SourceFile const& source) {
+  auto const trimmed = [](std::string_view text) {
+    auto const begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return std::string_view();
+    return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
+  };
+  auto const changed = base::Span{one.fix.front().span.begin, one.fix.back().span.end};
+  auto const result = base::applied(source.text(), one.fix, changed);
+  constexpr std::size_t longest = 60;
+  if (trimmed(result).empty()) return fmt::format("Remove {}", trimmed(source.text(changed)));
+  if (changed.size() == 0) return fmt::format("Insert {}", trimmed(result));
+  if (result.size() <= longest && result.find('\n') == std::string::npos)
+    return fmt::format("Change to {}", trimmed(result));
+  auto words = one.hint.empty() ? one.message : one.hint;
+  if (words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return words;
+}
+
 constexpr std::uint32_t definition_bit = 1;
 constexpr std::uint32_t built_in_bit = 2;
 
@@ -118,6 +137,21 @@ Json range(base::Span span, Positions& positions) {
 
 Json location(std::string const& uri, base::Span span, Positions& positions) {
   return {{"uri", uri}, {"range", range(span, positions)}};
+}
+
+Json quick_fix(base::Diagnostic const& one, std::string const& uri, base::SourceFile const& source) {
+  Positions positions(source);
+  auto edits = Json::array();
+  for (auto const& edit : one.fix) {
+    edits.push_back({{"range", range(edit.span, positions)}, {"newText", edit.replacement}});
+  }
+  Json changes;
+  changes[uri] = std::move(edits);
+  return {{"title", title_of(one, source)},
+          {"kind", "quickfix"},
+          {"isPreferred", true},
+          {"diagnostics", {diagnostic(one, uri, positions)}},
+          {"edit", {{"changes", std::move(changes)}}}};
 }
 
 Json diagnostic(base::Diagnostic const& one, std::string const& uri, Positions& positions) {

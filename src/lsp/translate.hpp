@@ -17,6 +17,8 @@ namespace lapwing::lsp {
 [[nodiscard]] Json range(base::Span span, Positions& positions);
 [[nodiscard]] Json location(std::string const& uri, base::Span span, Positions& positions);
 [[nodiscard]] Json diagnostic(base::Diagnostic const& one, std::string const& uri, Positions& positions);
+/// A code action that carries out the fix of a diagnostic.
+[[nodiscard]] Json quick_fix(base::Diagnostic const& one, std::string const& uri, base::SourceFile const& source);
 [[nodiscard]] Json hover_result(dolphin::Hover const& hover, Positions& positions);
 [[nodiscard]] Json completion_result(dolphin::Completion const& completion, Positions& positions, bool with_snippets);
 [[nodiscard]] Json signature_result(dolphin::SignatureHelp const& help);

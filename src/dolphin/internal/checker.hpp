@@ -128,7 +128,7 @@ class Checker {
   [[nodiscard]] Builder const* find_builder(std::string_view name) const;
   [[nodiscard]] bool is_callable(std::string_view name) const;
   [[nodiscard]] bool may_be_defined_in_unread(std::string_view name) const;
-  [[nodiscard]] std::string suggestion(std::string_view name) const;
+  [[nodiscard]] base::Hint suggestion(std::string_view name, base::Span span) const;
   /// "stands inside mission { ... }" for a word that is known only there.
   [[nodiscard]] std::string block_of(std::string_view name) const;
 

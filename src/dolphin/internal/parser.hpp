@@ -43,9 +43,9 @@ class Parser {
   [[nodiscard]] base::Span here() const;
 
   // ---- mistakes (parser.cpp)
-  void error(base::DiagnosticKind const& kind, base::Span span, std::string message, std::string hint = {});
+  void error(base::DiagnosticKind const& kind, base::Span span, std::string message, base::Hint hint = {});
   /// "expected X, found Y" at the next token.
-  void expected(std::string_view what, std::string hint = {});
+  void expected(std::string_view what, base::Hint hint = {});
   bool expect(TokenKind wanted, std::string_view what);
   [[nodiscard]] std::string describe(Token const& token) const;
   ast::ExprPtr broken();
