@@ -223,7 +223,7 @@ void Checker::index(ast::Expr const& expr) {
     diagnostics_.report(
         code("instruction-as-value"), expr.span,
         fmt::format("this takes an element of {}, which is an instruction", callee->text),
-        {fmt::format("write {}([...])", callee->text), in_parentheses(n.object->span, {bracket, expr.span.end})});
+        {fmt::format("write {}([...])", callee->text), with_parentheses(n.object->span, {bracket, expr.span.end})});
     return expression(n.index);
   }
   expression(n.object);

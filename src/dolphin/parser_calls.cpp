@@ -207,7 +207,7 @@ ast::ExprPtr Parser::wrapped_argument() {
   made.arguments = arguments_until_line_end();
   auto const argument = made.arguments.front().value->span;
   base::Hint hint(fmt::format("write {}(...) round it", name));
-  if (made.arguments.size() == 1) hint.fix = in_parentheses(made.callee->span, argument);
+  if (made.arguments.size() == 1) hint.fix = with_parentheses(made.callee->span, argument);
   diagnostics_.report(code("whole-argument"), argument, fmt::format("all of this is taken as the argument of {}", name),
                       std::move(hint));
   return make(std::move(made), since(begin));
@@ -218,12 +218,8 @@ ast::ExprPtr Parser::misplaced_chain_word(ast::ExprPtr left, std::uint32_t begin
   while (at_word("during") && on_same_line() && !quiet_) {
     auto const head = advance().span;
     auto limit = expression();
-    auto const all = since(begin);
-    auto const task = diagnostics_.source().text({begin, head.begin});
-    auto const chain = fmt::format("during{} run {}", diagnostics_.source().text({head.end, all.end}), task);
     diagnostics_.report(code("legacy-spelling"), head, "'during' belongs in front of its task",
-                        {fmt::format("write {}", words_of(ast::ChainKind::during).pattern),
-                         {{all, chain.substr(0, chain.find_last_not_of(" \t\r\n") + 1)}}});
+                        in_front(diagnostics_.source(), head, since(begin)));
     left = make(ast::Chain{ast::ChainKind::during, std::move(limit), std::move(left), head}, since(begin));
   }
   return left;
@@ -307,12 +303,8 @@ ast::ExprPtr Parser::call(ast::ExprPtr callee, std::uint32_t begin) {
   auto arguments = arguments_in_parentheses();
   auto* old = std::get_if<ast::Member>(&callee->node);
   if (old && old->name.text == "during" && arguments.size() == 1) {
-    auto const all = since(begin);
-    auto const task = diagnostics_.source().text({begin, old->name.span.begin});
-    auto const chain = fmt::format("(during {} run {})", diagnostics_.source().text({old->name.span.end, all.end}),
-                                   task.substr(0, task.find_last_not_of(".? \t\r\n") + 1));
     diagnostics_.report(code("legacy-spelling"), old->name.span, "'during' belongs in front of its task",
-                        {fmt::format("write {}", words_of(ast::ChainKind::during).pattern), {{all, chain}}});
+                        in_front(diagnostics_.source(), old->name.span, since(begin)));
     auto const head = old->name.span;
     auto task = std::move(old->object);
     return make(ast::Chain{ast::ChainKind::during, std::move(arguments[0].value), std::move(task), head}, since(begin));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace lapwing::dolphin {
 
 namespace {
@@ -62,7 +64,7 @@ Hint without_equals_sign(SourceFile const& source, Span word) {
   return {fmt::format("write {} without =", source.text(word)), without_sign(source, word, '=')};
 }
 
-std::vector<Edit> in_parentheses(Span callee, Span argument) {
+std::vector<Edit> with_parentheses(Span callee, Span argument) {
   return {{{callee.end, argument.begin}, "("}, {{argument.end, argument.end}, ")"}};
 }
 
@@ -71,6 +73,15 @@ std::vector<Edit> argument_in_parentheses(SourceFile const& source, Span callee,
   auto const begin = text.find_first_not_of(" \t");
   if (begin == std::string_view::npos) return {};
   return {{{callee.end, all.end}, fmt::format(" ({})", text.substr(begin))}};
+}
+
+Hint in_front(SourceFile const& source, Span during, Span all) {
+  auto const task = source.text({all.begin, during.begin});
+  auto const limit = source.text({during.end, all.end});
+  auto chain = fmt::format("during{} run {}", limit, task.substr(0, task.find_last_not_of(".? \t\r\n") + 1));
+  // A call binds tighter than what may follow it; the chain takes all of that.
+  if (limit.starts_with('(')) chain = fmt::format("({})", chain);
+  return {"write during 30.seconds run task", {{all, std::move(chain)}}};
 }
 
 Hint with_unit(SourceFile const& source, ast::Expr const& number, std::string_view unit) {

@@ -27,11 +27,14 @@ namespace lapwing::dolphin {
 [[nodiscard]] base::Hint without_equals_sign(base::SourceFile const& source, base::Span word);
 
 /// `callee argument` with parentheses round the argument: `execute (a) | b`, `message [1]`.
-[[nodiscard]] std::vector<base::Edit> in_parentheses(base::Span callee, base::Span argument);
+[[nodiscard]] std::vector<base::Edit> with_parentheses(base::Span callee, base::Span argument);
 
 /// `lon -8.64` as `lon (-8.64)`; `callee` is the word, `all` the whole expression.
 [[nodiscard]] std::vector<base::Edit> argument_in_parentheses(base::SourceFile const& source, base::Span callee,
                                                               base::Span all);
+
+/// `task during 2.seconds` and `task.during(2.seconds)` as `during 2.seconds run task`; `all` is the whole of it.
+[[nodiscard]] base::Hint in_front(base::SourceFile const& source, base::Span during, base::Span all);
 
 /// A number with its unit: 30 as 30.percent. Of what is no plain number, words alone.
 [[nodiscard]] base::Hint with_unit(base::SourceFile const& source, ast::Expr const& number, std::string_view unit);

@@ -1,9 +1,11 @@
 #include "dolphin/services/completion.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 
 #include "dolphin/services/cursor.hpp"
@@ -32,6 +34,41 @@ std::string snippet_of(ast::ChainKind kind) {
   return {};
 }
 
+/// A place to fill in: `${2:pos}`; with its choices in quotes where it has some.
+std::string place_for(ParameterSpec const& parameter, NamedArguments named, std::size_t number) {
+  if (!parameter.choices.empty()) return fmt::format("'${{{}|{}|}}'", number, fmt::join(parameter.choices, ","));
+  if (named == NamedArguments::values && parameter.kinds.meets(Kind::map))
+    return fmt::format("${{{}:name}}: 1", number);
+  if (parameter.kinds == Kinds(Kind::text)) return fmt::format("'${{{}:{}}}'", number, parameter.name);
+  if (parameter.kinds == Kinds(Kind::closure)) return fmt::format("{{ ${{{}}} }}", number);
+  return fmt::format("${{{}:{}}}", number, parameter.name);
+}
+
+/// The call with places for what must be said.
+std::string call_snippet(InstructionSpec const& spec, bool is_statement) {
+  if (spec.signatures.empty()) return {};
+  auto const& signature = spec.signatures.front();
+  std::vector<std::string> places;
+  for (auto const& parameter : signature.parameters) {
+    if (!parameter.optional) places.push_back(place_for(parameter, spec.named, places.size() + 1));
+  }
+  if (places.empty()) return fmt::format("{}()", spec.name);
+  return is_statement ? fmt::format("{} {}", spec.name, fmt::join(places, ", "))
+                      : fmt::format("{}({})", spec.name, fmt::join(places, ", "));
+}
+
+std::string call_snippet(ast::FunctionDecl const& function) {
+  std::vector<std::string> places;
+  for (auto const& parameter : function.parameters) {
+    if (!parameter.fallback) places.push_back(fmt::format("${{{}:{}}}", places.size() + 1, parameter.name.text));
+  }
+  return fmt::format("{}({})", function.name.text, fmt::join(places, ", "));
+}
+
+bool is_error_type(NameSpec const& type) {
+  return type.name.ends_with("Error") || type.name.ends_with("Exception");
+}
+
 class Completer {
  public:
   Completer(Document const& document, std::uint32_t offset)
@@ -40,12 +77,19 @@ class Completer {
   Completion run() {
     out_.replaced = cursor_.word;
     if (cursor_.in_comment || cursor_.in_number) return out_;
-    if (cursor_.in_text) {
+    if (auto const word = interpolated_word()) {
+      out_.replaced = *word;
+      variables();
+    } else if (cursor_.in_text) {
       texts();
     } else if (at(dot) || at(safe_dot)) {
       members();
     } else if (at(kw_new) || at(kw_as) || at(kw_instanceof)) {
       names(types(), CompletionKind::type, 0);
+    } else if (in_catch()) {
+      for (auto const& one : types()) {
+        if (is_error_type(one)) add(one.name, CompletionKind::type, 0).detail = one.doc;
+      }
     } else if (at(kw_def) || (!cursor_.begins_statement && (at(integer) || at(decimal)))) {
       return out_;
     } else {
@@ -62,7 +106,41 @@ class Completer {
     return out_.items.emplace_back(CompletionItem{.label = std::string(label), .kind = kind, .rank = rank});
   }
 
+  /// `catch (|` and `catch (TaskError | |`, where the types stand.
+  [[nodiscard]] bool in_catch() const {
+    auto const& tokens = document_.stream().tokens;
+    auto i = cursor_.before;
+    while (i != no_token && i >= 2 && tokens[i].kind == bit_or && tokens[i - 1].kind == identifier) i -= 2;
+    return i != no_token && i > 0 && tokens[i].kind == left_paren && tokens[i - 1].kind == kw_catch;
+  }
+  /// Whether a call may bring its arguments: nothing stands behind the word that could be them.
+  [[nodiscard]] bool is_free_behind() const {
+    auto const line = document_.source().line_span(document_.source().line(cursor_.word.end));
+    auto const rest = document_.text({cursor_.word.end, std::max(cursor_.word.end, line.end)});
+    auto const next = rest.find_first_not_of(" \t");
+    return next == std::string_view::npos || std::string_view(")]};,").contains(rest[next]) ||
+           rest.substr(next).starts_with("//");
+  }
+
   // ---- within quotes
+
+  /// What is being written behind the $ of a text in double quotes.
+  [[nodiscard]] std::optional<base::Span> interpolated_word() const {
+    if (!cursor_.in_text) return std::nullopt;
+    auto const text = document_.source().text();
+    auto const is_letter = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    auto begin = cursor_.offset;
+    while (begin > cursor_.word.begin && is_letter(text[begin - 1])) --begin;
+    bool const has_dollar = begin > 0 && text[begin - 1] == '$' && (begin < 2 || text[begin - 2] != '\\');
+    auto const& tokens = document_.stream().tokens;
+    auto const holds = [&](Token const& token) { return token.span.end < begin; };
+    auto const token = std::ranges::partition_point(tokens, holds);
+    if (!has_dollar || token == tokens.end()) return std::nullopt;
+    bool const is_single = token->kind == string && text[token->span.begin] == '\'';
+    return is_single ? std::nullopt : std::optional(base::Span{begin, cursor_.offset});
+  }
 
   void texts() {
     auto const call = open_call(document_, cursor_);
@@ -113,7 +191,7 @@ class Completer {
       auto& made = add(method.name, kind, method.receiver.is_any() ? 3 : 1);
       made.detail = describe(method.result);
       made.markdown = describe_word(method);
-      if (!method.is_property) made.snippet = fmt::format("{}($0)", method.name);
+      if (!method.is_property && is_free_) made.snippet = fmt::format("{}($0)", method.name);
     }
   }
 
@@ -169,6 +247,7 @@ class Completer {
       auto& made = add(one.name, CompletionKind::command, 0);
       made.detail = call_text(one, &block, 0).text;
       made.markdown = describe_word(one, &block);
+      if (is_free_) made.snippet = call_snippet(one, true);
     }
   }
 
@@ -205,7 +284,7 @@ class Completer {
       auto& made = add(name, CompletionKind::function, 1);
       made.detail = call_text(*declarations.front(), document_).text;
       made.markdown = describe_word(declarations, document_);
-      made.snippet = fmt::format("{}($0)", name);
+      if (is_free_) made.snippet = call_snippet(*declarations.front());
     }
   }
 
@@ -215,14 +294,15 @@ class Completer {
       auto& made = add(one.name, is_block ? CompletionKind::block : CompletionKind::instruction, 3);
       made.detail = call_text(one, nullptr, 0).text;
       made.markdown = describe_word(one, nullptr);
-      if (is_block) made.snippet = fmt::format("{} {{\n  $0\n}}", one.name);
+      if (is_block && is_free_) made.snippet = fmt::format("{} {{\n  $0\n}}", one.name);
+      if (!is_block && is_free_) made.snippet = call_snippet(one, cursor_.begins_statement);
     }
     for (auto const& block : document_.vocabulary().blocks()) {
       if (!block.builder) continue;
       auto& made = add(block.name, CompletionKind::block, 3);
       made.detail = block.builder->doc;
       made.markdown = describe_word(block);
-      made.snippet = fmt::format("{} {{\n  $0\n}}", block.name);
+      if (is_free_) made.snippet = fmt::format("{} {{\n  $0\n}}", block.name);
     }
   }
 
@@ -234,13 +314,14 @@ class Completer {
       auto& made = add(one.name, CompletionKind::keyword, is_when ? 0 : 3);
       made.detail = one.usage;
       made.markdown = describe_word(one);
-      made.snippet = snippet_of(one.kind);
+      if (is_free_) made.snippet = snippet_of(one.kind);
     }
   }
 
   Document const& document_;
   Cursor cursor_;
   std::vector<BlockWords const*> blocks_;
+  bool is_free_ = is_free_behind();
   Completion out_;
 };
 

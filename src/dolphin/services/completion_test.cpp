@@ -54,6 +54,41 @@ TEST(Complete, OffersTheFieldsOfABlock) {
   EXPECT_TRUE(best("x = watch t onError { | }").contains("ignore"));
 }
 
+TEST(Complete, BringsTheArgumentsThatMustBeSaidAsPlacesToFillIn) {
+  auto const snippet = [](std::string const& script, std::string_view label) {
+    auto const all = items(script);
+    auto const found = std::ranges::find(all, label, &CompletionItem::label);
+    return found == all.end() ? "not offered" : found->snippet;
+  };
+  EXPECT_EQ(snippet("m = mission {\n  |\n}", "move"), "move ${1:north}, ${2:east}");
+  EXPECT_EQ(snippet("m = mission {\n  |\n}", "takeOff"), "takeOff ${1:pos}");
+  EXPECT_EQ(snippet("m = mission {\n  |\n}", "returnHomeAndLand"), "returnHomeAndLand()");
+  EXPECT_EQ(snippet("x = |", "battery"), "battery(${1:vehicle})") << "parentheses within an expression";
+  EXPECT_EQ(snippet("|", "message"), "message ${1:value}");
+  EXPECT_EQ(snippet("def f(a, b = 2) { a }\nx = |", "f"), "f(${1:a})");
+  EXPECT_EQ(snippet("m = mission {\n  | location(1, 2)\n}", "takeOff"), "") << "its argument is there";
+  EXPECT_EQ(snippet("x = |(v)", "battery"), "");
+}
+
+TEST(Complete, OffersErrorsBehindCatch) {
+  for (auto const* script : {"try { } catch (|", "try { } catch (Tas|) { }", "try { }\ncatch ( | e) { }"}) {
+    auto const all = items(script);
+    EXPECT_TRUE(offers(all, "TaskError")) << script;
+    EXPECT_TRUE(offers(all, "VehicleError")) << script;
+    EXPECT_FALSE(offers(all, "Math")) << script;
+    EXPECT_FALSE(offers(all, "if")) << script;
+  }
+  EXPECT_FALSE(best("try { } catch (TaskError |").contains("VehicleError")) << "the name of the error comes here";
+}
+
+TEST(Complete, OffersVariablesInAHalfWrittenText) {
+  EXPECT_TRUE(best("scout = pick { }\nmessage \"flying $|").contains("scout"));
+  EXPECT_TRUE(best("scout = pick { }\nmessage \"flying $sc|\"").contains("scout"));
+  EXPECT_TRUE(best("scout = pick { }\nmessage \"$scout and $|").contains("scout"));
+  EXPECT_TRUE(best("scout = pick { }\nmessage 'flying $|'").empty()) << "single quotes take nothing in";
+  EXPECT_TRUE(best("scout = pick { }\nmessage \"flying sc|\"").empty());
+}
+
 TEST(Complete, DocumentsWhatItOffers) {
   auto const all = items("m = mission { | }");
   auto const found = std::ranges::find(all, "takeOff", &CompletionItem::label);

@@ -77,6 +77,11 @@ class Document {
   [[nodiscard]] Facts facts(ast::Expr const& expr) const { return inference_.facts(expr); }
   [[nodiscard]] Facts facts(Variable const& variable) const { return inference_.facts(variable); }
 
+  /// The value, when it is the same in every run.
+  [[nodiscard]] std::optional<tasks::Argument> constant(ast::Expr const& expr) const {
+    return inference_.constant(expr);
+  }
+
   /// What the reader and the checker say about it, in order of place.
   [[nodiscard]] std::vector<base::Diagnostic> diagnostics() const;
 
