@@ -107,15 +107,20 @@ base::Task<bool> is_alive(Exchange const& exchange) {
   co_return got&& exchange.now() < exchange.expires;
 }
 
-/// What became of one try; nothing: it is to be repeated.
-base::Task<std::optional<base::Result<>>> await_answer(Exchange& exchange, Inbox& acks, base::Duration wait) {
+/// What became of one try.
+struct Answer {
+  std::optional<base::Result<>> result;  ///< nothing: it is to be repeated
+  bool is_busy = false;                  ///< the vehicle wants to be asked again later
+};
+
+base::Task<Answer> await_answer(Exchange& exchange, Inbox& acks, base::Duration wait) {
   auto const target = exchange.target;
   auto const id = exchange.command.id;
   auto deadline = exchange.now() + wait;
   bool in_progress = false;
   for (;;) {
     auto const got = co_await acks.next(deadline);
-    if (!exchange.turn.is_ours()) co_return overtaken(target, id);
+    if (!exchange.turn.is_ours()) co_return Answer{overtaken(target, id)};
     if (!got) break;
     auto const& ack = std::get<CommandAck>(*got);
     if (ack.result == MavResult::in_progress) {
@@ -125,13 +130,21 @@ base::Task<std::optional<base::Result<>>> await_answer(Exchange& exchange, Inbox
     }
     bool const is_ours = exchange.turn.note_answer(exchange.command, exchange.now());
     if (!is_ours && !shows_by_itself(id)) continue;
-    if (exchange.changes_form(ack.result)) co_return std::nullopt;
-    if (ack.result == MavResult::accepted) co_return base::Result<>{};
-    co_return refusal(target, ack);
+    if (exchange.changes_form(ack.result)) co_return Answer{};
+    if (ack.result == MavResult::accepted) co_return Answer{base::Result<>{}};
+    co_return Answer{refusal(target, ack), ack.result == MavResult::temporarily_rejected && !shows_by_itself(id)};
   }
-  if (!in_progress) co_return std::nullopt;
-  co_return fail(ErrorKind::timed_out,
-                 fmt::format("vehicle {} began {} and did not say how it ended", target.system, to_string(id)));
+  if (!in_progress) co_return Answer{};
+  co_return Answer{fail(ErrorKind::timed_out,
+                        fmt::format("vehicle {} began {} and did not say how it ended", target.system, to_string(id)))};
+}
+
+/// A vehicle that is busy for longer than this will not have time soon.
+base::Duration busy_patience(CommandOptions const& options) {
+  return options.is_urgent ? std::chrono::seconds(2) : std::chrono::seconds(8);
+}
+base::Duration busy_pause(CommandOptions const& options) {
+  return options.is_urgent ? std::chrono::milliseconds(250) : std::chrono::seconds(1);
 }
 
 }  // namespace
@@ -151,17 +164,24 @@ base::Task<base::Result<>> run_command(Connection& connection, Address target, C
   Inbox acks(connection, target, wanting<CommandAck>([id, self](CommandAck const& ack) {
                return ack.command == id && addresses(ack.target, self);
              }));
-  internal::Repeats repeats(connection, target, options.tries, options.ack_timeout);
+  std::optional<internal::Repeats> repeats(std::in_place, connection, target, options.tries, options.ack_timeout);
+  std::optional<base::TimePoint> busy_since;
   int sent = 0;
-  while (!repeats.are_over()) {
+  while (!repeats->are_over()) {
     bool const alive = co_await is_alive(exchange);
     if (!exchange.turn.is_ours()) co_return overtaken(target, id);
     if (!alive || exchange.now() >= expires) break;
     if (auto gone = connection.send(target, exchange.message(sent)); !gone) co_return std::unexpected(gone.error());
     exchange.turn.note_sent(command, exchange.now());
     ++sent;
-    auto const answer = co_await await_answer(exchange, acks, repeats.next());
-    if (answer) co_return *answer;
+    auto const answer = co_await await_answer(exchange, acks, repeats->next());
+    if (!answer.result) continue;
+    if (!answer.is_busy) co_return *answer.result;
+    if (!busy_since) busy_since = exchange.now();
+    auto const again = exchange.now() + busy_pause(options);
+    if (again >= expires || again - *busy_since > busy_patience(options)) co_return *answer.result;
+    co_await connection.loop().sleep_until(again);
+    repeats.emplace(connection, target, options.tries, options.ack_timeout);
   }
   if (sent == 0) co_return expired(target, id);
   co_return fail(ErrorKind::timed_out, fmt::format("vehicle {} did not acknowledge {}", target.system, to_string(id)),

@@ -55,6 +55,48 @@ TEST(Command, NamesCommandAndResultWhenRefused) {
   EXPECT_EQ(result.error().message, "vehicle 1 answered COMPONENT_ARM_DISARM: failed");
 }
 
+/// Answers the first `times` commands with "temporarily rejected".
+void be_busy(FakeVehicle& vehicle, int times) {
+  vehicle.on = [&vehicle, times, seen = 0](Message const& message) mutable {
+    auto const* command = std::get_if<CommandLong>(&message);
+    if (!command) return;
+    auto const result = ++seen <= times ? MavResult::temporarily_rejected : MavResult::accepted;
+    vehicle.answer(CommandAck{.command = command->command, .result = result});
+  };
+}
+
+TEST(Command, IsAskedAgainOfAVehicleThatIsBusy) {
+  Bench bench;
+  be_busy(*bench.vehicle, 3);
+  auto const begun = bench.loop.now();
+  EXPECT_TRUE(run(bench, arm()));
+  EXPECT_EQ(bench.vehicle->all<CommandLong>().size(), 4u);
+  EXPECT_GE(bench.loop.now() - begun, 3s);
+}
+
+TEST(Command, IsNotAskedForEverOfAVehicleThatIsBusy) {
+  Bench bench;
+  be_busy(*bench.vehicle, 1000);
+  auto const begun = bench.loop.now();
+  auto const result = run(bench, arm(), {.expiry = 60s});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, base::ErrorKind::refused);
+  EXPECT_EQ(result.error().message, "vehicle 1 answered COMPONENT_ARM_DISARM: temporarily rejected");
+  EXPECT_LE(bench.loop.now() - begun, 9s);
+  auto const sent = bench.vehicle->all<CommandLong>().size();
+  EXPECT_FALSE(run(bench, disarm(), {.is_urgent = true}));
+  EXPECT_LE(bench.loop.now() - begun, 12s);
+  EXPECT_GE(bench.vehicle->all<CommandLong>().size(), sent + 5);
+}
+
+TEST(Command, ThatIsBusyIsNotSentAfterItsExpiry) {
+  Bench bench;
+  be_busy(*bench.vehicle, 1000);
+  auto const begun = bench.loop.now();
+  EXPECT_FALSE(run(bench, arm(), {.expiry = 2s}));
+  EXPECT_LE(bench.loop.now() - begun, 2s);
+}
+
 TEST(Command, RepeatsWithConfirmationCountingUpUntilItGivesUp) {
   Bench bench;
   auto const result = run(bench, arm(), {.tries = 4, .ack_timeout = 500ms});
