@@ -64,6 +64,7 @@ class Upload {
   [[nodiscard]] bool all_sent() const { return items_.empty() || last_sent_ == end_ - 1; }
   [[nodiscard]] bool is_part() const { return end_ - first_ < items_.size(); }
   [[nodiscard]] base::Error refusal(MavMissionResult result) const;
+  [[nodiscard]] std::unexpected<base::Error> unasked() const;
 
   Party party_;
   std::vector<MissionItem> const& items_;
@@ -120,6 +121,15 @@ base::Error Upload::refusal(MavMissionResult result) const {
                               to_string(result))};
   return {kind, fmt::format("vehicle {} refused item {} ({}): {}", party_.target.system, *last_sent_,
                             to_string(items_[*last_sent_].command), to_string(result))};
+}
+
+/// Nothing more comes: the vehicle is not heard any more, or is heard and asks for nothing.
+std::unexpected<base::Error> Upload::unasked() const {
+  auto const heard = party_.connection.last_heard(party_.target);
+  if (!heard || party_.now() - *heard >= internal::beats_missed) return silent(party_, "upload");
+  return base::fail(ErrorKind::timed_out,
+                    fmt::format("vehicle {} stopped asking for {}: the last that it wanted was item {}, of {}",
+                                party_.target.system, party_.plural(), requested_, items_.size()));
 }
 
 Upload::Ended Upload::take_request(std::size_t seq) {
@@ -206,7 +216,7 @@ base::Task<base::Result<>> Upload::run() {
     if (!got) {
       if (begun() && party_.now() - heard >= options_.silence_limit) {
         if (doubtful_) co_return std::unexpected(refusal(*doubtful_));
-        co_return silent(party_, "upload");
+        co_return unasked();
       }
       ended = repeat();
     } else {

@@ -57,7 +57,7 @@ TEST(Upload, ReportsARefusedCount) {
   EXPECT_EQ(result.error().message, "vehicle 1 refused 4 mission items: no space left for items");
 }
 
-TEST(Upload, FailsWhenTheVehicleFallsSilentAndSaysSoToIt) {
+TEST(Upload, FailsWhenTheVehicleStopsAskingAndSaysSoToIt) {
   Bench bench;
   MissionStore store(*bench.vehicle);
   store.silent_at = 2;
@@ -65,7 +65,8 @@ TEST(Upload, FailsWhenTheVehicleFallsSilentAndSaysSoToIt) {
   auto const result = upload(bench, mission_of(4), {.restarts = 0});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, base::ErrorKind::timed_out);
-  EXPECT_EQ(result.error().message, "vehicle 1 fell silent during the upload of mission items");
+  EXPECT_EQ(result.error().message,
+            "vehicle 1 stopped asking for mission items: the last that it wanted was item 2, of 4");
   EXPECT_LT(bench.loop.now() - begun, 12s);
   bench.run_for(1s);
   auto const acks = bench.vehicle->all<MissionAck>();

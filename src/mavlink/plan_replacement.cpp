@@ -116,7 +116,10 @@ Task<Result<>> write_and_verify(Job const& job, std::vector<MissionItem> const& 
     if (!may_be_there || (outcome && !job.options.verifies)) break;
     auto const compared = co_await read_back(job, items);
     if (compared && compared->empty()) co_return Result<>{};
-    if (compared)
+    // What was not asked for to its end is not there: that it was not is the cause.
+    if (compared && !outcome)
+      outcome.error().kind = ErrorKind::refused;
+    else if (compared)
       outcome = fail(ErrorKind::refused, fmt::format("the vehicle does not hold what was sent: {}", compared->front()));
     else if (outcome)
       outcome = std::unexpected(named("read-back", compared.error()));
