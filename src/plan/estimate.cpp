@@ -284,8 +284,11 @@ Estimate estimate(Mission const& mission, std::optional<geo::Wgs84> start, Perfo
 }
 
 std::string to_text(Flown const& flown) {
+  // Shares of next to nothing say nothing.
+  constexpr double worth_comparing = 1.0;
   auto const more = [](double expected, double actual) {
-    return expected > 0.0 ? fmt::format(" ({:+.0f} %)", 100.0 * (expected - actual) / std::max(actual, 1e-9)) : "";
+    bool const is_comparable = expected >= worth_comparing && actual >= worth_comparing;
+    return is_comparable ? fmt::format(" ({:+.0f} %)", 100.0 * (expected - actual) / actual) : "";
   };
   double const expected_s = base::to_seconds(flown.estimate.duration);
   double const actual_s = base::to_seconds(flown.duration);

@@ -111,5 +111,12 @@ TEST_F(EstimateTest, KnowsWhatNeverEnds) {
   EXPECT_TRUE(estimated().is_endless);
 }
 
+TEST(Estimate, ComparesNothingWithNextToNothing) {
+  EXPECT_EQ(to_text({.estimate = {.path_m = 75.0, .duration = std::chrono::seconds(10)},
+                     .path_m = 1e-6,
+                     .duration = std::chrono::seconds(10)}),
+            "10 s and 0 m flown, 10 s (+0 %) and 75 m estimated");
+}
+
 }  // namespace
 }  // namespace lapwing::plan
