@@ -1,5 +1,6 @@
 // Any bytes as what an editor sends: the reader of messages, and the server behind it.
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -23,8 +24,10 @@ constexpr std::string_view openings[] = {
     R"({"id":0,"method":"initialize","params":{}})",
     R"({"method":"textDocument/didOpen","params":{"textDocument":{"uri":"u","version":1,"text":"v = pick { }\nm = mission { move 1, 2 }\nexecute v: m / { battery(v) < 0.3 }\n"}}})"};
 
-void work(lsp::Server& server) {
-  while (server.has_work() && !server.exit_code()) (void)server.work();
+/// As if hours passed between two messages, so that every text is checked, too.
+void work(lsp::Server& server, base::TimePoint& now) {
+  now += std::chrono::hours(1);
+  while (server.has_work(now) && !server.exit_code()) (void)server.work(now);
 }
 
 }  // namespace
@@ -32,7 +35,8 @@ void work(lsp::Server& server) {
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   lsp::Server server(builders(), "fuzz");
   for (auto const opening : openings) server.receive(opening);
-  work(server);
+  base::TimePoint now{};
+  work(server, now);
   lsp::MessageReader reader(1 << 16);
   auto const half = size / 2;
   for (auto const part : {std::string_view(reinterpret_cast<char const*>(data), half),
@@ -45,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
         server.receive_mistake(message->mistake);
       }
     }
-    work(server);
+    work(server, now);
   }
   return 0;
 }

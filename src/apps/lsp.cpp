@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "apps/verb.hpp"
+#include "base/loop.hpp"
 #include "lsp/message_reader.hpp"
 #include "lsp/server.hpp"
 #include "tasks/mission_builder.hpp"
@@ -19,9 +21,16 @@ namespace lapwing::apps {
 
 namespace {
 
-bool has_input() {
+/// How long to wait for input, as poll(2) has it: not at all while there is work, without end while nothing is due.
+int patience(lsp::Server const& server, base::TimePoint now) {
+  if (server.has_work(now)) return 0;
+  auto const due = server.next_due();
+  return due ? static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*due - now).count()) : -1;
+}
+
+bool has_input(int patience_ms) {
   pollfd standard_input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  return ::poll(&standard_input, 1, 0) > 0;
+  return ::poll(&standard_input, 1, patience_ms) > 0;
 }
 
 /// Waits for some bytes and hands their messages on. False at the end of the input.
@@ -54,11 +63,13 @@ int serve() {
   std::vector const builders{tasks::mission_builder()};
   lsp::Server server(builders, LAPWING_VERSION);
   lsp::MessageReader reader;
+  base::Loop const clock;
   bool is_open = true;
   while (!server.exit_code()) {
-    while (is_open && (!server.has_work() || has_input())) is_open = read_some(reader, server);
-    if (!server.has_work()) return exit_failed;  // the editor is gone without a word
-    if (!write_all(server.work())) return exit_failed;
+    while (is_open && has_input(patience(server, clock.now()))) is_open = read_some(reader, server);
+    auto const now = clock.now();
+    if (!is_open && !server.has_work(now)) return exit_failed;  // the editor is gone without a word
+    if (server.has_work(now) && !write_all(server.work(now))) return exit_failed;
   }
   return *server.exit_code();
 }

@@ -38,22 +38,17 @@ Position Positions::of(std::uint32_t offset) {
 std::uint32_t Positions::offset(Position position) const {
   if (position.line >= source_.line_count()) return static_cast<std::uint32_t>(source_.text().size());
   auto const line = source_.line_span(position.line + 1);
-  auto const text = source_.text(line);
-  std::uint32_t units = 0;
-  std::uint32_t at = 0;
-  while (at < text.size() && units < position.character) {
-    units += units_of(text[at++]);
-    while (at < text.size() && units_of(text[at]) == 0) ++at;
-  }
-  return line.begin + at;
+  return line.begin + offset_of_unit(source_.text(line), position.character);
 }
 
-std::string edited(base::SourceFile const& source, Position begin, Position end, std::string_view text) {
-  Positions const positions(source);
-  auto const from = positions.offset(begin);
-  auto const to = std::max(from, positions.offset(end));
-  std::string out(source.text().substr(0, from));
-  return out.append(text).append(source.text().substr(to));
+std::uint32_t offset_of_unit(std::string_view line, std::uint32_t unit) {
+  std::uint32_t units = 0;
+  std::uint32_t at = 0;
+  while (at < line.size() && units < unit) {
+    units += units_of(line[at++]);
+    while (at < line.size() && units_of(line[at]) == 0) ++at;
+  }
+  return at;
 }
 
 }  // namespace lapwing::lsp

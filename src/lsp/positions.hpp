@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "base/source.hpp"
@@ -32,7 +31,7 @@ class Positions {
   std::uint32_t last_character_ = 0;
 };
 
-/// The text with the part between two places replaced.
-[[nodiscard]] std::string edited(base::SourceFile const& source, Position begin, Position end, std::string_view text);
+/// The byte of a line at which the UTF-16 unit begins, or the line's end; the middle of a character counts as its end.
+[[nodiscard]] std::uint32_t offset_of_unit(std::string_view line, std::uint32_t unit);
 
 }  // namespace lapwing::lsp

@@ -47,13 +47,5 @@ TEST(Positions, OfAnEmptyText) {
   EXPECT_EQ(positions.offset({5, 5}), 0u);
 }
 
-TEST(Edited, ReplacesPartsOfTheText) {
-  auto const source = sample();
-  EXPECT_EQ(edited(source, {0, 2}, {0, 4}, "-"), "aä-b\r\nxyz");
-  EXPECT_EQ(edited(source, {0, 5}, {1, 1}, ""), "aä🐦byz");
-  EXPECT_EQ(edited(source, {9, 9}, {9, 9}, "!"), "aä🐦b\r\nxyz!");
-  EXPECT_EQ(edited(source, {1, 2}, {0, 0}, "?"), "aä🐦b\r\nxy?z") << "a range that ends before it begins is empty";
-}
-
 }  // namespace
 }  // namespace lapwing::lsp

@@ -17,6 +17,7 @@ constexpr int method_not_found = -32601;
 constexpr int invalid_parameters = -32602;
 constexpr int not_initialized = -32002;
 constexpr int request_cancelled = -32800;
+constexpr int content_modified = -32801;
 constexpr int request_failed = -32803;
 
 int error_code(base::ErrorKind kind) {
@@ -26,6 +27,14 @@ int error_code(base::ErrorKind kind) {
 
 bool is_id(Json const& id) {
   return id.is_string() || id.is_number_integer();
+}
+
+/// Questions that editors ask by themselves about a whole text, and ask again when it has changed.
+bool is_about_whole_text(std::string_view method) {
+  constexpr auto methods = std::to_array<std::string_view>(
+      {"textDocument/semanticTokens/full", "textDocument/inlayHint", "textDocument/foldingRange",
+       "textDocument/documentSymbol", "textDocument/documentHighlight"});
+  return std::ranges::find(methods, method) != methods.end();
 }
 
 std::string uri_of(Json const& parameters) {
@@ -56,7 +65,32 @@ void Server::receive_mistake(std::string_view what) {
   queue_.push_back({Json(), std::string(what)});
 }
 
-std::vector<std::string> Server::work() {
+std::optional<base::TimePoint> Server::next_due() const {
+  std::optional<base::TimePoint> out;
+  for (auto const& [uri, script] : scripts_) {
+    if (script.check_at && (!out || *script.check_at < *out)) out = script.check_at;
+  }
+  return out;
+}
+
+bool Server::has_work(base::TimePoint now) const {
+  auto const due = next_due();
+  return !queue_.empty() || (due && *due <= now);
+}
+
+std::vector<std::string> Server::work(base::TimePoint now) {
+  now_ = now;
+  if (!queue_.empty()) {
+    carry_out_next();
+  } else {
+    auto const is_due = [&](auto const& one) { return one.second.check_at && *one.second.check_at <= now; };
+    auto const found = std::ranges::find_if(scripts_, is_due);
+    if (found != scripts_.end()) publish(found->first, found->second);
+  }
+  return std::exchange(outgoing_, {});
+}
+
+void Server::carry_out_next() {
   auto const [message, mistake, is_cancelled] = std::move(queue_.front());
   queue_.pop_front();
   auto const& id = member(message, "id");
@@ -70,12 +104,20 @@ std::vector<std::string> Server::work() {
     fail(is_id(id) ? id : Json(), invalid_request, "a message needs a method, and a request an id");
   } else if (is_cancelled) {
     fail(id, request_cancelled, "cancelled");
+  } else if (is_request && is_about_whole_text(method) && changes_later(uri_of(member(message, "params")))) {
+    fail(id, content_modified, "the text has changed");
   } else if (is_request) {
     answer(id, method, member(message, "params"));
   } else {
     notice(method, member(message, "params"));
   }
-  return std::exchange(outgoing_, {});
+}
+
+bool Server::changes_later(std::string const& uri) const {
+  return std::ranges::any_of(queue_, [&](Pending const& waiting) {
+    return text(member(waiting.message, "method")) == "textDocument/didChange" &&
+           uri_of(member(waiting.message, "params")) == uri;
+  });
 }
 
 void Server::send(Json message) {
@@ -120,6 +162,11 @@ Server::Request Server::request(std::string_view method) {
       {"textDocument/prepareRename", &Server::prepare_rename},
       {"textDocument/rename", &Server::rename},
       {"textDocument/formatting", &Server::formatting},
+      {"textDocument/rangeFormatting", &Server::range_formatting},
+      {"textDocument/foldingRange", &Server::folding_ranges},
+      {"textDocument/selectionRange", &Server::selection_ranges},
+      {"textDocument/inlayHint", &Server::inlay_hints},
+      {"workspace/symbol", &Server::workspace_symbols},
       {"textDocument/semanticTokens/full", &Server::semantic_tokens},
       {"textDocument/codeAction", &Server::code_actions},
   });
@@ -159,27 +206,28 @@ void Server::open(Json const& parameters) {
   auto const uri = uri_of(parameters);
   if (uri.empty()) return;
   auto const& document = member(parameters, "textDocument");
-  scripts_[uri].version = natural(member(document, "version"));
-  read_again(uri, text(member(document, "text")));
+  auto& script = scripts_[uri];
+  script.version = natural(member(document, "version"));
+  script.text = EditedText(text(member(document, "text")));
+  has_changed(script, base::Duration::zero());
 }
 
 void Server::change(Json const& parameters) {
   auto const found = scripts_.find(uri_of(parameters));
   if (found == scripts_.end()) return;
-  auto& [uri, script] = *found;
+  auto& script = found->second;
   script.version = natural(member(member(parameters, "textDocument"), "version"));
-  std::string now(script.document->source().text());
   for (auto const& one : member(parameters, "contentChanges")) {
     auto const begin = position(member(member(one, "range"), "start"));
     auto const end = position(member(member(one, "range"), "end"));
     auto replacement = text(member(one, "text"));
     if (begin && end) {
-      now = edited(base::SourceFile(uri, std::move(now)), *begin, *end, replacement);
+      script.text.replace(*begin, *end, replacement);
     } else {
-      now = std::move(replacement);
+      script.text = EditedText(std::move(replacement));
     }
   }
-  read_again(uri, std::move(now));
+  has_changed(script, pause);
 }
 
 void Server::close(Json const& parameters) {
@@ -188,26 +236,34 @@ void Server::close(Json const& parameters) {
   send({{"method", "textDocument/publishDiagnostics"}, {"params", {{"uri", uri}, {"diagnostics", Json::array()}}}});
 }
 
-void Server::read_again(std::string const& uri, std::string text) {
-  auto& script = scripts_[uri];
-  script.document = std::make_unique<dolphin::Document>(uri, std::move(text), vocabulary_);
-  script.diagnostics.clear();
-  if (!changes_again(uri)) publish(uri);
+void Server::has_changed(OpenScript& script, base::Duration wait) {
+  script.document.reset();
+  script.diagnostics.reset();
+  script.check_at = now_ + wait;
 }
 
-bool Server::changes_again(std::string const& uri) const {
-  return std::ranges::any_of(queue_, [&](Pending const& waiting) {
-    return text(member(waiting.message, "method")) == "textDocument/didChange" &&
-           uri_of(member(waiting.message, "params")) == uri;
-  });
+dolphin::Document const& Server::document_of(std::string const& uri, OpenScript& script) {
+  if (!script.document) {
+    script.document = std::make_unique<dolphin::Document>(uri, script.text.text(), vocabulary_);
+    ++effort_.readings;
+  }
+  return *script.document;
 }
 
-void Server::publish(std::string const& uri) {
-  auto& script = scripts_.at(uri);
-  script.diagnostics = script.document->diagnostics();
+std::vector<base::Diagnostic> const& Server::diagnostics_of(std::string const& uri, OpenScript& script) {
+  if (!script.diagnostics) {
+    script.diagnostics = document_of(uri, script).diagnostics();
+    ++effort_.checks;
+  }
+  return *script.diagnostics;
+}
+
+void Server::publish(std::string const& uri, OpenScript& script) {
+  script.check_at.reset();
+  auto const& diagnostics = diagnostics_of(uri, script);
   Positions positions(script.document->source());
   auto all = Json::array();
-  for (auto const& one : script.diagnostics) all.push_back(diagnostic(one, uri, positions));
+  for (auto const& one : diagnostics) all.push_back(diagnostic(one, uri, positions));
   send({{"method", "textDocument/publishDiagnostics"},
         {"params", {{"uri", uri}, {"version", script.version}, {"diagnostics", std::move(all)}}}});
 }

@@ -25,7 +25,14 @@ class Talk {
   void queue(Json const& message) { server.receive(to_line(message)); }
   std::vector<Json> step() {
     std::vector<Json> out;
-    for (auto const& one : server.work()) out.push_back(Json::parse(one));
+    for (auto const& one : server.work(now)) out.push_back(Json::parse(one));
+    return out;
+  }
+  /// Nobody types for so long; what the server says of itself then.
+  std::vector<Json> wait(base::Duration duration) {
+    now += duration;
+    std::vector<Json> out;
+    while (server.has_work(now)) std::ranges::copy(step(), std::back_inserter(out));
     return out;
   }
   std::vector<Json> tell(std::string const& method, Json const& parameters) {
@@ -50,7 +57,17 @@ class Talk {
   }
 
   std::vector<Json> open(std::string const& script) {
-    return tell("textDocument/didOpen", {{"textDocument", {{"uri", uri}, {"version", 1}, {"text", script}}}});
+    EXPECT_TRUE(
+        tell("textDocument/didOpen", {{"textDocument", {{"uri", uri}, {"version", 1}, {"text", script}}}}).empty());
+    return wait(base::Duration::zero());
+  }
+  /// Somebody types one letter.
+  void type(int line, int character, std::string const& letter) {
+    Json const place{{"line", line}, {"character", character}};
+    Json const change{{"range", {{"start", place}, {"end", place}}}, {"text", letter}};
+    EXPECT_TRUE(tell("textDocument/didChange",
+                     {{"textDocument", {{"uri", uri}, {"version", ++version}}}, {"contentChanges", {change}}})
+                    .empty());
   }
   static Json at(int line, int character) {
     return {{"textDocument", {{"uri", uri}}}, {"position", {{"line", line}, {"character", character}}}};
@@ -58,14 +75,16 @@ class Talk {
 
   std::vector<tasks::BuilderSpec> builders{tasks::mission_builder()};
   Server server{builders, "1.2.3"};
+  base::TimePoint now{};
   int id = 0;
+  int version = 1;
 };
 
 TEST(Server, TellsWhatItCanDo) {
   std::vector<tasks::BuilderSpec> const builders{tasks::mission_builder()};
   Server server(builders, "1.2.3");
   server.receive(R"({"jsonrpc":"2.0","id":"a","method":"initialize","params":{}})");
-  auto const out = Json::parse(server.work().at(0));
+  auto const out = Json::parse(server.work({}).at(0));
   EXPECT_EQ(out["id"], "a");
   EXPECT_EQ(out["jsonrpc"], "2.0");
   EXPECT_EQ(out["result"]["serverInfo"]["version"], "1.2.3");
@@ -80,7 +99,7 @@ TEST(Server, GoesThroughItsLife) {
   Server server(builders, "1");
   auto const code = [&](char const* message) {
     server.receive(message);
-    auto const out = server.work();
+    auto const out = server.work({});
     return out.empty() ? Json() : member(member(Json::parse(out[0]), "error"), "code");
   };
   EXPECT_EQ(code(R"({"id":1,"method":"textDocument/hover","params":{}})"), -32002);
@@ -142,7 +161,7 @@ TEST(Server, CancelsARequestBeforeItsTurn) {
   talk.queue({{"method", "$/cancelRequest"}, {"params", {{"id", 70}}}});
   EXPECT_EQ(talk.step()[0]["error"]["code"], -32800);
   EXPECT_TRUE(talk.step()[0].contains("result"));
-  EXPECT_FALSE(talk.server.has_work()) << "cancelling what is done, or unknown, is no mistake";
+  EXPECT_FALSE(talk.server.has_work(talk.now)) << "cancelling what is done, or unknown, is no mistake";
 }
 
 TEST(Server, PublishesDiagnosticsWithCodesAndQuickFixes) {
@@ -185,6 +204,53 @@ TEST(Server, OffersEachFixAsAnEditThatSaysWhatItDoes) {
   }
 }
 
+TEST(Server, ChecksAScriptOnceWhenNobodyTypesAnyMore) {
+  Talk talk("x = 1\nmessage y\n");
+  auto const before = talk.server.effort();
+  for (int i = 0; i < 20; ++i) {
+    talk.type(0, 5 + i, "1");
+    EXPECT_TRUE(talk.wait(Server::pause - std::chrono::milliseconds(1)).empty()) << "the next key puts the check off";
+  }
+  EXPECT_EQ(talk.server.effort().readings, before.readings);
+  EXPECT_EQ(talk.server.effort().checks, before.checks);
+  auto const out = talk.wait(std::chrono::milliseconds(1));
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(out[0]["params"]["version"], 21);
+  EXPECT_EQ(out[0]["params"]["diagnostics"].size(), 2u) << "the number has become too large, and there is no y";
+  EXPECT_EQ(talk.server.effort().readings, before.readings + 1);
+  EXPECT_EQ(talk.server.effort().checks, before.checks + 1);
+  EXPECT_FALSE(talk.server.next_due());
+}
+
+TEST(Server, AnswersAboutTheTextOfNowWithoutACheck) {
+  Talk talk("alpha = 1\nmessage a\n");
+  auto const before = talk.server.effort();
+  for (char const letter : std::string("lpha")) {
+    auto const column = 9 + (static_cast<int>(std::string("lpha").find(letter)));
+    talk.type(1, column, std::string(1, letter));
+  }
+  EXPECT_EQ(talk.ask("textDocument/definition", Talk::at(1, 10))[0]["range"]["start"]["line"], 0);
+  EXPECT_FALSE(talk.ask("textDocument/hover", Talk::at(1, 10)).is_null());
+  EXPECT_FALSE(talk.ask("textDocument/completion", Talk::at(1, 10))["items"].empty());
+  EXPECT_EQ(talk.server.effort().readings, before.readings + 1) << "once for all questions about one text";
+  EXPECT_EQ(talk.server.effort().checks, before.checks);
+}
+
+TEST(Server, OffersFixesOfTheTextOfNow) {
+  Talk talk("x = 1\n");
+  talk.type(0, 5, "\nmessage xx");
+  Json parameters{{"textDocument", {{"uri", uri}}},
+                  {"range", {{"start", {{"line", 1}, {"character", 8}}}, {"end", {{"line", 1}, {"character", 8}}}}}};
+  parameters["context"]["triggerKind"] = 2;
+  EXPECT_TRUE(talk.ask("textDocument/codeAction", parameters).empty())
+      << "the editor's own question waits for the check";
+  parameters["context"]["triggerKind"] = 1;
+  EXPECT_EQ(talk.ask("textDocument/codeAction", parameters).size(), 1u);
+  parameters["context"]["triggerKind"] = 2;
+  EXPECT_EQ(talk.ask("textDocument/codeAction", parameters).size(), 1u);
+  EXPECT_EQ(talk.wait(Server::pause).size(), 1u) << "the diagnostics are told all the same";
+}
+
 TEST(Server, FollowsChangesAndPublishesOnceForABurst) {
   Talk talk("x = 1\nmessage y\n");
   auto const change = [](int version, Json changes) {
@@ -195,8 +261,9 @@ TEST(Server, FollowsChangesAndPublishesOnceForABurst) {
                    {"text", "x"}};
   talk.queue(change(2, Json::array({first})));
   talk.queue(change(3, Json::array({{{"text", "message 'ä🐦' + z\n"}}})));
-  EXPECT_TRUE(talk.step().empty()) << "another change waits";
-  auto const out = talk.step();
+  EXPECT_TRUE(talk.step().empty());
+  EXPECT_TRUE(talk.step().empty());
+  auto const out = talk.wait(Server::pause);
   ASSERT_EQ(out.size(), 1u);
   EXPECT_EQ(out[0]["params"]["version"], 3);
   EXPECT_EQ(out[0]["params"]["diagnostics"][0]["range"]["start"]["character"], 16);
@@ -243,6 +310,74 @@ TEST(Server, FormatsWithOneEditAndLeavesBrokenScriptsAlone) {
   EXPECT_EQ(edits[0]["range"]["start"], (Json{{"line", 0}, {"character", 1}}));
   Talk broken("x = (1\n");
   EXPECT_TRUE(broken.ask("textDocument/formatting", parameters).empty());
+}
+
+TEST(Server, FormatsOnlyTheLinesThatAreSelected) {
+  Talk talk("a=1\nif (a) {\n\n\n      b=2\n   c=3\n}\nd=4\n");
+  auto const format = [&](int first, int last, int column) {
+    return talk.ask(
+        "textDocument/rangeFormatting",
+        {{"textDocument", {{"uri", uri}}},
+         {"options", Json::object()},
+         {"range",
+          {{"start", {{"line", first}, {"character", 0}}}, {"end", {{"line", last}, {"character", column}}}}}});
+  };
+  auto const one = format(4, 4, 9);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0]["range"]["start"], (Json{{"line", 4}, {"character", 2}}));
+  EXPECT_EQ(one[0]["newText"], "b = ");
+  auto const two = format(4, 6, 0);
+  ASSERT_EQ(two.size(), 1u);
+  EXPECT_EQ(two[0]["newText"], "b = 2\n  c = ");
+  EXPECT_TRUE(format(6, 6, 1).empty()) << "nothing to do";
+  EXPECT_TRUE(format(2, 3, 0).empty()) << "blank lines alone are left";
+}
+
+TEST(Server, FoldsAndSelectsAndHints) {
+  Talk talk("m = mission {\n  home 41, -8, 90\n  takeOff location(41, -8, 120)\n}\n");
+  Json const whole{{"textDocument", {{"uri", uri}}},
+                   {"range", {{"start", {{"line", 0}, {"character", 0}}}, {"end", {{"line", 9}, {"character", 0}}}}}};
+  EXPECT_EQ(talk.ask("textDocument/foldingRange", whole), (Json::array({{{"startLine", 0}, {"endLine", 2}}})));
+  auto const hints = talk.ask("textDocument/inlayHint", whole);
+  auto const high = std::ranges::find_if(hints, [](Json const& one) { return one["label"] == " 30 m above home"; });
+  ASSERT_NE(high, hints.end()) << hints;
+  EXPECT_EQ((*high)["position"], (Json{{"line", 2}, {"character", 31}}));
+  auto const chosen = talk.ask("textDocument/selectionRange",
+                               {{"textDocument", {{"uri", uri}}}, {"positions", {{{"line", 2}, {"character", 4}}}}});
+  ASSERT_EQ(chosen.size(), 1u);
+  EXPECT_EQ(chosen[0]["range"]["end"], (Json{{"line", 2}, {"character", 9}})) << "takeOff";
+  EXPECT_EQ(chosen[0]["parent"]["range"]["end"], (Json{{"line", 2}, {"character", 31}}));
+  EXPECT_EQ(talk.error("textDocument/inlayHint", {{"textDocument", {{"uri", uri}}}}), -32602) << "without a range";
+}
+
+TEST(Server, FindsSymbolsInAllOpenScripts) {
+  Talk talk("surveyNorth = mission { }\nv = pick { }\n");
+  talk.tell("textDocument/didOpen",
+            {{"textDocument", {{"uri", "file:///b.dolphin"}, {"version", 1}, {"text", "south = 1\n"}}}});
+  auto const names = [&](char const* query) {
+    std::vector<std::string> out;
+    for (auto const& one : talk.ask("workspace/symbol", {{"query", query}})) out.push_back(one["name"]);
+    return out;
+  };
+  EXPECT_EQ(names("").size(), 3u);
+  EXPECT_EQ(names("sth"), (std::vector<std::string>{"south", "surveyNorth"}));
+  EXPECT_EQ(names("SNORTH"), std::vector<std::string>{"surveyNorth"});
+  EXPECT_TRUE(names("zz").empty());
+}
+
+TEST(Server, LeavesQuestionsAboutATextThatHasChangedSince) {
+  Talk talk("x = 1\n");
+  auto const before = talk.server.effort();
+  talk.queue(
+      {{"id", 80}, {"method", "textDocument/semanticTokens/full"}, {"params", {{"textDocument", {{"uri", uri}}}}}});
+  talk.queue({{"id", 81}, {"method", "textDocument/hover"}, {"params", Talk::at(0, 0)}});
+  talk.queue(
+      {{"method", "textDocument/didChange"},
+       {"params", {{"textDocument", {{"uri", uri}, {"version", 2}}}, {"contentChanges", {{{"text", "y = 1\n"}}}}}}});
+  EXPECT_EQ(talk.step()[0]["error"]["code"], -32801) << "the editor asks again";
+  EXPECT_TRUE(talk.step()[0].contains("result"));
+  EXPECT_TRUE(talk.step().empty());
+  EXPECT_EQ(talk.server.effort().readings, before.readings);
 }
 
 TEST(Server, EncodesSemanticTokensRelativeToEachOther) {

@@ -43,18 +43,6 @@ int completion_kind(CompletionKind kind) {
   return 1;
 }
 
-/// LSP's SymbolKind
-int symbol_kind(SymbolKind kind) {
-  switch (kind) {
-    case SymbolKind::function: return 12;
-    case SymbolKind::mission: return 5;
-    case SymbolKind::vehicles: return 18;
-    case SymbolKind::task: return 24;
-    case SymbolKind::variable: return 13;
-  }
-  return 13;
-}
-
 Json markdown(std::string const& text) {
   return {{"kind", "markdown"}, {"value", text}};
 }
@@ -69,6 +57,35 @@ Json completion_item(dolphin::CompletionItem const& item, Json const& range, boo
            {"textEdit", {{"range", range}, {"newText", is_snippet ? item.snippet : plain}}}};
   if (!item.detail.empty()) out["detail"] = item.detail;
   if (!item.markdown.empty()) out["documentation"] = markdown(item.markdown);
+  return out;
+}
+
+/// One edit that puts `now` in the place of `part`, without what both have in common at begin and end.
+Json edit_of(base::SourceFile const& source, base::Span part, std::string_view now) {
+  auto const old = source.text(part);
+  if (old == now) return Json::array();
+  auto const is_inside_character = [](std::string_view text, std::size_t at) {
+    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u;
+  };
+  auto const shorter = std::min(old.size(), now.size());
+  std::size_t begin = 0;
+  while (begin < shorter && old[begin] == now[begin]) ++begin;
+  while (begin > 0 && (is_inside_character(old, begin) || old[begin - 1] == '\r')) --begin;
+  std::size_t tail = 0;
+  while (tail < shorter - begin && old[old.size() - tail - 1] == now[now.size() - tail - 1]) ++tail;
+  while (tail > 0 && (is_inside_character(old, old.size() - tail) || old[old.size() - tail] == '\n')) --tail;
+  base::Span const changed{part.begin + static_cast<std::uint32_t>(begin), part.end - static_cast<std::uint32_t>(tail)};
+  Positions positions(source);
+  return {{{"range", range(changed, positions)}, {"newText", now.substr(begin, now.size() - tail - begin)}}};
+}
+
+/// The lines that hold something.
+std::vector<base::Span> written_lines(base::SourceFile const& source) {
+  std::vector<base::Span> out;
+  for (std::uint32_t line = 1; line <= source.line_count(); ++line) {
+    auto const span = source.line_span(line);
+    if (source.text(span).find_first_not_of(" \t\f\v") != std::string_view::npos) out.push_back(span);
+  }
   return out;
 }
 
@@ -213,23 +230,57 @@ Json semantic_result(std::vector<dolphin::SemanticToken> const& tokens, base::So
   return {{"data", encoder.take()}};
 }
 
+/// LSP's SymbolKind
+int symbol_kind(SymbolKind kind) {
+  switch (kind) {
+    case SymbolKind::function: return 12;
+    case SymbolKind::mission: return 5;
+    case SymbolKind::vehicles: return 18;
+    case SymbolKind::task: return 24;
+    case SymbolKind::variable: return 13;
+  }
+  return 13;
+}
+
+Json fold_result(dolphin::Fold const& fold) {
+  Json out{{"startLine", fold.first}, {"endLine", fold.last}};
+  if (fold.kind == dolphin::FoldKind::comment) out["kind"] = "comment";
+  if (fold.kind == dolphin::FoldKind::region) out["kind"] = "region";
+  return out;
+}
+
+Json inlay_hint_result(dolphin::InlayHint const& hint, Positions& positions) {
+  constexpr int parameter = 2;
+  bool const is_name = hint.kind == dolphin::InlayHint::Kind::parameter;
+  Json out{{"position", position_json(positions.of(hint.offset))}, {"label", hint.text}, {"paddingRight", is_name}};
+  if (is_name) out["kind"] = parameter;
+  return out;
+}
+
+base::Result<base::Span> span_of(Json const& range, base::SourceFile const& source) {
+  auto const begin = position(member(range, "start"));
+  auto const end = position(member(range, "end"));
+  if (!begin || !end) return base::fail(base::ErrorKind::invalid_input, "a range is missing");
+  Positions const positions(source);
+  auto const from = positions.offset(*begin);
+  return base::Span{from, std::max(from, positions.offset(*end))};
+}
+
 Json edits_between(base::SourceFile const& before, std::string const& after) {
-  auto const old = before.text();
-  if (old == after) return Json::array();
-  auto const is_inside_character = [](std::string_view text, std::size_t at) {
-    return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0u) == 0x80u;
-  };
-  auto const shorter = std::min(old.size(), after.size());
-  auto begin = static_cast<std::size_t>(
-      std::mismatch(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(shorter), after.begin()).first -
-      old.begin());
-  while (begin > 0 && (is_inside_character(old, begin) || old[begin - 1] == '\r')) --begin;
-  std::size_t tail = 0;
-  while (tail < shorter - begin && old[old.size() - tail - 1] == after[after.size() - tail - 1]) ++tail;
-  while (tail > 0 && (is_inside_character(old, old.size() - tail) || old[old.size() - tail] == '\n')) --tail;
-  base::Span const changed{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(old.size() - tail)};
-  Positions positions(before);
-  return {{{"range", range(changed, positions)}, {"newText", after.substr(begin, after.size() - tail - begin)}}};
+  return edit_of(before, {0, static_cast<std::uint32_t>(before.text().size())}, after);
+}
+
+Json edits_of_lines(base::SourceFile const& before, std::string const& after, base::Span part) {
+  base::SourceFile const formatted(before.name(), after);
+  auto const old_lines = written_lines(before);
+  auto const new_lines = written_lines(formatted);
+  if (old_lines.size() != new_lines.size()) return Json::array();
+  auto const first = std::ranges::partition_point(old_lines, [&](base::Span line) { return line.end < part.begin; });
+  auto const behind = std::ranges::partition_point(old_lines, [&](base::Span line) { return line.begin < part.end; });
+  if (first >= behind) return Json::array();
+  auto const i = static_cast<std::size_t>(first - old_lines.begin());
+  auto const j = static_cast<std::size_t>(behind - old_lines.begin()) - 1;
+  return edit_of(before, cover(old_lines[i], old_lines[j]), formatted.text(cover(new_lines[i], new_lines[j])));
 }
 
 Json server_capabilities() {
@@ -240,7 +291,7 @@ Json server_capabilities() {
   return {{"positionEncoding", "utf-16"},
           {"textDocumentSync", {{"openClose", true}, {"change", 2}}},
           {"hoverProvider", true},
-          {"completionProvider", {{"triggerCharacters", {".", "'", "\""}}}},
+          {"completionProvider", {{"triggerCharacters", {".", "'", "\"", "$", "("}}}},
           {"signatureHelpProvider", {{"triggerCharacters", {" ", "(", ","}}}},
           {"definitionProvider", true},
           {"referencesProvider", true},
@@ -248,6 +299,11 @@ Json server_capabilities() {
           {"documentSymbolProvider", true},
           {"renameProvider", {{"prepareProvider", true}}},
           {"documentFormattingProvider", true},
+          {"documentRangeFormattingProvider", true},
+          {"foldingRangeProvider", true},
+          {"selectionRangeProvider", true},
+          {"inlayHintProvider", true},
+          {"workspaceSymbolProvider", true},
           {"codeActionProvider", {{"codeActionKinds", {"quickfix"}}}},
           {"semanticTokensProvider", {{"legend", legend}, {"full", true}}}};
 }

@@ -4,11 +4,14 @@
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "base/error.hpp"
 #include "dolphin/services/completion.hpp"
 #include "dolphin/services/hover.hpp"
 #include "dolphin/services/navigation.hpp"
 #include "dolphin/services/semantic_tokens.hpp"
 #include "dolphin/services/signature_help.hpp"
+#include "dolphin/services/view/folding.hpp"
+#include "dolphin/services/view/inlay_hints.hpp"
 #include "lsp/json.hpp"
 
 /// What the language services say, in the words of LSP 3.17.
@@ -23,10 +26,17 @@ namespace lapwing::lsp {
 [[nodiscard]] Json completion_result(dolphin::Completion const& completion, Positions& positions, bool with_snippets);
 [[nodiscard]] Json signature_result(dolphin::SignatureHelp const& help);
 [[nodiscard]] Json symbol_result(dolphin::Symbol const& symbol, Positions& positions);
+[[nodiscard]] int symbol_kind(dolphin::SymbolKind kind);
+[[nodiscard]] Json fold_result(dolphin::Fold const& fold);
+[[nodiscard]] Json inlay_hint_result(dolphin::InlayHint const& hint, Positions& positions);
 /// Numbers of LSP's relative encoding; tokens over several lines are cut at their ends.
 [[nodiscard]] Json semantic_result(std::vector<dolphin::SemanticToken> const& tokens, base::SourceFile const& source);
 /// One edit that turns `before` into `after`: what both texts have in common at begin and end is left alone.
 [[nodiscard]] Json edits_between(base::SourceFile const& before, std::string const& after);
+/// The same for the lines of `part` alone. Of a text that has been formatted, whose lines are the author's.
+[[nodiscard]] Json edits_of_lines(base::SourceFile const& before, std::string const& after, base::Span part);
+/// The part of the text that a range of LSP means.
+[[nodiscard]] base::Result<base::Span> span_of(Json const& range, base::SourceFile const& source);
 /// What `initialize` says about this server.
 [[nodiscard]] Json server_capabilities();
 

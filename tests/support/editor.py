@@ -22,9 +22,13 @@ class Editor:
         self.process.stdin.write(raw)
         self.process.stdin.flush()
 
-    def send(self, message: dict):
+    @staticmethod
+    def framed(message: dict) -> bytes:
         body = json.dumps({"jsonrpc": "2.0", **message}).encode()
-        self.write(b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
+        return b"Content-Length: %d\r\n\r\n%s" % (len(body), body)
+
+    def send(self, message: dict):
+        self.write(self.framed(message))
 
     def receive(self, seconds: float = 20) -> dict:
         """The next message; anything else on standard output fails."""
