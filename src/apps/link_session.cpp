@@ -14,7 +14,8 @@ namespace {
 
 base::LogHub::Sink warnings() {
   return [sink = base::standard_error_sink(base::LogLevel::warn)](base::LogRecord const& record) {
-    bool const is_of_a_vehicle = record.source == "fleet" && record.level < base::LogLevel::error;
+    bool const is_of_a_vehicle =
+        (record.source == "fleet" || record.source == "alarm") && record.level < base::LogLevel::error;
     if (!is_of_a_vehicle) sink(record);
   };
 }

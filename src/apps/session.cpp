@@ -22,6 +22,15 @@ base::LogHub::Sink terminal_sink(base::LogLevel lowest) {
   };
 }
 
+fleet::Fleet::Options fleet_options(Session::Options const& options) {
+  fleet::Fleet::Options fleet{.battery_limits = options.battery_limits, .payload = options.payload};
+  fleet.asks_for_messages = !options.listens_only;
+  // The faster time runs, the more of it passes while a busy machine is late by a moment.
+  constexpr base::Duration moment = std::chrono::milliseconds(300);
+  fleet.silence = std::max(fleet.silence, base::from_seconds(base::to_seconds(moment) * options.speedup));
+  return fleet;
+}
+
 base::Loop::Pace pace_of(Session::Options const& options) {
   auto pace = pace_for(options.speedup, options.seed);
   if (options.begins_at) pace.begins_at = options.begins_at;
@@ -47,7 +56,7 @@ base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text) 
 Session::Session(Options const& options)
     : loop(pace_of(options)),
       log(hub, "lapwing"),
-      ground(loop, log, {.payload = options.payload, .asks_for_messages = !options.listens_only}, options.signing),
+      ground(loop, log, fleet_options(options), options.signing),
       platform(ground.fleet, {.run = {.on_stop = options.on_stop}, .plan_library = options.plans.library},
                log.named("fleet")),
       control(ground.fleet, platform, {.stop_action = options.emergency_action}, log),

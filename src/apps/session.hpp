@@ -33,6 +33,7 @@ class Session {
     double speedup = 1.0;  ///< 0: as fast as the machine computes
     fleet::OnStop on_stop = fleet::OnStop::loiter;
     vehicle::StopAction emergency_action = vehicle::StopAction::hold;
+    vehicle::BatteryLimits battery_limits = {};  ///< of alarms
     LoadedPlans plans = {};
     Equipment payload = {};
     EventFile const* events = nullptr;  ///< outlives the session

@@ -76,6 +76,7 @@ int serve(StationArguments const& arguments) {
   if (!signing) return refuse(signing.error());
   Session session({.on_stop = config->on_stop,
                    .emergency_action = config->emergency_action,
+                   .battery_limits = config->battery_limits,
                    .plans = *std::move(plans),
                    .payload = config->payload,
                    .signing = *signing});

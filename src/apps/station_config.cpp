@@ -124,6 +124,20 @@ void read_map(ConfigReader map, base::SourceFile const& source, Diagnostics& dia
   map.refuse_unknown();
 }
 
+void read_alarms(ConfigReader alarms, Diagnostics& diagnostics, vehicle::BatteryLimits& limits) {
+  auto const low = alarms.number("battery_low_percent", 0.0, 100.0);
+  auto const critical = alarms.number("battery_critical_percent", 0.0, 100.0);
+  if (low) limits.low = low->value / 100.0;
+  if (critical) limits.critical = critical->value / 100.0;
+  if (limits.critical > limits.low) {
+    diagnostics.report(base::config_kinds::invalid_value, critical ? critical->span : low->span,
+                       "a battery is low before it is critical",
+                       fmt::format("battery_low_percent is {:g}, battery_critical_percent {:g}", limits.low * 100.0,
+                                   limits.critical * 100.0));
+  }
+  alarms.refuse_unknown();
+}
+
 }  // namespace
 
 base::Result<> check_tiles(std::string const& address) {
@@ -154,6 +168,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);
   if (auto map = root.table("map")) read_map(std::move(*map), source, diagnostics, config.map);
+  if (auto alarms = root.table("alarms")) read_alarms(std::move(*alarms), diagnostics, config.battery_limits);
   root.refuse_unknown();
   return config;
 }

@@ -11,6 +11,7 @@
 #include "base/diagnostic.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "geo/position.hpp"
+#include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
 
 namespace lapwing::apps {
@@ -29,9 +30,10 @@ struct StationConfig {
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   vehicle::StopAction emergency_action = vehicle::StopAction::hold;
-  std::vector<Forward> forward = {};  ///< other programs that ride along
-  std::string signing_key = {};       ///< file; empty: nothing is signed
-  std::string record = {};            ///< folder for recordings; empty: none are made
+  std::vector<Forward> forward = {};           ///< other programs that ride along
+  std::string signing_key = {};                ///< file; empty: nothing is signed
+  std::string record = {};                     ///< folder for recordings; empty: none are made
+  vehicle::BatteryLimits battery_limits = {};  ///< of alarms
   WebAccess web;
   MapContent map;
 };

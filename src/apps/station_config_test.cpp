@@ -30,6 +30,15 @@ std::string first_complaint(std::string text) {
          records[0].message + " | " + records[0].hint;
 }
 
+TEST(StationConfig, SetsFromWhereOnABatteryCountsAsLow) {
+  Read const read("[alarms]\nbattery_low_percent = 40\nbattery_critical_percent = 25.5\n");
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_DOUBLE_EQ(read.config.battery_limits.low, 0.4);
+  EXPECT_DOUBLE_EQ(read.config.battery_limits.critical, 0.255);
+  EXPECT_EQ(first_complaint("[alarms]\nbattery_critical_percent = 40\n"),
+            "2:28 a battery is low before it is critical | battery_low_percent is 30, battery_critical_percent 40");
+}
+
 TEST(StationConfig, OfAnEmptyFileIsLoopbackAlone) {
   Read const read("");
   EXPECT_EQ(read.complaints(), "");

@@ -14,7 +14,8 @@ Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Optio
     : registry_(registry),
       log_(std::move(log)),
       options_(options),
-      authority_(connection.loop(), registry, log_.named("command")) {
+      authority_(connection.loop(), registry, log_.named("command")),
+      alarms_(connection.loop(), registry, options.battery_limits, log_.named("alarm")) {
   open(connection, std::move(options));
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fleet/alarms/alarms.hpp"
 #include "fleet/authority.hpp"
 #include "fleet/network.hpp"
 
@@ -37,6 +38,8 @@ class Fleet {
 
   /// Who commands which vehicle.
   [[nodiscard]] Authority& authority() { return authority_; }
+  /// What operators must be told about any of them.
+  [[nodiscard]] vehicle::VehicleAlarms& alarms() { return alarms_; }
   /// `heard` sees every message of every network, those added later included, as long as the result lives.
   [[nodiscard]] std::shared_ptr<Heard const> subscribe(Heard heard);
   /// Of every network, those added later included. One at a time; empty: none.
@@ -60,6 +63,7 @@ class Fleet {
   std::vector<std::weak_ptr<Heard const>> listeners_;
   std::vector<std::unique_ptr<Network>> networks_;
   std::vector<mavlink::Subscription> subscriptions_;
+  Alarms alarms_;
 };
 
 }  // namespace lapwing::fleet

@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::string_view camera = "Camera";  // the language's name for it (specification, REC-44)
 constexpr Duration watch_period = 250ms;
+constexpr Duration heartbeat_period = 1s;
 constexpr unsigned links_noted_every = 4;  // turns of the watch
 // Telemetry may arrive out of order; a clock that goes back further than that began anew.
 constexpr Duration clock_slack = 3s;
@@ -56,6 +57,14 @@ bool heartbeat_tells_restart(Craft const& craft, bool has_moved, mavlink::Heartb
   if (status == mavlink::MavState::uninit || status == mavlink::MavState::boot)
     return craft.is_armed;  // nobody boots armed
   return has_moved && ((craft.is_armed && !heartbeat.armed()) || craft.custom_mode != heartbeat.custom_mode);
+}
+
+/// Over a thin or bad link there is little more than a heartbeat a second; that some of those get lost is no silence.
+bool speaks_rarely(vehicle::VehicleState const& state) {
+  constexpr double few = 4.0;
+  double messages_per_s = 0.0;
+  for (auto const& link : state.links) messages_per_s += link.messages_per_s;
+  return messages_per_s < few;
 }
 
 void write(base::Logger const& log, std::string const& name, vehicle::StatusText const& text) {
@@ -104,7 +113,10 @@ void Network::take(mavlink::Received const& received) {
   if (auto const* radio = std::get_if<mavlink::RadioStatus>(&received.message)) take_radio_of_link(received, *radio);
   auto const found = crafts_.find(received.source.system);
   if (found == crafts_.end()) return;
-  if (received.source.component == mavlink::autopilot_component) return take_from_autopilot(*found->second, received);
+  if (received.source.component == mavlink::autopilot_component) {
+    note_heard(*found->second, received.at);
+    return take_from_autopilot(*found->second, received);
+  }
   take_from_component(*found->second, received);
 }
 
@@ -166,6 +178,8 @@ void Network::take_heartbeat(mavlink::Received const& received, mavlink::Heartbe
   if (in_mission_mode(craft)) craft.mission_mode_pending = false;
   auto& state = craft.state;
   state.heartbeat_heard = received.at;
+  state.is_in_trouble =
+      heartbeat.system_status == mavlink::MavState::critical || heartbeat.system_status == mavlink::MavState::emergency;
   state.mode.set(name_of_mode(craft, heartbeat.type, heartbeat.custom_mode), received.at);
   for (auto& component : state.components)
     if (component.id == received.source.component) component.heard = received.at;  // it speaks for what is wired to it
@@ -256,15 +270,30 @@ void Network::check_connection(Craft& craft) {
                                                         : Connection::ok;
   auto const before = std::exchange(craft.state.connection, now);
   if (now == before) return;
-  auto const& name = craft.state.name;
-  if (now == Connection::ok) log_.info(fmt::format("{} is back at {}", name, craft.state.link));
-  if (now == Connection::lost) log_.warn(fmt::format("{} lost: silent for {:.0f} s", name, base::to_seconds(silence)));
-  if (now == Connection::conflict)
-    log_.error(fmt::format(
-        "two vehicles use system id {}: {} and {}; give one of them another id, until then neither is commanded",
-        craft.address.system, conflict->first, conflict->second));
+  craft.state.conflict =
+      conflict ? fmt::format(
+                     "two vehicles use system id {}: {} and {}; give one of them another id, until then neither is "
+                     "commanded",
+                     craft.address.system, conflict->first, conflict->second)
+               : "";
   registry_.touch_membership(craft.id());
   craft.changed.notify_all();
+}
+
+void Network::note_heard(Craft& craft, TimePoint at) {
+  craft.state.heard = at;
+  if (!std::exchange(craft.state.is_silent, false)) return;
+  registry_.touch_membership(craft.id());
+}
+
+/// Any message counts, and several kinds come each second: one that is silent by this has said nothing at all. Of two
+/// vehicles with one id nobody can tell which is.
+void Network::check_silence(Craft& craft) {
+  auto const silence = loop().now() - craft.state.heard;
+  auto const limit = speaks_rarely(craft.state) ? options_.silence + heartbeat_period : options_.silence;
+  if (craft.state.is_silent || silence <= limit || craft.state.connection == Connection::conflict) return;
+  craft.state.is_silent = true;
+  registry_.touch_membership(craft.id());
 }
 
 /// How the links of each vehicle's autopilot do.
@@ -293,18 +322,22 @@ bool Network::may_be_asked(Craft const& craft) const {
 
 base::Task<> Network::watch() {
   for (unsigned turn = 0;; ++turn) {
-    co_await loop().sleep(watch_period);
+    auto const due = loop().now() + watch_period;
+    co_await loop().sleep_until(due);
+    // Who was kept from listening cannot tell who was silent meanwhile: what has come waits to be read.
+    bool const was_listening = loop().now() - due < options_.silence / 5;
     if (turn % links_noted_every == 0) note_links();
     for (auto& [system_id, craft] : crafts_) {
       check_connection(*craft);
+      if (was_listening) check_silence(*craft);
       let_age(*craft);
       if (!options_.asks_for_messages || !may_be_asked(*craft)) continue;
       if (!craft->questions.empty() && !craft->is_questioning) scope_.spawn(ask_questions(*craft));
       if (craft->is_asking || is_giving_back_) continue;
       if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
       spare_slow_link(*craft);
-      auto due = craft->rates->due(loop().now());
-      if (!due.empty()) scope_.spawn(ask_for_messages(*craft, std::move(due)));
+      auto wanted = craft->rates->due(loop().now());
+      if (!wanted.empty()) scope_.spawn(ask_for_messages(*craft, std::move(wanted)));
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "fleet/craft.hpp"
 #include "mavlink/connection.hpp"
 #include "mavlink/system_name.hpp"
+#include "vehicle/alarm.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::fleet {
@@ -20,12 +21,15 @@ namespace lapwing::fleet {
 /// the registry.
 ///
 /// A vehicle appears with the first heartbeat of its autopilot and never goes away: silent for longer than its
-/// connection time-out it is lost, with the next heartbeat it is back. Telemetry that does not come by itself is asked
-/// for. Thread-bound.
+/// connection time-out it is lost, with the next heartbeat it is back. Long before that it is shown as silent.
+/// Telemetry that does not come by itself is asked for. Thread-bound.
 class Network {
  public:
   struct Options {
     base::Duration connection_timeout = std::chrono::seconds(20);  ///< of a vehicle for which nobody set another one
+    /// After which a vehicle counts as silent: telemetry comes several times a second.
+    base::Duration silence = std::chrono::milliseconds(2500);
+    vehicle::BatteryLimits battery_limits = {};  ///< of alarms
     /// Names of a vehicle's equipment, as scripts ask for them. May speak of vehicles of other networks, too.
     std::map<mavlink::SystemName, std::vector<std::string>> payload = {};
     bool asks_for_messages = true;  ///< false: only listen
@@ -65,6 +69,8 @@ class Network {
   void note_restart(Craft& craft, base::TimePoint now);
   void note_camera(std::uint8_t system_id);
   void check_connection(Craft& craft);
+  void check_silence(Craft& craft);
+  void note_heard(Craft& craft, base::TimePoint at);
   [[nodiscard]] std::string in_network(std::string text) const;
   void note_links();
   base::Task<> watch();

@@ -44,6 +44,16 @@ std::string_view plan_word(mavlink::MissionType type) {
   }
 }
 
+/// What follows by itself: the mode after a mission, or after a take-off (PX4). A copter stays in AUTO to the end.
+bool is_its_own_sequel(Craft const& craft, std::uint32_t before) {
+  if (mode_name(craft, before) == "AUTO.TAKEOFF") return true;
+  auto const& mission = craft.state.mission.value;
+  if (!mission || before != mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::mission))
+    return false;
+  bool const is_at_last_item = mission->current_seq + 1 >= mission->total;
+  return mission->complete || (is_at_last_item && craft.state.family != vehicle::Family::copter);
+}
+
 }  // namespace
 
 OtherStations::OtherStations(Fleet& fleet, base::Logger log)
@@ -110,7 +120,12 @@ void OtherStations::note_mode(Craft& craft, std::uint32_t before) {
   bool const is_ours =
       craft.asked_mode == std::as_const(modes_).at(craft.id()) && now - craft.mode_asked <= asked_recently;
   bool const has_just_booted = mode_name(craft, before) == "INITIALISING";
+  craft.state.foreign_mode.value.reset();
+  fleet_.registry().touch(craft.id());
   if (is_ours || has_just_booted) return;
+  if (!is_its_own_sequel(craft, before))
+    craft.state.foreign_mode.set(
+        fmt::format("{} to {}", mode_name(craft, before), mode_name(craft, modes_.at(craft.id()))), now);
   tell(craft, fmt::format("{} to {}, not asked for here{}", mode_name(craft, before),
                           mode_name(craft, modes_.at(craft.id())), suspects()));
 }

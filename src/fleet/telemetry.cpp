@@ -70,6 +70,19 @@ vehicle::Aged<vehicle::Battery>* battery_of(VehicleState& state, int id) {
   return &*all.insert(place, {fresh, {}});
 }
 
+/// MAV_BATTERY_CHARGE_STATE. ArduPilot tells its failsafes by it: low and critical as its parameters have them.
+vehicle::Charge charge_of(std::uint8_t state) {
+  switch (state) {
+    case 1: return vehicle::Charge::ok;
+    case 2: return vehicle::Charge::low;
+    case 3:                                    // critical
+    case 4:                                    // emergency
+    case 5:                                    // failed
+    case 6: return vehicle::Charge::critical;  // unhealthy
+    default: return vehicle::Charge::unknown;
+  }
+}
+
 void set_time_left(Craft& craft, vehicle::Battery& battery, std::optional<std::chrono::seconds> told, TimePoint now) {
   auto const estimate = craft.battery_times[static_cast<std::uint8_t>(battery.id)].add(battery.remaining, now);
   battery.time_left = told ? std::optional<base::Duration>(*told) : estimate;
@@ -202,6 +215,7 @@ struct Taking {
     auto* const shown = battery_of(state, heard.id);
     if (!shown) return false;
     vehicle::Battery battery{*heard.remaining, heard.voltage_v, heard.current_a, heard.id, heard.consumed_ah};
+    battery.charge = charge_of(heard.charge_state);
     set_time_left(craft, battery, heard.time_remaining, now);
     shown->set(battery, now);
     if (heard.id != 0) return true;

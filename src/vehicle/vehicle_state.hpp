@@ -49,6 +49,9 @@ struct Attitude {
   double yaw_rad = 0.0;
 };
 
+/// What a battery's own monitor, and the failsafes set in the vehicle, make of its charge.
+enum class Charge { unknown, ok, low, critical };
+
 struct Battery {
   double remaining = 0.0;  ///< 0..1
   std::optional<double> voltage_v;
@@ -57,6 +60,7 @@ struct Battery {
   std::optional<double> consumed_ah = {};
   std::optional<base::Duration> time_left = {};
   bool time_left_is_estimate = false;  ///< ours, not the vehicle's: from how fast it empties
+  Charge charge = Charge::unknown;
 };
 
 struct Gps {
@@ -164,6 +168,11 @@ struct VehicleState {
   std::string link;  ///< URL of the link over which it is commanded, with its peer
   std::vector<LinkQuality> links;
   base::TimePoint heartbeat_heard{};
+  base::TimePoint heard{};  ///< the last message of its autopilot, whatever it was
+  /// Nothing at all has come for some seconds: what stands here is the last that is known. Long before it is lost.
+  bool is_silent = false;
+  std::string conflict;        ///< which two vehicles use its system id, for people; empty: none
+  bool is_in_trouble = false;  ///< by its own heartbeat, which calls its state critical or worse: a failsafe acts
 
   Aged<std::string> mode;  ///< the autopilot's own name, "AUTO"
   Aged<bool> armed;
@@ -199,6 +208,9 @@ struct VehicleState {
   /// The last thing that happened to it without this station: another station's command, a mode that nobody here asked
   /// for.
   Aged<std::string> foreign_change;
+  /// How it came into the mode that it is in, when nobody here asked for that: "AUTO to LOITER". Without a value when
+  /// somebody did.
+  Aged<std::string> foreign_mode;
 };
 
 }  // namespace lapwing::vehicle
