@@ -136,6 +136,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
   options.control = script ? nullptr : &control;
+  options.alarms = &ground.fleet.alarms();
   options.parameters = script ? nullptr : &parameters;
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));

@@ -158,6 +158,11 @@ base::Result<ClientRequest> parse_client_request(std::string_view text) {
     if (!control) return std::unexpected(control.error());
     return ClientRequest{std::move(*id), std::move(*control)};
   }
+  if (*type == "acknowledge_alarms") {
+    auto acknowledge = parse_acknowledge_alarms(text);
+    if (!acknowledge) return std::unexpected(acknowledge.error());
+    return ClientRequest{std::move(*id), std::move(*acknowledge)};
+  }
   if (*type != "start_script") return wrong(fmt::format("There is no request of type \"{}\".", *type));
   auto start = start_script_from(*object);
   if (!start) return std::unexpected(start.error());

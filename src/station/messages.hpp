@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "geo/position.hpp"
+#include "station/alarm_messages.hpp"
 #include "station/control_messages.hpp"
 #include "station/script_control.hpp"
 #include "tasks/task_view.hpp"
@@ -81,7 +82,7 @@ struct Ping {};
 
 struct ClientRequest {
   std::string id;  ///< chosen by the client, comes back in the answer; may be empty
-  std::variant<StartScript, StopScript, Ping, ControlRequest> what;
+  std::variant<StartScript, StopScript, Ping, ControlRequest, AcknowledgeAlarms> what;
 };
 
 /// Reads what a client sent; says what is wrong with it.

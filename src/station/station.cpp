@@ -98,6 +98,10 @@ std::vector<Station::Message> Station::news() {
     messages.push_back(shared(emergency_message(control->emergency())));
     messages.push_back(shared(commands_message(control->commands())));
   }
+  if (auto const* alarms = options_.alarms; alarms && alarms->revision() != last_alarms_) {
+    last_alarms_ = alarms->revision();
+    messages.push_back(shared(alarms_message(alarms, loop_.now())));
+  }
   return messages;
 }
 
@@ -111,6 +115,7 @@ std::vector<Station::Message> Station::whole_state(std::string const& commander)
     messages.push_back(shared(emergency_message(control->emergency())));
     messages.push_back(shared(commands_message(control->commands())));
   }
+  messages.push_back(shared(alarms_message(options_.alarms, loop_.now())));
   return messages;
 }
 
@@ -140,6 +145,12 @@ void Station::obey_viewer(SessionId session, std::string const& request_id, Cont
   reply(session, accepted_message(request_id));
 }
 
+void Station::acknowledge(SessionId session, std::string const& request_id, AcknowledgeAlarms const& request) {
+  auto const& name = viewers_[session].name;
+  if (options_.alarms) (void)options_.alarms->acknowledge(request.numbers, name.empty() ? "a viewer" : name);
+  reply(session, accepted_message(request_id));
+}
+
 void Station::receive(SessionId session, std::string_view text) {
   auto request = parse_client_request(text);
   if (!request) return reply(session, refused_message("", {request.error(), {}}));
@@ -148,6 +159,8 @@ void Station::receive(SessionId session, std::string_view text) {
     control->by.clear();  // a viewer has its name
     return obey_viewer(session, request->id, std::move(*control));
   }
+  if (auto const* const acknowledged = std::get_if<AcknowledgeAlarms>(&request->what))
+    return acknowledge(session, request->id, *acknowledged);
   if (auto* const start = std::get_if<StartScript>(&request->what)) {
     log_.info(fmt::format("start asked for by a viewer script={}", start->name));
     auto const started = script_.start(std::move(start->name), std::move(start->source));
@@ -185,6 +198,7 @@ Router Station::make_router() {
   add_control_routes(router, options_.control, log_);
   add_parameter_routes(router, options_.parameters);
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
+  add_alarm_routes(router, options_.alarms, loop_);
   router.add("GET", "/api/openapi.yaml", [](auto const&) {
     return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};
   });

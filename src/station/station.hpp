@@ -16,6 +16,7 @@
 #include "station/messages.hpp"
 #include "station/script_control.hpp"
 #include "station/vehicle_feed.hpp"
+#include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
 #include "vehicle/parameters.hpp"
 #include "vehicle/registry.hpp"
@@ -37,6 +38,7 @@ class Station {
     Site site = {};
     std::filesystem::path scripts = {};                ///< folder of scripts that viewers may choose from; empty: none
     vehicle::VehicleControl* control = nullptr;        ///< outlives the station; null: vehicles are only shown
+    vehicle::VehicleAlarms* alarms = nullptr;          ///< outlives the station; null: there are none
     vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
   };
@@ -71,6 +73,7 @@ class Station {
   void open_session(SessionId session);
   void close_session(SessionId session);
   void obey_viewer(SessionId session, std::string const& request_id, ControlRequest request);
+  void acknowledge(SessionId session, std::string const& request_id, AcknowledgeAlarms const& request);
   [[nodiscard]] std::vector<LogLine> log_after(std::uint64_t sequence) const;
   void receive(SessionId session, std::string_view text);
   void reply(SessionId session, std::string text);
@@ -93,6 +96,7 @@ class Station {
   std::string last_tasks_;
   std::uint64_t last_log_ = 0;
   std::uint64_t last_control_ = 0;
+  std::uint64_t last_alarms_ = 0;
   int sessions_ = 0;  ///< ever opened: numbers the operators
   struct Viewer {
     vehicle::Commander name = {};  ///< "operator 3", where it commands vehicles

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "station/openapi.hpp"
+#include "station/testing/fake_alarms.hpp"
 #include "station/testing/fake_control.hpp"
 #include "station/testing/fake_parameters.hpp"
 #include "station/testing/http_client.hpp"
@@ -232,6 +233,37 @@ TEST_F(StationTest, LetsViewersCommandVehicles) {
 TEST_F(StationTest, BringsASlowViewerUpToDate) {
   open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
   auto const viewer = watch();
+TEST_F(StationTest, TellsEveryViewerOfAnAlarmAndWhoAcknowledgedIt) {
+  testing::FakeControl vehicles;
+  testing::FakeAlarms alarms;
+  open({.control = &vehicles, .alarms = &alarms});
+  auto const first = watch();
+  auto const second = watch();
+  EXPECT_TRUE(next(*first, "alarms")["alarms"].empty());
+  EXPECT_TRUE(next(*second, "alarms")["alarms"].empty());
+  alarms.raise(vehicle::AlarmKind::silent, "1", loop.now());
+  EXPECT_EQ(next(*first, "alarms")["alarms"].at(0)["number"], 1);
+  EXPECT_EQ(next(*second, "alarms")["alarms"].at(0)["number"], 1);
+  second->send(R"({"type":"acknowledge_alarms","id":"a","numbers":[1],"operator":"somebody else"})");
+  EXPECT_EQ(next(*first, "alarms")["alarms"].at(0)["acknowledged_by"], "operator 2");
+  EXPECT_EQ(next(*second, "reply")["ok"], true);
+  second->send(R"({"type":"acknowledge_alarms","id":"b","numbers":"all"})");
+  EXPECT_EQ(next(*second, "reply")["ok"], false);
+  auto const late = watch();
+  EXPECT_EQ(next(*late, "alarms")["alarms"].size(), 1U) << "who comes later is told what stands";
+}
+
+TEST_F(StationTest, TellsOfAlarmsAndTakesAcknowledgementsOverHttp) {
+  testing::FakeAlarms alarms;
+  open({.alarms = &alarms});
+  alarms.raise(vehicle::AlarmKind::fence, "2", loop.now());
+  EXPECT_EQ(json::parse(get("/api/v1/alarms").body)["alarms"].at(0)["kind"], "fence");
+  auto const answer = post("/api/v1/alarms/acknowledge", R"({"numbers":[1],"operator":"desk"})");
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(json::parse(answer.body)["alarms"].at(0)["acknowledged_by"], "desk");
+  EXPECT_EQ(post("/api/v1/alarms/acknowledge", R"({"numbers":[]})").status, 400);
+}
+
   ASSERT_TRUE(viewer);
   (void)next(*viewer, "log");
   // Each message is so long that the system's buffers hold only a few of them.

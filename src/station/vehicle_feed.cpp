@@ -118,16 +118,16 @@ Json to_json(vehicle::Pictures const& pictures) {
   return {{"taken", pictures.taken}, {"lost", pictures.lost}};
 }
 
-/// Rounded so that what hardly changes is not sent again and again.
-Json to_json(std::vector<vehicle::LinkQuality> const& links) {
+/// Rounded so that what hardly changes is not sent again and again. What is lost of nothing is not known.
+Json links_json(std::vector<vehicle::LinkQuality> const& links, bool is_heard) {
   Json list = Json::array();
   for (auto const& link : links) {
     Json json{{"name", link.name},
-              {"loss", rounded(link.loss, 2)},
               {"messages_per_s", rounded(link.messages_per_s, 0)},
               {"bytes_per_s", rounded(link.bytes_per_s, -1)},
               {"alive", link.is_alive},
               {"used", link.is_used}};
+    if (is_heard && link.is_alive) json["loss"] = rounded(link.loss, 2);
     if (link.round_trip) json["round_trip_s"] = rounded(base::to_seconds(*link.round_trip), 2);
     list.push_back(std::move(json));
   }
@@ -196,10 +196,13 @@ void add_identity(Fields& fields, VehicleState const& state) {
   fields["autopilot"] = {vehicle::to_string(state.autopilot), {}};
   fields["connection"] = {vehicle::to_string(state.connection), {}};
   fields["link"] = {state.link, {}};
-  if (!state.links.empty()) fields["links"] = {to_json(state.links), {}};
+  bool const is_heard = !state.is_silent && state.connection != vehicle::Connection::lost;
+  if (!state.links.empty()) fields["links"] = {links_json(state.links, is_heard), {}};
   fields["payload"] = {state.payload, {}};
   fields["track_m"] = {rounded(state.track_m, 1), {}};
-  fields["heartbeat"] = {true, state.heartbeat_heard};  // its age is the link's age
+  fields["heartbeat"] = {true, state.heartbeat_heard};
+  // Its age is that of the silence. Only then: it would be news with every message.
+  fields["silent"] = {state.is_silent, state.is_silent ? std::optional(state.heard) : std::nullopt};
 }
 
 Fields fields_of(VehicleState const& state) {

@@ -54,6 +54,21 @@ TEST_F(VehicleFeedTest, TellsEverythingKnownWithItsAge) {
             json({{"battery", 2.0}, {"heading_rad", 0.0}, {"heartbeat", 0.5}, {"mode", 0.5}, {"position", 0.1}}));
 }
 
+TEST_F(VehicleFeedTest, TellsSinceWhenAVehicleIsSilentAndNoLossOfNothing) {
+  auto& state = edit("1");
+  state.heard = at(4s);
+  state.links = {
+      {.name = "udp", .loss = 0.0, .messages_per_s = 3.0, .round_trip = {}, .is_alive = true, .is_used = true}};
+  auto vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  EXPECT_EQ(vehicle["silent"], false);
+  EXPECT_EQ(vehicle["links"].at(0)["loss"], 0.0);
+  edit("1").is_silent = true;
+  vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  EXPECT_EQ(vehicle["silent"], true);
+  EXPECT_EQ(vehicle["age_s"]["silent"], 6.0);
+  EXPECT_FALSE(vehicle["links"].at(0).contains("loss")) << "0 % of nothing is not known";
+}
+
 TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
   auto& state = edit("1");
   vehicle::Battery battery{.remaining = 0.4, .voltage_v = {}, .current_a = {}};
