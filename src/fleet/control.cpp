@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/wall_clock.hpp"
 #include "fleet/operator_actions.hpp"
 
 namespace lapwing::fleet {
@@ -80,7 +81,7 @@ Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::spa
   if (auto checked = check(command); !checked) return std::unexpected(checked.error());
   if (records_.size() == max_records) records_.pop_front();
   auto& record = records_.emplace_back(CommandRecord{
-      .number = ++last_number_, .command = std::move(command), .by = std::move(by), .asked = fleet_.loop().utc_now()});
+      .number = ++last_number_, .command = std::move(command), .by = std::move(by), .asked = base::wall_now()});
   log_.info(fmt::format("{} commands {} to {} vehicle{}", record.by, to_string(record.command.action), vehicles.size(),
                         vehicles.size() == 1 ? "" : "s"));
   for (auto const& id : vehicles) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/wall_clock.hpp"
 #include "fleet/operator_actions.hpp"
 #include "mavlink/command.hpp"
 #include "mavlink/modes.hpp"
@@ -73,7 +74,7 @@ Emergency::~Emergency() {
 void Emergency::latch(StopAction action, Commander by) {
   log_.error(fmt::format("EMERGENCY STOP ({}) by {}: latched until an operator releases it", to_string(action), by));
   bool const goes_on = state_.is_latched;
-  if (!goes_on) state_ = {.is_latched = true, .since = fleet_.loop().utc_now()};
+  if (!goes_on) state_ = {.is_latched = true, .since = base::wall_now()};
   state_.action = action;
   state_.by = std::move(by);
   state_.vehicles.clear();
