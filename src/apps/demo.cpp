@@ -29,7 +29,7 @@ struct DemoOptions {
 void keep_map(Session& session) {
   fmt::print(stderr, "the map stays open at {}; Ctrl-C ends\n", session.map->url());
   StopSignals const signals(session.loop, [&session] {
-    session.host.stop();
+    session.host.stop("an interrupt");
     session.loop.stop();
   });
   session.loop.run();

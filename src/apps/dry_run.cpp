@@ -84,7 +84,7 @@ base::Result<> DryRun::power_on() {
 
 std::expected<void, station::StartFailure> DryRun::fly(std::string name, std::string source) {
   if (auto started = host_.start(std::move(name), std::move(source)); !started) return started;
-  StopSignals const signals(loop_, [this] { host_.stop(); });
+  StopSignals const signals(loop_, [this] { host_.stop("an interrupt"); });
   auto const stall = host_.halt_when_time_stands_still(std::chrono::seconds(10));
   loop_.run_until_done(finish());
   return {};

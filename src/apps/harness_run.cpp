@@ -40,7 +40,7 @@ class HarnessRun {
     auto const started = host_.start(script.name, script.text);
     fmt::print(stderr, "{}", host_.rendered_diagnostics());
     if (!started) return exit_usage;
-    StopSignals const signals(loop_, [this] { host_.stop(); });
+    StopSignals const signals(loop_, [this] { host_.stop("an interrupt"); });
     auto const stall = host_.halt_when_time_stands_still();
     loop_.run_until_done(finish());
     return dolphin::exit_code(*host_.outcome());

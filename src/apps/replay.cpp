@@ -41,7 +41,7 @@ class RecordedScript final : public station::ScriptControl {
         {base::ErrorKind::refused, "a recording is played: no vehicle is there to fly a script", "use run or station"},
         {}});
   }
-  void stop() override {}
+  void stop(std::string) override {}
 
  private:
   station::ScriptStatus status_;

@@ -72,6 +72,8 @@ std::expected<void, station::StartFailure> ScriptHost::start(std::string name, s
              .diagnostics = std::move(records)};
   finished_trees_.clear();
   halt_reason_.reset();
+  stopped_by_.clear();
+  is_operators_halt_ = false;
   started_ = loop_.utc_now();
   scope_.spawn(run(std::move(program)));
   return {};
@@ -81,15 +83,27 @@ base::Task<> ScriptHost::run(std::shared_ptr<dolphin::Program const> program) {
   auto outcome = co_await engine_.run(program);
   if (halt_reason_) outcome = {.kind = dolphin::Outcome::Kind::halted, .message = *halt_reason_, .file = status_.name};
   finished_ = loop_.utc_now();
-  bool const is_done = outcome.kind == dolphin::Outcome::Kind::done;
-  status_.state = is_done ? station::ScriptState::done : station::ScriptState::failed;
-  status_.message = is_done ? "" : dolphin::to_text(outcome);
+  status_.state = state_after(outcome);
+  status_.message = status_.state == station::ScriptState::done ? "" : dolphin::to_text(outcome);
+  if (status_.state == station::ScriptState::stopped)
+    status_.message = halt_reason_ ? *halt_reason_ : fmt::format("stopped by {}", stopped_by_);
   if (halt_reason_) log_.error(*halt_reason_);
   outcome_ = std::move(outcome);
   ended_.notify_all();
 }
 
-void ScriptHost::stop() {
+station::ScriptState ScriptHost::state_after(dolphin::Outcome const& outcome) const {
+  if (outcome.kind == dolphin::Outcome::Kind::done) return station::ScriptState::done;
+  bool const is_operators_wish = outcome.kind == dolphin::Outcome::Kind::stopped || is_operators_halt_;
+  return is_operators_wish ? station::ScriptState::stopped : station::ScriptState::failed;
+}
+
+void ScriptHost::stop(std::string by) {
+  if (engine_.is_running() && stopped_by_.empty()) stopped_by_ = std::move(by);
+  begin_stop();
+}
+
+void ScriptHost::begin_stop() {
   if (!engine_.is_running()) return;
   if (status_.state != station::ScriptState::stopping)
     log_.warn("stopping: vehicles are being put into their stop mode");
@@ -100,7 +114,13 @@ void ScriptHost::stop() {
 void ScriptHost::halt(std::string reason) {
   if (!engine_.is_running()) return;
   halt_reason_ = std::move(reason);
-  stop();
+  begin_stop();
+}
+
+void ScriptHost::halt_for_operator(std::string reason) {
+  if (!engine_.is_running()) return;
+  is_operators_halt_ = true;
+  halt(std::move(reason));
 }
 
 base::Task<> ScriptHost::halt_after(base::Duration timeout) {

@@ -26,12 +26,14 @@ class ScriptHost final : public station::ScriptControl {
   [[nodiscard]] station::ScriptStatus status() const override { return status_; }
   [[nodiscard]] std::vector<tasks::TaskView> task_trees() const override;
   [[nodiscard]] std::expected<void, station::StartFailure> start(std::string name, std::string source) override;
-  void stop() override;
+  void stop(std::string by) override;
 
   /// Asked before a script starts: a reason refuses it.
   void set_bar(std::function<std::optional<std::string>()> bar) { bar_ = std::move(bar); }
   /// Like `stop`, for another reason than the operator's wish; the outcome then is halted, with that reason.
   void halt(std::string reason);
+  /// The same when it is an operator's: shown as stopped, not as failed.
+  void halt_for_operator(std::string reason);
   /// Halts the script when it still runs after so much of the loop's time. Cancelling this calls it off.
   [[nodiscard]] base::Task<> halt_after(base::Duration timeout);
   /// As long as it lives, a script that is busy without letting any time pass is halted after `patience` of the wall's
@@ -49,6 +51,8 @@ class ScriptHost final : public station::ScriptControl {
 
  private:
   base::Task<> run(std::shared_ptr<dolphin::Program const> program);
+  void begin_stop();
+  [[nodiscard]] station::ScriptState state_after(dolphin::Outcome const& outcome) const;
   void keep(tasks::TaskView tree);
 
   base::Loop& loop_;
@@ -60,6 +64,8 @@ class ScriptHost final : public station::ScriptControl {
   std::vector<tasks::TaskView> finished_trees_;
   std::function<std::optional<std::string>()> bar_;
   std::optional<std::string> halt_reason_;
+  std::string stopped_by_;
+  bool is_operators_halt_ = false;
   std::optional<dolphin::Outcome> outcome_;
   base::UtcTime started_{};
   base::UtcTime finished_{};

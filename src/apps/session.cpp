@@ -68,7 +68,7 @@ Session::Session(Options const& options)
       on_stop_(options.on_stop),
       events_(options.events) {
   hub.add_sink(terminal_sink(options.log_level));
-  control.set_on_latched([this](std::string const& reason) { host.halt(reason); });
+  control.set_on_latched([this](std::string const& reason) { host.halt_for_operator(reason); });
   host.set_bar([this] { return ground.fleet.authority().barred(); });
   bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
   if (is_real_time)
@@ -153,7 +153,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
 }
 
 void Session::run_to_end(std::optional<base::Duration> timeout) {
-  StopSignals const signals(loop, [this] { host.stop(); });
+  StopSignals const signals(loop, [this] { host.stop("an interrupt"); });
   auto const stall = host.halt_when_time_stands_still();
   loop.run_until_done(finish(timeout));
 }

@@ -93,7 +93,7 @@ int serve(StationArguments const& arguments) {
   }
   // Vehicles that fly a script of ours are put into their stop mode before the process goes.
   bool const was_running = session.host.status().state == station::ScriptState::running;
-  session.host.stop();
+  session.host.stop("the end of the station");
   session.run_to_end(std::nullopt);
   session.give_back_rates();
   return was_running ? exit_interrupted : exit_done;

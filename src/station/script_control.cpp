@@ -7,6 +7,7 @@ std::string_view to_string(ScriptState state) {
     case ScriptState::idle: return "idle";
     case ScriptState::running: return "running";
     case ScriptState::stopping: return "stopping";
+    case ScriptState::stopped: return "stopped";
     case ScriptState::done: return "done";
     case ScriptState::failed: return "failed";
   }

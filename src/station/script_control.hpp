@@ -10,8 +10,9 @@
 
 namespace lapwing::station {
 
-/// idle: none was started yet · stopping: asked to end, vehicles are still being put into their stop state.
-enum class ScriptState { idle, running, stopping, done, failed };
+/// idle: none was started yet · stopping: asked to end, vehicles are still being put into their stop state · stopped:
+/// an operator wanted it to end, which is no failure.
+enum class ScriptState { idle, running, stopping, stopped, done, failed };
 [[nodiscard]] std::string_view to_string(ScriptState state);
 
 /// The station's one script as an operator sees it.
@@ -19,7 +20,7 @@ struct ScriptStatus {
   std::string name;  ///< file name, or what the starter called it
   std::string source;
   ScriptState state = ScriptState::idle;
-  std::string message;                              ///< why it failed, or what it waits for; may be empty
+  std::string message;  ///< why it failed, who stopped it, or what it waits for; may be empty
   std::vector<base::DiagnosticRecord> diagnostics;  ///< of the last check, warnings included
 };
 
@@ -42,8 +43,9 @@ class ScriptControl {
 
   /// Checks `source` and starts it. Returns at once; how it goes on shows in `status`.
   [[nodiscard]] virtual std::expected<void, StartFailure> start(std::string name, std::string source) = 0;
-  /// Ends the script and puts its vehicles into their stop state. Does nothing when none runs; may be repeated.
-  virtual void stop() = 0;
+  /// Ends the script and puts its vehicles into their stop state, and tells who wanted that. Does nothing when none
+  /// runs; may be repeated.
+  virtual void stop(std::string by) = 0;
 };
 
 }  // namespace lapwing::station

@@ -166,8 +166,10 @@ void Station::receive(SessionId session, std::string_view text) {
     auto const started = script_.start(std::move(start->name), std::move(start->source));
     if (!started) return reply(session, refused_message(request->id, started.error()));
   } else {
-    log_.warn("stop asked for by a viewer");
-    script_.stop();
+    auto const& name = viewers_[session].name;
+    auto by = name.empty() ? std::string("a viewer") : name;
+    log_.warn(fmt::format("stop asked for by {}", by));
+    script_.stop(std::move(by));
   }
   reply(session, accepted_message(request->id));
 }
@@ -196,9 +198,9 @@ Router Station::make_router() {
              [this](auto const&) { return HttpResponse{.body = tasks_message(script_.task_trees())}; });
   router.add("POST", "/api/v1/stop", [this](auto const&) { return post_stop(); });
   add_control_routes(router, options_.control, log_);
+  add_alarm_routes(router, options_.alarms, loop_);
   add_parameter_routes(router, options_.parameters);
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
-  add_alarm_routes(router, options_.alarms, loop_);
   router.add("GET", "/api/openapi.yaml", [](auto const&) {
     return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};
   });
@@ -243,7 +245,7 @@ HttpResponse Station::get_script_text(HttpRequest const& request) const {
 
 HttpResponse Station::post_stop() {
   log_.warn("stop asked for over HTTP");
-  script_.stop();
+  script_.stop("a program over HTTP");
   return {.status = 202, .body = script_message(script_.status())};
 }
 

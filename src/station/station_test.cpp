@@ -41,7 +41,8 @@ class ScriptedControl : public ScriptControl {
     current = {std::move(name), std::move(source), ScriptState::running, "", {}};
     return {};
   }
-  void stop() override {
+  void stop(std::string by) override {
+    stopped_by = std::move(by);
     ++stops;
     if (current.state == ScriptState::running) current.state = ScriptState::stopping;
   }
@@ -49,6 +50,7 @@ class ScriptedControl : public ScriptControl {
   ScriptStatus current;
   std::vector<tasks::TaskView> trees;
   int stops = 0;
+  std::string stopped_by;
 };
 
 class StationTest : public ::testing::Test {
@@ -203,6 +205,7 @@ TEST_F(StationTest, ObeysViewers) {
   viewer->send(R"({"type":"stop_script","id":"u"})");
   EXPECT_EQ(next(*viewer, "reply")["ok"], true);
   EXPECT_EQ(control.stops, 1);
+  EXPECT_EQ(control.stopped_by, "a viewer");
   viewer->send("rubbish");
   EXPECT_EQ(next(*viewer, "reply")["ok"], false);
 }
@@ -230,9 +233,6 @@ TEST_F(StationTest, LetsViewersCommandVehicles) {
   EXPECT_EQ(vehicles.said, std::vector<std::string>{"forget operator 1"});
 }
 
-TEST_F(StationTest, BringsASlowViewerUpToDate) {
-  open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
-  auto const viewer = watch();
 TEST_F(StationTest, TellsEveryViewerOfAnAlarmAndWhoAcknowledgedIt) {
   testing::FakeControl vehicles;
   testing::FakeAlarms alarms;
@@ -264,6 +264,9 @@ TEST_F(StationTest, TellsOfAlarmsAndTakesAcknowledgementsOverHttp) {
   EXPECT_EQ(post("/api/v1/alarms/acknowledge", R"({"numbers":[]})").status, 400);
 }
 
+TEST_F(StationTest, BringsASlowViewerUpToDate) {
+  open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
+  auto const viewer = watch();
   ASSERT_TRUE(viewer);
   (void)next(*viewer, "log");
   // Each message is so long that the system's buffers hold only a few of them.

@@ -11,6 +11,7 @@
 #include "geo/position.hpp"
 #include "station/station.hpp"
 #include "station/testing/demo_control.hpp"
+#include "station/testing/fake_alarms.hpp"
 #include "station/testing/fake_parameters.hpp"
 
 /// Test equipment for the browser app: a real station over made-up vehicles, so that web/e2e can show every state
@@ -137,8 +138,9 @@ class DemoScript : public ScriptControl {
     log_.info("script started");
     return {};
   }
-  void stop() override {
+  void stop(std::string by) override {
     if (status_.state != ScriptState::running) return;
+    stopped_by_ = std::move(by);
     status_.state = ScriptState::stopping;
     status_.message = "vehicles go into LOITER";
     log_.warn("script stops: vehicles go into LOITER");
@@ -146,8 +148,8 @@ class DemoScript : public ScriptControl {
   }
   void advance() {
     if (status_.state != ScriptState::stopping || loop_.now() - stopping_since_ < 1500ms) return;
-    status_.state = ScriptState::idle;
-    status_.message = "stopped by an operator";
+    status_.state = ScriptState::stopped;
+    status_.message = fmt::format("stopped by {}", stopped_by_);
   }
 
  private:
@@ -167,6 +169,7 @@ class DemoScript : public ScriptControl {
                        .message = {},
                        .diagnostics = {}};
   base::TimePoint stopping_since_{};
+  std::string stopped_by_;
 };
 
 void update(vehicle::VehicleState& state, Traveller const& traveller, base::TimePoint now, bool holds) {
@@ -179,7 +182,7 @@ void update(vehicle::VehicleState& state, Traveller const& traveller, base::Time
   state.family = traveller.family;
   state.autopilot = vehicle::Autopilot::ardupilot;
   state.link = "udpin://127.0.0.1:14550";
-  state.heartbeat_heard = now;
+  state.heartbeat_heard = state.heard = now;
   state.mode.set(!moves ? "HOLD" : holds ? "LOITER" : "AUTO", now);
   state.armed.set(moves, now);
   state.landed.set(!moves || traveller.alt_m == 0, now);
@@ -236,24 +239,49 @@ void update_health(vehicle::VehicleState& state, base::TimePoint now, base::Time
                           {.severity = 4, .text = "EKF3 compass variance", .heard = begun}};
 }
 
-/// Moves everything ten times a second; vehicle 5 goes silent after 5 s.
+void update_link(vehicle::VehicleState& state) {
+  state.links = {{.name = "udpin://127.0.0.1:14550",
+                  .loss = 0.0,
+                  .messages_per_s = 20,
+                  .bytes_per_s = 900,
+                  .round_trip = {},
+                  .is_alive = true,
+                  .is_used = true}};
+}
+
+/// The rover that goes away: heard for 2.5 s, silent from 5 s on and lost from 7 s on.
+void let_go(vehicle::VehicleState& state, testing::FakeAlarms& alarms, base::TimePoint now, base::Logger const& log) {
+  auto const since = now.time_since_epoch();
+  if (since > 5s && !std::exchange(state.is_silent, true)) {
+    alarms.raise(vehicle::AlarmKind::silent, state.id.text, state.heard);
+    alarms.list.back().words = "rover 5 silent, last known disarmed";
+  }
+  if (since <= 7s || std::exchange(state.connection, vehicle::Connection::lost) == vehicle::Connection::lost) return;
+  alarms.clear(vehicle::AlarmKind::silent, state.id.text);
+  alarms.raise(vehicle::AlarmKind::lost, state.id.text, state.heard);
+  alarms.list.back().words = "rover 5 lost: silent for 5 s";
+  log.error("rover 5 lost: silent for 5 s");
+}
+
+/// Moves everything ten times a second.
 base::Task<void> animate(base::Loop& loop, vehicle::Registry& registry, DemoScript& script,
-                         testing::DemoControl& control, base::Logger log) {
+                         testing::DemoControl& control, testing::FakeAlarms& alarms, base::Logger log) {
   for (auto const* id : {"1", "4"}) registry.edit({id}).control.commander = "script";
   auto const all = travellers();
-  bool told = false;
   auto const begun = loop.now();
   for (;;) {
     auto const now = loop.now();
     for (auto const& traveller : all) {
       vehicle::VehicleId const id{traveller.id};
       auto& state = registry.edit(id);
-      bool const is_lost = id.text == "5" && now.time_since_epoch() > 5s;
-      if (!is_lost) update(state, traveller, now, script.status().state != ScriptState::running);
+      bool const is_heard = id.text != "5" || now.time_since_epoch() < 2500ms;
+      if (is_heard)
+        update(state, traveller, now, script.status().state != ScriptState::running);
+      else
+        let_go(state, alarms, now, log);
       if (id.text == "1") update_health(state, now, begun);
-      state.connection = is_lost ? vehicle::Connection::lost : vehicle::Connection::ok;
+      if (id.text == "5") update_link(state);
       registry.touch(id);
-      if (is_lost && !std::exchange(told, true)) log.error("rover 5 is lost: nothing heard for 5 s");
     }
     script.advance();
     control.advance();
@@ -270,7 +298,11 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   DemoScript script(loop, log.named("script"));
   testing::DemoControl control(loop, registry);
   testing::FakeParameters parameters(loop, 4s);
+  testing::FakeAlarms alarms;
+  alarms.raise(vehicle::AlarmKind::battery_low, "2", loop.now());
+  alarms.list.back().words = "copter 2 battery low: 27 % left";
   Station::Options options;
+  options.alarms = &alarms;
   options.control = &control;
   options.parameters = &parameters;
   options.http.port = port;
@@ -289,7 +321,7 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   log.info("five vehicles found");
   log.named("vehicle 2").warn("battery at 27 %");
   base::Scope scope(loop);
-  scope.spawn(animate(loop, registry, script, control, log));
+  scope.spawn(animate(loop, registry, script, control, alarms, log));
   loop.run();
   return 0;
 }
