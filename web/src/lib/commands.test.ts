@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { commandedByOthers, commonModes, isStop, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
+import { commandedByOthers, commonModes, isStop, requestOf, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
 import type { Vehicle } from './fleet';
 import type { Command, VehicleFields } from './protocol';
 
@@ -68,4 +68,11 @@ it('offers the modes that all vehicles have', () => {
   expect(commonModes([px4])).toContain('AUTO.RTL');
   expect(commonModes([copter, px4])).toEqual([]);
   expect(commonModes([])).toEqual([]);
+});
+
+it('knows whether it was I who asked', () => {
+  const vehicle = { id: '1', fields: { control: { commander: 'operator 1', asked_for_by: 'operator 2', granted_at_s: 12 } }, heardAt: {} };
+  expect(requestOf(vehicle, 'operator 2')).toEqual({ by: 'operator 2', isMine: true, granted_at_s: 12 });
+  expect(requestOf(vehicle, 'operator 3')?.isMine).toBe(false);
+  expect(requestOf({ ...vehicle, fields: {} }, 'operator 2')).toBeUndefined();
 });

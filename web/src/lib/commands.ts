@@ -29,7 +29,9 @@ const STATES: Record<CommandState, { word: string; symbol: string; level: Level 
   expired: { word: 'expired', symbol: '⌛', level: 'warning' },
   superseded: { word: 'superseded', symbol: '↷', level: 'lost' },
 };
-export const stateOf = (state: CommandState): { word: string; symbol: string; level: Level } => STATES[state];
+/** A state that this app does not know is told by its own word. */
+export const stateOf = (state: CommandState): { word: string; symbol: string; level: Level } =>
+  Object.hasOwn(STATES, state) ? STATES[state] : { word: state, symbol: '?', level: 'lost' };
 
 /** "Take off, 15 m", "Set mode GUIDED". */
 export function titleOf({ action, height_m, mode }: Command): string {
@@ -69,6 +71,12 @@ export function requestsTo(vehicles: Iterable<Vehicle>, me: string): { id: strin
     if (!control?.asked_for_by || control.commander !== me) return [];
     return [{ id, name: fields.name || id, by: control.asked_for_by, granted_at_s: control.granted_at_s ?? 0 }];
   });
+}
+
+/** Who asks for a vehicle that somebody commands, if anybody does. */
+export function requestOf(vehicle: Vehicle | undefined, me: string): { by: string; isMine: boolean; granted_at_s: number } | undefined {
+  const { asked_for_by: by, granted_at_s = 0 } = vehicle?.fields.control ?? {};
+  return by ? { by, isMine: by === me, granted_at_s } : undefined;
 }
 
 const ARDUPILOT: Record<string, string[]> = {

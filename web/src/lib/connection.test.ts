@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Connection, retryDelay, type Socket } from './connection';
-import { parseMessage, type ServerMessage } from './protocol';
+import { parseMessage } from './parse';
+import type { ServerMessage } from './protocol';
 
 class MemorySocket implements Socket {
   onopen: (() => void) | null = null;

@@ -1,4 +1,5 @@
-import { parseMessage, type ClientMessage, type Reply, type Request, type ServerMessage } from './protocol';
+import { parseMessage } from './parse';
+import type { ClientMessage, Reply, Request, ServerMessage } from './protocol';
 
 /** What the connection needs of the browser; tests bring their own. */
 export interface Socket {

@@ -73,3 +73,11 @@ it('names links where there are several, and warns of silent ones', () => {
     ['Spare', 'serial:///dev/ttyUSB0:57600: silent', 'warning'],
   ]);
 });
+
+it('gives every value of a silent vehicle its age: it is the last that is known', () => {
+  const fields: VehicleFields = { gps: { fix: '3D' }, links: [{ name: 'udp', messages_per_s: 0, bytes_per_s: 0, alive: true, used: true }] };
+  expect(rows(fields, { gps: NOW - 4000 })[0]).not.toHaveProperty('age');
+  const [gps, link] = rows({ ...fields, silent: true }, { gps: NOW - 4000 });
+  expect(gps).toMatchObject({ value: '3D', age: 4 });
+  expect(link?.value).toMatch(/^loss unknown/);
+});

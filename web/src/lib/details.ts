@@ -1,7 +1,7 @@
 import { ageOf, type Vehicle } from './fleet';
 import { heading, linkText, metres, percent, span, speed } from './format';
 import type { Battery, Component, LinkQuality, VehicleFields } from './protocol';
-import { EMPTY_BATTERY, LOW_BATTERY } from './status';
+import { batteryLevel, isOld, USUAL_LIMITS, type BatteryLimits } from './status';
 
 /** One line about a vehicle. `age` is set only when it is old enough to be told. */
 export interface Detail {
@@ -22,16 +22,18 @@ const TEXTS_SHOWN = 5;
 const DEGREES = 180 / Math.PI;
 
 /** What is known of a vehicle beyond its line in the table; groups without anything to tell are left out. */
-export function detailsOf(vehicle: Vehicle, now: number): DetailGroup[] {
+export function detailsOf(vehicle: Vehicle, now: number, limits: BatteryLimits = USUAL_LIMITS): DetailGroup[] {
   const { fields } = vehicle;
+  // Of a silent vehicle each value is the last that is known, however young.
+  const oldFrom = isOld(vehicle) ? 0 : OLD_S;
   const row = (label: string, key: string, value: string | undefined, level?: Detail['level']): Detail[] => {
     if (value === undefined) return [];
     const age = ageOf(vehicle, key, now);
-    return [{ label, value, ...(level && { level }), ...(age !== undefined && age >= OLD_S && { age }) }];
+    return [{ label, value, ...(level && { level }), ...(age !== undefined && age >= oldFrom && { age }) }];
   };
   const groups: DetailGroup[] = [
     { title: 'Cannot arm', rows: (fields.arming_reasons ?? []).flatMap((reason) => row('', 'arming_reasons', withoutPrefix(reason), 'warning')) },
-    { title: 'Battery', rows: batteryRows(fields, row) },
+    { title: 'Battery', rows: batteryRows(fields, row, limits) },
     {
       title: 'Position',
       rows: [
@@ -96,12 +98,12 @@ function linkRows(links: LinkQuality[]): Detail[] {
   return links.map((link) => ({ label: link.used ? 'In use' : 'Spare', value: text(link), ...(!link.alive && { level: 'warning' as const }) }));
 }
 
-function batteryRows({ battery, further_batteries }: VehicleFields, row: Row): Detail[] {
+function batteryRows({ battery, further_batteries }: VehicleFields, row: Row, limits: BatteryLimits): Detail[] {
   const rows = battery ? [...row('Left', 'battery', timeLeft(battery)), ...row('Power', 'battery', powerText(battery))] : [];
   for (const other of further_batteries ?? []) {
     const text = [percent(other.remaining), timeLeft(other), powerText(other)].filter(Boolean).join(', ');
-    const level = other.remaining < EMPTY_BATTERY ? 'critical' : other.remaining < LOW_BATTERY ? 'warning' : undefined;
-    rows.push(...row(`Battery ${(other.id ?? 0) + 1}`, 'further_batteries', text, level));
+    const level = batteryLevel(other.remaining, limits);
+    rows.push(...row(`Battery ${(other.id ?? 0) + 1}`, 'further_batteries', text, level === 'ready' ? undefined : level));
   }
   return rows;
 }

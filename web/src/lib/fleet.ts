@@ -26,6 +26,11 @@ export function compareIds(a: string, b: string): number {
   return a.length - b.length || (a < b ? -1 : a > b ? 1 : 0);
 }
 
+/** Seconds since anything was heard of it. */
+export function linkAge(vehicle: Vehicle, now: number): number | undefined {
+  return ageOf(vehicle, vehicle.fields.silent ? 'silent' : 'heartbeat', now);
+}
+
 /** Seconds since the key was heard; nothing when it never was. */
 export function ageOf(vehicle: Vehicle, key: string, now: number): number | undefined {
   const heard = vehicle.heardAt[key];

@@ -25,6 +25,12 @@ describe('format', () => {
     expect(linkSummary(undefined)).toBe('');
     expect(linkTitle([wifi, radio])).toBe('wifi: 2 % lost, 120 ms, 20 messages/s (commands go here)\nradio: silent');
   });
+  it('does not tell what was lost of nothing', () => {
+    const { loss, ...silent } = { name: 'wifi', loss: 0, messages_per_s: 0, bytes_per_s: 0, alive: true, used: true };
+    expect(linkSummary([silent])).toBe('loss unknown');
+    expect(linkTitle([silent])).toMatch(/^wifi: loss unknown/);
+    expect(linkSummary([{ ...silent, loss }])).toBe('0 % lost');
+  });
   it('shows headings with three digits', () => {
     expect([heading(0), heading(Math.PI / 2), heading(-0.1), heading(6.28318)]).toEqual(['000°', '090°', '354°', '000°']);
   });

@@ -30,14 +30,19 @@ export function linkSummary(links: LinkQuality[] | undefined): string {
   const used = links?.find((link) => link.used);
   if (!links || !used) return '';
   const alive = links.filter((link) => link.alive).length;
-  return `${percent(used.loss)} lost${links.length > 1 ? `, ${alive} of ${links.length} links` : ''}`;
+  return `${lossText(used)}${links.length > 1 ? `, ${alive} of ${links.length} links` : ''}`;
+}
+
+/** What was lost of nothing is not known: it is not "0 %". */
+function lossText({ loss }: LinkQuality): string {
+  return loss === undefined ? 'loss unknown' : `${percent(loss)} lost`;
 }
 
 /** One link, without its name: "2 % lost, 120 ms, 20 messages/s". */
 export function linkText(link: LinkQuality): string {
   if (!link.alive) return 'silent';
   const round_trip = link.round_trip_s === undefined ? '' : `${Math.round(link.round_trip_s * 1000)} ms, `;
-  return `${percent(link.loss)} lost, ${round_trip}${link.messages_per_s} messages/s`;
+  return `${lossText(link)}, ${round_trip}${link.messages_per_s} messages/s`;
 }
 
 /** Every link on a line of its own. */
@@ -71,6 +76,11 @@ export function longitude(degrees: number): string {
 export function clock(iso: string): string {
   const time = new Date(iso);
   return Number.isNaN(time.getTime()) ? UNKNOWN : time.toLocaleTimeString('en-GB');
+}
+
+/** The last part of a path. */
+export function fileName(path: string): string {
+  return path.split('/').at(-1) || path;
 }
 
 function clean(text: string): string {

@@ -78,3 +78,9 @@ describe('placeText', () => {
   it('says when it is the vehicle\'s own', () => expect(placeText(origin, copter)).toBe('at copter 1'));
   it('tells degrees without a vehicle', () => expect(placeText(origin)).toBe('35.36326° S, 149.16524° E'));
 });
+
+it('keeps bounds on the map, however near to a pole', () => {
+  const bounds = boundsOf([{ lat_deg: 90, lon_deg: 0, alt_m: 0 }], 60);
+  expect(bounds?.north).toBeLessThanOrEqual(85);
+  expect(bounds?.south).toBeLessThanOrEqual(bounds!.north);
+});

@@ -10,6 +10,8 @@ export interface Bounds {
 }
 
 const METRES_PER_DEGREE = 111_319.49;
+/** Beyond it a map of this projection has no place. */
+export const MAP_END_DEG = 85;
 
 /** The smallest bounds round the positions, at least `leastSpan` metres wide and high; nothing for none. */
 export function boundsOf(positions: Position[], leastSpan: number): Bounds | undefined {
@@ -19,7 +21,8 @@ export function boundsOf(positions: Position[], leastSpan: number): Bounds | und
   const middleLat = (Math.min(...lats) + Math.max(...lats)) / 2;
   const [south, north] = widened(Math.min(...lats), Math.max(...lats), leastSpan / METRES_PER_DEGREE);
   const [west, east] = widened(Math.min(...lons), Math.max(...lons), leastSpan / metresPerDegreeEast(middleLat));
-  return { west, south, east, north };
+  const onMap = (lat: number): number => Math.max(-MAP_END_DEG, Math.min(MAP_END_DEG, lat));
+  return { west, south: onMap(south), east, north: onMap(north) };
 }
 
 /** The smallest bounds round both. */
@@ -111,7 +114,7 @@ function graticule(view: Bounds, lines: number): GridLine[] {
     const wrapped = ((((lon + 180) % 360) + 360) % 360) - 180;
     grid.push(line([lon, view.south], [lon, view.north], degrees(wrapped, step, 'E', 'W'), lon, step));
   }
-  for (const lat of multiples(Math.max(-85, view.south), Math.min(85, view.north), step)) {
+  for (const lat of multiples(Math.max(-MAP_END_DEG, view.south), Math.min(MAP_END_DEG, view.north), step)) {
     grid.push(line([view.west, lat], [view.east, lat], degrees(lat, step, 'N', 'S'), lat, step));
   }
   return grid;

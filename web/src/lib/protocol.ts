@@ -14,7 +14,8 @@ export type Link = 'ok' | 'lost' | 'conflict';
 /** One of the links on which a vehicle is heard, over the last 10 s. */
 export interface LinkQuality {
   name: string;
-  loss: number;
+  /** Missing while nothing is heard on it. */
+  loss?: number;
   messages_per_s: number;
   bytes_per_s: number;
   round_trip_s?: number;
@@ -53,6 +54,8 @@ export interface VehicleFields {
   payload?: string[];
   track_m?: number;
   heartbeat?: true;
+  /** Nothing has come from it for some seconds; the age of this key is that of the silence. */
+  silent?: boolean;
   mode?: string;
   armed?: boolean;
   landed?: boolean;
@@ -108,7 +111,7 @@ export interface Task {
   children?: Task[];
 }
 
-export type ScriptState = 'idle' | 'running' | 'stopping' | 'done' | 'failed';
+export type ScriptState = 'idle' | 'running' | 'stopping' | 'stopped' | 'done' | 'failed';
 
 export interface Diagnostic {
   severity: 'error' | 'warning' | 'note';
@@ -185,6 +188,28 @@ export interface Emergency {
   vehicles: { vehicle: string; acknowledged: boolean; confirmed: boolean; tries: number; detail: string }[];
 }
 
+export type Severity = 'warning' | 'critical';
+
+/** What an operator must be told without having looked. */
+export interface Alarm {
+  number: number;
+  /** "silent", "battery_low" ...: lib/alarms.ts has words for those that it knows. */
+  kind: string;
+  severity: Severity;
+  vehicle: string;
+  text: string;
+  raised: string;
+  /** When the message was made. */
+  age_s: number;
+  acknowledged_by?: string;
+}
+
+export interface Alarms {
+  /** Below which share a battery counts as low. */
+  battery?: { low: number; critical: number };
+  alarms: Alarm[];
+}
+
 export interface Hello {
   type: 'hello';
   /** What this viewer is called as a commander of vehicles. */
@@ -213,6 +238,7 @@ export type ServerMessage =
   | { type: 'log'; lines: LogLine[] }
   | ({ type: 'emergency' } & Emergency)
   | { type: 'commands'; commands: Command[] }
+  | ({ type: 'alarms' } & Alarms)
   | Reply
   | { type: 'pong'; id: string; server_time: string };
 
@@ -223,17 +249,7 @@ export type Request =
   | ({ type: 'command'; action: Action; vehicles: string[]; take_over?: boolean } & CommandDetails)
   | { type: 'emergency_stop'; action?: StopAction }
   | { type: 'release_emergency_stop' }
+  | { type: 'acknowledge_alarms'; numbers: number[] }
   | { type: 'request_control' | 'yield_control' | 'keep_control'; vehicle: string };
 
 export type ClientMessage = (Request & { id: string }) | { type: 'ping'; id: string };
-
-/** The message in a text frame; nothing for what is none. Types this app does not know come through and match no case. */
-export function parseMessage(text: string): ServerMessage | undefined {
-  try {
-    const value: unknown = JSON.parse(text);
-    const isMessage = typeof value === 'object' && value !== null && 'type' in value && typeof value.type === 'string';
-    return isMessage ? (value as ServerMessage) : undefined;
-  } catch {
-    return undefined;
-  }
-}

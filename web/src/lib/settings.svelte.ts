@@ -2,12 +2,18 @@ export type Theme = 'system' | 'light' | 'dark';
 
 const THEME = 'lapwing.theme';
 const TILES = 'lapwing.tiles';
+const SOUND = 'lapwing.sound';
+const VOICE = 'lapwing.voice';
 
 /** What this browser's user prefers, kept in it. */
 class Settings {
   theme = $state<Theme>(read(THEME) === 'light' ? 'light' : read(THEME) === 'dark' ? 'dark' : 'system');
   /** An XYZ tile address with {z}, {x} and {y}; empty: the plain grid alone. */
   tiles = $state(read(TILES));
+  /** Whether alarms sound. */
+  sound = $state(read(SOUND) === 'on');
+  /** Whether they are spoken. */
+  voice = $state(read(VOICE) === 'on');
   private systemIsDark = $state(matchMedia('(prefers-color-scheme: dark)').matches);
 
   constructor() {
@@ -21,6 +27,16 @@ class Settings {
   setTheme(theme: Theme): void {
     this.theme = theme;
     write(THEME, theme === 'system' ? '' : theme);
+  }
+
+  setSound(isOn: boolean): void {
+    this.sound = isOn;
+    write(SOUND, isOn ? 'on' : '');
+  }
+
+  setVoice(isOn: boolean): void {
+    this.voice = isOn;
+    write(VOICE, isOn ? 'on' : '');
   }
 
   setTiles(address: string): void {

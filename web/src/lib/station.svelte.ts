@@ -1,10 +1,16 @@
+import { groupAlarms, knownAlarms, newAlarms, type AlarmGroup, type KnownAlarm } from './alarms';
+import { Announcer, BrowserVoices } from './announcer';
 import { Connection } from './connection';
 import { addPictures, extendTrail, mergeUpdates, type Fleet } from './fleet';
 import { appendLines } from './log';
+import { settings } from './settings.svelte';
+import { USUAL_LIMITS, type BatteryLimits } from './status';
 import { VehicleParameters } from './parameters.svelte';
+import { parseScripts } from './parse';
 import {
   PROTOCOL,
   type Action,
+  type Alarms,
   type Command,
   type CommandDetails,
   type Diagnostic,
@@ -45,6 +51,10 @@ class Station {
   operator = $state('');
   commands = $state.raw<Command[]>([]);
   emergency = $state.raw<Emergency>({ latched: false, action: 'hold', by: '', vehicles: [] });
+  alarms = $state.raw<KnownAlarm[]>([]);
+  batteryLimits = $state.raw<BatteryLimits>(USUAL_LIMITS);
+  /** Sound is wanted, and the browser keeps it off until somebody touches the page. */
+  isMuted = $state(false);
   /** Why the last command or handover was refused; empty when it was not. */
   objection = $state('');
   /** When an emergency stop, or its release, was asked for that the station has not answered yet; by this browser's clock in ms. */
@@ -60,6 +70,8 @@ class Station {
   refusal = $state.raw<{ message: string; hint: string; diagnostics: Diagnostic[] } | undefined>(undefined);
 
   private readonly parameters = new Map<string, VehicleParameters>();
+  private readonly voices = new BrowserVoices();
+  private readonly announcer = new Announcer(this.voices, () => settings);
   private lastSeq = 0;
   /** The station's clock in s at this browser's 0. */
   private clockOffset_s = 0;
@@ -75,8 +87,39 @@ class Station {
       received: (message) => this.receive(message),
       lost: () => this.lose(),
     });
-    setInterval(() => (this.now = performance.now()), CLOCK_MS);
+    setInterval(() => this.tick(), CLOCK_MS);
+    if (settings.sound) this.wakeSound();
+    for (const event of ['pointerdown', 'keydown']) addEventListener(event, () => settings.sound && this.wakeSound(), { capture: true, passive: true });
     this.connection.connect();
+  }
+
+  private tick(): void {
+    this.now = performance.now();
+    this.isMuted = settings.sound && this.voices.isMuted;
+    const open = this.isLost ? [] : this.alarms.filter(({ acknowledged_by }) => !acknowledged_by);
+    this.announcer.remind(open.some(({ severity }) => severity === 'critical') ? 'critical' : open[0]?.severity, this.now);
+  }
+
+  /** Seconds since anything came from the station. */
+  get silence_s(): number {
+    return Math.max(0, this.now - this.lastHeard) / 1000;
+  }
+
+  wakeSound(): void {
+    this.voices.wake();
+  }
+
+  /** What an alarm sounds like, for who has just chosen it. */
+  trySound(): void {
+    this.announcer.tell('warning', 'Alarms are spoken like this', performance.now());
+  }
+
+  groupsOf(alarms: KnownAlarm[]): AlarmGroup[] {
+    return groupAlarms(alarms, (id) => this.fleet.get(id)?.fields.name || id);
+  }
+
+  async acknowledge(numbers: number[]): Promise<void> {
+    await this.connection.request({ type: 'acknowledge_alarms', numbers });
   }
 
   /** What is shown is old. */
@@ -164,7 +207,8 @@ class Station {
 
   private async listScripts(): Promise<void> {
     const answer = await this.ask('/api/v1/scripts');
-    if (answer?.ok) this.scripts = ((await answer.json()) as { scripts: { name: string }[] }).scripts.map(({ name }) => name);
+    const body: unknown = answer?.ok ? await answer.json().catch(() => undefined) : undefined;
+    if (body !== undefined) this.scripts = parseScripts(body);
   }
 
   /** That vehicle's parameters, as far as anybody here has asked for them. */
@@ -193,7 +237,10 @@ class Station {
   }
 
   private lose(): void {
-    if (this.phase === 'live') this.alert = 'Station lost. The vehicles carry on; what you see is old.';
+    if (this.phase === 'live') {
+      this.alert = 'Station lost. The vehicles carry on; what you see is old.';
+      this.announcer.tell('critical', 'Station lost', performance.now());
+    }
     if (this.phase !== 'locked') this.phase = 'lost';
     this.asking.abort();
     this.asking = new AbortController();
@@ -248,7 +295,17 @@ class Station {
       case 'commands':
         this.commands = message.commands;
         break;
+      case 'alarms':
+        this.noteAlarms(message, now);
+        break;
     }
+  }
+
+  private noteAlarms({ alarms, battery }: Alarms, now: number): void {
+    const news = newAlarms(this.alarms, alarms);
+    this.alarms = knownAlarms(alarms, now);
+    if (battery) this.batteryLimits = battery;
+    for (const { severity, title } of this.groupsOf(knownAlarms(news, now))) this.announcer.tell(severity, title, now);
   }
 
   private noteEmergency(emergency: Emergency): void {
@@ -272,7 +329,8 @@ class Station {
     if (newest < this.lastSeq) this.lastSeq = 0; // the station was started anew
     const before = this.log.length;
     this.log = appendLines(this.log, lines, this.lastSeq);
-    const failure = lines.findLast((line) => line.level === 'error' && line.seq > this.lastSeq);
+    // Alarms are told by themselves.
+    const failure = lines.findLast((line) => line.level === 'error' && line.seq > this.lastSeq && line.source !== 'alarm');
     if (failure && before > 0) this.alert = `${failure.source}: ${failure.text}`;
     this.lastSeq = newest;
   }

@@ -6,7 +6,8 @@ const status = (fields: VehicleFields, stationLost = false) => statusOf({ id: '1
 
 it.each<[VehicleFields, string, string]>([
   [{ connection: 'conflict', battery: { remaining: 0.01 } }, 'critical', 'id conflict'],
-  [{ connection: 'lost', armed: true }, 'lost', 'link lost'],
+  [{ connection: 'lost', armed: true, silent: true }, 'lost', 'link lost'],
+  [{ connection: 'ok', armed: true, landed: false, silent: true }, 'lost', 'silent'],
   [{ connection: 'ok', armed: true, battery: { remaining: 0.1 } }, 'critical', 'battery empty'],
   [{ armed: true, battery: { remaining: 0.2 } }, 'warning', 'battery low'],
   [{ armed: true, health: { position_ok: false, prearm_ok: true } }, 'warning', 'no position'],
@@ -17,6 +18,12 @@ it.each<[VehicleFields, string, string]>([
   [{}, 'ready', 'connected'],
 ])('%j is %s: %s', (fields, level, word) => {
   expect(status(fields)).toMatchObject({ level, word });
+});
+
+it('calls a battery low from where the station does', () => {
+  const limits = { low: 0.5, critical: 0.4 };
+  const word = (remaining: number) => statusOf({ id: '1', fields: { battery: { remaining } }, heardAt: {} }, false, limits).word;
+  expect([word(0.6), word(0.45), word(0.39)]).toEqual(['connected', 'battery low', 'battery empty']);
 });
 
 it('trusts nothing when the station is lost', () => {

@@ -1,9 +1,10 @@
 import type { Feature, FeatureCollection } from 'geojson';
-import { gridLines, type Bounds, type LonLat } from '../lib/geometry';
+import { gridLines, MAP_END_DEG, type Bounds, type LonLat } from '../lib/geometry';
 import type { Position } from '../lib/protocol';
 
+/** On the map, which ends before the poles. */
 export function lonLat(position: Position): LonLat {
-  return [position.lon_deg, position.lat_deg];
+  return [position.lon_deg, Math.max(-MAP_END_DEG, Math.min(MAP_END_DEG, position.lat_deg))];
 }
 
 /** One line a vehicle, coloured as it is. */
