@@ -1,5 +1,6 @@
 // The emergency stop: always in sight, always told what became of it; run.mjs runs these.
 import assert from 'node:assert/strict';
+import { sentBy, watchSent } from './hold.mjs';
 
 /** `row` finds a vehicle in the table, `hold` holds a button down with the mouse. */
 export function addEmergencyTests(test, row, hold) {
@@ -27,6 +28,57 @@ export function addEmergencyTests(test, row, hold) {
     const banner = page.getByRole('region', { name: 'Emergency stop' });
     await banner.waitFor();
     await hold(page, banner.getByRole('button', { name: 'Release' }));
+  });
+
+  test('leads the keyboard to the release, and back to where it was', async ({ open }) => {
+    const page = await open();
+    const name = row(page, 'copter 1').locator('.vehicle-name');
+    await name.focus();
+    await page.keyboard.press('Control+Shift+S');
+    const banner = page.getByRole('region', { name: 'Emergency stop' });
+    await banner.waitFor();
+    await page.waitForFunction(() => document.activeElement.classList.contains('emergency'));
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Tab');
+    await page.waitForFunction(() => document.activeElement.textContent.includes('Release'));
+    await page.keyboard.down('Enter');
+    await banner.waitFor({ state: 'detached' });
+    await page.keyboard.up('Enter');
+    assert.ok(await name.evaluate((element) => element === document.activeElement), 'the focus is where it was');
+  });
+
+  for (const size of [{ width: 1440, height: 900 }, { width: 390, height: 844 }]) {
+    test(`keeps Motors off away from Release, behind a second step, at ${size.width} px`, async ({ open }) => {
+      const page = await open({ size });
+      await row(page, 'copter 1').waitFor();
+      await watchSent(page);
+      await button(page).click();
+      const banner = page.getByRole('region', { name: 'Emergency stop' });
+      const release = banner.getByRole('button', { name: 'Release' });
+      const first = banner.getByRole('button', { name: 'Motors off…' });
+      const [a, b] = [await first.boundingBox(), await release.boundingBox()];
+      assert.ok(b.x - (a.x + a.width) > 48, `${b.x - a.x - a.width} px between them`);
+      await first.click();
+      const second = banner.getByRole('group', { name: 'Motors off' }).getByRole('button', { name: 'Motors off', exact: true });
+      const c = await second.boundingBox();
+      assert.ok(c.y + c.height < a.y, 'the second step is not where the first was');
+      assert.equal(await release.count(), 0, 'nobody who wants to release stops the motors');
+      await second.click();
+      await banner.getByRole('button', { name: 'Cancel' }).click();
+      await release.waitFor();
+      assert.deepEqual(await sentBy(page), ['emergency_stop'], 'a click stops no motor');
+      await first.click();
+      await hold(page, second);
+      await banner.getByText('motors off, by').waitFor();
+    });
+  }
+
+  test('has STOP and E-STOP large and apart enough for a finger on a phone', async ({ open }) => {
+    const page = await open({ size: { width: 390, height: 844 } });
+    await row(page, 'copter 1').waitFor();
+    const [stop, emergency] = [await page.getByRole('button', { name: 'STOP', exact: true }).boundingBox(), await button(page).boundingBox()];
+    for (const { width, height } of [stop, emergency]) assert.ok(width >= 44 && height >= 44, `${width} x ${height}`);
+    assert.ok(emergency.x - (stop.x + stop.width) > 6, `${emergency.x - stop.x - stop.width} px between them`);
   });
 
   const button = (page) => page.locator('header .emergency');
@@ -76,7 +128,7 @@ export function addEmergencyTests(test, row, hold) {
       await station().stop();
       await page.locator('header .phase', { hasText: 'station lost' }).waitFor();
       await assertPressable(page, 'lost');
-      for (const name of ['Release', 'Motors off']) assert.ok(await page.getByRole('button', { name }).isDisabled(), name);
+      for (const name of ['Release', 'Motors off…']) assert.ok(await page.getByRole('button', { name }).isDisabled(), name);
     }, { complaintsAllowed: true });
   }
 

@@ -48,7 +48,10 @@ export async function startBrowser() {
     ],
   });
   return {
-    /** A page with a list of what went wrong in it: errors, refused resources, violations of the content policy. */
+    /**
+     * A page with a list of what went wrong in it: errors, refused resources, violations of the content policy. `options.station`
+     * is given each message of the station and tells what the page hears instead of it.
+     */
     open: async (url, options = {}) => {
       const page = await browser.newPage();
       const complaints = [];
@@ -56,6 +59,12 @@ export async function startBrowser() {
       page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
       if (options.size) await page.setViewportSize(options.size);
       await page.emulateMedia({ colorScheme: options.scheme ?? 'dark', reducedMotion: options.reducedMotion ?? 'no-preference' });
+      if (options.station) {
+        await page.routeWebSocket(/\/api\/v1\/ws/, (socket) => {
+          const server = socket.connectToServer();
+          server.onMessage((data) => options.station(JSON.parse(data)).forEach((message) => socket.send(JSON.stringify(message))));
+        });
+      }
       await page.goto(url);
       return { page, complaints };
     },

@@ -2,6 +2,7 @@
 // runs the tests whose name holds WORD; needs web/dist (npm run build) and the target station_demo.
 import assert from 'node:assert/strict';
 import { startBrowser, startStation } from './harness.mjs';
+import { addAlarmTests } from './alarms.mjs';
 import { addEmergencyTests } from './emergency.mjs';
 import { addGoToTests } from './go_to.mjs';
 import { addHoldTests } from './hold.mjs';
@@ -92,7 +93,11 @@ test('stops the script with the button and starts it again', async ({ open }) =>
   await scriptState(page, 'running');
   await page.getByRole('button', { name: 'STOP', exact: true }).click();
   await scriptState(page, 'stopping');
-  await scriptState(page, 'idle');
+  await scriptState(page, 'stopped');
+  await page.locator('#script .outcome', { hasText: 'stopped by operator 1' }).waitFor();
+  const colours = await page.evaluate(() => ['--critical', '--muted'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name)));
+  const chip = await page.locator('#script .chip').evaluate((element) => getComputedStyle(element).getPropertyValue('--chip'));
+  assert.ok(chip.trim() !== colours[0].trim() && chip.trim() === colours[1].trim(), `what an operator wanted is no failure: ${chip}`);
   await row(page, 'LOITER').first().waitFor();
   await page.locator('#script').getByRole('button', { name: 'Start' }).click();
   await scriptState(page, 'running');
@@ -102,7 +107,7 @@ test('stops the script with the keyboard alone', async ({ open }) => {
   const page = await open();
   await scriptState(page, 'running');
   await page.keyboard.press('Control+Shift+X');
-  await scriptState(page, 'idle');
+  await scriptState(page, 'stopped');
 });
 
 test('commands several vehicles and shows what each made of it', async ({ open }) => {
@@ -143,6 +148,8 @@ test('hands a vehicle over to who asks for it', async ({ open }) => {
   await row(other, 'plane 3').waitFor();
   await other.keyboard.press('3');
   await other.getByRole('button', { name: 'Ask for it' }).press('Enter');
+  await other.locator('#command').getByText(/Asked: yours/).waitFor();
+  assert.equal(await other.getByRole('button', { name: 'Ask for it' }).count(), 0, 'who has asked sees it');
   await holder.bringToFront();
   await holder.getByRole('group', { name: /asks for plane 3/ }).getByRole('button', { name: 'Hand over' }).press('Enter');
   await other.bringToFront();
@@ -157,6 +164,7 @@ test('says whose vehicle it takes over', async ({ open }) => {
   await page.getByText('You command copter 1').waitFor();
 });
 
+addAlarmTests(test, row);
 addEmergencyTests(test, row, hold);
 addGoToTests(test, row, hold);
 addHoldTests(test, row);
@@ -166,7 +174,7 @@ test('shows what is wrong with a script and leads there', async ({ open }) => {
   const page = await open();
   await scriptState(page, 'running');
   await page.getByRole('button', { name: 'STOP', exact: true }).click();
-  await scriptState(page, 'idle');
+  await scriptState(page, 'stopped');
   await page.getByRole('button', { name: 'Edit' }).click();
   await page.getByLabel('Script text').fill(`${'// above\n'.repeat(40)}m = mission {\n  takeOf here\n}\n${'// below\n'.repeat(40)}`);
   await page.locator('#script').getByRole('button', { name: 'Start' }).click();
@@ -319,7 +327,7 @@ test('shows no label over another', async ({ open }) => {
 test('opens a script of the station and starts it', async ({ open }) => {
   const page = await open();
   await page.getByRole('button', { name: 'STOP', exact: true }).click();
-  await scriptState(page, 'idle');
+  await scriptState(page, 'stopped');
   await page.getByLabel('Open a script').selectOption('listing2.dolphin');
   await page.getByLabel('Script text').waitFor();
   assert.match(await page.getByLabel('Script text').inputValue(), /pick/);
