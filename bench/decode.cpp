@@ -26,14 +26,24 @@ std::vector<std::uint8_t> const& capture() {
       for (int i = 0; i < 10; ++i) {
         mavlink::GlobalPosition position;
         position.position = geo::Wgs84::from_degrees(41.178 + unit(random) * 1e-3, -8.598 + unit(random) * 1e-3, 120.0);
-        mavlink::Attitude attitude;
-        attitude.yaw_rad = unit(random) * 3.0;
-        mavlink::VfrHud hud;
-        hud.ground_speed_m_s = 5.0 + unit(random);
+        position.relative_alt_m = 0.0;
+        position.velocity_m_s = geo::Ned{};
+        mavlink::Attitude attitude{.roll_rad = 0.0,
+                                   .pitch_rad = 0.0,
+                                   .yaw_rad = unit(random) * 3.0,
+                                   .roll_rate_rad_s = 0.0,
+                                   .pitch_rate_rad_s = 0.0,
+                                   .yaw_rate_rad_s = 0.0};
+        mavlink::VfrHud const hud{.airspeed_m_s = 0.0,
+                                  .ground_speed_m_s = 5.0 + unit(random),
+                                  .heading_rad = 0.0,
+                                  .throttle = 0.0,
+                                  .alt_m = 0.0,
+                                  .climb_m_s = 0.0};
         std::vector<Message> messages{position, attitude, hud};
         if (i % 5 == 0) {
-          messages.push_back(mavlink::SysStatus{});
-          messages.push_back(mavlink::GpsRaw{});
+          messages.push_back(mavlink::SysStatus{.load = 0.0, .drop_rate_comm = 0.0});
+          messages.push_back(mavlink::GpsRaw{.position = geo::Wgs84{}});
         }
         if (i == 0) messages.push_back(mavlink::Heartbeat{});
         for (auto const& message : messages) {

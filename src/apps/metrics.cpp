@@ -73,6 +73,14 @@ void for_each_source(std::span<LinkReport const> links, Write write) {
     }
 }
 
+void write_impossible_values(OpenMetrics& metrics, std::span<LinkReport const> links) {
+  metrics.counter("lapwing_link_impossible_values",
+                  "Fields in which vehicles told what cannot be; they were left out.");
+  for (auto const& link : links)
+    for (auto const& [message, field, count] : link.impossible_values)
+      metrics.sample({{"link", link.name}, {"message", message}, {"field", field}}, count);
+}
+
 void write_sources(OpenMetrics& metrics, std::span<LinkReport const> links) {
   using Labels = OpenMetrics::Labels;
   for (auto const& [name, help, value] : source_counters) {
@@ -113,6 +121,7 @@ std::string metrics_of(vehicle::Registry const& vehicles, std::span<LinkReport c
   OpenMetrics metrics;
   write_vehicles(metrics, vehicles, now);
   write_links(metrics, links);
+  write_impossible_values(metrics, links);
   write_sources(metrics, links);
   std::vector<route::Router const*> routers;
   for (auto const& [network, router] : forwarding) routers.push_back(&router);

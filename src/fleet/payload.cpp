@@ -16,12 +16,6 @@ namespace {
 constexpr base::Duration gimbal_status_prevails = 5s;  // over MOUNT_STATUS
 constexpr std::uint8_t first_real_component = 7;       // below it a gimbal device is one of the autopilot's own
 
-bool is_finite(std::array<float, 4> const& q) {
-  for (auto const part : q)
-    if (!std::isfinite(part)) return false;
-  return true;
-}
-
 /// Roll, pitch, yaw in that order about the axes that the turns before left (Z-Y-X). Straight up or down roll and yaw
 /// are one turn, which is then called yaw.
 vehicle::Gimbal pointing(std::array<float, 4> const& q) {
@@ -93,8 +87,8 @@ struct Taking {
   }
 
   bool operator()(mavlink::GimbalDeviceAttitudeStatus const& heard) const {
-    if (!is_finite(heard.orientation)) return false;
-    auto gimbal = pointing(heard.orientation);
+    if (!heard.orientation) return false;
+    auto gimbal = pointing(*heard.orientation);
     gimbal.yaw_is_from_north = yaw_is_from_north(heard.flags);
     craft.state.gimbal.set(gimbal, now);
     craft.gimbal_status_heard = now;
@@ -102,7 +96,8 @@ struct Taking {
   }
   bool operator()(mavlink::MountStatus const& heard) const {
     if (craft.gimbal_status_heard && now - *craft.gimbal_status_heard < gimbal_status_prevails) return false;
-    craft.state.gimbal.set({heard.roll_rad, heard.pitch_rad, heard.yaw_rad, false}, now);
+    if (!heard.roll_rad || !heard.pitch_rad || !heard.yaw_rad) return false;
+    craft.state.gimbal.set({*heard.roll_rad, *heard.pitch_rad, *heard.yaw_rad, false}, now);
     return true;
   }
 

@@ -127,11 +127,11 @@ TEST(Gimbal, PointsWhereItsQuaternionSays) {
 
   status.orientation = {NAN, 0, 0, 0};
   copter.send(status);
-  copter.send(mavlink::MountStatus{.pitch_rad = 0.5});  // says less
+  copter.send(mavlink::MountStatus{.pitch_rad = 0.5, .roll_rad = 0.0, .yaw_rad = 0.0});  // says less
   world.run_for(100ms);
   EXPECT_NEAR(world.state().gimbal.value->pitch_rad, -std::numbers::pi / 2.0, 0.02);
   world.run_for(6s);
-  copter.send(mavlink::MountStatus{.pitch_rad = 0.5});
+  copter.send(mavlink::MountStatus{.pitch_rad = 0.5, .roll_rad = 0.0, .yaw_rad = 0.0});
   world.run_for(100ms);
   EXPECT_NEAR(world.state().gimbal.value->pitch_rad, 0.5, 1e-3);
 }

@@ -16,9 +16,9 @@ constexpr std::int64_t longest_gap = 100;  // a longer one is a counter that beg
 constexpr base::Duration same_picture = std::chrono::seconds(1);
 constexpr base::Duration clock_slack = std::chrono::seconds(3);
 
-/// A place that a camera without a position gives.
-std::optional<geo::Wgs84> real(geo::Wgs84 const& place) {
-  if (place.lat_rad == 0.0 && place.lon_rad == 0.0) return std::nullopt;
+/// Zeros are what a camera without a position gives.
+std::optional<geo::Wgs84> real(std::optional<geo::Wgs84> const& place) {
+  if (place && place->lat_rad == 0.0 && place->lon_rad == 0.0) return std::nullopt;
   return place;
 }
 
@@ -73,7 +73,7 @@ bool PictureTrace::take(mavlink::CameraImageCaptured const& heard, std::uint8_t 
     if (!heard.captured || !real(heard.position)) return false;
     --shown.value->lost;
     --shown.value->taken;
-    add(shown, real(heard.position), heard.relative_alt_m, now);
+    add(shown, real(heard.position), heard.relative_alt_m.value_or(0.0), now);
     return true;
   }
   if (camera.last && heard.since_boot + clock_slack < camera.since_boot) camera = {};
@@ -89,7 +89,7 @@ bool PictureTrace::take(mavlink::CameraImageCaptured const& heard, std::uint8_t 
   while (camera.missing.size() > static_cast<std::size_t>(longest_gap)) camera.missing.erase(camera.missing.begin());
   camera.last = heard.image;
   camera.since_boot = heard.since_boot;
-  if (heard.captured) add(shown, real(heard.position), heard.relative_alt_m, now);
+  if (heard.captured) add(shown, real(heard.position), heard.relative_alt_m.value_or(0.0), now);
   return true;
 }
 
@@ -99,7 +99,7 @@ bool PictureTrace::take(mavlink::CameraFeedback const& heard, Shown& shown, Time
   if (!passed) return false;
   last_feedback_ = heard.image;
   add_lost(shown, *passed, now);
-  add(shown, real(heard.position), heard.relative_alt_m, now);
+  add(shown, real(heard.position), heard.relative_alt_m.value_or(0.0), now);
   return true;
 }
 

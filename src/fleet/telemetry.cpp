@@ -136,19 +136,29 @@ struct Taking {
     return false;
   }
 
+  /// What is absent leaves the field as it was, and as old as it is.
+  template <class T>
+  void take_known(vehicle::Aged<T>& field, std::optional<T> const& heard) const {
+    if (heard) field.set(*heard, now);
+  }
+
   bool operator()(mavlink::GlobalPosition const& heard) const {
-    if ((heard.position.lat_rad == 0.0 && heard.position.lon_rad == 0.0) || !has_fix(craft)) return false;
-    state.position.set(heard.position, now);
-    state.relative_alt_m.set(heard.relative_alt_m, now);
-    state.velocity_m_s.set(heard.velocity_m_s, now);
-    if (heard.heading_rad && position_is_estimated(state)) state.heading_rad.set(*heard.heading_rad, now);
-    extend_track(craft, state, heard.position, now);
-    extend_path(craft, heard.position);
+    auto const& place = heard.position;
+    bool const is_nowhere = place && place->lat_rad == 0.0 && place->lon_rad == 0.0;
+    if (is_nowhere || !has_fix(craft)) return false;
+    take_known(state.position, place);
+    take_known(state.relative_alt_m, heard.relative_alt_m);
+    take_known(state.velocity_m_s, heard.velocity_m_s);
+    if (position_is_estimated(state)) take_known(state.heading_rad, heard.heading_rad);
+    if (!place) return true;
+    extend_track(craft, state, *place, now);
+    extend_path(craft, *place);
     return true;
   }
 
   bool operator()(mavlink::Attitude const& heard) const {
-    state.attitude.set({heard.roll_rad, heard.pitch_rad, heard.yaw_rad}, now);
+    if (!heard.roll_rad || !heard.pitch_rad || !heard.yaw_rad) return false;
+    state.attitude.set({*heard.roll_rad, *heard.pitch_rad, *heard.yaw_rad}, now);
     return true;
   }
 
@@ -164,14 +174,15 @@ struct Taking {
   }
 
   bool operator()(mavlink::Wind const& heard) const {
-    state.wind.set({geo::wrap_two_pi(heard.from_rad), heard.speed_m_s}, now);
+    if (!heard.from_rad || !heard.speed_m_s) return false;
+    state.wind.set({geo::wrap_two_pi(*heard.from_rad), *heard.speed_m_s}, now);
     return true;
   }
 
   bool operator()(mavlink::WindCov const& heard) const {
-    auto const& wind = heard.wind_m_s;
-    if (!std::isfinite(wind.north) || !std::isfinite(wind.east)) return false;
-    state.wind.set({geo::wrap_two_pi(std::atan2(-wind.east, -wind.north)), std::hypot(wind.north, wind.east)}, now);
+    if (!heard.north_m_s || !heard.east_m_s) return false;
+    auto const from_rad = geo::wrap_two_pi(std::atan2(-*heard.east_m_s, -*heard.north_m_s));
+    state.wind.set({from_rad, std::hypot(*heard.north_m_s, *heard.east_m_s)}, now);
     return true;
   }
 
@@ -240,7 +251,8 @@ struct Taking {
   }
 
   bool operator()(mavlink::HomePosition const& heard) const {
-    state.home.set(heard.position, now);
+    if (!heard.position) return false;
+    state.home.set(*heard.position, now);
     return true;
   }
 

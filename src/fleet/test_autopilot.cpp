@@ -331,10 +331,14 @@ void TestAutopilot::send_message(MessageId id) {
   switch (id) {
     case MessageId::global_position_int: {
       auto const place = has_position() ? position() : geo::Wgs84{};
-      return send(mavlink::GlobalPosition{
-          .since_boot = since_boot, .position = place, .relative_alt_m = 0.0, .velocity_m_s = {}, .heading_rad = 0.5});
+      return send(mavlink::GlobalPosition{.since_boot = since_boot,
+                                          .position = place,
+                                          .relative_alt_m = 0.0,
+                                          .velocity_m_s = geo::Ned{},
+                                          .heading_rad = 0.5});
     }
-    case MessageId::attitude: return send(mavlink::Attitude{.since_boot = since_boot, .yaw_rad = 0.5});
+    case MessageId::attitude:
+      return send(mavlink::Attitude{.since_boot = since_boot, .roll_rad = 0.0, .pitch_rad = 0.0, .yaw_rad = 0.5});
     case MessageId::sys_status: {
       mavlink::SysStatus status;
       status.sensors_health = arming_refusal ? 0 : mavlink::sensor_flag::prearm_check;

@@ -1,16 +1,29 @@
 #include "mavlink/codec.hpp"
 
 #include "mavlink/internal/codec_parts.hpp"
+#include "mavlink/internal/intake.hpp"
 
 namespace lapwing::mavlink {
 
-std::optional<Message> decode(Frame const& frame) {
-  // The busiest group first.
-  if (auto message = internal::read_motion(frame)) return message;
-  if (auto message = internal::read_state(frame)) return message;
-  if (auto message = internal::read_payload(frame)) return message;
+namespace {
+
+std::optional<Message> decode(Frame const& frame, internal::Intake in) {
+  // The busiest group first, and without a copy on the way.
+  if (internal::is_motion(frame.message_id)) return internal::read_motion(frame, in);
+  if (auto message = internal::read_state(frame, in)) return message;
+  if (auto message = internal::read_payload(frame, in)) return message;
   if (auto message = internal::read_mission(frame)) return message;
-  return internal::read_command(frame);
+  return internal::read_command(frame, in);
+}
+
+}  // namespace
+
+std::optional<Message> decode(Frame const& frame) {
+  return decode(frame, internal::Intake(nullptr));
+}
+
+std::optional<Message> decode(Frame const& frame, std::vector<ImpossibleField>& impossible) {
+  return decode(frame, internal::Intake(&impossible));
 }
 
 Frame encode(Message const& message, Address self, std::uint8_t seq) {

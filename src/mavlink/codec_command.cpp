@@ -1,5 +1,6 @@
 // Commands, message rates, parameters and signing.
 #include "mavlink/internal/codec_parts.hpp"
+#include "mavlink/internal/intake.hpp"
 #include "mavlink/internal/wire.hpp"
 
 #include <common/mavlink_msg_command_ack.hpp>
@@ -41,13 +42,14 @@ CommandInt read(COMMAND_INT const& w) {
           .place = place_from_wire(frame, command, w.x, w.y, w.z)};
 }
 
-CommandAck read(COMMAND_ACK const& w) {
+CommandAck read(COMMAND_ACK const& w, Intake& in) {
   CommandAck m{.target = target(w),
                .command = MavCmd{w.command},
                .result = MavResult{w.result},
                .progress = std::nullopt,
                .result_param2 = w.result_param2};
-  if (m.result == MavResult::in_progress) m.progress = unless(unknown_progress, w.progress, centi);
+  if (m.result == MavResult::in_progress)
+    m.progress = in("progress", limit::fraction, unless(unknown_progress, w.progress, centi));
   return m;
 }
 
@@ -110,11 +112,11 @@ WirePlace place_to_wire(MavFrame frame, MavCmd command, ItemPlace const& place) 
   return {rounded<std::int32_t>(place.x / local_unit_m), rounded<std::int32_t>(place.y / local_unit_m), z};
 }
 
-std::optional<Message> read_command(Frame const& frame) {
+std::optional<Message> read_command(Frame const& frame, Intake& in) {
   switch (frame.message_id) {
     case COMMAND_LONG::MSG_ID: return read(unpack<COMMAND_LONG>(frame));
     case COMMAND_INT::MSG_ID: return read(unpack<COMMAND_INT>(frame));
-    case COMMAND_ACK::MSG_ID: return read(unpack<COMMAND_ACK>(frame));
+    case COMMAND_ACK::MSG_ID: return read(unpack<COMMAND_ACK>(frame), in);
     case SET_MODE::MSG_ID: return read(unpack<SET_MODE>(frame));
     case REQUEST_DATA_STREAM::MSG_ID: return read(unpack<REQUEST_DATA_STREAM>(frame));
     case MESSAGE_INTERVAL::MSG_ID: return read(unpack<MESSAGE_INTERVAL>(frame));

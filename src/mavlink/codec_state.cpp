@@ -1,5 +1,6 @@
 // Identity, time and health.
 #include "mavlink/internal/codec_parts.hpp"
+#include "mavlink/internal/intake.hpp"
 #include "mavlink/internal/wire.hpp"
 
 #include <ardupilotmega/mavlink_msg_ekf_status_report.hpp>
@@ -37,8 +38,8 @@ Heartbeat read(HEARTBEAT const& w) {
           .mavlink_version = w.mavlink_version};
 }
 
-SystemTime read(SYSTEM_TIME const& w) {
-  return {.utc = microseconds(w.time_unix_usec), .since_boot = since_boot(w.time_boot_ms)};
+SystemTime read(SYSTEM_TIME const& w, Intake& in) {
+  return {.utc = in.utc("time_unix_usec", w.time_unix_usec), .since_boot = since_boot(w.time_boot_ms)};
 }
 
 Ping read(PING const& w) {
@@ -60,16 +61,18 @@ AutopilotVersion read(AUTOPILOT_VERSION const& w) {
           .uid2 = w.uid2};
 }
 
-SysStatus read(SYS_STATUS const& w) {
-  return {.sensors_present = w.onboard_control_sensors_present,
-          .sensors_enabled = w.onboard_control_sensors_enabled,
-          .sensors_health = w.onboard_control_sensors_health,
-          .load = w.load * milli,
-          .battery_voltage_v = unless(unknown16, w.voltage_battery, milli),
-          .battery_current_a = unless<std::int16_t>(-1, w.current_battery, centi),
-          .battery_remaining = unless<std::int8_t>(-1, w.battery_remaining, centi),
-          .drop_rate_comm = w.drop_rate_comm * 1e-4,
-          .errors_comm = w.errors_comm};
+SysStatus read(SYS_STATUS const& w, Intake& in) {
+  return {
+      .sensors_present = w.onboard_control_sensors_present,
+      .sensors_enabled = w.onboard_control_sensors_enabled,
+      .sensors_health = w.onboard_control_sensors_health,
+      .load = in("load", limit::load, unless(unknown16, w.load, milli)),
+      .battery_voltage_v = in("voltage_battery", limit::voltage_v, unless(unknown16, w.voltage_battery, milli)),
+      .battery_current_a = in("current_battery", limit::current_a, unless<std::int16_t>(-1, w.current_battery, centi)),
+      .battery_remaining =
+          in("battery_remaining", limit::fraction, unless<std::int8_t>(-1, w.battery_remaining, centi)),
+      .drop_rate_comm = in("drop_rate_comm", limit::fraction, unless(unknown16, w.drop_rate_comm, 1e-4)),
+      .errors_comm = w.errors_comm};
 }
 
 /// Cells that are not there are UINT16_MAX, further ones (added to the protocol later) 0. A pack whose cells are not
@@ -93,37 +96,39 @@ void put_pack_voltage(std::optional<double> voltage_v, BATTERY_STATUS& w) {
   }
 }
 
-BatteryStatus read(BATTERY_STATUS const& w) {
+BatteryStatus read(BATTERY_STATUS const& w, Intake& in) {
   auto constexpr no_temperature = std::numeric_limits<std::int16_t>::max();
-  BatteryStatus m{.id = w.id,
-                  .voltage_v = pack_voltage_v(w),
-                  .current_a = unless<std::int16_t>(-1, w.current_battery, centi),
-                  .consumed_ah = unless<std::int32_t>(-1, w.current_consumed, milli),
-                  .energy_consumed_j = unless<std::int32_t>(-1, w.energy_consumed, 100.0),
-                  .remaining = unless<std::int8_t>(-1, w.battery_remaining, centi),
-                  .temperature_c = unless(no_temperature, w.temperature, centi),
-                  .time_remaining = std::nullopt,
-                  .charge_state = w.charge_state};
-  if (w.time_remaining > 0) m.time_remaining = std::chrono::seconds(w.time_remaining);
+  BatteryStatus m{
+      .id = w.id,
+      .voltage_v = in("voltages", limit::voltage_v, pack_voltage_v(w)),
+      .current_a = in("current_battery", limit::current_a, unless<std::int16_t>(-1, w.current_battery, centi)),
+      .consumed_ah = in("current_consumed", limit::charge_ah, unless<std::int32_t>(-1, w.current_consumed, milli)),
+      .energy_consumed_j = in("energy_consumed", limit::energy_j, unless<std::int32_t>(-1, w.energy_consumed, 100.0)),
+      .remaining = in("battery_remaining", limit::fraction, unless<std::int8_t>(-1, w.battery_remaining, centi)),
+      .temperature_c = in("temperature", limit::temperature_c, unless(no_temperature, w.temperature, centi)),
+      .time_remaining = std::nullopt,
+      .charge_state = w.charge_state};
+  if (w.time_remaining != 0 && in("time_remaining", limit::remaining_s, w.time_remaining))
+    m.time_remaining = std::chrono::seconds(w.time_remaining);
   return m;
 }
 
-EkfStatusReport read(EKF_STATUS_REPORT const& w) {
+EkfStatusReport read(EKF_STATUS_REPORT const& w, Intake& in) {
   return {.flags = w.flags,
-          .velocity_variance = w.velocity_variance,
-          .position_horizontal_variance = w.pos_horiz_variance,
-          .position_vertical_variance = w.pos_vert_variance,
-          .compass_variance = w.compass_variance,
-          .terrain_alt_variance = w.terrain_alt_variance};
+          .velocity_variance = in("velocity_variance", limit::test_ratio, w.velocity_variance),
+          .position_horizontal_variance = in("pos_horiz_variance", limit::test_ratio, w.pos_horiz_variance),
+          .position_vertical_variance = in("pos_vert_variance", limit::test_ratio, w.pos_vert_variance),
+          .compass_variance = in("compass_variance", limit::test_ratio, w.compass_variance),
+          .terrain_alt_variance = in("terrain_alt_variance", limit::test_ratio, w.terrain_alt_variance)};
 }
 
-EstimatorStatus read(ESTIMATOR_STATUS const& w) {
+EstimatorStatus read(ESTIMATOR_STATUS const& w, Intake& in) {
   return {.flags = w.flags,
-          .velocity_ratio = w.vel_ratio,
-          .position_horizontal_ratio = w.pos_horiz_ratio,
-          .position_vertical_ratio = w.pos_vert_ratio,
-          .position_horizontal_accuracy_m = w.pos_horiz_accuracy,
-          .position_vertical_accuracy_m = w.pos_vert_accuracy};
+          .velocity_ratio = in("vel_ratio", limit::test_ratio, w.vel_ratio),
+          .position_horizontal_ratio = in("pos_horiz_ratio", limit::test_ratio, w.pos_horiz_ratio),
+          .position_vertical_ratio = in("pos_vert_ratio", limit::test_ratio, w.pos_vert_ratio),
+          .position_horizontal_accuracy_m = in("pos_horiz_accuracy", limit::accuracy_m, w.pos_horiz_accuracy),
+          .position_vertical_accuracy_m = in("pos_vert_accuracy", limit::accuracy_m, w.pos_vert_accuracy)};
 }
 
 ExtendedSysState read(EXTENDED_SYS_STATE const& w) {
@@ -146,33 +151,33 @@ std::optional<std::uint8_t> signal_strength(std::uint8_t wire) {
   return wire;
 }
 
-RadioStatus read(RADIO_STATUS const& w) {
+RadioStatus read(RADIO_STATUS const& w, Intake& in) {
   return {.rssi = signal_strength(w.rssi),
           .remote_rssi = signal_strength(w.remrssi),
-          .transmit_buffer_free = w.txbuf * centi,
-          .noise = w.noise,
-          .remote_noise = w.remnoise,
+          .transmit_buffer_free = in("txbuf", limit::fraction, unless(unknown8, w.txbuf, centi)),
+          .noise = signal_strength(w.noise),
+          .remote_noise = signal_strength(w.remnoise),
           .receive_errors = w.rxerrors,
           .corrected = w.fixed};
 }
 
 }  // namespace
 
-std::optional<Message> read_state(Frame const& frame) {
+std::optional<Message> read_state(Frame const& frame, Intake& in) {
   switch (frame.message_id) {
     case HEARTBEAT::MSG_ID: return read(unpack<HEARTBEAT>(frame));
-    case SYSTEM_TIME::MSG_ID: return read(unpack<SYSTEM_TIME>(frame));
+    case SYSTEM_TIME::MSG_ID: return read(unpack<SYSTEM_TIME>(frame), in);
     case PING::MSG_ID: return read(unpack<PING>(frame));
     case TIMESYNC::MSG_ID: return read(unpack<TIMESYNC>(frame));
     case AUTOPILOT_VERSION::MSG_ID: return read(unpack<AUTOPILOT_VERSION>(frame));
-    case SYS_STATUS::MSG_ID: return read(unpack<SYS_STATUS>(frame));
-    case BATTERY_STATUS::MSG_ID: return read(unpack<BATTERY_STATUS>(frame));
-    case EKF_STATUS_REPORT::MSG_ID: return read(unpack<EKF_STATUS_REPORT>(frame));
-    case ESTIMATOR_STATUS::MSG_ID: return read(unpack<ESTIMATOR_STATUS>(frame));
+    case SYS_STATUS::MSG_ID: return read(unpack<SYS_STATUS>(frame), in);
+    case BATTERY_STATUS::MSG_ID: return read(unpack<BATTERY_STATUS>(frame), in);
+    case EKF_STATUS_REPORT::MSG_ID: return read(unpack<EKF_STATUS_REPORT>(frame), in);
+    case ESTIMATOR_STATUS::MSG_ID: return read(unpack<ESTIMATOR_STATUS>(frame), in);
     case EXTENDED_SYS_STATE::MSG_ID: return read(unpack<EXTENDED_SYS_STATE>(frame));
     case STATUSTEXT::MSG_ID: return read(unpack<STATUSTEXT>(frame));
     case FENCE_STATUS::MSG_ID: return read(unpack<FENCE_STATUS>(frame));
-    case RADIO_STATUS::MSG_ID: return read(unpack<RADIO_STATUS>(frame));
+    case RADIO_STATUS::MSG_ID: return read(unpack<RADIO_STATUS>(frame), in);
     default: return std::nullopt;
   }
 }
@@ -190,7 +195,7 @@ void write(Heartbeat const& m, Frame& frame) {
 
 void write(SystemTime const& m, Frame& frame) {
   SYSTEM_TIME w{};
-  w.time_unix_usec = microsecond_count(m.utc);
+  w.time_unix_usec = m.utc ? microsecond_count(*m.utc) : 0;
   w.time_boot_ms = boot_ms(m.since_boot);
   pack(w, frame);
 }
@@ -228,11 +233,11 @@ void write(SysStatus const& m, Frame& frame) {
   w.onboard_control_sensors_present = m.sensors_present;
   w.onboard_control_sensors_enabled = m.sensors_enabled;
   w.onboard_control_sensors_health = m.sensors_health;
-  w.load = rounded<std::uint16_t>(m.load / milli);
+  w.load = rounded_or(unknown16, m.load, milli);
   w.voltage_battery = rounded_or(unknown16, m.battery_voltage_v, milli);
   w.current_battery = rounded_or<std::int16_t>(-1, m.battery_current_a, centi);
   w.battery_remaining = rounded_or<std::int8_t>(-1, m.battery_remaining, centi);
-  w.drop_rate_comm = rounded<std::uint16_t>(m.drop_rate_comm / 1e-4);
+  w.drop_rate_comm = rounded_or(unknown16, m.drop_rate_comm, 1e-4);
   w.errors_comm = m.errors_comm;
   pack(w, frame);
 }
@@ -255,22 +260,22 @@ void write(BatteryStatus const& m, Frame& frame) {
 void write(EkfStatusReport const& m, Frame& frame) {
   EKF_STATUS_REPORT w{};
   w.flags = m.flags;
-  w.velocity_variance = m.velocity_variance;
-  w.pos_horiz_variance = m.position_horizontal_variance;
-  w.pos_vert_variance = m.position_vertical_variance;
-  w.compass_variance = m.compass_variance;
-  w.terrain_alt_variance = m.terrain_alt_variance;
+  w.velocity_variance = narrow(m.velocity_variance);
+  w.pos_horiz_variance = narrow(m.position_horizontal_variance);
+  w.pos_vert_variance = narrow(m.position_vertical_variance);
+  w.compass_variance = narrow(m.compass_variance);
+  w.terrain_alt_variance = narrow(m.terrain_alt_variance);
   pack(w, frame);
 }
 
 void write(EstimatorStatus const& m, Frame& frame) {
   ESTIMATOR_STATUS w{};
   w.flags = m.flags;
-  w.vel_ratio = m.velocity_ratio;
-  w.pos_horiz_ratio = m.position_horizontal_ratio;
-  w.pos_vert_ratio = m.position_vertical_ratio;
-  w.pos_horiz_accuracy = m.position_horizontal_accuracy_m;
-  w.pos_vert_accuracy = m.position_vertical_accuracy_m;
+  w.vel_ratio = narrow(m.velocity_ratio);
+  w.pos_horiz_ratio = narrow(m.position_horizontal_ratio);
+  w.pos_vert_ratio = narrow(m.position_vertical_ratio);
+  w.pos_horiz_accuracy = narrow(m.position_horizontal_accuracy_m);
+  w.pos_vert_accuracy = narrow(m.position_vertical_accuracy_m);
   pack(w, frame);
 }
 
@@ -303,9 +308,9 @@ void write(RadioStatus const& m, Frame& frame) {
   RADIO_STATUS w{};
   w.rssi = m.rssi.value_or(unknown8);
   w.remrssi = m.remote_rssi.value_or(unknown8);
-  w.txbuf = rounded<std::uint8_t>(m.transmit_buffer_free / centi);
-  w.noise = m.noise;
-  w.remnoise = m.remote_noise;
+  w.txbuf = rounded_or(unknown8, m.transmit_buffer_free, centi);
+  w.noise = m.noise.value_or(unknown8);
+  w.remnoise = m.remote_noise.value_or(unknown8);
   w.rxerrors = m.receive_errors;
   w.fixed = m.corrected;
   pack(w, frame);

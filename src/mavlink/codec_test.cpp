@@ -88,16 +88,16 @@ TEST(Codec, TurnsWireUnitsIntoSi) {
   position.since_boot = std::chrono::milliseconds(1500);
   position.position = geo::Wgs84::from_degrees(40.4451294, -7.3728766, 820.25);
   position.relative_alt_m = -1.5;
-  position.velocity_m_s = {3.25, -4.5, 0.01};
+  position.velocity_m_s = geo::Ned{3.25, -4.5, 0.01};
   position.heading_rad = 1.0;
   auto const got = carried(position);
   EXPECT_EQ(got.since_boot, position.since_boot);
-  EXPECT_NEAR(got.position.lat_deg(), 40.4451294, 1e-12);
-  EXPECT_NEAR(got.position.lon_deg(), -7.3728766, 1e-12);
-  EXPECT_DOUBLE_EQ(got.position.alt_m, 820.25);
-  EXPECT_DOUBLE_EQ(got.relative_alt_m, -1.5);
-  EXPECT_NEAR(got.velocity_m_s.north, 3.25, 1e-9);
-  EXPECT_NEAR(got.velocity_m_s.down, 0.01, 1e-9);
+  EXPECT_NEAR(got.position->lat_deg(), 40.4451294, 1e-12);
+  EXPECT_NEAR(got.position->lon_deg(), -7.3728766, 1e-12);
+  EXPECT_DOUBLE_EQ(got.position->alt_m, 820.25);
+  EXPECT_DOUBLE_EQ(*got.relative_alt_m, -1.5);
+  EXPECT_NEAR(got.velocity_m_s->north, 3.25, 1e-9);
+  EXPECT_NEAR(got.velocity_m_s->down, 0.01, 1e-9);
   EXPECT_NEAR(*got.heading_rad, 1.0, 1e-4);
 }
 
@@ -140,12 +140,9 @@ TEST(Codec, KeepsAHeadingJustBelowNorthWithinTheCircle) {
 }
 
 TEST(Codec, ClampsWhatTheWireCannotHold) {
-  GlobalPosition position;
-  position.velocity_m_s = {1e6, -1e6, std::nan("")};
-  auto const got = carried(position);
-  EXPECT_NEAR(got.velocity_m_s.north, 327.67, 1e-9);
-  EXPECT_NEAR(got.velocity_m_s.east, -327.68, 1e-9);
-  EXPECT_EQ(got.velocity_m_s.down, 0.0);
+  EXPECT_EQ(carried(NavControllerOutput{.waypoint_distance_m = 1e6}).waypoint_distance_m, 65535.0);
+  EXPECT_EQ(carried(NavControllerOutput{.waypoint_distance_m = -1.0}).waypoint_distance_m, 0.0);
+  EXPECT_EQ(carried(NavControllerOutput{.waypoint_distance_m = std::nan("")}).waypoint_distance_m, 0.0);
 }
 
 TEST(Codec, CarriesVoltagesBeyondOneField) {
@@ -209,9 +206,9 @@ TEST(Codec, CarriesWhatCamerasAndGimbalsSay) {
   EXPECT_EQ(got.image, 17);
   EXPECT_TRUE(got.captured);
   EXPECT_EQ(got.file_url, "mavlinkftp:/17.jpg");
-  EXPECT_NEAR(got.position.lat_deg(), 40.0, 1e-9);
+  EXPECT_NEAR(got.position->lat_deg(), 40.0, 1e-9);
   EXPECT_EQ(carried(CameraInformation{.vendor = "Maker", .model = std::string(40, 'x')}).model, std::string(32, 'x'));
-  EXPECT_NEAR(carried(MountStatus{.pitch_rad = -1.5}).pitch_rad, -1.5, 1e-4);
+  EXPECT_NEAR(*carried(MountStatus{.pitch_rad = -1.5}).pitch_rad, -1.5, 1e-4);
   EXPECT_NEAR(*carried(RcChannels{.rssi = 0.5}).rssi, 0.5, 1e-9);
   EXPECT_EQ(carried(AvailableModes{.custom_mode = 77, .name = "Spiral"}).name, "Spiral");
 }

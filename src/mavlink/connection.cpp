@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mavlink/internal/echoes.hpp"
+#include "mavlink/internal/impossible_values.hpp"
 #include "mavlink/internal/routes.hpp"
 
 namespace lapwing::mavlink {
@@ -31,6 +32,7 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
         if (guard_) guard_->forget({peer.link, peer.peer.key});
       })),
       echoes_(std::make_unique<internal::Echoes>()),
+      impossible_(std::make_unique<internal::ImpossibleValues>()),
       commands_(loop),
       scope_(loop) {
   set_keys(options_.keys);
@@ -121,7 +123,15 @@ void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& fr
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::received, frame, now);
   if (forward_hook_) forward_hook_(from, frame);
   if (listeners_.empty()) return;
-  if (auto const message = decode(frame)) dispatch({*message, frame.source, from, now});
+  if (auto const message = understand(from, frame)) dispatch({*message, frame.source, from, now});
+}
+
+std::optional<Message> Connection::understand(PeerRef from, Frame const& frame) {
+  left_out_.clear();
+  auto message = decode(frame, left_out_);
+  if (!left_out_.empty()) [[unlikely]]
+    for (auto const& line : impossible_->note(from.link, frame, left_out_, loop_.now())) log_.warn(line);
+  return message;
 }
 
 /// Clocks and hardware numbers, for the routes; and answers to vehicles that ask for our clock.
@@ -356,6 +366,7 @@ std::vector<LinkReport> Connection::report() const {
     report.bytes = link.counters();
   }
   routes_->report(reports, loop_.now());
+  impossible_->report(reports);
   for (auto& report : reports)
     for (auto& source : report.sources) source.address = links_[report.number]->peer_name(source.from.peer);
   return reports;

@@ -21,6 +21,7 @@ namespace lapwing::mavlink {
 
 namespace internal {
 class Echoes;
+class ImpossibleValues;
 class Routes;
 struct PeerState;
 }  // namespace internal
@@ -157,6 +158,7 @@ class Connection {
   void receive(PeerRef from, link::Bytes bytes);
   void accept(PeerRef from, internal::PeerState& peer, Frame const& frame);
   void look_into(PeerRef from, Frame const& frame);
+  [[nodiscard]] std::optional<Message> understand(PeerRef from, Frame const& frame);
   void dispatch(Received const& received);
   /// `system_id`: who is meant; 0: whoever is there.
   bool send_frame(PeerRef to, Frame& frame, std::uint8_t system_id = 0);
@@ -174,6 +176,8 @@ class Connection {
   std::vector<std::unique_ptr<link::ByteLink>> links_;
   std::unique_ptr<internal::Routes> routes_;
   std::unique_ptr<internal::Echoes> echoes_;  ///< ours that may come back
+  std::unique_ptr<internal::ImpossibleValues> impossible_;
+  std::vector<ImpossibleField> left_out_;  ///< of the message at hand
   std::vector<Listener> listeners_;
   int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
   FrameHook frame_hook_;

@@ -54,6 +54,11 @@ std::vector<std::string_view> message_names() {
   return names_of(std::span<MessageRow const>(messages));
 }
 
+std::string_view message_name(std::uint32_t id) {
+  auto const found = std::ranges::find(messages, id, &MessageRow::id);
+  return found == std::ranges::end(messages) ? std::string_view() : found->name;
+}
+
 std::optional<std::int64_t> find_enum_entry(std::string_view name) {
   auto const* row = find(std::span<EntryRow const>(entries), name);
   return row ? std::optional(row->value) : std::nullopt;

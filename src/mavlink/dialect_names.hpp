@@ -28,6 +28,8 @@ struct MessageName {
 /// Nothing for a message that the dialect lacks. Names are in capitals.
 [[nodiscard]] std::optional<MessageName> find_message(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> message_names();
+/// "COMMAND_LONG" for 76; empty for a number that the dialect lacks. Looks through the whole table.
+[[nodiscard]] std::string_view message_name(std::uint32_t id);
 /// The number of an enumeration's entry: "MAV_CMD_COMPONENT_ARM_DISARM" is 400.
 [[nodiscard]] std::optional<std::int64_t> find_enum_entry(std::string_view name);
 [[nodiscard]] std::vector<std::string_view> enum_entry_names();

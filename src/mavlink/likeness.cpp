@@ -30,18 +30,19 @@ Evidence compare_clocks(Fingerprint::Clock const& a, Fingerprint::Clock const& b
   return std::chrono::abs(a.boot - b.boot) <= a.error + b.error + clock_noise ? Evidence::agree : Evidence::differ;
 }
 
-/// How far it can have got between the two moments of its own clock is allowed for.
+/// Of both the position is known. How far it can have got between the two moments of its own clock is allowed for.
 Evidence compare_places(GlobalPosition const& a, GlobalPosition const& b) {
   double const s = base::to_seconds(b.since_boot - a.since_boot);
   if (std::abs(s) > base::to_seconds(fresh)) return Evidence::none;
-  auto const apart_m = geo::surface_distance_m(a.position, b.position);
-  auto const travelled_m = std::hypot(a.velocity_m_s.north, a.velocity_m_s.east) * std::abs(s);
+  auto const apart_m = geo::surface_distance_m(*a.position, *b.position);
+  auto const speed = a.velocity_m_s.value_or(geo::Ned{});
+  auto const travelled_m = std::hypot(speed.north, speed.east) * std::abs(s);
   auto const allowed_m = position_noise_m + acceleration_m_s2 * s * s / 2 + travelled_m;
   return apart_m <= allowed_m ? Evidence::agree : Evidence::differ;
 }
 
-bool is_known(geo::Wgs84 const& place) {
-  return place.lat_rad != 0.0 || place.lon_rad != 0.0;
+bool is_known(std::optional<geo::Wgs84> const& place) {
+  return place && (place->lat_rad != 0.0 || place->lon_rad != 0.0);
 }
 
 }  // namespace

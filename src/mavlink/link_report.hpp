@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/time.hpp"
@@ -49,6 +50,13 @@ struct SourceReport {
   bool is_route = false;                     ///< commands for this system go here
 };
 
+/// A field of a message in which vehicles told what cannot be. It was left out.
+struct ImpossibleValues {
+  std::string_view message;  ///< as the dialect calls them
+  std::string_view field;
+  std::uint64_t count = 0;
+};
+
 /// One link with everything that is heard on it.
 struct LinkReport {
   std::size_t number = 0;  ///< in the order of `add_link`
@@ -64,6 +72,7 @@ struct LinkReport {
   std::optional<base::Duration> round_trip;  ///< of its quickest source
   std::optional<base::Duration> age;         ///< since the last message; nothing when none ever came
   std::vector<SourceReport> sources;         ///< by system, component, far end
+  std::vector<ImpossibleValues> impossible_values;
 };
 
 }  // namespace lapwing::mavlink

@@ -12,7 +12,8 @@
 #include "mavlink/enums.hpp"
 #include "mavlink/payload_messages.hpp"
 
-/// MAVLink messages as values in SI units and radians. What the wire marks as unknown is `nullopt` here. Angles are
+/// MAVLink messages as values in SI units and radians. What the wire marks as unknown is `nullopt` here, and so is what
+/// cannot be (limits.hpp): nobody behind this room has to ask whether a latitude is one. Angles are
 /// clockwise from true north where they are headings; altitudes named `alt_m` are above mean sea level. `target` is who
 /// is meant; `Connection::send` fills it in. Wire units and sentinels are known to codec_*.cpp alone.
 namespace lapwing::mavlink {
@@ -32,8 +33,8 @@ struct Heartbeat {
 };
 
 struct SystemTime {
-  std::chrono::microseconds utc{};  ///< since 1970; zero while the vehicle does not know
-  Duration since_boot{};            ///< whole milliseconds
+  std::optional<std::chrono::microseconds> utc{};  ///< since 1970
+  Duration since_boot{};                           ///< whole milliseconds
 };
 
 struct Ping {
@@ -65,11 +66,11 @@ struct SysStatus {
   std::uint32_t sensors_present = 0;  ///< bits of sensor_flag
   std::uint32_t sensors_enabled = 0;
   std::uint32_t sensors_health = 0;
-  double load = 0.0;  ///< 0..1 of the main loop
+  std::optional<double> load{};  ///< 0..1 of the main loop
   std::optional<double> battery_voltage_v{};
   std::optional<double> battery_current_a{};
   std::optional<double> battery_remaining{};  ///< 0..1
-  double drop_rate_comm = 0.0;                ///< 0..1
+  std::optional<double> drop_rate_comm{};     ///< 0..1
   std::uint16_t errors_comm = 0;
 };
 
@@ -87,21 +88,21 @@ struct BatteryStatus {
 
 struct EkfStatusReport {
   std::uint16_t flags = 0;  ///< bits of ekf_flag
-  float velocity_variance = 0.0F;
-  float position_horizontal_variance = 0.0F;
-  float position_vertical_variance = 0.0F;
-  float compass_variance = 0.0F;
-  float terrain_alt_variance = 0.0F;
+  std::optional<double> velocity_variance{};
+  std::optional<double> position_horizontal_variance{};
+  std::optional<double> position_vertical_variance{};
+  std::optional<double> compass_variance{};
+  std::optional<double> terrain_alt_variance{};
 };
 
 /// What PX4 sends instead of EkfStatusReport; the flags have the same meaning.
 struct EstimatorStatus {
   std::uint16_t flags = 0;
-  float velocity_ratio = 0.0F;
-  float position_horizontal_ratio = 0.0F;
-  float position_vertical_ratio = 0.0F;
-  float position_horizontal_accuracy_m = 0.0F;
-  float position_vertical_accuracy_m = 0.0F;
+  std::optional<double> velocity_ratio{};
+  std::optional<double> position_horizontal_ratio{};
+  std::optional<double> position_vertical_ratio{};
+  std::optional<double> position_horizontal_accuracy_m{};
+  std::optional<double> position_vertical_accuracy_m{};
 };
 
 struct ExtendedSysState {
@@ -128,9 +129,9 @@ struct FenceStatus {
 struct RadioStatus {
   std::optional<std::uint8_t> rssi{};
   std::optional<std::uint8_t> remote_rssi{};
-  double transmit_buffer_free = 0.0;  ///< 0..1
-  std::uint8_t noise = 0;
-  std::uint8_t remote_noise = 0;
+  std::optional<double> transmit_buffer_free{};  ///< 0..1
+  std::optional<std::uint8_t> noise{};
+  std::optional<std::uint8_t> remote_noise{};
   std::uint16_t receive_errors = 0;
   std::uint16_t corrected = 0;
 };
@@ -140,96 +141,99 @@ struct RadioStatus {
 struct GpsRaw {
   std::chrono::microseconds time{};
   GpsFix fix = GpsFix::no_gps;
-  geo::Wgs84 position{};
+  std::optional<geo::Wgs84> position{};
   std::optional<double> hdop{};
   std::optional<double> vdop{};
   std::optional<double> ground_speed_m_s{};
   std::optional<double> course_rad{};
   std::optional<int> satellites{};
-  double horizontal_accuracy_m = 0.0;  ///< 0 when not reported
-  double vertical_accuracy_m = 0.0;    ///< 0 when not reported
+  std::optional<double> horizontal_accuracy_m{};
+  std::optional<double> vertical_accuracy_m{};
 };
 
 struct Attitude {
   Duration since_boot{};
-  double roll_rad = 0.0;
-  double pitch_rad = 0.0;
-  double yaw_rad = 0.0;
-  double roll_rate_rad_s = 0.0;
-  double pitch_rate_rad_s = 0.0;
-  double yaw_rate_rad_s = 0.0;
+  std::optional<double> roll_rad{};
+  std::optional<double> pitch_rad{};
+  std::optional<double> yaw_rad{};
+  std::optional<double> roll_rate_rad_s{};
+  std::optional<double> pitch_rate_rad_s{};
+  std::optional<double> yaw_rate_rad_s{};
 };
 
 struct GlobalPosition {
   Duration since_boot{};
-  geo::Wgs84 position{};
-  double relative_alt_m = 0.0;  ///< above home
-  geo::Ned velocity_m_s{};
+  std::optional<geo::Wgs84> position{};
+  std::optional<double> relative_alt_m{};  ///< above home
+  std::optional<geo::Ned> velocity_m_s{};
   std::optional<double> heading_rad{};
 };
 
 /// Relative to the estimator's origin (GpsGlobalOrigin), in metres.
 struct LocalPosition {
   Duration since_boot{};
-  geo::Ned position_m{};
-  geo::Ned velocity_m_s{};
+  std::optional<geo::Ned> position_m{};
+  std::optional<geo::Ned> velocity_m_s{};
 };
 
 struct VfrHud {
-  double airspeed_m_s = 0.0;
-  double ground_speed_m_s = 0.0;
-  double heading_rad = 0.0;
-  double throttle = 0.0;  ///< 0..1
-  double alt_m = 0.0;
-  double climb_m_s = 0.0;
+  std::optional<double> airspeed_m_s{};
+  std::optional<double> ground_speed_m_s{};
+  std::optional<double> heading_rad{};
+  std::optional<double> throttle{};  ///< 0..1
+  std::optional<double> alt_m{};
+  std::optional<double> climb_m_s{};
 };
 
 struct NavControllerOutput {
-  double nav_roll_rad = 0.0;
-  double nav_pitch_rad = 0.0;
-  double nav_bearing_rad = 0.0;
-  double target_bearing_rad = 0.0;
+  std::optional<double> nav_roll_rad{};
+  std::optional<double> nav_pitch_rad{};
+  std::optional<double> nav_bearing_rad{};
+  std::optional<double> target_bearing_rad{};
   double waypoint_distance_m = 0.0;
-  double alt_error_m = 0.0;
-  double airspeed_error_m_s = 0.0;
-  double cross_track_error_m = 0.0;
+  std::optional<double> alt_error_m{};
+  std::optional<double> airspeed_error_m_s{};
+  std::optional<double> cross_track_error_m{};
 };
 
 struct Wind {
-  double from_rad = 0.0;  ///< the direction it blows from
-  double speed_m_s = 0.0;
-  double down_m_s = 0.0;
+  std::optional<double> from_rad{};  ///< the direction it blows from
+  std::optional<double> speed_m_s{};
+  std::optional<double> down_m_s{};
 };
 
 struct HomePosition {
-  geo::Wgs84 position{};
-  geo::Ned local_m{};  ///< relative to the estimator's origin
+  std::optional<geo::Wgs84> position{};
+  std::optional<geo::Ned> local_m{};  ///< relative to the estimator's origin
 };
 
 struct GpsGlobalOrigin {
-  geo::Wgs84 position{};
+  std::optional<geo::Wgs84> position{};
 };
 
 struct CameraFeedback {
   std::chrono::microseconds time{};
   std::uint8_t camera = 0;
   std::uint16_t image = 0;
-  geo::Wgs84 position{};
-  double relative_alt_m = 0.0;
-  double roll_rad = 0.0;
-  double pitch_rad = 0.0;
-  double yaw_rad = 0.0;
+  std::optional<geo::Wgs84> position{};
+  std::optional<double> relative_alt_m{};
+  std::optional<double> roll_rad{};
+  std::optional<double> pitch_rad{};
+  std::optional<double> yaw_rad{};
   std::uint16_t completed_captures = 0;
 };
 
 /// As PX4 sends it: where the air moves to.
 struct WindCov {
   std::chrono::microseconds time{};
-  geo::Ned wind_m_s{};  ///< NaN for what is not known
+  std::optional<double> north_m_s{};
+  std::optional<double> east_m_s{};
+  std::optional<double> down_m_s{};
 };
 
 /// The wire's coordinates of a setpoint; the set bits of `ignore` say which fields do not count
-/// (POSITION_TARGET_TYPEMASK).
+/// (POSITION_TARGET_TYPEMASK). As it was told: a setpoint, like a command or a mission item, says what somebody wants,
+/// not what is, and must be recognised as one whatever it asks for.
 struct GlobalSetpoint {
   MavFrame frame = MavFrame::global_relative_alt_int;
   std::uint16_t ignore = 0;

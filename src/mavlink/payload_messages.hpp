@@ -20,9 +20,9 @@ using base::Duration;
 
 struct RcChannels {
   Duration since_boot{};
-  std::uint8_t count = 0;                     ///< 0: no receiver, or nothing is received
-  std::array<std::uint16_t, 18> pulses_us{};  ///< UINT16_MAX: not used
-  std::optional<double> rssi{};               ///< 0..1 of the receiver's own scale
+  std::uint8_t count = 0;  ///< 0: no receiver, or nothing is received; may be more than are told
+  std::array<std::optional<std::uint16_t>, 18> pulses_us{};
+  std::optional<double> rssi{};  ///< 0..1 of the receiver's own scale
 };
 
 /// A camera was told to take a picture.
@@ -33,12 +33,12 @@ struct CameraTrigger {
 
 struct CameraImageCaptured {
   Duration since_boot{};
-  std::chrono::microseconds utc{};
+  std::optional<std::chrono::microseconds> utc{};
   std::uint8_t camera = 0;
-  geo::Wgs84 position{};
-  double relative_alt_m = 0.0;
-  std::array<float, 4> orientation{};  ///< quaternion w, x, y, z
-  std::int32_t image = 0;              ///< counts from 0
+  std::optional<geo::Wgs84> position{};
+  std::optional<double> relative_alt_m{};
+  std::optional<std::array<float, 4>> orientation{};  ///< quaternion w, x, y, z
+  std::int32_t image = 0;                             ///< counts from 0
   bool captured = false;
   std::string file_url{};
 };
@@ -59,19 +59,20 @@ struct GimbalManagerInformation {
   Duration since_boot{};
   std::uint32_t capabilities = 0;  ///< GIMBAL_MANAGER_CAP_FLAGS
   std::uint8_t gimbal_device = 0;  ///< component, or 1..6 when the manager is the device
-  float roll_min_rad = 0.0F;
-  float roll_max_rad = 0.0F;
-  float pitch_min_rad = 0.0F;  ///< negative is down
-  float pitch_max_rad = 0.0F;
-  float yaw_min_rad = 0.0F;
-  float yaw_max_rad = 0.0F;
+  std::optional<double> roll_min_rad{};
+  std::optional<double> roll_max_rad{};
+  std::optional<double> pitch_min_rad{};  ///< negative is down
+  std::optional<double> pitch_max_rad{};
+  std::optional<double> yaw_min_rad{};
+  std::optional<double> yaw_max_rad{};
 };
 
 struct GimbalDeviceAttitudeStatus {
   Address target{};
   Duration since_boot{};
-  std::uint16_t flags = 0;             ///< bits of gimbal_flag
-  std::array<float, 4> orientation{};  ///< quaternion w, x, y, z; yaw from north or from the vehicle's nose by `flags`
+  std::uint16_t flags = 0;  ///< bits of gimbal_flag
+  /// Quaternion w, x, y, z; yaw from north or from the vehicle's nose by `flags`.
+  std::optional<std::array<float, 4>> orientation{};
   std::uint32_t failures = 0;
   std::optional<double> delta_yaw_rad{};  ///< from the vehicle's frame to the earth's
   std::uint8_t gimbal_device = 0;
@@ -80,9 +81,9 @@ struct GimbalDeviceAttitudeStatus {
 /// What ArduPilot sent before there were gimbal managers. Angles relative to the vehicle.
 struct MountStatus {
   Address target{};
-  double pitch_rad = 0.0;
-  double roll_rad = 0.0;
-  double yaw_rad = 0.0;
+  std::optional<double> pitch_rad{};
+  std::optional<double> roll_rad{};
+  std::optional<double> yaw_rad{};
   std::uint8_t mode = 0;
 };
 

@@ -92,10 +92,10 @@ mavlink::GimbalDeviceAttitudeStatus Gimbal::status(base::Duration since_boot) co
   status.since_boot = since_boot;
   status.flags = yaw_is_from_north_ ? yaw_lock | yaw_in_earth_frame : yaw_in_vehicle_frame;
   // No roll: yaw, then pitch.
-  status.orientation = {static_cast<float>(std::cos(half_yaw) * std::cos(half_pitch)),
-                        static_cast<float>(-std::sin(half_yaw) * std::sin(half_pitch)),
-                        static_cast<float>(std::cos(half_yaw) * std::sin(half_pitch)),
-                        static_cast<float>(std::sin(half_yaw) * std::cos(half_pitch))};
+  status.orientation = std::array{static_cast<float>(std::cos(half_yaw) * std::cos(half_pitch)),
+                                  static_cast<float>(-std::sin(half_yaw) * std::sin(half_pitch)),
+                                  static_cast<float>(std::cos(half_yaw) * std::sin(half_pitch)),
+                                  static_cast<float>(std::sin(half_yaw) * std::cos(half_pitch))};
   status.delta_yaw_rad = vehicle_yaw_rad_;
   status.gimbal_device = 1;
   return status;
@@ -108,6 +108,8 @@ mavlink::GimbalManagerInformation Gimbal::information(base::Duration since_boot)
   return {.since_boot = since_boot,
           .capabilities = capabilities,
           .gimbal_device = 1,
+          .roll_min_rad = 0.0,
+          .roll_max_rad = 0.0,
           .pitch_min_rad = static_cast<float>(lowest_rad),
           .pitch_max_rad = static_cast<float>(highest_rad),
           .yaw_min_rad = -pi,

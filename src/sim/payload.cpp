@@ -97,7 +97,7 @@ CameraImageCaptured FlightController::captured(Camera::Shot const& shot) const {
   message.camera = camera_node_ ? 0 : 1;
   message.position = place_of(shot, site_);
   message.relative_alt_m = autopilot_.home().value_or(geo::Ned{}).down - shot.position_m.down;
-  message.orientation = {1.0F, 0.0F, 0.0F, 0.0F};
+  message.orientation = std::array{1.0F, 0.0F, 0.0F, 0.0F};
   message.image = shot.index;
   message.captured = true;
   return message;

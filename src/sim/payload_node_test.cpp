@@ -89,7 +89,7 @@ TEST(PayloadOfPx4, IsTurnedThroughTheAutopilotThatManagesIt) {
   EXPECT_EQ(ground.command(MavCmd::do_gimbal_manager_pitchyaw, {-45, 0}), MavResult::accepted);
   ground.run_for(3s);
   ASSERT_FALSE(ground.all<GimbalDeviceAttitudeStatus>(1, 0, gimbal).empty());
-  auto const& q = ground.all<GimbalDeviceAttitudeStatus>(1, 0, gimbal).back().orientation;
+  auto const q = ground.all<GimbalDeviceAttitudeStatus>(1, 0, gimbal).back().orientation.value();
   EXPECT_NEAR(2.0 * std::asin(static_cast<double>(q[2])), -0.785, 0.01);
 }
 

@@ -23,7 +23,7 @@ GimbalDeviceAttitudeStatus gimbal(TestGround& ground) {
 }
 
 double pitch_of(GimbalDeviceAttitudeStatus const& status) {
-  auto const& q = status.orientation;
+  auto const q = status.orientation.value();
   return std::asin(std::clamp(2.0 * (static_cast<double>(q[0] * q[2]) - static_cast<double>(q[3] * q[1])), -1.0, 1.0));
 }
 
@@ -35,7 +35,7 @@ TEST(SimulatedCamera, TellsWhereEachPictureWasTaken) {
   ASSERT_EQ(ground.all<CameraFeedback>().size(), 1u);
   auto const feedback = *ground.last<CameraFeedback>();
   EXPECT_EQ(feedback.image, 1);
-  EXPECT_NEAR(geo::distance_m(feedback.position, ground.vehicle().place()), 0.0, 0.1);
+  EXPECT_NEAR(geo::distance_m(feedback.position.value(), ground.vehicle().place()), 0.0, 0.1);
 }
 
 TEST(SimulatedCamera, TakesPicturesAtIntervalsUntilItIsTold) {
@@ -63,8 +63,8 @@ TEST(SimulatedCamera, IsTriggeredByDistanceInAMission) {
   auto const pictures = ground.all<CameraFeedback>();
   EXPECT_NEAR(static_cast<double>(pictures.size()), 10.0, 1.5);
   for (std::size_t i = 1; i < pictures.size(); ++i)
-    EXPECT_NEAR(geo::surface_distance_m(pictures[i - 1].position, pictures[i].position), 20.0, 1.0);
-  EXPECT_NEAR(pictures.back().relative_alt_m, 20.0, 1.0);
+    EXPECT_NEAR(geo::surface_distance_m(pictures[i - 1].position.value(), pictures[i].position.value()), 20.0, 1.0);
+  EXPECT_NEAR(pictures.back().relative_alt_m.value(), 20.0, 1.0);
 }
 
 TEST(SimulatedCamera, RepeatsAPictureThatIsAskedFor) {

@@ -70,7 +70,8 @@ SysStatus sys_status(Autopilot const& autopilot) {
           .load = 0.1,
           .battery_voltage_v = pack.voltage_v(),
           .battery_current_a = pack.current_a(),
-          .battery_remaining = pack.remaining()};
+          .battery_remaining = pack.remaining(),
+          .drop_rate_comm = 0.0};
 }
 
 BatteryStatus battery_status(Autopilot const& autopilot) {
@@ -133,7 +134,7 @@ VfrHud vfr_hud(ReportView const& view) {
 
 NavControllerOutput nav_output(Autopilot const& autopilot) {
   auto const& body = autopilot.body();
-  NavControllerOutput output;
+  NavControllerOutput output{.alt_error_m = 0.0, .airspeed_error_m_s = 0.0, .cross_track_error_m = 0.0};
   output.nav_roll_rad = body.attitude.roll_rad;
   output.nav_pitch_rad = body.attitude.pitch_rad;
   output.nav_bearing_rad = body.attitude.yaw_rad;
@@ -183,6 +184,8 @@ Attitude attitude(ReportView const& view) {
           .roll_rad = body.attitude.roll_rad,
           .pitch_rad = body.attitude.pitch_rad,
           .yaw_rad = geo::wrap_pi(reported_yaw(view.autopilot)),
+          .roll_rate_rad_s = 0.0,
+          .pitch_rate_rad_s = 0.0,
           .yaw_rate_rad_s = body.yaw_rate_rad_s};
 }
 
@@ -192,7 +195,8 @@ EkfStatusReport ekf_status(Autopilot const& autopilot) {
           .velocity_variance = variance,
           .position_horizontal_variance = variance,
           .position_vertical_variance = 0.02F,
-          .compass_variance = 0.01F};
+          .compass_variance = 0.01F,
+          .terrain_alt_variance = 0.0};
 }
 
 FenceStatus fence_status(Autopilot const& autopilot) {
@@ -242,7 +246,9 @@ AutopilotVersion capabilities(Kind const& kind) {
 
 Wind wind(ReportView const& view) {
   auto const& w = view.wind_m_s;
-  return {.from_rad = geo::wrap_two_pi(std::atan2(w.east, w.north) + pi), .speed_m_s = std::hypot(w.north, w.east)};
+  return {.from_rad = geo::wrap_two_pi(std::atan2(w.east, w.north) + pi),
+          .speed_m_s = std::hypot(w.north, w.east),
+          .down_m_s = 0.0};
 }
 
 /// What tells one board from another is made of the system id: it is the same after every start.

@@ -65,10 +65,10 @@ TEST(VehicleStart, GoesThroughTheTimelineInOrder) {
   ground.request(MessageId::ekf_status_report, 10);
   ground.run_for(8s);
   EXPECT_EQ(ground.last<GpsRaw>()->fix, GpsFix::no_gps);
-  EXPECT_EQ(ground.last<GlobalPosition>()->position.lat_rad, 0.0);
+  EXPECT_EQ(ground.last<GlobalPosition>()->position->lat_rad, 0.0);
   ground.run_for(2s);
   EXPECT_EQ(ground.last<GpsRaw>()->fix, GpsFix::rtk_fixed);
-  EXPECT_NEAR(ground.last<GlobalPosition>()->position.lat_deg(), 41.1780, 1e-5);
+  EXPECT_NEAR(ground.last<GlobalPosition>()->position->lat_deg(), 41.1780, 1e-5);
   EXPECT_NEAR(*ground.last<GlobalPosition>()->heading_rad, 106.0 * std::numbers::pi / 180.0, 0.02);
   EXPECT_FALSE(ground.last<HomePosition>().has_value());
   ground.run_for(10s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,11 +60,17 @@ Json to_json(vehicle::Gps const& gps) {
   return json;
 }
 
+/// A key for what is known.
+void put(Json& json, char const* key, std::optional<double> value, int decimals) {
+  if (value) json[key] = rounded(*value, decimals);
+}
+
 Json to_json(vehicle::Estimator const& e) {
-  Json json{{"velocity", rounded(e.velocity, 2)},
-            {"position_horizontal", rounded(e.position_horizontal, 2)},
-            {"position_vertical", rounded(e.position_vertical, 2)}};
-  if (e.compass) json["compass"] = rounded(*e.compass, 2);
+  Json json = Json::object();
+  put(json, "velocity", e.velocity, 2);
+  put(json, "position_horizontal", e.position_horizontal, 2);
+  put(json, "position_vertical", e.position_vertical, 2);
+  put(json, "compass", e.compass, 2);
   return json;
 }
 
@@ -71,24 +78,28 @@ Json to_json(vehicle::RemoteControl const& remote) {
   Json json{{"lost", remote.is_lost}, {"channels", remote.channels}};
   if (remote.rssi) json["rssi"] = rounded(*remote.rssi, 2);
   auto const shown = std::min<std::size_t>(remote.pulses_us.size(), static_cast<std::size_t>(remote.channels));
-  json["pulses_us"] = std::vector<std::uint16_t>(remote.pulses_us.begin(), remote.pulses_us.begin() + shown);
+  json["pulses_us"] = Json::array();
+  for (auto const& pulse : std::span(remote.pulses_us).first(shown))
+    json["pulses_us"].push_back(pulse ? Json(*pulse) : Json());
   return json;
 }
 
 Json to_json(vehicle::Radio const& radio) {
-  Json json{{"noise", radio.noise},
-            {"remote_noise", radio.remote_noise},
-            {"buffer_free", rounded(radio.transmit_buffer_free, 2)},
-            {"receive_errors", radio.receive_errors}};
+  Json json{{"receive_errors", radio.receive_errors}};
+  put(json, "buffer_free", radio.transmit_buffer_free, 2);
+  if (radio.noise) json["noise"] = *radio.noise;
+  if (radio.remote_noise) json["remote_noise"] = *radio.remote_noise;
   if (radio.rssi) json["rssi"] = *radio.rssi;
   if (radio.remote_rssi) json["remote_rssi"] = *radio.remote_rssi;
   return json;
 }
 
 Json to_json(vehicle::Hud const& hud) {
-  return {{"airspeed_m_s", rounded(hud.airspeed_m_s, 1)},
-          {"climb_m_s", rounded(hud.climb_m_s, 1)},
-          {"throttle", rounded(hud.throttle, 2)}};
+  Json json = Json::object();
+  put(json, "airspeed_m_s", hud.airspeed_m_s, 1);
+  put(json, "climb_m_s", hud.climb_m_s, 1);
+  put(json, "throttle", hud.throttle, 2);
+  return json;
 }
 
 Json to_json(vehicle::Wind const& wind) {

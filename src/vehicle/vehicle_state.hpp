@@ -74,16 +74,16 @@ struct Gps {
 /// How far the estimator's innovations are from what it trusts: above 1 it does not believe the sensor; above 0.8
 /// ArduPilot's failsafe acts by default.
 struct Estimator {
-  double velocity = 0.0;
-  double position_horizontal = 0.0;
-  double position_vertical = 0.0;
+  std::optional<double> velocity;
+  std::optional<double> position_horizontal;
+  std::optional<double> position_vertical;
   std::optional<double> compass;
 };
 
 struct RemoteControl {
   bool is_lost = false;  ///< the receiver hears no transmitter
   int channels = 0;
-  std::array<std::uint16_t, 18> pulses_us{};
+  std::array<std::optional<std::uint16_t>, 18> pulses_us{};
   std::optional<double> rssi;  ///< 0..1
 };
 
@@ -91,17 +91,17 @@ struct RemoteControl {
 struct Radio {
   std::optional<int> rssi;  ///< in the radio's own units, 0..254
   std::optional<int> remote_rssi;
-  int noise = 0;
-  int remote_noise = 0;
-  double transmit_buffer_free = 0.0;  ///< 0..1
+  std::optional<int> noise;
+  std::optional<int> remote_noise;
+  std::optional<double> transmit_buffer_free;  ///< 0..1
   int receive_errors = 0;
 };
 
 /// What a pilot's head-up display shows beside attitude and position.
 struct Hud {
-  double airspeed_m_s = 0.0;
-  double climb_m_s = 0.0;
-  double throttle = 0.0;  ///< 0..1
+  std::optional<double> airspeed_m_s;
+  std::optional<double> climb_m_s;
+  std::optional<double> throttle;  ///< 0..1
 };
 
 struct Wind {

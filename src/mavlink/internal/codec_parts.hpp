@@ -9,10 +9,13 @@
 /// the frame's id and payload.
 namespace lapwing::mavlink::internal {
 
-[[nodiscard]] std::optional<Message> read_state(Frame const& frame);
-[[nodiscard]] std::optional<Message> read_motion(Frame const& frame);
-[[nodiscard]] std::optional<Message> read_payload(Frame const& frame);
-[[nodiscard]] std::optional<Message> read_command(Frame const& frame);
+class Intake;
+
+[[nodiscard]] std::optional<Message> read_state(Frame const& frame, Intake& in);
+[[nodiscard]] bool is_motion(std::uint32_t message_id);
+[[nodiscard]] std::optional<Message> read_motion(Frame const& frame, Intake& in);
+[[nodiscard]] std::optional<Message> read_payload(Frame const& frame, Intake& in);
+[[nodiscard]] std::optional<Message> read_command(Frame const& frame, Intake& in);
 [[nodiscard]] std::optional<Message> read_mission(Frame const& frame);
 
 /// The place of a COMMAND_INT or MISSION_ITEM_INT.

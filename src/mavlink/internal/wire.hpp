@@ -69,9 +69,14 @@ inline constexpr double milli = 0.001;
   return rounded<std::int32_t>(angle_rad / degree * 1e7);
 }
 
-/// From lat, lon in 1e-7 degrees and alt in mm.
-[[nodiscard]] inline geo::Wgs84 place(std::int32_t lat, std::int32_t lon, std::int32_t alt_mm) {
-  return {radians_e7(lat), radians_e7(lon), alt_mm * milli};
+inline constexpr std::int32_t unknown32 = std::numeric_limits<std::int32_t>::max();
+
+/// Writes a place as lat and lon in 1e-7 degrees and alt in mm.
+inline void put_place(std::optional<geo::Wgs84> const& place, std::int32_t& lat, std::int32_t& lon,
+                      std::int32_t& alt_mm) {
+  lat = place ? degrees_e7(place->lat_rad) : unknown32;
+  lon = place ? degrees_e7(place->lon_rad) : unknown32;
+  alt_mm = place ? rounded<std::int32_t>(place->alt_m / milli) : unknown32;
 }
 
 /// A heading in `unit` (radians), as an unsigned number below the full circle.
@@ -81,8 +86,20 @@ template <class T>
   return static_cast<T>(std::llround(geo::wrap_two_pi(angle_rad) / unit) % full);
 }
 
+inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
 [[nodiscard]] inline float narrow(double value) {
   return static_cast<float>(value);
+}
+/// In `unit`; NaN for the unknown.
+[[nodiscard]] inline float narrow(std::optional<double> value, double unit = 1.0) {
+  return value ? static_cast<float>(*value / unit) : not_a_number;
+}
+/// Three floats of a vector; NaN for the unknown.
+inline void put_vector(std::optional<geo::Ned> const& vector, float& north, float& east, float& down) {
+  north = vector ? narrow(vector->north) : not_a_number;
+  east = vector ? narrow(vector->east) : not_a_number;
+  down = vector ? narrow(vector->down) : not_a_number;
 }
 
 [[nodiscard]] inline base::Duration since_boot(std::uint32_t ms) {

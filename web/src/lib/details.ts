@@ -63,7 +63,7 @@ export function detailsOf(vehicle: Vehicle, now: number, limits: BatteryLimits =
       title: 'Links',
       rows: [
         ...linkRows(fields.links ?? []),
-        ...row('Radio', 'radio', radioText(fields.radio), fields.radio && fields.radio.buffer_free < 0.3 ? 'warning' : undefined),
+        ...row('Radio', 'radio', radioText(fields.radio), (fields.radio?.buffer_free ?? 1) < 0.3 ? 'warning' : undefined),
         ...row('Remote', 'remote_control', remoteText(fields.remote_control), fields.remote_control?.lost ? 'warning' : undefined),
       ],
     },
@@ -131,9 +131,9 @@ function gpsText(gps: VehicleFields['gps']): string | undefined {
 /** The worst of its innovations, by the name of what disagrees. */
 function worst(estimator: NonNullable<VehicleFields['estimator']>): [string, number] {
   const named: [string, number][] = [
-    ['velocity', estimator.velocity],
-    ['horizontal position', estimator.position_horizontal],
-    ['height', estimator.position_vertical],
+    ['velocity', estimator.velocity ?? 0],
+    ['horizontal position', estimator.position_horizontal ?? 0],
+    ['height', estimator.position_vertical ?? 0],
     ['compass', estimator.compass ?? 0],
   ];
   return named.reduce((a, b) => (b[1] > a[1] ? b : a));
@@ -152,7 +152,7 @@ function estimatorLevel(estimator: VehicleFields['estimator']): Detail['level'] 
 
 function radioText(radio: VehicleFields['radio']): string | undefined {
   if (!radio) return undefined;
-  return `signal ${radio.rssi ?? '–'} / ${radio.remote_rssi ?? '–'}, noise ${radio.noise} / ${radio.remote_noise}, buffer ${percent(radio.buffer_free)} free`;
+  return `signal ${radio.rssi ?? '–'} / ${radio.remote_rssi ?? '–'}, noise ${radio.noise ?? '–'} / ${radio.remote_noise ?? '–'}, buffer ${percent(radio.buffer_free)} free`;
 }
 
 function remoteText(remote: VehicleFields['remote_control']): string | undefined {

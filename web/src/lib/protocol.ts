@@ -67,12 +67,12 @@ export interface VehicleFields {
   battery?: Battery;
   further_batteries?: Battery[];
   gps?: { fix: string; satellites?: number; hdop?: number };
-  estimator?: { velocity: number; position_horizontal: number; position_vertical: number; compass?: number };
+  estimator?: { velocity?: number; position_horizontal?: number; position_vertical?: number; compass?: number };
   unhealthy?: string[];
   arming_reasons?: string[];
-  remote_control?: { lost: boolean; channels: number; rssi?: number; pulses_us: number[] };
-  radio?: { rssi?: number; remote_rssi?: number; noise: number; remote_noise: number; buffer_free: number; receive_errors: number };
-  hud?: { airspeed_m_s: number; climb_m_s: number; throttle: number };
+  remote_control?: { lost: boolean; channels: number; rssi?: number; pulses_us: (number | null)[] };
+  radio?: { rssi?: number; remote_rssi?: number; noise?: number; remote_noise?: number; buffer_free?: number; receive_errors: number };
+  hud?: { airspeed_m_s?: number; climb_m_s?: number; throttle?: number };
   wind?: { from_rad: number; speed_m_s: number };
   fence?: { breached: boolean; breaches: number; type?: string };
   health?: { position_ok: boolean; prearm_ok: boolean };
