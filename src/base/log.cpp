@@ -6,6 +6,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "base/flood_gate.hpp"
 #include "base/printable.hpp"
 
 namespace lapwing::base {
@@ -45,10 +46,10 @@ LogHub::Sink standard_error_sink(LogLevel lowest) {
   auto logger = std::make_shared<spdlog::logger>("lapwing", std::move(sink));
   logger->set_level(to_spdlog(lowest));
   logger->set_pattern("%H:%M:%S.%e %^%-5l%$ %v");
-  return [logger](LogRecord const& record) {
+  return without_floods([logger](LogRecord const& record) {
     logger->log(record.utc, spdlog::source_loc{}, to_spdlog(record.level),
                 printable(fmt::format("{}: {}", record.source, record.text)));
-  };
+  });
 }
 
 Logger Logger::named(std::string source) const {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/flood_gate.hpp"
 #include "base/open_metrics.hpp"
 #include "station/control_routes.hpp"
 #include "station/openapi.hpp"
@@ -41,15 +42,12 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       script_(script),
       options_(std::move(options)),
       log_(hub, "station"),
-      history_(std::make_shared<LogHistory>()),
+      history_(std::make_shared<LogHistory>(options_.log_history)),
       feed_(vehicles),
       server_(std::move(server)) {
-  hub.add_sink([weak = std::weak_ptr(history_), limit = options_.log_history](base::LogRecord const& record) {
-    auto const history = weak.lock();
-    if (!history) return;
-    history->lines.push_back({++history->last_sequence, record});
-    if (history->lines.size() > limit) history->lines.pop_front();
-  });
+  hub.add_sink(base::without_floods([weak = std::weak_ptr(history_)](base::LogRecord const& record) {
+    if (auto const history = weak.lock()) history->add(record);
+  }));
   server_->set_router(make_router());
   server_->set_websocket({
       .opened = [this](SessionId session) { open_session(session); },
@@ -91,7 +89,7 @@ std::vector<Station::Message> Station::news() {
   };
   add_if_changed(last_script_, script_message(script_.status()));
   add_if_changed(last_tasks_, tasks_message(script_.task_trees()));
-  auto const lines = log_after(std::exchange(last_log_, history_->last_sequence));
+  auto const lines = history_->after(std::exchange(last_log_, history_->last_sequence()));
   if (!lines.empty()) messages.push_back(shared(log_message(lines)));
   if (auto const* control = options_.control; control && control->revision() != last_control_) {
     last_control_ = control->revision();
@@ -110,19 +108,13 @@ std::vector<Station::Message> Station::whole_state(std::string const& commander)
   for (auto& text : feed_.snapshot(loop_.now())) messages.push_back(shared(std::move(text)));
   messages.push_back(shared(script_message(script_.status())));
   messages.push_back(shared(tasks_message(script_.task_trees())));
-  messages.push_back(shared(log_message(log_after(0))));
+  messages.push_back(shared(log_message(history_->after(0))));
   if (auto const* control = options_.control) {
     messages.push_back(shared(emergency_message(control->emergency())));
     messages.push_back(shared(commands_message(control->commands())));
   }
   messages.push_back(shared(alarms_message(options_.alarms, loop_.now())));
   return messages;
-}
-
-std::vector<LogLine> Station::log_after(std::uint64_t sequence) const {
-  auto const& lines = history_->lines;
-  auto const first = std::ranges::upper_bound(lines, sequence, {}, &LogLine::sequence);
-  return {first, lines.end()};
 }
 
 // ---- from the viewers
@@ -257,7 +249,7 @@ HttpResponse Station::get_log(HttpRequest const& request) const {
       return problem(400, "\"after\" must be the sequence number of a log line.");
     }
   }
-  return {.body = log_message(log_after(after))};
+  return {.body = log_message(history_->after(after))};
 }
 
 }  // namespace lapwing::station

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -13,6 +12,7 @@
 #include "base/loop.hpp"
 #include "base/task.hpp"
 #include "station/http_server.hpp"
+#include "station/log_history.hpp"
 #include "station/messages.hpp"
 #include "station/script_control.hpp"
 #include "station/vehicle_feed.hpp"
@@ -57,10 +57,6 @@ class Station {
   [[nodiscard]] Router make_router();
 
  private:
-  struct LogHistory {
-    std::deque<LogLine> lines;
-    std::uint64_t last_sequence = 0;
-  };
   using Message = HttpServer::Message;
 
   Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptControl& script, base::LogHub& hub,
@@ -74,7 +70,6 @@ class Station {
   void close_session(SessionId session);
   void obey_viewer(SessionId session, std::string const& request_id, ControlRequest request);
   void acknowledge(SessionId session, std::string const& request_id, AcknowledgeAlarms const& request);
-  [[nodiscard]] std::vector<LogLine> log_after(std::uint64_t sequence) const;
   void receive(SessionId session, std::string_view text);
   void reply(SessionId session, std::string text);
 

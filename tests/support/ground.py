@@ -94,12 +94,12 @@ class Station:
 
 
 @contextlib.contextmanager
-def station(*arguments: str, links: int = 1):
-    """Runs until the block ends; listens for vehicles on free ports."""
+def station(*arguments: str, links: int = 1, stdout=subprocess.DEVNULL):
+    """Runs until the block ends; listens for vehicles on free ports. What scripts print goes to `stdout`."""
     ports = [harness.free_udp_port() for _ in range(links)]
     wanted = [word for port in ports for word in ("--link", f"udpin://127.0.0.1:{port}")]
     process = subprocess.Popen([harness.LAPWING, "station", *wanted, "--port", "0", *arguments], stderr=subprocess.PIPE,
-                               stdout=subprocess.DEVNULL, text=True)
+                               stdout=stdout, text=True)
     ground = None
     try:
         address = None
