@@ -54,14 +54,14 @@ bool equal_in_constant_time(std::string_view given, std::string_view token) {
   return difference == 0;
 }
 
-bool carries_token(AccessPolicy const& policy, HttpRequest const& request, bool is_upgrade) {
+bool carries_token(AccessPolicy const& policy, HttpRequest const& request) {
   constexpr std::string_view bearer = "Bearer ";
   auto const authorization = request.header("Authorization");
   if (authorization.size() > bearer.size() && equal_ignoring_case(authorization.substr(0, bearer.size()), bearer)) {
     return equal_in_constant_time(authorization.substr(bearer.size()), policy.token);
   }
-  // Browsers cannot set headers on a WebSocket.
-  auto const parameter = is_upgrade ? request.parameter("token") : std::nullopt;
+  // Browsers cannot set headers on a WebSocket. Addresses end up in histories: nowhere else.
+  auto const parameter = request.opens_websocket ? request.parameter("token") : std::nullopt;
   return parameter && equal_in_constant_time(*parameter, policy.token);
 }
 
@@ -71,7 +71,14 @@ bool is_loopback_name(std::string_view host) {
   return equal_ignoring_case(host, "localhost") || host == "::1" || (host.starts_with("127.") && is_address(host));
 }
 
+bool is_trusted(AccessPolicy const& policy, HttpRequest const& request) {
+  return policy.token.empty() || carries_token(policy, request);
+}
+
 std::optional<HttpResponse> refusal(AccessPolicy const& policy, HttpRequest const& request) {
+  if (request.header_count("Host") > 1) {
+    return problem(400, "The request has several Host headers.");  // each reader may believe another one
+  }
   auto const host = request.header("Host");
   if (!is_known_host(policy, host)) {
     return problem(403, "This station is not known by the name in the Host header.",
@@ -87,7 +94,7 @@ std::optional<HttpResponse> refusal(AccessPolicy const& policy, HttpRequest cons
     return problem(415, "A request that changes something must be JSON.", "Send Content-Type: application/json.");
   }
   bool const is_guarded = request.path.starts_with("/api/") || request.path == "/metrics";
-  if (!policy.token.empty() && is_guarded && !carries_token(policy, request, is_upgrade)) {
+  if (!policy.token.empty() && is_guarded && !carries_token(policy, request)) {
     auto response = problem(401, "This station asks for its token.", "Send Authorization: Bearer TOKEN.");
     response.headers.push_back({"WWW-Authenticate", "Bearer"});
     return response;

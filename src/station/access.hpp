@@ -20,6 +20,9 @@ struct AccessPolicy {
 /// The answer that refuses the request, or nothing when it may go on.
 [[nodiscard]] std::optional<HttpResponse> refusal(AccessPolicy const& policy, HttpRequest const& request);
 
+/// Whether a request that is not refused shows that its sender may command: it carries the token, or none is set.
+[[nodiscard]] bool is_trusted(AccessPolicy const& policy, HttpRequest const& request);
+
 /// True for 127.0.0.0/8, ::1 and localhost, without a port.
 [[nodiscard]] bool is_loopback_name(std::string_view host);
 

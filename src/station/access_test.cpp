@@ -72,10 +72,24 @@ TEST(Access, AsksForTheTokenOnTheApiOnly) {
   EXPECT_EQ(status(policy, get("/api/v1/status", {host, {"Authorization", "Bearer secret"}})), 200);
 }
 
+TEST(Access, RefusesARequestForTwoHosts) {
+  EXPECT_EQ(status({}, get("/", {{"Host", "localhost"}, {"host", "localhost"}})), 400);
+}
+
+TEST(Access, TrustsWhoCarriesTheTokenAndEverybodyWhereNoneIsSet) {
+  HttpHeader const host{"Host", "localhost"};
+  EXPECT_TRUE(is_trusted({}, get("/", {host})));
+  AccessPolicy const policy{.loopback_only = true, .host_names = {}, .token = "secret"};
+  EXPECT_FALSE(is_trusted(policy, get("/", {host})));
+  EXPECT_TRUE(is_trusted(policy, get("/", {host, {"Authorization", "Bearer secret"}})));
+}
+
 TEST(Access, TakesTheTokenFromTheQueryOnlyForWebSockets) {
   AccessPolicy const policy{.loopback_only = true, .host_names = {}, .token = "se cret"};
   auto request = get("/api/v1/ws", {{"Host", "localhost"}, {"Upgrade", "websocket"}});
   request.query = "token=se%20cret";
+  EXPECT_EQ(status(policy, request), 401) << "a header alone opens no WebSocket";
+  request.opens_websocket = true;
   EXPECT_EQ(status(policy, request), 200);
   request.query = "token=se%2";
   EXPECT_EQ(status(policy, request), 401);

@@ -23,6 +23,11 @@ std::string_view HttpRequest::header(std::string_view name) const {
   return found == headers.end() ? std::string_view{} : std::string_view{found->value};
 }
 
+std::size_t HttpRequest::header_count(std::string_view name) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(headers, [&](auto const& h) { return equal_ignoring_case(h.name, name); }));
+}
+
 std::optional<std::string> HttpRequest::parameter(std::string_view name) const {
   std::string_view rest = query;
   while (!rest.empty()) {

@@ -21,9 +21,11 @@ struct HttpRequest {
   std::string query = {};   ///< what follows '?', not decoded
   std::vector<HttpHeader> headers = {};
   std::string body = {};
+  bool opens_websocket = false;  ///< a whole upgrade of the server's WebSocket endpoint
 
   /// Value of the first header of that name (in any case); empty when there is none.
   [[nodiscard]] std::string_view header(std::string_view name) const;
+  [[nodiscard]] std::size_t header_count(std::string_view name) const;
   /// Decoded value of a query parameter; nothing when it is absent or badly encoded.
   [[nodiscard]] std::optional<std::string> parameter(std::string_view name) const;
 };

@@ -7,6 +7,8 @@
 
 #include "station/http_server.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <deque>
 #include <map>
 #include <set>
@@ -29,6 +31,7 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "station/access.hpp"
+#include "station/internal/places.hpp"
 #include "station/static_files.hpp"
 
 namespace lapwing::station {
@@ -54,14 +57,26 @@ constexpr std::string_view content_security_policy =
 
 /// A connection is a WebSocket stream from the start; plain HTTP is spoken on the layer below it until the upgrade.
 struct Connection {
-  explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
+  Connection(tcp::socket socket, internal::Places::Guest place) : stream(std::move(socket)), guest(place) {}
   beast::tcp_stream& transport() { return stream.next_layer(); }
 
   websocket::stream<beast::tcp_stream> stream;
+  internal::Places::Guest guest;
+  bool is_known = false;    ///< has sent a request that carried the token, if one is needed
+  bool has_spoken = false;  ///< over its WebSocket
   SessionId session{};
+  std::chrono::steady_clock::time_point took_last{};  ///< when it took the last message, or had none to take
   std::deque<std::shared_ptr<std::string const>> queue;
   std::size_t queued_bytes = 0;
 };
+
+/// Whom an address counts for: itself; of IPv6 the network of 64 bits, of which one machine may use any address.
+std::string network_of(asio::ip::address const& address) {
+  if (!address.is_v6() || address.to_v6().is_v4_mapped()) return address.to_string();
+  auto bytes = address.to_v6().to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+  return asio::ip::address_v6(bytes).to_string();
+}
 
 /// An answer that takes its time: the work, and what wakes the connection at its end.
 struct Pending {
@@ -83,8 +98,8 @@ int status_of(error_code error) {
   return 400;
 }
 
-/// The plain request; nothing when its target is badly encoded.
-std::optional<HttpRequest> plain(http::request<http::string_body> request) {
+/// The plain request without its body; nothing when its target is badly encoded.
+std::optional<HttpRequest> plain(http::request<http::string_body> const& request) {
   auto const target = request.target();
   auto const method = request.method_string();
   auto result = request_for({method.data(), method.size()}, {target.data(), target.size()});
@@ -92,7 +107,6 @@ std::optional<HttpRequest> plain(http::request<http::string_body> request) {
   for (auto const& field : request) {
     result->headers.push_back({std::string(field.name_string()), std::string(field.value())});
   }
-  result->body = std::move(request.body());
   return result;
 }
 
@@ -104,6 +118,9 @@ http::response<http::string_body> wire(HttpResponse response, bool is_head, bool
              beast::string_view(content_security_policy.data(), content_security_policy.size()));
   result.set("X-Content-Type-Options", "nosniff");
   result.set("Referrer-Policy", "no-referrer");
+  result.set("Permissions-Policy",
+             "accelerometer=(), camera=(), display-capture=(), geolocation=(), gyroscope=(), magnetometer=(), "
+             "microphone=(), midi=(), payment=(), serial=(), usb=()");
   result.set("Cross-Origin-Opener-Policy", "same-origin");
   result.set("Cross-Origin-Resource-Policy", "same-origin");
   result.set(http::field::cache_control, "no-store");
@@ -121,7 +138,11 @@ http::response<http::string_body> wire(HttpResponse response, bool is_head, bool
 /// Everything that connections share. They may outlive the server by a turn of the loop: `closed` tells them.
 struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   Core(base::Loop& loop, Options given, base::Logger logger)
-      : io(loop.io()), options(std::move(given)), log(std::move(logger)), acceptor(io) {}
+      : io(loop.io()),
+        options(std::move(given)),
+        log(std::move(logger)),
+        acceptor(io),
+        places({.all = options.max_connections, .strangers_per_address = options.max_strangers_per_address}) {}
 
   asio::io_context& io;
   Options options;
@@ -130,7 +151,8 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   Router router;
   WebSocketEvents events;
   tcp::acceptor acceptor;
-  std::set<std::shared_ptr<Connection>> connections;
+  internal::Places places;
+  std::map<internal::Places::Guest, std::shared_ptr<Connection>> connections;
   std::map<SessionId, std::shared_ptr<Connection>> sessions;
   std::set<std::shared_ptr<asio::steady_timer>> timers;
   std::set<std::shared_ptr<Pending>> pending;
@@ -144,6 +166,8 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   asio::awaitable<void> accept_connections();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   asio::awaitable<bool> serve_request(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
+  std::optional<HttpResponse> refuse_session();
+  asio::awaitable<void> drain(std::shared_ptr<Connection> connection);
   asio::awaitable<void> serve_websocket(std::shared_ptr<Connection> connection,
                                         http::request<http::string_body> request);
   void write_next(std::shared_ptr<Connection> const& connection);
@@ -195,11 +219,10 @@ void HttpServer::Core::close() {
     one->work = {};
     one->ended.cancel(ignored);
   }
-  for (auto const& connection : connections) connection->transport().close();
+  for (auto const& [guest, connection] : connections) connection->transport().close();
 }
 
 Reply HttpServer::Core::answer(HttpRequest const& request) const {
-  if (auto refused = refusal(policy, request)) return *std::move(refused);
   bool const is_api = request.path.starts_with("/api/");
   if (is_api || router.knows(request.path)) return router.answer(request);
   if (request.method != "GET" && request.method != "HEAD") {
@@ -237,10 +260,15 @@ asio::awaitable<void> HttpServer::Core::accept_connections() {
       co_await pause.async_wait(redirect_error(use_awaitable, error));
       continue;
     }
-    if (connections.size() >= options.max_connections) continue;  // closes the socket
+    auto const peer = socket.remote_endpoint(error);
+    auto const entrance = places.enter(error ? std::string() : network_of(peer.address()));
+    if (entrance.must_leave)
+      if (auto const found = connections.find(*entrance.must_leave); found != connections.end())
+        found->second->transport().close();
+    if (!entrance.guest) continue;  // closes the socket
     socket.set_option(tcp::no_delay(true), error);
-    auto connection = std::make_shared<Connection>(std::move(socket));
-    connections.insert(connection);
+    auto connection = std::make_shared<Connection>(std::move(socket), *entrance.guest);
+    connections.emplace(*entrance.guest, connection);
     asio::co_spawn(io, serve(connection), asio::detached);
   }
 }
@@ -251,56 +279,101 @@ asio::awaitable<void> HttpServer::Core::serve(std::shared_ptr<Connection> connec
   while (!closed && co_await serve_request(connection, buffer)) {
   }
   connection->transport().close();
-  connections.erase(connection);
+  places.leave(connection->guest);
+  connections.erase(connection->guest);
 }
 
-/// One request and its answer; true when another may follow on the same connection.
+/// One request and its answer; true when another may follow on the same connection. Who may not ask is told so before
+/// the body of what he asks is read.
 asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection> connection,
                                                       beast::flat_buffer& buffer) {
   auto& transport = connection->transport();
   http::request_parser<http::string_body> parser;
   parser.header_limit(static_cast<std::uint32_t>(options.max_header_bytes));
   parser.body_limit(options.max_body_bytes);
-  transport.expires_after(options.request_timeout);
+  transport.expires_after(connection->is_known ? options.request_timeout : options.first_request_timeout);
   error_code error;
-  co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
+  co_await http::async_read_header(transport, buffer, parser, redirect_error(use_awaitable, error));
+  std::optional<HttpRequest> asked;
+  std::optional<HttpResponse> response;
+  if (!error) {
+    bool const is_upgrade = websocket::is_upgrade(parser.get());
+    asked = plain(parser.get());
+    if (!asked) response = problem(400, "The request's target is badly encoded.");
+    if (asked) asked->opens_websocket = is_upgrade && asked->path == options.websocket_path;
+    if (asked) response = refusal(policy, *asked);
+    if (!response && is_trusted(policy, *asked)) {
+      connection->is_known = true;
+      places.set(connection->guest, internal::Places::Standing::served);
+    }
+    if (!response && asked->opens_websocket) response = refuse_session();
+    if (!response && asked->opens_websocket) {
+      co_await serve_websocket(connection, parser.release());
+      co_return false;
+    }
+    transport.expires_after(options.request_timeout);
+    if (!response && !parser.is_done())
+      co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
+  }
   bool const is_malformed = error.category() == make_error_code(http::error::bad_method).category() &&
                             error != http::error::end_of_stream && error != http::error::partial_message;
   if (closed || (error && !is_malformed)) co_return false;
-
-  HttpResponse response;
-  bool keep_alive = false;
-  bool is_head = false;
-  if (error) {
-    response = problem(status_of(error), error.message());
-  } else {
-    auto request = parser.release();
-    keep_alive = request.keep_alive();
-    is_head = request.method() == http::verb::head;
-    bool const is_upgrade = websocket::is_upgrade(request);
-    auto const original = is_upgrade ? request : http::request<http::string_body>{};
-    auto const asked = plain(std::move(request));
-    if (!asked) {
-      response = problem(400, "The request's target is badly encoded.");
-    } else if (is_upgrade && asked->path == options.websocket_path) {
-      auto refused = refusal(policy, *asked);
-      if (!refused && sessions.size() >= options.max_sessions)
-        refused = problem(503, "Too many viewers are connected.");
-      if (!refused) {
-        co_await serve_websocket(connection, original);
-        co_return false;
-      }
-      response = *std::move(refused);
-    } else {
-      auto const reply = std::make_shared<Reply>(answer(*asked));
-      response = co_await finish(reply);
-      if (closed) co_return false;
-    }
+  if (error) response = problem(status_of(error), error.message());
+  bool const is_whole = parser.is_done();
+  bool const keep_alive = is_whole && !error && parser.get().keep_alive();
+  bool const is_head = parser.get().method() == http::verb::head;
+  if (!response) {
+    asked->body = std::move(parser.get().body());
+    auto const reply = std::make_shared<Reply>(answer(*asked));
+    response = co_await finish(reply);
+    if (closed) co_return false;
   }
-  auto const message = wire(std::move(response), is_head, keep_alive);
+  auto const message = wire(*std::move(response), is_head, keep_alive);
   transport.expires_after(options.request_timeout);
   co_await http::async_write(transport, message, redirect_error(use_awaitable, error));
+  if (connection->is_known) places.set(connection->guest, internal::Places::Standing::resting);
+  if (!error && !is_whole) co_await drain(connection);
   co_return !error && keep_alive;
+}
+
+/// Takes what was still on its way and throws it away, for a moment: a connection that is closed before is reset, and
+/// the client may never read why.
+asio::awaitable<void> HttpServer::Core::drain(std::shared_ptr<Connection> connection) {
+  constexpr auto moment = std::chrono::seconds(1);
+  constexpr std::size_t most = std::size_t{16} * 1024 * 1024;
+  auto& transport = connection->transport();
+  error_code error;
+  transport.socket().shutdown(tcp::socket::shutdown_send, error);
+  transport.expires_after(moment);
+  std::vector<char> scrap(64 * 1024);
+  for (std::size_t taken = 0; !error && taken < most;) {
+    auto const more = co_await transport.async_read_some(asio::buffer(scrap), redirect_error(use_awaitable, error));
+    taken += more;
+  }
+}
+
+/// Nothing when there is room for one more, by ending one that nobody misses if need be: that takes nothing of what it
+/// is sent, or else that has watched for longest without ever saying a word.
+std::optional<HttpResponse> HttpServer::Core::refuse_session() {
+  if (sessions.size() < options.max_sessions) return std::nullopt;
+  auto const now = std::chrono::steady_clock::now();
+  std::shared_ptr<Connection> goes;
+  bool is_stalled = false;
+  for (auto const& [session, connection] : sessions) {
+    bool const stalls = !connection->queue.empty() && now - connection->took_last > options.stall_timeout;
+    if (!stalls && (connection->has_spoken || goes)) continue;
+    if (stalls && is_stalled && goes->took_last <= connection->took_last) continue;
+    goes = connection;
+    is_stalled = is_stalled || stalls;
+  }
+  if (!goes)
+    return problem(503, "Too many viewers are connected.",
+                   "Close one; requests over HTTP, an emergency stop among them, are answered all the same.");
+  log.warn(fmt::format("{} viewers are connected: one that {} makes room for another", sessions.size(),
+                       is_stalled ? "takes nothing of what it is sent" : "never said a word"));
+  sessions.erase(goes->session);
+  goes->transport().close();
+  return std::nullopt;
 }
 
 asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connection> connection,
@@ -325,6 +398,7 @@ asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connecti
     co_await stream.async_read(buffer, redirect_error(use_awaitable, error));
     if (error || closed) break;
     auto const bytes = buffer.cdata();
+    connection->has_spoken = true;
     if (events.received) events.received(connection->session, {static_cast<char const*>(bytes.data()), bytes.size()});
     buffer.consume(buffer.size());
   }
@@ -339,6 +413,7 @@ void HttpServer::Core::write_next(std::shared_ptr<Connection> const& connection)
                                    if (error || self->closed) return;
                                    connection->queued_bytes -= connection->queue.front()->size();
                                    connection->queue.pop_front();
+                                   connection->took_last = std::chrono::steady_clock::now();
                                    if (!connection->queue.empty()) self->write_next(connection);
                                  });
 }
@@ -401,6 +476,7 @@ bool HttpServer::send(SessionId session, std::span<Message const> messages) {
   if (!queue.empty() && bytes > core_->options.max_backlog_bytes) return false;
   bool const is_idle = queue.empty();
   connection->queued_bytes = bytes;
+  if (is_idle) connection->took_last = std::chrono::steady_clock::now();
   queue.insert(queue.end(), messages.begin(), messages.end());
   if (is_idle && !queue.empty()) core_->write_next(connection);
   return true;

@@ -40,13 +40,17 @@ class HttpServer {
     std::string websocket_path = "/api/v1/ws";
     std::string token = {};                    ///< API requests must carry it; must be set beyond loopback
     std::vector<std::string> host_names = {};  ///< further names of this machine that browsers may use
+    /// When all are taken, the one that has done nothing for longest gives way to who comes (internal/places.hpp).
     std::size_t max_connections = 256;
-    std::size_t max_sessions = 64;  ///< WebSockets among them
+    std::size_t max_strangers_per_address = 64;  ///< connections that have shown no token; with none set, no request
+    std::size_t max_sessions = 64;               ///< WebSockets among them
     std::size_t max_header_bytes = 16 * 1024;
     std::size_t max_body_bytes = 1024 * 1024;    ///< of a request and of a WebSocket message
     std::size_t max_backlog_bytes = 512 * 1024;  ///< unsent bytes of one WebSocket above which `send` refuses
-    std::chrono::milliseconds request_timeout{
-        15'000};  ///< for a whole request to arrive, and to keep an idle connection
+    std::chrono::milliseconds first_request_timeout{5'000};  ///< for the head of a connection's first request
+    std::chrono::milliseconds request_timeout{15'000};       ///< for all of a request, and to keep an idle connection
+    std::chrono::milliseconds stall_timeout{
+        5'000};  ///< a session that takes nothing for so long may be ended for another
   };
 
   /// Listens at once. Fails with a message for the operator when the port is taken or the address is not this

@@ -14,6 +14,7 @@ using testing::Answer;
 using testing::Ask;
 using testing::ask;
 using testing::ask_raw;
+using testing::RawConnection;
 using testing::run_until;
 using testing::WebSocketClient;
 
@@ -97,6 +98,7 @@ TEST_F(HttpServerTest, SendsSecurityHeaders) {
   EXPECT_EQ(answer.header("X-Content-Type-Options"), "nosniff");
   EXPECT_NE(answer.header("Content-Security-Policy").find("script-src 'self';"), std::string::npos);
   EXPECT_NE(answer.header("Content-Security-Policy").find("frame-ancestors 'none'"), std::string::npos);
+  EXPECT_NE(answer.header("Permissions-Policy").find("camera=()"), std::string::npos);
 }
 
 TEST_F(HttpServerTest, AnswersHeadWithoutABody) {
@@ -138,8 +140,69 @@ TEST_F(HttpServerTest, AnswersRubbishWithAnError) {
 }
 
 TEST_F(HttpServerTest, EndsConnectionsThatSendNoWholeRequest) {
-  serve({.request_timeout = std::chrono::milliseconds(30)});
+  serve({.first_request_timeout = std::chrono::milliseconds(30)});
   EXPECT_EQ(ask_raw(loop, server->port(), "GET / HTTP/1.1\r\nHost: local"), "");
+}
+
+TEST_F(HttpServerTest, LetsInWhoHasARequestThoughOthersSitOnEveryPlace) {
+  serve({.max_connections = 8, .max_strangers_per_address = 8});
+  std::vector<std::unique_ptr<RawConnection>> idle;
+  for (int i = 0; i < 40; ++i) {
+    idle.push_back(RawConnection::open(loop, server->port()));
+    ASSERT_TRUE(idle.back());
+    idle.back()->send("GET / HTTP/1.1\r\nHost: 127");
+    if (i % 10 == 9) {
+      EXPECT_EQ(get("/api/v1/hello").status, 200) << i;
+    }
+  }
+  EXPECT_TRUE(run_until(loop, [&] { return idle.front()->is_over(); })) << "the first came first and gave way";
+  EXPECT_FALSE(idle.back()->is_over());
+}
+
+TEST_F(HttpServerTest, LetsInWhoHasARequestThoughEveryPlaceIsKeptAlive) {
+  serve({.max_connections = 4});
+  std::vector<std::unique_ptr<RawConnection>> resting;
+  for (int i = 0; i < 12; ++i) {
+    resting.push_back(RawConnection::open(loop, server->port()));
+    resting.back()->send("GET /api/v1/hello HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    EXPECT_NE(resting.back()->receive("hello ").find("hello "), std::string::npos) << i;
+  }
+}
+
+TEST_F(HttpServerTest, KeepsThePlaceOfWhoHoldsTheToken) {
+  serve({.token = "secret", .max_connections = 4, .max_strangers_per_address = 2});
+  auto const request = "GET /api/v1/hello?x HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer secret\r\n\r\n";
+  auto const known = RawConnection::open(loop, server->port());
+  known->send(request);
+  ASSERT_NE(known->receive("hello x").find("hello x"), std::string::npos);
+  std::vector<std::unique_ptr<RawConnection>> strangers;
+  for (int i = 0; i < 30; ++i) {
+    strangers.push_back(RawConnection::open(loop, server->port()));
+    strangers.back()->send("GET /api/v1/hello HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");  // 401, kept alive
+  }
+  EXPECT_TRUE(run_until(loop, [&] { return strangers.front()->is_over(); }));
+  EXPECT_FALSE(known->is_over());
+  known->send("GET /api/v1/hello?again HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer secret\r\n\r\n");
+  EXPECT_NE(known->receive("hello again").find("hello again"), std::string::npos);
+}
+
+TEST_F(HttpServerTest, RefusesAStrangerBeforeItsBody) {
+  serve({.token = "secret"});
+  auto const stranger = RawConnection::open(loop, server->port());
+  stranger->send(
+      "POST /api/v1/echo HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: "
+      "1000\r\n\r\n");
+  EXPECT_TRUE(stranger->receive("\r\n\r\n").starts_with("HTTP/1.1 401"));
+}
+
+TEST_F(HttpServerTest, SaysThatABodyIsTooLargeToWhoSendsAllOfIt) {
+  serve({.max_body_bytes = 1000});
+  auto const client = RawConnection::open(loop, server->port());
+  client->send(
+      "POST /api/v1/echo HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+      "Content-Length: 5000000\r\n\r\n" +
+      std::string(5'000'000, 'x'));
+  EXPECT_TRUE(client->receive("}").starts_with("HTTP/1.1 413"));
 }
 
 TEST_F(HttpServerTest, NamesThePortThatIsInUse) {
@@ -184,8 +247,45 @@ TEST_F(HttpServerTest, RefusesForeignAndSurplusWebSockets) {
   EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/ws", .host = "evil.example"}));
   EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/other"}));
   auto const first = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
-  EXPECT_TRUE(first);
-  EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/ws"}));
+  ASSERT_TRUE(first);
+  first->send("here");
+  EXPECT_EQ(first->receive(), "echo here");
+  EXPECT_FALSE(WebSocketClient::open(loop, port, {.target = "/api/v1/ws"})) << "who has spoken keeps its place";
+  first->send("still");
+  EXPECT_EQ(first->receive(), "echo still");
+}
+
+TEST_F(HttpServerTest, EndsTheWebSocketThatNeverSpokeForANewOne) {
+  serve({.max_sessions = 2});
+  int const port = server->port();
+  auto const speaker = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  auto const silent = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  ASSERT_TRUE(speaker && silent);
+  speaker->send("one");
+  EXPECT_EQ(speaker->receive(), "echo one");
+  auto const third = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  ASSERT_TRUE(third);
+  EXPECT_FALSE(silent->receive()) << "its connection is over";
+  EXPECT_TRUE(run_until(loop, [&] { return closed == 1; }));
+  speaker->send("two");
+  EXPECT_EQ(speaker->receive(), "echo two");
+}
+
+TEST_F(HttpServerTest, EndsTheWebSocketThatTakesNothingBeforeAnyOther) {
+  serve({.max_sessions = 2, .stall_timeout = std::chrono::milliseconds(0)});
+  int const port = server->port();
+  auto const silent = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  auto const stalled = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  ASSERT_TRUE(silent && stalled);
+  stalled->send("one");
+  EXPECT_EQ(stalled->receive(), "echo one");
+  stalled->pause();
+  auto const much = text(std::string(1'000'000, 'x'));
+  ASSERT_TRUE(run_until(loop, [&] { return !server->send(sessions[1], much); })) << "the network takes no more of it";
+  auto const third = WebSocketClient::open(loop, port, {.target = "/api/v1/ws"});
+  ASSERT_TRUE(third);
+  EXPECT_TRUE(server->send(sessions[0], text("news")));
+  EXPECT_EQ(silent->receive(), "news");
 }
 
 TEST_F(HttpServerTest, EndsWebSocketsThatSendTooMuch) {

@@ -1,3 +1,4 @@
+#include <array>
 #include <utility>  // before Asio: Boost 1.74 uses std::exchange without including it
 
 #include "station/testing/http_client.hpp"
@@ -118,6 +119,53 @@ std::string ask_raw(base::Loop& loop, int port, std::string const& bytes) {
   asio::async_read(socket, asio::dynamic_buffer(answer), read.handler());
   (void)read.ok();  // ends with end_of_file
   return answer;
+}
+
+struct RawConnection::State : std::enable_shared_from_this<State> {
+  explicit State(base::Loop& on) : loop(on), socket(on.io()) {}
+  void read() {
+    socket.async_read_some(asio::buffer(piece), [self = shared_from_this()](error_code error, std::size_t size) {
+      self->received.append(self->piece.data(), size);
+      self->is_over = static_cast<bool>(error);
+      if (!error) self->read();
+    });
+  }
+
+  base::Loop& loop;
+  tcp::socket socket;
+  std::array<char, 4096> piece{};
+  std::string received;
+  bool is_over = false;
+};
+
+RawConnection::RawConnection(std::shared_ptr<State> state) : state_(std::move(state)) {}
+RawConnection::~RawConnection() {
+  error_code ignored;
+  state_->socket.close(ignored);
+}
+
+std::unique_ptr<RawConnection> RawConnection::open(base::Loop& loop, int port) {
+  auto state = std::make_shared<State>(loop);
+  Waited connected(loop);
+  state->socket.async_connect(server_at(port), connected.handler());
+  if (!connected.ok()) return nullptr;
+  state->read();
+  return std::unique_ptr<RawConnection>(new RawConnection(std::move(state)));
+}
+
+void RawConnection::send(std::string const& bytes) {
+  Waited written(state_->loop);
+  asio::async_write(state_->socket, asio::buffer(bytes), written.handler());
+  (void)written.ok();
+}
+
+std::string RawConnection::receive(std::string_view part) {
+  (void)run_until(state_->loop, [&] { return state_->is_over || state_->received.find(part) != std::string::npos; });
+  return state_->received;
+}
+
+bool RawConnection::is_over() const {
+  return state_->is_over;
 }
 
 struct WebSocketClient::State : std::enable_shared_from_this<State> {

@@ -34,6 +34,24 @@ struct Ask {
 /// ended.
 [[nodiscard]] std::string ask_raw(base::Loop& loop, int port, std::string const& bytes);
 
+/// A connection that does what it is told, byte by byte: idle ones, slow ones, ones that ask twice.
+class RawConnection {
+ public:
+  [[nodiscard]] static std::unique_ptr<RawConnection> open(base::Loop& loop, int port);
+  ~RawConnection();
+
+  void send(std::string const& bytes);
+  /// What came so far, once it holds `part`; what came at all when it never does.
+  [[nodiscard]] std::string receive(std::string_view part);
+  /// The server has ended it.
+  [[nodiscard]] bool is_over() const;
+
+ private:
+  struct State;
+  explicit RawConnection(std::shared_ptr<State> state);
+  std::shared_ptr<State> state_;
+};
+
 class WebSocketClient {
  public:
   /// Connects; nothing when the server refuses the upgrade.
