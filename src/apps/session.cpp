@@ -143,8 +143,11 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
   fmt::print(stderr, "\n");
-  for (auto const& address : map_addresses(access.bind, map->port(), *token))
+  // What a service prints lies in its journal: a token that has a file of its own stays there.
+  bool const is_in_file = !access.token_file.empty();
+  for (auto const& address : map_addresses(access.bind, map->port(), is_in_file ? std::string() : *token))
     fmt::print(stderr, "    map  {}\n", address);
+  if (is_in_file) fmt::print(stderr, "    its token is in {}; the map asks for it\n", access.token_file);
   fmt::print(stderr, "\n");
   if (!std::filesystem::exists(home_directory() / "web/dist/index.html")) {
     log.warn("the browser app is not built, so the map shows nothing: ./lapwing build builds it");

@@ -25,7 +25,7 @@ def status_of(port, path="/api/v1/status", **headers):
         return answer.status, answer.read()
 
 
-def websocket_status(port, query="", **headers):
+def websocket_status(port, query="", path="/api/v1/ws", **headers):
     upgrade = {
         "Upgrade": "websocket",
         "Connection": "Upgrade",
@@ -33,15 +33,16 @@ def websocket_status(port, query="", **headers):
         "Sec_WebSocket_Key": base64.b64encode(os.urandom(16)).decode(),
     }
     with socket.create_connection(("127.0.0.1", port), timeout=10) as raw:
-        lines = [f"GET /api/v1/ws{query} HTTP/1.1", f"Host: 127.0.0.1:{port}"]
+        lines = [f"GET {path}{query} HTTP/1.1", f"Host: 127.0.0.1:{port}"]
         lines += [f"{name.replace('_', '-')}: {value}" for name, value in {**upgrade, **headers}.items()]
         raw.sendall("\r\n".join([*lines, "", ""]).encode())
         return int(raw.recv(100).split()[1])
 
 
 @contextlib.contextmanager
-def station(*arguments):
-    """A station on every address and a free port; gives (port, token in the printed address) and checks what it said."""
+def station(*arguments, secret=None):
+    """A station on every address and a free port; gives (port, token in the printed address) and checks what it said: a `secret`
+    nowhere, a token that was made up in the map's address alone."""
     link = f"udpin://127.0.0.1:{harness.free_udp_port()}"
     command = [harness.LAPWING, "station", "--link", link, "--port", "0", *arguments]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
@@ -54,6 +55,7 @@ def station(*arguments):
         process.send_signal(signal.SIGINT)
         said += process.communicate(timeout=20)[1]
     assert process.returncode == 0, process.returncode
+    assert secret is None or secret not in said, said
     if address[2]:
         logged = [line for line in said.splitlines() if address[2] in line and not line.startswith("    map  http")]
         assert not logged, logged
@@ -69,6 +71,8 @@ def is_guarded(port, token):
     assert websocket_status(port) == 401
     assert websocket_status(port, "?token=wrong") == 401
     assert websocket_status(port, f"?token={token}") == 101
+    assert websocket_status(port, f"?token={token}", "/api/v1/status") == 401, "the address is for the WebSocket alone"
+    assert status_of(port, f"/api/v1/status?token={token}", Upgrade="websocket")[0] == 401
     assert websocket_status(port, f"?token={token}", Origin="http://evil.example") == 403
     assert websocket_status(port, f"?token={token}", Origin=f"http://127.0.0.1:{port}") == 101
     assert status_of(port, Host="evil.example", **bearer)[0] == 403, "DNS rebinding"
@@ -99,8 +103,10 @@ with tempfile.TemporaryDirectory() as folder:
 
     config.write_text('[web]\nbind = "0.0.0.0"\nport = 1\ntoken_file = "station.token"\n[map]\nsite = "Field"\nscripts = "."\n')
     pathlib.Path(folder, "mine.dolphin").write_text("message 'mine'\n")
-    with station("--config", str(config)) as (port, token):  # --port 0 goes before the file's
-        assert token == "a-token-of-our-own-choice"
+    secret = "a-token-of-our-own-choice"
+    with station("--config", str(config), secret=secret) as (port, shown):  # --port 0 goes before the file's
+        assert shown is None
+        token = secret
         is_guarded(port, token)
         assert json.loads(status_of(port, Authorization=f"Bearer {token}")[1])["site"]["name"] == "Field"
         names = json.loads(status_of(port, "/api/v1/scripts", Authorization=f"Bearer {token}")[1])
