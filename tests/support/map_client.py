@@ -56,7 +56,8 @@ class Viewer:
         return taken
 
     def receive(self) -> dict:
-        """The next message; texts come in one frame."""
+        """The next message, put together from its frames."""
+        text = b""
         while True:
             first, length = self.take(2)
             if length == 126:
@@ -64,8 +65,11 @@ class Viewer:
             elif length == 127:
                 length = struct.unpack(">Q", self.take(8))[0]
             body = self.take(length)
-            if first & 0x0F == 1:
-                return json.loads(body)
+            if first & 0x0F > 1:  # neither a text nor more of one
+                continue
+            text += body
+            if first & 0x80:
+                return json.loads(text)
 
     def wait_for(self, kind, condition, seconds) -> dict:
         """The first message of that type for which the condition holds."""
