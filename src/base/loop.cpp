@@ -2,6 +2,8 @@
 
 #include "base/loop.hpp"
 
+#include <algorithm>
+
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
@@ -9,13 +11,70 @@
 namespace lapwing::base {
 
 namespace asio = boost::asio;
+using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
+namespace {
+
+/// How far time that waits may pass a timer: less than any period of simulation, so that nobody is a whole one late.
+constexpr Duration moment = 20ms;
+/// What time that waits falls behind the wall by is made up for if it is no more than this, by the wall's clock.
+constexpr steady_clock::duration longest_debt = 250ms;
+/// How long sockets may keep time waiting in one turn, by the wall's clock.
+constexpr steady_clock::duration longest_service = 20ms;
+
+steady_clock::duration on_the_wall(Duration loop_time, double speedup) {
+  return std::chrono::ceil<steady_clock::duration>(std::chrono::duration<double>(to_seconds(loop_time) / speedup));
+}
+
+}  // namespace
+
 struct Loop::Io {
+  [[nodiscard]] static bool time_waits(Loop const& loop) { return !loop.pace_.unpaced && loop.pace_.speedup != 1.0; }
+  [[nodiscard]] static TimePoint paced_now(Loop const& loop);
+  void hold_time(Loop& loop);
+  void serve(Loop const& loop, steady_clock::duration ran);
+
   asio::io_context context{1};
   // Without it the context would stop for good the first time that no socket waits.
   asio::executor_work_guard<asio::io_context::executor_type> work{context.get_executor()};
+  TimePoint time_limit = TimePoint::max();  ///< how far time may go before the next turn
 };
+
+TimePoint Loop::Io::paced_now(Loop const& loop) {
+  auto const elapsed = std::chrono::duration<double>(steady_clock::now() - loop.started_).count();
+  return TimePoint(from_seconds(elapsed * loop.pace_.speedup));
+}
+
+/// Where time waits: sets how far it may go in this turn, and forgets what it could not keep up with.
+void Loop::Io::hold_time(Loop& loop) {
+  if (!time_waits(loop)) return;
+  auto const paced = paced_now(loop);
+  auto const time = std::min(paced, time_limit);
+  bool const has_work = !loop.ready_.empty() || !loop.posted_.empty();
+  auto const& timers = loop.timers_;
+  auto const waited_for = has_work ? time : timers.empty() ? TimePoint::max() : timers.begin()->first.first;
+  auto const limit = waited_for < TimePoint::max() - moment ? waited_for + moment : TimePoint::max();
+  // What was woken is waited for where the timer that woke it was.
+  time_limit = std::max(time, has_work ? std::min(limit, time_limit) : limit);
+  if (paced <= time_limit) return;
+  auto const debt = on_the_wall(paced - time_limit, loop.pace_.speedup);
+  if (debt > longest_debt) loop.started_ += debt - longest_debt;
+}
+
+/// Sockets and signals get as long as what was ready took, and one of them has its turn in any case: neither can starve
+/// the other, however late timers are and however much comes in. Where time waits it does so for them, too.
+void Loop::Io::serve(Loop const& loop, steady_clock::duration ran) {
+  // Without a pace time waits anyway until they have nothing more, and a run must repeat whatever the wall's clock
+  // says.
+  if (loop.pace_.unpaced) {
+    context.poll_one();
+    return;
+  }
+  auto const end = steady_clock::now() + (time_waits(loop) ? std::max(ran, longest_service) : ran);
+  while (context.poll_one() > 0 && steady_clock::now() < end) {
+  }
+}
 
 Loop::Loop(Pace pace)
     : io_(std::make_unique<Io>()),
@@ -31,8 +90,7 @@ asio::io_context& Loop::io() {
 
 TimePoint Loop::now() const {
   if (pace_.unpaced) return unpaced_now_;
-  auto const elapsed = std::chrono::duration<double>(steady_clock::now() - started_).count();
-  return TimePoint(from_seconds(elapsed * pace_.speedup));
+  return std::min(Io::paced_now(*this), io_->time_limit);
 }
 
 UtcTime Loop::utc_now() const {
@@ -56,8 +114,10 @@ void Loop::run() {
 }
 
 /// Runs what was ready when the turn began; what becomes ready meanwhile waits for the next turn, so nothing starves
-/// sockets. Of those, one has its turn: one that always has something must not starve the rest.
+/// sockets.
 bool Loop::run_ready() {
+  io_->hold_time(*this);
+  auto const began = steady_clock::now();
   auto functions = std::exchange(posted_, {});
   auto coroutines = ready_.size();
   bool const any = !functions.empty() || coroutines > 0;
@@ -68,7 +128,7 @@ bool Loop::run_ready() {
     waiter->withdraw();
     waiter->handle_.resume();
   }
-  if (any) io_->context.poll_one();
+  if (any) io_->serve(*this, steady_clock::now() - began);
   return any;
 }
 
@@ -96,8 +156,7 @@ void Loop::wait_for_something() {
     unpaced_now_ = next;
     return;
   }
-  auto const wall = std::chrono::duration<double>(to_seconds(next.time_since_epoch()) / pace_.speedup);
-  io_->context.run_one_until(started_ + std::chrono::ceil<steady_clock::duration>(wall));
+  io_->context.run_one_until(started_ + on_the_wall(next.time_since_epoch(), pace_.speedup));
 }
 
 void Waiter::join(WaiterList& list) {

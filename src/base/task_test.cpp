@@ -45,6 +45,89 @@ TEST(Loop, GivesTimersTheirTurnBesideAnEventThatAlwaysComes) {
   EXPECT_EQ(loop.run_until_done(answer_after(loop, 5ms)), 42);
 }
 
+/// Keeps the processor busy for so long by the wall's clock.
+void work_for(std::chrono::steady_clock::duration duration) {
+  auto const end = std::chrono::steady_clock::now() + duration;
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
+
+/// As a simulation whose steps take longer than the time that they simulate: it is late for each.
+Task<> step_late(Loop& loop, int& steps) {
+  for (auto next = loop.now();; next += 1ms) {
+    co_await loop.sleep_until(next);
+    work_for(100us);
+    ++steps;
+  }
+}
+
+TEST(Loop, GivesEventsTheirTurnBesideTimersThatAreAlwaysLate) {
+  Loop loop(Loop::Pace{.speedup = 1000.0});
+  Scope scope(loop);
+  int steps = 0;
+  scope.spawn(step_late(loop, steps));
+  // As a signal that waits behind what many sockets have to say.
+  struct Events {
+    Loop& loop;
+    int left;
+    void serve() {
+      if (--left == 0) return loop.stop();
+      loop.post_from_other_thread([this] { serve(); });
+    }
+  } events{loop, 1000};
+  events.serve();
+  loop.run();
+  EXPECT_LT(steps, 200) << "they had a fair share of the time";
+}
+
+TEST(Loop, TimeThatWaitsIsNeverLateForATimer) {
+  Loop loop(Loop::Pace{.speedup = 1000.0});
+  auto latest = Duration::zero();
+  auto simulate = [&]() -> Task<> {
+    auto next = loop.now();
+    for (int step = 0; step < 100; ++step, next += 50ms) {
+      co_await loop.sleep_until(next);
+      latest = std::max(latest, loop.now() - next);
+      work_for(1ms);  // 1 s of the loop's time
+    }
+  };
+  loop.run_until_done(simulate());
+  EXPECT_LT(latest, 50ms) << "a step late";
+}
+
+TEST(Loop, TimeThatWaitsDoesSoForEvents) {
+  Loop loop(Loop::Pace{.speedup = 1000.0});
+  Scope scope(loop);
+  int steps = 0;
+  scope.spawn(step_late(loop, steps));
+  struct Events {
+    Loop& loop;
+    int left = 0;
+    void serve() {
+      if (--left > 0) loop.post_from_other_thread([this] { serve(); });
+    }
+  } events{loop};
+  auto simulate = [&]() -> Task<> {
+    for (int round = 0; round < 10; ++round) {
+      events.left = 500;
+      events.serve();
+      co_await loop.sleep(50ms);
+      EXPECT_EQ(events.left, 0) << "of what arrived 50 ms ago";
+    }
+  };
+  loop.run_until_done(simulate());
+}
+
+TEST(Loop, TimeThatWaitsKeepsItsPaceWhereTheMachineDoes) {
+  Loop loop(Loop::Pace{.speedup = 1000.0});
+  auto const before = std::chrono::steady_clock::now();
+  loop.run_until_done(answer_after(loop, 10s));
+  auto const took = std::chrono::steady_clock::now() - before;
+  EXPECT_GE(took, 9ms);
+  EXPECT_LT(took, 5s);
+  EXPECT_GE(loop.now().time_since_epoch(), 10s);
+}
+
 TEST(Loop, TimersFireInOrderOfDeadlineThenOfCall) {
   Loop loop(unpaced);
   std::vector<std::string> order;
