@@ -17,6 +17,9 @@ namespace lapwing::apps {
 
 namespace {
 
+/// How far off a vehicle has its home, as ArduPilot had in the loop.
+constexpr double usual_altitude_error_m = 0.09;
+
 struct SimOptions {
   std::string vehicles = "copter:1";
   std::string home = "41.1780,-8.5980,90";
@@ -46,6 +49,7 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   world.vehicles = *vehicles;
   world.home = home->place;
   world.heading_rad = home->heading_rad;
+  world.altitude_error_m = usual_altitude_error_m;
   world.out = *out;
   world.seed = options.seed;
   world.first_system_id = options.first_id;

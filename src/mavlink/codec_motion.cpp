@@ -287,7 +287,7 @@ void write(HomePosition const& m, Frame& frame) {
   HOME_POSITION w{};
   put_place(m.position, w.latitude, w.longitude, w.altitude);
   put_vector(m.local_m, w.x, w.y, w.z);
-  w.q[0] = 1.0F;  // level ground
+  w.q.fill(std::numeric_limits<float>::quiet_NaN());  // how the ground lies is not known
   pack(w, frame);
 }
 

@@ -31,7 +31,7 @@ Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& par
 }
 
 FlightContext Autopilot::context(double utc_day_s) const {
-  return {body_, airframe_, site_, pace_, tuning_, plans_.rally, home_, now_, utc_day_s, !kind_.is_px4()};
+  return {body_, airframe_, site_, pace_, tuning_, plans_.rally, home_, now_, utc_day_s, !kind_.is_px4(), landed_};
 }
 
 void Autopilot::read_parameters() {
@@ -54,7 +54,7 @@ MavResult Autopilot::arm(bool force) {
     return MavResult::failed;
   }
   armed_ = true;
-  has_flown_ = !body_.on_ground;
+  has_flown_ = !landed_;
   idle_since_.reset();
   lift_at_.reset();
   if (!home_locked_ && navigation_.position_ok) {
@@ -69,7 +69,7 @@ MavResult Autopilot::arm(bool force) {
 
 MavResult Autopilot::disarm(bool force) {
   if (!armed_) return MavResult::accepted;
-  if (!body_.on_ground && !force) return MavResult::failed;
+  if (!landed_ && !force) return MavResult::failed;
   do_disarm(words_.disarmed_by_command);
   return MavResult::accepted;
 }
@@ -87,30 +87,48 @@ void Autopilot::do_disarm(std::string_view words) {
 }
 
 bool Autopilot::may_enter(FlightMode const& mode) {
-  // Disarmed, a predicted position is enough: that comes with the origin.
-  bool const position = armed_ ? navigation_.position_ok : now_ >= start_up_.timeline().origin_set;
   auto const refuse = [&](std::string_view reason) {
-    outbox_.say(MavSeverity::warning, fmt::format("Mode change to {} failed: {}", mode.name, reason));
+    outbox_.say(MavSeverity::warning, is_copter_like() ? fmt::format("Mode change to {} failed: {}", mode.name, reason)
+                                                       : "Flight mode change failed");
     return false;
   };
-  if (mode.needs_position && !position) return refuse("requires position");
-  bool const has_trail = trail_.usable() && tuning_.trail.most_points > 0;
-  if (mode.behaviour == Behaviour::retrace && !has_trail) return refuse("init failed");
   if (kind_.is_px4()) {
-    auto const objection = px4_objection(mode);
+    // Disarmed, a predicted position is enough: that comes with the origin.
+    bool const position = armed_ ? navigation_.position_ok : now_ >= start_up_.timeline().origin_set;
+    std::optional<std::string_view> objection = px4_objection(mode);
+    if (mode.needs_position && !position) objection = "requires position";
     return objection ? refuse(*objection) : true;
   }
-  if (mode.behaviour != Behaviour::mission || airframe_.family == Family::plane) return true;
-  if (plans_.mission.size() <= 1) {
-    if (airframe_.family == Family::rover) outbox_.say(MavSeverity::notice, "No Mission. Can't set AUTO.");
+  // Disarmed, whether there is a position is left to the arming checks.
+  bool const flies_blind = armed_ && mode.needs_position && !navigation_.position_ok;
+  if (flies_blind && airframe_.family != Family::plane) return refuse("requires position");
+  if (mode.entry == Entry::closed || (mode.entry == Entry::disarmed && armed_)) {
+    if (!mode.lacks.empty()) outbox_.say(MavSeverity::warning, std::string(mode.lacks));
     return refuse("init failed");
   }
-  bool const would_tip_over = airframe_.family == Family::copter && armed_ && body_.on_ground;
-  if (would_tip_over && !mission_.starts_with_take_off()) {
-    outbox_.say(MavSeverity::critical, "Auto: Missing Takeoff Cmd");
-    return refuse("init failed");
+  bool const has_trail = trail_.usable() && tuning_.trail.most_points > 0;
+  if (mode.behaviour == Behaviour::retrace && !has_trail) return refuse("init failed");
+  return mode.behaviour != Behaviour::mission || may_enter_auto() || refuse("init failed");
+}
+
+/// A copter only asks for a mission when it is armed: disarmed, it leaves that to the arming checks, too.
+bool Autopilot::may_enter_auto() {
+  bool const has_mission = plans_.mission.size() > 1;
+  if (airframe_.family == Family::rover && !has_mission) {
+    outbox_.say(MavSeverity::notice, "No Mission. Can't set AUTO.");
+    return false;
   }
-  return true;
+  if (!is_copter_like() || !armed_) return true;
+  if (!has_mission) return false;
+  bool const would_tip_over = airframe_.family == Family::copter && landed_;
+  if (!would_tip_over || mission_.starts_with_take_off()) return true;
+  outbox_.say(MavSeverity::critical, "Auto: Missing Takeoff Cmd");
+  return false;
+}
+
+/// Copters and underwater vehicles run programs of one descent.
+bool Autopilot::is_copter_like() const {
+  return airframe_.family == Family::copter || airframe_.family == Family::sub;
 }
 
 /// PX4 goes into no mode of which it knows that it could not stay there (its mode requirements).
@@ -124,7 +142,7 @@ std::optional<std::string_view> Autopilot::px4_objection(FlightMode const& mode)
 
 MavResult Autopilot::set_mode(std::uint32_t number) {
   bool const recovers = fence_took_over_ && safety_.fence.holds_mode && fence_.breached() != 0 && armed_;
-  if (recovers && !body_.on_ground && number != mode_->number) {
+  if (recovers && !landed_ && number != mode_->number) {
     auto const* wanted = find_mode(kind_, number);
     bool const is_plane = airframe_.family == Family::plane;
     outbox_.say(is_plane ? MavSeverity::notice : MavSeverity::warning,
@@ -198,19 +216,21 @@ MavResult Autopilot::take_off(double height_m) {
     take_off_height_m_ = std::isfinite(height_m) ? std::optional(height_m) : std::nullopt;
     return change_mode(mode_for(kind_, Behaviour::take_off).number);
   }
-  bool const may = airframe_.family == Family::copter && mode_->behaviour == Behaviour::guided && armed_ &&
-                   body_.on_ground && height_m > 0.0;
+  bool const may = airframe_.family == Family::copter && mode_->behaviour == Behaviour::guided && armed_ && landed_ &&
+                   height_m > 0.0;
   if (!may) return MavResult::failed;
   guided().take_off(body_.position_m, height_m - home_.down, body_.attitude.yaw_rad);
   return MavResult::accepted;
 }
 
+/// ArduPilot's copter begins anew where a mission is over, a rover and a plane that are in AUTO already do nothing.
 MavResult Autopilot::start_mission() {
   auto const& mission_mode = mode_for(kind_, Behaviour::mission);
+  bool const begins_anew = kind_.is_px4() || is_copter_like();
   if (mode_ != &mission_mode) {
     auto const result = set_mode(mission_mode.number);
     if (result != MavResult::accepted) return result;
-  } else if (!mission_.running() || mission_.complete()) {
+  } else if (begins_anew && (!mission_.running() || mission_.complete())) {
     mission_.resume();
   }
   take_off_allowed_ = armed_;
@@ -304,7 +324,7 @@ MavState Autopilot::system_status() const {
   }
   if (booting) return MavState::active;
   if (failsafe_active()) return MavState::critical;
-  return body_.on_ground ? MavState::standby : MavState::active;
+  return landed_ ? MavState::standby : MavState::active;
 }
 
 bool Autopilot::prearm_ok() const {
@@ -317,7 +337,7 @@ bool Autopilot::prearm_ok() const {
 
 mavlink::MavLandedState Autopilot::landed_state() const {
   using enum mavlink::MavLandedState;
-  if (body_.on_ground) return on_ground;
+  if (landed_) return on_ground;
   if (std::holds_alternative<TakeOff>(goal_)) return takeoff;
   if (std::holds_alternative<Descend>(goal_)) return landing;
   return in_air;

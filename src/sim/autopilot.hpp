@@ -103,6 +103,8 @@ class Autopilot {
   /// `set_mode`, by the vehicle's own decision.
   mavlink::MavResult change_mode(std::uint32_t number);
   bool may_enter(FlightMode const& mode);
+  bool may_enter_auto();
+  [[nodiscard]] bool is_copter_like() const;
   void enter(FlightMode const& mode);
   [[nodiscard]] Logic logic_for(FlightMode const& mode) const;
   Guided& guided();
@@ -146,6 +148,7 @@ class Autopilot {
   [[nodiscard]] std::string objection() const;
   void disarm_when_idle();
   void notice_touch_down();
+  void notice_landing();
   void repeat_prearm_fault();
 
   Kind kind_;  ///< a boat's family is `rover`, as the airframe's
@@ -173,6 +176,7 @@ class Autopilot {
   geo::Ned home_;
   bool home_locked_ = false;
   bool armed_ = false;
+  bool landed_ = true;             ///< takes itself for landed: one that hits the ground on its way elsewhere does not
   bool take_off_allowed_ = false;  ///< stands for the raised throttle stick in AUTO
   bool has_flown_ = false;         ///< since it was armed
   bool estimate_failed_ = false;

@@ -101,7 +101,7 @@ bool Autopilot::is_disarmed_by_failsafes() const {
   if (airframe_.family != Family::copter || kind_.is_px4()) return false;
   if (mode_->behaviour == Behaviour::manual) return true;
   if (mode_->behaviour == Behaviour::mission && take_off_allowed_) return false;
-  return body_.on_ground;
+  return landed_;
 }
 
 std::string_view Autopilot::reason_to_carry_on(LossSettings const& loss, bool is_radio) const {
@@ -213,7 +213,7 @@ void Autopilot::tell_of_the_fence(FenceWatch::News const& news) {
   if (news.left_margin != 0) notice(fence_names(news.left_margin) + " cleared margin breach");
   if (!safety_.fence.tells_breach) return;
   if (news.calls_for_action && armed_) notice(fence_names(news.breached) + " breached");
-  if (news.is_over && !body_.on_ground) notice("Fence breach cleared");
+  if (news.is_over && !landed_) notice("Fence breach cleared");
 }
 
 /// Far outside something is wrong with the estimate, or with the fence: then it comes down or stops where it is.
@@ -222,7 +222,7 @@ void Autopilot::answer_breach(unsigned limits) {
   if (kind_.is_px4()) outbox_.say(MavSeverity::notice, "Failsafe activated: Fence breached");
   if (fence.action.empty()) return;
   bool const is_copter = airframe_.family == Family::copter && !kind_.is_px4();
-  if (is_copter && body_.on_ground) return do_disarm(words_.disarmed_by_command);
+  if (is_copter && landed_) return do_disarm(words_.disarmed_by_command);
   bool const is_far = fence_.depth_m(limits, body_.position_m, home_, fence) > fence.give_up_m;
   act(is_far ? fence.far_action : fence.action);
   fence_took_over_ = true;

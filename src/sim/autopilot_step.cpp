@@ -37,7 +37,8 @@ void Autopilot::step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, do
   if (battery_.remaining() <= 0.0) goal_ = StandStill{};
   body_ = sim::step(body_, steer(goal_, body_, airframe_, pace_), airframe_, wind_m_s, dt_s);
   battery_.drain(current_drawn_a(body_, airframe_, armed_), dt_s);
-  if (armed_ && !body_.on_ground) has_flown_ = true;
+  notice_landing();
+  if (armed_ && !landed_) has_flown_ = true;
   follow_trail();
   notice_touch_down();
   disarm_when_idle();
@@ -84,7 +85,7 @@ Goal Autopilot::fly(FlightContext const& flight) {
 }
 
 Goal Autopilot::fly_mission(FlightContext const& flight) {
-  if (!body_.on_ground) take_off_allowed_ = true;
+  if (!landed_) take_off_allowed_ = true;
   bool const waits_for_throttle =
       airframe_.family == Family::copter && !take_off_allowed_ && !tuning_.take_off_without_throttle;
   if (waits_for_throttle) return Idle{};
@@ -113,14 +114,14 @@ void Autopilot::leave_take_off() {
 }
 
 /// What each family does after its last item: a copter holds, or disarms when it stands on the ground; a plane flies
-/// home and circles; a rover stops; an underwater vehicle holds.
+/// home and circles; a rover stops, but stays in AUTO and armed; an underwater vehicle holds.
 void Autopilot::end_mission(FlightContext const& flight) {
   if (kind_.is_px4()) {
     outbox_.say(MavSeverity::info, "Mission finished, loitering.");
     return;
   }
   if (flight.family() == Family::copter) {
-    if (body_.on_ground) do_disarm(words_.disarmed_after_landing);
+    if (landed_) do_disarm(words_.disarmed_after_landing);
     return;
   }
   if (flight.family() == Family::sub) return;
@@ -130,12 +131,11 @@ void Autopilot::end_mission(FlightContext const& flight) {
     return;
   }
   outbox_.say(MavSeverity::notice, "Mission Complete");
-  change_mode(mode_for(kind_, Behaviour::hold).number);
 }
 
-/// A copter on the ground only leaves it by a take-off, and only when its motors have spooled up.
+/// A landed copter only leaves it by a take-off, and only when its motors have spooled up.
 Goal Autopilot::hold_on_the_ground(Goal goal, FlightContext const& flight) {
-  if (flight.family() != Family::copter || !body_.on_ground) {
+  if (flight.family() != Family::copter || !landed_) {
     lift_at_.reset();
     return goal;
   }
@@ -174,6 +174,22 @@ void Autopilot::follow_trail() {
     outbox_.say(MavSeverity::warning, "SmartRTL deactivated: buffer full");
 }
 
+/// ArduPilot's copter lands by descending to rest where it was to descend. One that meets the ground on its way to a
+/// place below it goes on: to itself it flies.
+void Autopilot::notice_landing() {
+  bool const knows_better = kind_.is_px4() || airframe_.family != Family::copter;
+  bool const flies_on = std::visit(Overloaded{
+                                       [](HoldAt const&) { return true; },
+                                       [](FlyTo const&) { return true; },
+                                       [](Circle const&) { return true; },
+                                       [](TakeOff const&) { return true; },
+                                       [](Cruise const&) { return true; },
+                                       [](auto const&) { return false; },
+                                   },
+                                   goal_);
+  if (knows_better || !body_.on_ground || !flies_on) landed_ = body_.on_ground;
+}
+
 void Autopilot::notice_touch_down() {
   if (!body_.touch_down_m_s || airframe_.family == Family::rover || kind_.is_px4()) return;
   outbox_.say(MavSeverity::info, fmt::format("SIM Hit ground at {:.2f} m/s", *body_.touch_down_m_s));
@@ -181,7 +197,7 @@ void Autopilot::notice_touch_down() {
 
 void Autopilot::disarm_when_idle() {
   auto const delay = has_flown_ ? tuning_.disarm_delay_landed : tuning_.disarm_delay;
-  bool const idle = armed_ && body_.on_ground && body_.ground_speed_m_s() < 0.1 && !lift_at_ &&
+  bool const idle = armed_ && landed_ && body_.ground_speed_m_s() < 0.1 && !lift_at_ &&
                     delay > base::Duration::zero() &&
                     (airframe_.family == Family::copter || std::holds_alternative<Idle>(goal_));
   // An aeroplane that has not flown waits for its take-off; only a landed one is disarmed.

@@ -153,7 +153,7 @@ MavResult FlightController::set_interval(CommandInt const& command) {
   if (telemetry_.set_interval(id, interval, since_power_on()) == Telemetry::Answer::accepted)
     return MavResult::accepted;
   if (!is_px4())
-    say(MavSeverity::warning, "No ap_message for mavlink id (" + std::to_string(static_cast<unsigned>(id)) + ")");
+    say(MavSeverity::info, "No ap_message for mavlink id (" + std::to_string(static_cast<unsigned>(id)) + ")");
   return MavResult::denied;
 }
 
@@ -172,8 +172,13 @@ MavResult FlightController::request_message(CommandInt const& command, Address f
   auto const id = message_id(command.params[0]);
   auto message = report(id, view());
   if (!message) message = payload_report(id, command.params[1]);
-  if (!message) return MavResult::failed;
-  send(from, *message);
+  if (message) {
+    send(from, *message);
+    return MavResult::accepted;
+  }
+  auto const frame = sensors(id);
+  if (!frame) return MavResult::failed;
+  send(from, *frame);
   return MavResult::accepted;
 }
 

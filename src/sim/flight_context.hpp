@@ -43,6 +43,7 @@ struct FlightContext {
   double utc_day_s = 0.0;  ///< seconds since UTC midnight
   /// ArduPilot tells every item of its mission in a text.
   bool tells_items = true;
+  bool landed = false;  ///< takes itself for landed
 
   [[nodiscard]] vehicle::Family family() const { return airframe.family; }
 };

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cmath>
 
-#include "sim/file_transfer.hpp"
 #include "sim/px4_modes.hpp"
+#include "sim/streams/sensors.hpp"
 
 namespace lapwing::sim {
 
@@ -50,7 +50,9 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
       powered_on_(setup.powered_on),
       autopilot_(setup.autopilot, site, memory.parameters, memory.plans),
       telemetry_(setup.autopilot.kind, setup.autopilot.boot.first_heartbeat),
+      outputs_(memory.parameters, [this](MavSeverity severity, std::string text) { say(severity, std::move(text)); }),
       missions_(memory.plans, mission_ports(), autopilot_.kind()),
+      files_(is_px4() ? nullptr : &memory.parameters),
       connection_(loop, connection_options(setup, memory), log),
       subscription_(connection_.subscribe([this](Received const& received) { receive(received); })),
       log_(std::move(log)) {
@@ -59,8 +61,8 @@ FlightController::FlightController(base::Loop& loop, Setup const& setup, Site co
   // File transfer has no typed message: nobody but this needs one.
   connection_.set_frame_hook([this](Connection::Direction direction, Frame const& frame, base::TimePoint) {
     if (direction == Connection::Direction::sent || silent()) return;
-    if (auto const answer = file_transfer_answer(frame, connection_.self()))
-      (void)connection_.send(frame.source, *answer);
+    for (auto const& answer : files_.answer(frame, connection_.self(), since_power_on()))
+      (void)connection_.send(frame.source, answer);
   });
 }
 
@@ -190,7 +192,12 @@ void FlightController::drain_outbox() {
 
 void FlightController::broadcast_report(MessageId id) {
   if (auto const message = report(id, view())) return broadcast(*message);
-  if (auto const message = payload_report(id, 0.0F)) broadcast(*message);
+  if (auto const message = payload_report(id, 0.0F)) return broadcast(*message);
+  if (auto const frame = sensors(id)) broadcast(*frame);
+}
+
+std::optional<Frame> FlightController::sensors(MessageId id) const {
+  return sensor_report(id, view(), outputs_.pulses(autopilot_));
 }
 
 void FlightController::broadcast(Message const& message) {
@@ -200,6 +207,14 @@ void FlightController::broadcast(Message const& message) {
 void FlightController::send(Address to, Message const& message) {
   // A ground station that cannot be reached any more is no failure of the vehicle's.
   if (!silent()) (void)connection_.send(to, message);
+}
+
+void FlightController::broadcast(Frame const& frame) {
+  for (auto const& [peer, listener] : listeners_) send(listener, frame);
+}
+
+void FlightController::send(Address to, Frame const& frame) {
+  if (!silent()) (void)connection_.send(to, frame);
 }
 
 void FlightController::say(MavSeverity severity, std::string text) {
@@ -213,6 +228,7 @@ void FlightController::receive(Received const& received) {
   if (target && target->system != 0 && target->system != connection_.self().system) return;
   if (target && is_for_a_node(*target)) return;
   ground_spoke_ = true;
+  listeners_[received.from] = received.source;
   dispatch(received.message, received.source);
   drain_outbox();
 }

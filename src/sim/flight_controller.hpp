@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -8,8 +9,10 @@
 #include "mavlink/connection.hpp"
 #include "sim/autopilot.hpp"
 #include "sim/camera.hpp"
+#include "sim/files/file_transfer.hpp"
 #include "sim/gimbal.hpp"
 #include "sim/mission_store.hpp"
+#include "sim/outputs/servo_outputs.hpp"
 #include "sim/parameters.hpp"
 #include "sim/payload_node.hpp"
 #include "sim/reports.hpp"
@@ -116,7 +119,9 @@ class FlightController {
 
   MissionStore::Ports mission_ports();
   void send(mavlink::Address to, mavlink::Message const& message);
+  void send(mavlink::Address to, mavlink::Frame const& frame);
   void broadcast(mavlink::Message const& message);
+  void broadcast(mavlink::Frame const& frame);
   void broadcast_report(mavlink::MessageId id);
   void say(mavlink::MavSeverity severity, std::string text);
   void send_parameter(std::size_t index, bool in_a_list, mavlink::Address const* to);
@@ -130,6 +135,7 @@ class FlightController {
   [[nodiscard]] bool comes_from_the_ground_station(mavlink::Heartbeat const& heartbeat, mavlink::Address from) const;
   [[nodiscard]] bool silent() const { return loop_.now() < silent_until_; }
   [[nodiscard]] ReportView view() const;
+  [[nodiscard]] std::optional<mavlink::Frame> sensors(mavlink::MessageId id) const;
   [[nodiscard]] double utc_day_s() const;
 
   base::Loop& loop_;
@@ -140,7 +146,9 @@ class FlightController {
   Telemetry telemetry_;
   Camera camera_;
   Gimbal gimbal_;
+  ServoOutputs outputs_;
   MissionStore missions_;
+  FileTransfer files_;
   mavlink::Connection connection_;
   mavlink::Subscription subscription_;
   base::Logger log_;
@@ -154,6 +162,7 @@ class FlightController {
   base::TimePoint silent_until_{};
   std::optional<mavlink::Address> list_reader_;
   std::size_t list_next_ = 0;
+  std::map<mavlink::PeerRef, mavlink::Address> listeners_;  ///< who spoke last at each far end
   bool ground_spoke_ = false;
   bool reboot_requested_ = false;
 };

@@ -12,7 +12,9 @@ namespace {
 using enum Behaviour;
 
 // base_mode: custom 0x01, guided 0x08, stabilize 0x10, manual input 0x40. The copter and rover rows were read from
-// HEARTBEATs of ArduCopter and ArduRover 4.6; the plane's follow ArduPlane's GCS_Plane::base_mode.
+// HEARTBEATs of ArduCopter and ArduRover 4.6; the plane's follow ArduPlane's GCS_Plane::base_mode. FLIP and AUTOTUNE
+// want a pilot with throttle, FLOWHOLD an optical flow sensor, SYSTEMID an axis, TURTLE speed controllers that turn
+// backwards.
 constexpr std::array copter_modes{
     FlightMode{0, "STABILIZE", manual, true, false, 0x51},
     FlightMode{1, "ACRO", manual, true, false, 0x51},
@@ -24,20 +26,20 @@ constexpr std::array copter_modes{
     FlightMode{7, "CIRCLE", circle, false, true, 0x59},
     FlightMode{9, "LAND", land, false, false, 0x51},
     FlightMode{11, "DRIFT", sink, true, true, 0x51},
-    FlightMode{14, "FLIP", sink, false, false, 0x51},
-    FlightMode{15, "AUTOTUNE", sink, false, false, 0x51},
+    FlightMode{14, "FLIP", sink, false, false, 0x51, Entry::closed},
+    FlightMode{15, "AUTOTUNE", sink, false, false, 0x51, Entry::closed},
     FlightMode{16, "POSHOLD", sink, true, true, 0x59},
     FlightMode{17, "BRAKE", hold, false, true, 0x59},
-    FlightMode{18, "THROW", manual, true, true, 0x51},
+    FlightMode{18, "THROW", manual, true, true, 0x51, Entry::disarmed},
     FlightMode{19, "AVOID_ADSB", hold, false, true, 0x59},
     FlightMode{20, "GUIDED_NOGPS", manual, true, false, 0x51},
     FlightMode{21, "SMART_RTL", retrace, false, true, 0x59},
-    FlightMode{22, "FLOWHOLD", sink, true, false, 0x51},
-    FlightMode{23, "FOLLOW", hold, false, true, 0x59},
+    FlightMode{22, "FLOWHOLD", sink, true, false, 0x51, Entry::closed},
+    FlightMode{23, "FOLLOW", hold, false, true, 0x59, Entry::closed, "Set FOLL_ENABLE = 1"},
     FlightMode{24, "ZIGZAG", sink, true, true, 0x51},
-    FlightMode{25, "SYSTEMID", manual, false, false, 0x51},
+    FlightMode{25, "SYSTEMID", manual, false, false, 0x51, Entry::closed, "No axis selected, SID_AXIS = 0"},
     FlightMode{27, "AUTO_RTL", return_home, false, true, 0x59},
-    FlightMode{28, "TURTLE", manual, true, false, 0x51},
+    FlightMode{28, "TURTLE", manual, true, false, 0x51, Entry::closed},
 };
 
 constexpr std::array rover_modes{

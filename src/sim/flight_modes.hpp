@@ -22,6 +22,13 @@ enum class Behaviour {
   take_off,  ///< an aeroplane's automatic take-off
 };
 
+/// Who gets into a mode that ArduPilot has. Nobody is at the sticks, throttle low, and the equipment is the plainest.
+enum class Entry {
+  open,
+  disarmed,  ///< only to begin from the ground with
+  closed,    ///< it needs a pilot, a sensor or a setting that is not there
+};
+
 /// One row of an autopilot's mode table.
 struct FlightMode {
   std::uint32_t number;  ///< HEARTBEAT.custom_mode
@@ -30,6 +37,8 @@ struct FlightMode {
   bool armable;
   bool needs_position;
   std::uint8_t base_mode;  ///< HEARTBEAT.base_mode while disarmed
+  Entry entry = Entry::open;
+  std::string_view lacks = {};  ///< what is said of a closed mode before the refusal
 };
 
 /// The modes of a copter, plane, rover, boat or underwater vehicle that this build of the autopilot knows.

@@ -125,7 +125,7 @@ Goal MissionRunner::update(FlightContext const& context, Outbox& out) {
 }
 
 Goal MissionRunner::after_the_end(FlightContext const& context) const {
-  if (context.body.on_ground && context.family() != vehicle::Family::rover) return Idle{};
+  if (context.landed && context.family() != vehicle::Family::rover) return Idle{};
   return HoldAt{end_.value_or(context.body.position_m)};
 }
 
@@ -229,6 +229,8 @@ void MissionRunner::perform(int index, FlightContext const& context, Outbox& out
     case image_start_capture:
     case image_stop_capture:
     case do_digicam_control:
+    case do_set_servo:
+    case do_set_relay:
     case do_set_cam_trigg_dist:
     case do_mount_control:
     case do_gimbal_manager_pitchyaw:
@@ -256,7 +258,7 @@ Goal MissionRunner::fly(FlightContext const& context, Outbox& out, bool& done) {
     case nav_delay:
       done = base::to_seconds(context.now - run.started) >=
              delay_s(run.item, context.utc_day_s - base::to_seconds(context.now - run.started));
-      return context.body.on_ground ? Goal{Idle{}} : Goal{HoldAt{run.from}};
+      return context.landed ? Goal{Idle{}} : Goal{HoldAt{run.from}};
     case nav_guided_enable: done = true; return HoldAt{run.from};
     case nav_continue_and_change_alt: {
       double const up = context.body.position_m.down - run.point.down;

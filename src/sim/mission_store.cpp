@@ -196,9 +196,10 @@ void MissionStore::complete() {
   if (done.type == MissionType::fence) {
     if (auto const problem = fence_problem(done.staged)) {
       ports_.say(MavSeverity::warning, *problem);
+      if (!kind_.is_px4()) ports_.say(MavSeverity::warning, "Fence validation failed");
       return acknowledge(done.peer, MavMissionResult::error, done.type);
     }
-    if (!kind_.is_px4()) ports_.say(MavSeverity::info, "Fence Indexed OK");
+    if (!kind_.is_px4()) ports_.say(MavSeverity::debug, "Fence Indexed OK");
   }
   if (is_staged(done.type)) take_over(done);
   acknowledge(done.peer, MavMissionResult::accepted, done.type);
@@ -223,6 +224,9 @@ void MissionStore::on(mavlink::MissionRequestList const& request_list, Address f
 void MissionStore::on_request(int seq, MissionType type, Address from, mavlink::ItemForm form) {
   auto const* plan = plan_of(type);
   if (!plan) return acknowledge(from, MavMissionResult::unsupported, type);
+  // ArduPilot lets nobody read while somebody writes, but who asks in the old way.
+  bool const is_busy = transfer_ && form == mavlink::ItemForm::integer && !kind_.is_px4();
+  if (is_busy) return acknowledge(from, MavMissionResult::denied, type);
   if (form == mavlink::ItemForm::floating && !warned_of_request_ && !kind_.is_px4()) {
     warned_of_request_ = true;
     ports_.say(MavSeverity::warning, "got MISSION_REQUEST; use MISSION_REQUEST_INT!");

@@ -66,14 +66,15 @@ constexpr Default copter[] = {
 };
 
 constexpr Default plane[] = {
-    {"AIRSPEED_CRUISE", 22},        {"AIRSPEED_MAX", 30, int16},  {"AIRSPEED_MIN", 10, int16},
-    {"FS_GCS_ENABL", 0, int8},      {"FS_LONG_ACTN", 0, int8},    {"FS_LONG_TIMEOUT", 5},
-    {"LAND_DISARMDELAY", 20, int8}, {"RTL_ALTITUDE", 100},        {"RTL_AUTOLAND", 0, int8},
-    {"TECS_CLMB_MAX", 5},           {"TECS_SINK_MAX", 5},         {"TKOFF_ALT", 50},
-    {"WP_LOITER_RAD", 60, int16},   {"WP_RADIUS", 50, int16},     {"RTL_RADIUS", 0, int16},
-    {"RALLY_LIMIT_KM", 5},          {"RALLY_INCL_HOME", 0, int8}, {"FENCE_TYPE", 4, int8},
-    {"THR_FAILSAFE", 1, int8},      {"THR_FS_VALUE", 950, int16}, {"FS_SHORT_ACTN", 0, int8},
-    {"FS_SHORT_TIMEOUT", 1.5F},     {"FENCE_OPTIONS", 1, int16},
+    {"AIRSPEED_CRUISE", 22},        {"AIRSPEED_MAX", 30, int16},    {"AIRSPEED_MIN", 10, int16},
+    {"FS_GCS_ENABL", 0, int8},      {"FS_LONG_ACTN", 0, int8},      {"FS_LONG_TIMEOUT", 5},
+    {"LAND_DISARMDELAY", 20, int8}, {"RTL_ALTITUDE", 100},          {"RTL_AUTOLAND", 0, int8},
+    {"TECS_CLMB_MAX", 5},           {"TECS_SINK_MAX", 5},           {"TKOFF_ALT", 50},
+    {"WP_LOITER_RAD", 60, int16},   {"WP_RADIUS", 50, int16},       {"RTL_RADIUS", 0, int16},
+    {"RALLY_LIMIT_KM", 5},          {"RALLY_INCL_HOME", 0, int8},   {"FENCE_TYPE", 4, int8},
+    {"THR_FAILSAFE", 1, int8},      {"THR_FS_VALUE", 950, int16},   {"FS_SHORT_ACTN", 0, int8},
+    {"FS_SHORT_TIMEOUT", 1.5F},     {"FENCE_OPTIONS", 1, int16},    {"SERVO1_FUNCTION", 4, int16},
+    {"SERVO2_FUNCTION", 19, int16}, {"SERVO3_FUNCTION", 70, int16}, {"SERVO4_FUNCTION", 21, int16},
 };
 
 constexpr Default rover[] = {
@@ -89,6 +90,10 @@ constexpr Default rover[] = {
     {"WP_SPEED", 5},
     {"GUID_TIMEOUT", 3},
     {"CIRC_RADIUS", 20},
+    {"SERVO1_FUNCTION", 26, int16},
+    {"SERVO2_FUNCTION", 0, int16},
+    {"SERVO3_FUNCTION", 70, int16},
+    {"SERVO4_FUNCTION", 0, int16},
     {"FS_EKF_ACTION", 1, int8},
     {"FS_OPTIONS", 0, int32},
     {"FS_THR_ENABLE", 1, int8},
@@ -146,9 +151,9 @@ constexpr Default equipment[] = {
     {"INS_ACCSCAL_X", 1.001F},
     {"INS_ACCSCAL_Y", 1.001F},
     {"INS_ACCSCAL_Z", 1.001F},
-    {"INS_GYROFFS_X", 0},
-    {"INS_GYROFFS_Y", 0},
-    {"INS_GYROFFS_Z", 0},
+    {"INS_GYROFFS_X", 0.0002F},
+    {"INS_GYROFFS_Y", -0.0001F},
+    {"INS_GYROFFS_Z", 0.0003F},
     {"INS_GYRO_FILTER", 20, int16},
     {"MNT1_DEFLT_MODE", 3, int8},
     {"MNT1_PITCH_MAX", 20, int16},
@@ -278,6 +283,7 @@ Parameters::Parameters(Kind const& kind, int system_id) {
   std::ranges::stable_sort(table_, {}, &Parameter::name);
   auto const again = std::ranges::unique(table_, {}, &Parameter::name);
   table_.erase(again.begin(), again.end());
+  for (auto& parameter : table_) parameter.standard = parameter.value;
   // No two compasses are alike.
   set("COMPASS_OFS_X", 5.0F + static_cast<float>(system_id));
   set(kind.is_px4() ? "MAV_SYS_ID" : "SYSID_THISMAV", static_cast<float>(system_id));

@@ -18,6 +18,7 @@ struct Parameter {
   std::string name;
   float value = 0.0F;
   mavlink::MavParamType type = mavlink::MavParamType::real32;
+  float standard = 0.0F;  ///< what it is unless somebody sets it
 };
 
 /// PX4 puts the four bytes of a whole number where the message has a float ("bytewise" encoding), and back.

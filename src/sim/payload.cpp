@@ -73,6 +73,8 @@ bool FlightController::is_for_a_node(Address target) const {
 }
 
 std::optional<MavResult> FlightController::perform_payload(CommandInt const& command) {
+  if (!is_px4())
+    if (auto const result = outputs_.perform(command.command, command.params)) return result;
   auto const home = autopilot_.home();
   std::optional<geo::Ned> target;
   bool const has_target = command.place.lat_rad != 0.0 || command.place.lon_rad != 0.0;

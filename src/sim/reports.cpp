@@ -168,10 +168,12 @@ std::optional<Message> position_target_report(ReportView const& view) {
 MissionCurrent mission_current(ReportView const& view) {
   auto const& mission = view.autopilot.mission();
   bool const in_auto = view.autopilot.mode().behaviour == Behaviour::mission;
+  // Out of it, PX4 says so and ArduPilot that it does not know.
+  std::uint8_t const elsewhere = view.autopilot.kind().is_px4() ? 2 : 0;
   return {.seq = wire_seq(view.autopilot.kind(), mission.current()),
           .total = static_cast<std::uint16_t>(view.mission_items > 0 ? view.mission_items - 1 : 0),
           .state = mission.state(),
-          .mission_mode = static_cast<std::uint8_t>(in_auto ? 1 : 2)};
+          .mission_mode = in_auto ? std::uint8_t{1} : elsewhere};
 }
 
 sim::Body const& body_of(ReportView const& view) {
@@ -256,6 +258,9 @@ AutopilotVersion version(ReportView const& view) {
   auto version = capabilities(view.autopilot.kind());
   constexpr std::string_view maker = "lapwing-sim";
   std::ranges::copy(maker, version.uid2.begin());
+  // Where an autopilot has the beginning of its commit, in letters: of the ArduPilot whose ways these are.
+  constexpr std::string_view commit = "fbb78585";
+  if (!view.autopilot.kind().is_px4()) std::ranges::copy(commit, version.flight_custom_version.begin());
   version.uid2.back() = view.system_id;
   return version;
 }

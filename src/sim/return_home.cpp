@@ -43,7 +43,7 @@ Goal ReturnHome::begin(FlightContext const& context) {
   if (stays_level(context.family())) {
     above_home_.down = context.home.down;
     phase_ = Phase::travel;
-  } else if (context.body.on_ground) {
+  } else if (context.landed) {
     phase_ = Phase::land;
     landing_.emplace(start_);
   } else {
@@ -88,7 +88,7 @@ Goal Retrace::update(FlightContext const& context) {
   auto const& here = context.body.position_m;
   bool const lands = !stays_level(context.family());
   if (!from_) from_ = here;
-  if (landing_ || (lands && context.body.on_ground)) {
+  if (landing_ || (lands && context.landed)) {
     if (!landing_) landing_.emplace(here);
     Goal const goal = landing_->update(context);
     finished_ = landing_->finished();

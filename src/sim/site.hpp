@@ -10,6 +10,12 @@ class Site {
  public:
   explicit Site(geo::Wgs84 anchor) : anchor_(anchor) {}
 
+  /// The same patch, higher by so much.
+  [[nodiscard]] Site raised(double by_m) const {
+    auto anchor = anchor_;
+    anchor.alt_m += by_m;
+    return Site(anchor);
+  }
   [[nodiscard]] geo::Wgs84 anchor() const { return anchor_; }
   [[nodiscard]] geo::Wgs84 place_at(geo::Ned offset) const { return geo::displaced(anchor_, offset); }
   [[nodiscard]] geo::Ned ned_from(geo::Wgs84 place) const {

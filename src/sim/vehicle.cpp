@@ -20,7 +20,7 @@ constexpr base::Duration reboot_time = 500ms;
 Vehicle::Vehicle(base::Loop& loop, Options options, Site const& site, OpenLink open_link, base::Logger log)
     : loop_(loop),
       options_(options),
-      site_(site),
+      site_(site.raised(options.altitude_error_m)),
       open_link_(std::move(open_link)),
       log_(std::move(log)),
       memory_{Parameters(options.kind, options.system_id), {}, options.signing_key},

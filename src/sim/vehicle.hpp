@@ -23,6 +23,8 @@ class Vehicle {
     std::uint8_t system_id = 1;
     geo::Ned start;  ///< on the ground, in the site's frame
     double heading_rad = 0.0;
+    /// What it takes for its altitude above sea level is so much more than the truth, as GPS and barometer have it.
+    double altitude_error_m = 0.0;
     BootTimeline boot = quick_boot();
     double battery_capacity_mah = 5000.0;
     double battery_remaining = 1.0;
@@ -78,7 +80,7 @@ class Vehicle {
 
   base::Loop& loop_;
   Options options_;
-  Site const& site_;
+  Site site_;  ///< as the vehicle takes it to lie
   OpenLink open_link_;
   base::Logger log_;
   Memory memory_;

@@ -39,6 +39,7 @@ void World::park(VehicleGroup const& group, int system_id) {
       .system_id = static_cast<std::uint8_t>(system_id),
       .start = {parking_spacing_m * (place / parking_columns), parking_spacing_m * (place % parking_columns), 0.0},
       .heading_rad = options_.heading_rad,
+      .altitude_error_m = group.firmware == vehicle::Autopilot::px4 ? 0.0 : options_.altitude_error_m,
       .boot = options_.boot == BootStyle::quick ? quick_boot() : realistic_boot(),
       .battery_capacity_mah = options_.battery_capacity_mah,
       .battery_remaining = group.battery_remaining,

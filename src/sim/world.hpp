@@ -22,6 +22,7 @@ struct WorldOptions {
   /// A car park that does not exist. Altitude above mean sea level; the world's ground is level there.
   geo::Wgs84 home = geo::Wgs84::from_degrees(41.1780, -8.5980, 90.0);
   double heading_rad = 0.0;
+  double altitude_error_m = 0.0;  ///< see `Vehicle::Options`
   /// Where each vehicle sends: its own socket, from a port of its own.
   link::Url out{link::Transport::udp_out, "127.0.0.1", 14550};
   std::uint64_t seed = 1;

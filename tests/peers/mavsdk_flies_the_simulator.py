@@ -44,6 +44,8 @@ async def fly(port: int):
         await set_rate(4.0)
     await first(drone.telemetry.health(), lambda health: health.is_global_position_ok and health.is_home_position_ok, 60,
                 "a global position and a home")
+    # Calibrated sensors among others: programs wait for it before they arm.
+    await first(drone.telemetry.health_all_ok(), lambda ok: ok, 60, "health in every respect")
 
     mission = [
         item(0, WAYPOINT, 0, 0, 0.0),
