@@ -53,8 +53,9 @@ double reported_yaw(Autopilot const& autopilot) {
 
 SysStatus sys_status(Autopilot const& autopilot) {
   using namespace sensor_flag;
-  std::uint32_t present = gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
-  std::uint32_t health = motor_outputs | battery;
+  constexpr std::uint32_t calibrated = 0b1111;  // gyroscope, accelerometer, compass, barometer
+  std::uint32_t present = calibrated | gps | motor_outputs | rc_receiver | ahrs | battery | prearm_check;
+  std::uint32_t health = calibrated | motor_outputs | battery;
   auto enabled = present;
   if (autopilot.fence_present()) present |= geofence;
   if (autopilot.fence_present() && autopilot.fence_acts()) enabled |= geofence;

@@ -278,13 +278,15 @@ def tells_its_version_and_its_home(v):
 
 # ---- parameters
 
-def offsets(v):
-    """What MAVSDK takes for calibrated: every one of these is other than zero."""
-    return [name for name in ("INS_ACCOFFS", "INS_GYROFFS", "COMPASS_OFS") for axis in "XYZ"
-            if v.parameter(f"{name}_{axis}").param_value == 0]
+@row("copter", (True, True, []))
+def tells_that_its_sensors_are_calibrated(v):
+    """By bits (gyroscope, accelerometer, compass, barometer), as newer MAVSDK asks, and by parameters that are not zero."""
+    state = v.next("SYS_STATUS")
+    return (state.onboard_control_sensors_present & 15 == 15, state.onboard_control_sensors_health & 15 == 15,
+            [name for name in ("INS_ACCOFFS", "INS_GYROFFS", "COMPASS_OFS") for axis in "XYZ"
+             if v.parameter(f"{name}_{axis}").param_value == 0])
 
 
-short("sensors are calibrated", "copter", [], offsets)
 for name, kind in (("FENCE_TYPE", m.MAV_PARAM_TYPE_INT8), ("FENCE_ACTION", m.MAV_PARAM_TYPE_INT8),
                    ("FENCE_ENABLE", m.MAV_PARAM_TYPE_INT8), ("RTL_ALT", m.MAV_PARAM_TYPE_INT32),
                    ("WPNAV_SPEED", m.MAV_PARAM_TYPE_REAL32), ("FENCE_RADIUS", m.MAV_PARAM_TYPE_REAL32),

@@ -31,7 +31,7 @@ def ends_on(number):
 
 def loses_nobody():
     with tempfile.NamedTemporaryFile("w", suffix=".dolphin") as script:
-        script.write("all = pick { count 60 }\npause 120\nprint 'all are there'\n")
+        script.write("all = pick { count 60; timeout 60.seconds }\npause 120\nprint 'all are there'\n")
         script.flush()
         out, err = harness.expect_exit(0, "run", script.name, "--sim", "copter:60", "--speedup", "1000", seconds=240)
     assert "all are there" in out, out
