@@ -1,4 +1,4 @@
-"""Idle connections, connections that come and go, silent viewers and floods of requests, with an operator beside them: each of his
+"""Idle connections, connections that come and go, silent viewers, floods of requests and of WebSocket messages, with an operator beside them: each of his
 emergency stops, over HTTP on a new connection and over his WebSocket, is answered all along. Prints how long it took."""
 
 import base64
@@ -23,7 +23,7 @@ LONGEST_S = 2.0  # of any one; what is usual is printed
 # The attackers: a process of their own, so that they take no time from the operator's.
 ATTACK = r"""
 import base64, os, socket, sys, threading, time
-kind, port = sys.argv[1], int(sys.argv[2])
+kind, port, QUERY = sys.argv[1], int(sys.argv[2]), sys.argv[3].encode()
 head = f"Host: 127.0.0.1:{port}\r\n".encode()
 
 def connect():
@@ -81,7 +81,28 @@ def requests():
         except (OSError, AttributeError):
             pass
 
-work = {"idle": idle, "churn": churn, "viewers": silent_viewers, "requests": requests}[kind]
+def words():
+    # Asks as fast as it is taken, and reads nothing of the answers.
+    ping = b'{"type":"ping","id":"x"}'
+    stop = b'{"type":"stop_script"}'
+    frames = b"".join(bytes([0x81, 0x80 | len(text)]) + bytes(4) + text for text in (ping, stop)) * 200
+    talkers = []
+    for _ in range(3):
+        one = connect()
+        key = base64.b64encode(os.urandom(16))
+        one.sendall(b"GET /api/v1/ws" + QUERY + b" HTTP/1.1\r\n" + head + b"Upgrade: websocket\r\nConnection: Upgrade\r\n"
+                    b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: " + key + b"\r\n\r\n")
+        talkers.append(one)
+    def talk(one):
+        try:
+            while True:
+                one.sendall(frames)
+        except OSError:
+            pass
+    for one in talkers:
+        threading.Thread(target=talk, args=(one,), daemon=True).start()
+
+work = {"words": words, "idle": idle, "churn": churn, "viewers": silent_viewers, "requests": requests}[kind]
 threading.Thread(target=work, daemon=True).start()
 print("on", flush=True)
 sys.stdin.read()
@@ -98,6 +119,10 @@ class Operator:
         self.socket.sendall((f"GET /api/v1/ws{query} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\n"
                              f"Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n\r\n").encode())
         self.data = b""
+        while b"\r\n\r\n" not in self.data:
+            self.data += self.socket.recv(4096)
+        head, self.data = self.data.split(b"\r\n\r\n", 1)
+        assert b" 101 " in head.splitlines()[0], head
         self.answers: dict[str, float] = {}
         self.stops = 0
         self.reader = threading.Thread(target=self.read, daemon=True)
@@ -116,9 +141,6 @@ class Operator:
             taken, self.data = self.data[:count], self.data[count:]
             return taken
 
-        while b"\r\n\r\n" not in self.data:
-            self.data += self.socket.recv(4096)
-        self.data = self.data.split(b"\r\n\r\n", 1)[1]
         self.socket.settimeout(None)
         text = b""
         try:
@@ -188,8 +210,9 @@ def operate(operator, what: str):
               f"p99 {1000 * percentile(times, 0.99):.1f} ms, longest {1000 * max(times):.1f} ms")
 
 
-def attacked(port: int, *kinds: str):
-    attackers = [subprocess.Popen([sys.executable, "-c", ATTACK, kind, str(port)], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+def attacked(port: int, token: str, *kinds: str):
+    query = f"?token={token}" if token else ""
+    attackers = [subprocess.Popen([sys.executable, "-c", ATTACK, kind, str(port), query], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
                  for kind in kinds]
     for attacker in attackers:
         assert attacker.stdout.readline() == b"on\n"
@@ -212,8 +235,8 @@ with tempfile.TemporaryDirectory() as folder:
             operator = Operator(station.port, token)
             guarded = "with a token" if token else "without a token"
             operate(operator, f"{guarded}, alone")
-            for kinds in (("idle",), ("churn",), ("viewers",), ("requests",), ("idle", "churn", "viewers", "requests")):
-                attackers = attacked(station.port, *kinds)
+            for kinds in (("idle",), ("churn",), ("viewers",), ("requests",), ("words",), ("idle", "churn", "viewers", "requests", "words")):
+                attackers = attacked(station.port, token, *kinds)
                 try:
                     operate(operator, f"{guarded}, {' and '.join(kinds)}")
                 finally:
