@@ -4,6 +4,7 @@ one acknowledges it, all hear of that; when it goes on the alarm goes. Thirty si
 import json
 import signal
 import subprocess
+import threading
 import time
 import urllib.request
 
@@ -22,6 +23,9 @@ command = [harness.LAPWING, "station", "--link", f"udpin://127.0.0.1:{port}", "-
 process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
 try:
     address = map_client.address_in(map_client.said_before_listening(process))
+    said = []
+    reader = threading.Thread(target=lambda: said.extend(process.stderr))  # or the station waits for somebody to read
+    reader.start()
     sim = ("sim", "--vehicles", f"copter:{VEHICLES}", "--out", f"udpout://127.0.0.1:{port}")
     with harness.lapwing(*sim) as simulator:
         first, second = map_client.Viewer(address), map_client.Viewer(address)
@@ -51,8 +55,9 @@ try:
         first.wait_for("alarms", lambda m: not m["alarms"], 5)
 finally:
     process.send_signal(signal.SIGINT)
-    said = process.communicate(timeout=20)[1]
-lines = [line for line in said.splitlines() if "silent" in line]
+    process.wait(timeout=20)
+    reader.join()
+lines = [line for line in said if "silent" in line]
 assert 1 <= len(lines) <= 4, lines
 assert any("vehicles silent: copter" in line for line in lines), lines
 print(f"told within {took:.2f} s, acknowledged, and over")
