@@ -43,7 +43,7 @@ FRAMES = [
     m.MAVLink_vfr_hud_message(12.5, 11.5, 359, 42, 840.5, -1.5),
     m.MAVLink_nav_controller_output_message(0.0, 0.0, -90, 179, 120, 1.5, 0.5, -2.5),
     m.MAVLink_wind_message(0.0, 5.5, 0.25),
-    m.MAVLink_home_position_message(LAT, LON, 820000, 1.0, 2.0, 3.0, [1, 0, 0, 0], 0, 0, 0),
+    m.MAVLink_home_position_message(LAT, LON, 820000, 1.0, 2.0, 3.0, [NAN] * 4, 0, 0, 0),
     m.MAVLink_gps_global_origin_message(LAT, LON, 820000),
     m.MAVLink_camera_feedback_message(1760000000123456, 0, 1, 17, LAT, LON, 840.5, 20.5, 0.0, 0.0, 0.0, 0, 0, 17),
     m.MAVLink_set_position_target_global_int_message(5, 1, 1, 6, 0b110111111000, LAT, LON, 20.5, 1, 2, 3, 4, 5, 6, 0.5, 0.25),
