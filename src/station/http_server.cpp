@@ -31,6 +31,7 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "station/access.hpp"
+#include "station/internal/message_pace.hpp"
 #include "station/internal/places.hpp"
 #include "station/static_files.hpp"
 
@@ -394,6 +395,8 @@ asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connecti
   if (events.opened) events.opened(connection->session);
 
   beast::flat_buffer buffer;
+  internal::MessagePace pace;
+  asio::steady_timer rest(io);
   while (!closed) {
     co_await stream.async_read(buffer, redirect_error(use_awaitable, error));
     if (error || closed) break;
@@ -401,6 +404,10 @@ asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connecti
     connection->has_spoken = true;
     if (events.received) events.received(connection->session, {static_cast<char const*>(bytes.data()), bytes.size()});
     buffer.consume(buffer.size());
+    auto const wait = pace.take(std::chrono::steady_clock::now());
+    if (wait == std::chrono::milliseconds(0)) continue;
+    rest.expires_after(wait);
+    co_await rest.async_wait(redirect_error(use_awaitable, error));
   }
   sessions.erase(connection->session);
   if (events.closed) events.closed(connection->session);

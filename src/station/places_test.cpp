@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "station/internal/message_pace.hpp"
+
 namespace lapwing::station::internal {
 namespace {
 
@@ -91,6 +93,18 @@ TEST(Places, ForgetWhoLeft) {
   places.leave(gone);
   EXPECT_EQ(places.size(), 0U);
   EXPECT_FALSE(places.enter("a").must_leave);
+}
+
+TEST(MessagePace, MakesOnlyThoseWaitWhoAskFasterThanAnybodyWould) {
+  using namespace std::chrono_literals;
+  MessagePace pace;
+  auto now = MessagePace::Clock::time_point(1h);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(pace.take(now), 0ms) << i;
+  EXPECT_EQ(pace.take(now), MessagePace::rest);
+  now += 20ms;
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(pace.take(now), 0ms) << i;
+  now += 10s;
+  for (int i = 0; i < 4000; ++i) EXPECT_EQ(pace.take(now += 2ms), 0ms) << "500 a second for ever";
 }
 
 }  // namespace
