@@ -83,10 +83,34 @@ vehicle::Charge charge_of(std::uint8_t state) {
   }
 }
 
+/// In the air; on the move or ready for it, for what does not fly.
+bool is_working(Craft const& craft) {
+  auto const family = craft.state.family;
+  bool const drives = family == vehicle::Family::rover || family == vehicle::Family::boat;
+  if (!drives && craft.state.landed.value) return !*craft.state.landed.value;
+  return craft.is_armed;
+}
+
+bool is_level(VehicleState const& state) {
+  constexpr double climbs_m_s = 0.7;
+  auto const& velocity = state.velocity_m_s.value;
+  return !velocity || std::abs(velocity->down) < climbs_m_s;
+}
+
 void set_time_left(Craft& craft, vehicle::Battery& battery, std::optional<std::chrono::seconds> told, TimePoint now) {
-  auto const estimate = craft.battery_times[static_cast<std::uint8_t>(battery.id)].add(battery.remaining, now);
-  battery.time_left = told ? std::optional<base::Duration>(*told) : estimate;
-  battery.time_left_is_estimate = !told && estimate.has_value();
+  BatteryReport const report{.remaining = battery.remaining,
+                             .current_a = battery.current_a,
+                             .drawn_ah = battery.consumed_ah,
+                             .is_working = is_working(craft),
+                             .is_level = is_level(craft.state),
+                             .counts_from_full = craft.state.autopilot == vehicle::Autopilot::ardupilot};
+  auto const estimate = craft.battery_times[static_cast<std::uint8_t>(battery.id)].add(report, now);
+  battery.in_flight = estimate.in_flight;
+  battery.time_left_is_estimate = !told && estimate.now.has_value();
+  if (told) battery.time_left = *told;
+  if (!battery.time_left_is_estimate) return;
+  battery.time_left = estimate.now->time;
+  battery.time_left_error = estimate.now->error;
 }
 
 /// Names are put together only when a sensor falls sick or recovers, not for every message.
@@ -206,7 +230,9 @@ struct Taking {
     craft.has_reported_battery = true;
     bool const knows_more = craft.battery_status_heard && now - *craft.battery_status_heard < battery_status_prevails;
     if (heard.battery_remaining && !knows_more) {
-      vehicle::Battery battery{*heard.battery_remaining, heard.battery_voltage_v, heard.battery_current_a};
+      vehicle::Battery battery{.remaining = *heard.battery_remaining,
+                               .voltage_v = heard.battery_voltage_v,
+                               .current_a = heard.battery_current_a};
       set_time_left(craft, battery, std::nullopt, now);
       state.battery.set(battery, now);
     }
@@ -225,8 +251,12 @@ struct Taking {
     if (!heard.remaining) return false;
     auto* const shown = battery_of(state, heard.id);
     if (!shown) return false;
-    vehicle::Battery battery{*heard.remaining, heard.voltage_v, heard.current_a, heard.id, heard.consumed_ah};
-    battery.charge = charge_of(heard.charge_state);
+    vehicle::Battery battery{.remaining = *heard.remaining,
+                             .voltage_v = heard.voltage_v,
+                             .current_a = heard.current_a,
+                             .id = heard.id,
+                             .consumed_ah = heard.consumed_ah,
+                             .charge = charge_of(heard.charge_state)};
     set_time_left(craft, battery, heard.time_remaining, now);
     shown->set(battery, now);
     if (heard.id != 0) return true;

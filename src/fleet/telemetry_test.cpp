@@ -120,19 +120,38 @@ TEST_F(Telemetry, BelievesTheTimeLeftThatTheVehicleTells) {
   status.time_remaining = 600s;
   take(status, 1s);
   EXPECT_EQ(state.battery.value->time_left, 600s);
+  EXPECT_EQ(state.battery.value->time_left_error, 0s);
   EXPECT_FALSE(state.battery.value->time_left_is_estimate);
   EXPECT_EQ(state.battery.value->consumed_ah, 0.5);
 }
 
 TEST_F(Telemetry, EstimatesTheTimeLeftThatTheVehicleDoesNotTell) {
-  for (int second = 0; second <= 60; ++second) {
+  state.family = vehicle::Family::copter;
+  mavlink::ExtendedSysState ground;
+  ground.landed_state = mavlink::MavLandedState::on_ground;
+  take(ground, 0s);
+  auto const report = [&](double remaining, double current_a, base::Duration at) {
     mavlink::BatteryStatus status;
-    status.remaining = 1.0 - 0.01 * (second / 6);  // 600 s for the whole
-    take(status, second * 1s);
-  }
-  ASSERT_TRUE(state.battery.value->time_left);
-  EXPECT_TRUE(state.battery.value->time_left_is_estimate);
-  EXPECT_NEAR(base::to_seconds(*state.battery.value->time_left), 540.0, 15.0);
+    status.remaining = remaining;
+    status.current_a = current_a;
+    take(status, at);
+  };
+  for (int second = 0; second <= 600; ++second) report(1.0, 0.5, second * 1s);
+  EXPECT_FALSE(state.battery.value->time_left) << "it stands";
+  mavlink::ExtendedSysState air;
+  air.landed_state = mavlink::MavLandedState::in_air;
+  take(air, 600s);
+  for (int second = 0; second <= 60; ++second) report(1.0 - 0.01 * (second / 6), 30.0, 600s + second * 1s);  // 600 s
+  auto const& battery = *state.battery.value;
+  ASSERT_TRUE(battery.time_left);
+  EXPECT_TRUE(battery.time_left_is_estimate);
+  EXPECT_NEAR(base::to_seconds(*battery.time_left), 540.0, 30.0);
+  EXPECT_GT(battery.time_left_error, 10s);
+  take(ground, 661s);
+  report(0.9, 0.5, 662s);
+  EXPECT_FALSE(state.battery.value->time_left);
+  ASSERT_TRUE(vehicle::endurance_in_flight(state));
+  EXPECT_NEAR(base::to_seconds(vehicle::endurance_in_flight(state)->time), 540.0, 30.0) << "by the flight before";
 }
 
 TEST_F(Telemetry, DoesNotForgetOverSysStatusWhatBatteryStatusTold) {

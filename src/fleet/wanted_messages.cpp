@@ -48,7 +48,7 @@ constexpr std::array needed{
 /// What people look at: a slow link carries less of it.
 constexpr std::array shown{
     WantedMessage{MessageId::global_position_int, 200ms, true}, WantedMessage{MessageId::attitude, 250ms, true},
-    WantedMessage{MessageId::battery_status, 2s, true},         WantedMessage{MessageId::vfr_hud, 1s, true},
+    WantedMessage{MessageId::battery_status, 1s, true},         WantedMessage{MessageId::vfr_hud, 1s, true},
     WantedMessage{MessageId::nav_controller_output, 1s, true},  WantedMessage{MessageId::rc_channels, 2s, true},
     WantedMessage{MessageId::fence_status, 2s, true},
 };

@@ -42,14 +42,21 @@ Json to_json(vehicle::Attitude const& a) {
   return {{"roll", rounded(a.roll_rad, 3)}, {"pitch", rounded(a.pitch_rad, 3)}, {"yaw", rounded(a.yaw_rad, 3)}};
 }
 
+/// In steps of 10 s: it is no more exact than that, and every change is sent.
+Json rounded_time(base::Duration time) {
+  return 10.0 * std::round(base::to_seconds(time) / 10.0);
+}
+
 Json to_json(vehicle::Battery const& battery) {
   Json json{{"remaining", rounded(battery.remaining, 3)}};
   if (battery.voltage_v) json["voltage_v"] = rounded(*battery.voltage_v, 2);
   if (battery.current_a) json["current_a"] = rounded(*battery.current_a, 2);
   if (battery.consumed_ah) json["consumed_ah"] = rounded(*battery.consumed_ah, 3);
-  // In steps of 10 s: it is no more exact than that, and every change is sent.
-  if (battery.time_left) json["time_left_s"] = 10.0 * std::round(base::to_seconds(*battery.time_left) / 10.0);
+  if (battery.time_left) json["time_left_s"] = rounded_time(*battery.time_left);
   if (battery.time_left_is_estimate) json["time_left_is_estimate"] = true;
+  if (battery.time_left_is_estimate) json["time_left_error_s"] = rounded_time(battery.time_left_error);
+  if (battery.in_flight) json["in_flight_s"] = rounded_time(battery.in_flight->time);
+  if (battery.in_flight) json["in_flight_error_s"] = rounded_time(battery.in_flight->error);
   return json;
 }
 

@@ -73,7 +73,9 @@ TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
   auto& state = edit("1");
   vehicle::Battery battery{.remaining = 0.4, .voltage_v = {}, .current_a = {}};
   battery.time_left = 333s;
+  battery.time_left_error = 42s;
   battery.time_left_is_estimate = true;
+  battery.in_flight = vehicle::Endurance{333s, 42s};
   state.battery.set(battery, at(9s));
   battery.id = 1;
   state.further_batteries = {{battery, at(7s)}};
@@ -86,7 +88,12 @@ TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
   state.components = {{.id = 154, .kind = "gimbal", .state = "active", .model = "Maker G", .heard = at(8s)}};
   state.gimbal.set({.roll_rad = 0, .pitch_rad = -1.5, .yaw_rad = 0, .yaw_is_from_north = true}, at(9s));
   auto const vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
-  EXPECT_EQ(vehicle["battery"], json({{"remaining", 0.4}, {"time_left_s", 330.0}, {"time_left_is_estimate", true}}));
+  EXPECT_EQ(vehicle["battery"], json({{"remaining", 0.4},
+                                      {"time_left_s", 330.0},
+                                      {"time_left_is_estimate", true},
+                                      {"time_left_error_s", 40.0},
+                                      {"in_flight_s", 330.0},
+                                      {"in_flight_error_s", 40.0}}));
   EXPECT_EQ(vehicle["further_batteries"].at(0)["id"], 1);
   EXPECT_EQ(vehicle["age_s"]["further_batteries"], 3.0);
   EXPECT_EQ(vehicle["gps"], json({{"fix", "3D"}, {"satellites", 11}, {"hdop", 0.8}}));

@@ -9,6 +9,7 @@
 
 #include "base/time.hpp"
 #include "geo/position.hpp"
+#include "vehicle/endurance.hpp"
 #include "vehicle/equipment.hpp"
 #include "vehicle/vehicle_id.hpp"
 
@@ -58,8 +59,11 @@ struct Battery {
   std::optional<double> current_a;
   int id = 0;
   std::optional<double> consumed_ah = {};
-  std::optional<base::Duration> time_left = {};
-  bool time_left_is_estimate = false;  ///< ours, not the vehicle's: from how fast it empties
+  std::optional<base::Duration> time_left = {};  ///< at what the vehicle does now
+  base::Duration time_left_error = {};           ///< to either side; of an estimate only
+  bool time_left_is_estimate = false;            ///< ours, not the vehicle's: from what it draws
+  /// What is left would last so long in flight, by this flight or the last one; nothing before it has flown.
+  std::optional<Endurance> in_flight = {};
   Charge charge = Charge::unknown;
 };
 

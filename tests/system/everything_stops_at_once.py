@@ -1,11 +1,8 @@
 """The emergency stop over HTTP with vehicles of `lapwing sim` on real sockets: every vehicle is stopped and says so, a script is
 halted with the reason, nothing can be moved until it is released, and a vehicle that appears later is stopped too."""
 
-import json
-import urllib.error
-import urllib.request
-
 import harness
+from station import Station
 
 SCRIPT = """
 vs = pick { count 2; type 'UAV'; timeout 60.seconds }
@@ -19,45 +16,6 @@ execute vs: m | m
 """
 
 
-class Station:
-    def __init__(self, port: int):
-        self.base = f"http://127.0.0.1:{port}/api/v1/"
-
-    def ask(self, path: str, body=None):
-        """(status, answer)"""
-        request = urllib.request.Request(self.base + path, None if body is None else json.dumps(body).encode(),
-                                         {"Content-Type": "application/json"})
-        try:
-            with urllib.request.urlopen(request, timeout=10) as answer:
-                return answer.status, json.load(answer)
-        except urllib.error.HTTPError as error:
-            return error.code, json.load(error)
-
-    def up(self):
-        try:
-            return self.ask("status")[0] == 200
-        except (urllib.error.URLError, ConnectionError):
-            return False
-
-    def vehicle(self, name: str):
-        return next((v for v in self.ask("vehicles")[1]["vehicles"] if v["id"] == name), {})
-
-    def stopped(self, name: str):
-        return next((v for v in self.ask("emergency-stop")[1]["vehicles"] if v["vehicle"] == name), {"confirmed": False})
-
-    def command(self, action: str, *vehicles: str, **details):
-        """The outcome of each vehicle, once all are over."""
-        status, record = self.ask("commands", {"action": action, "vehicles": vehicles, "operator": "tester", **details})
-        assert status == 202, record
-
-        def over():
-            commands = self.ask("commands")[1]["commands"]
-            outcomes = next(c for c in commands if c["number"] == record["number"])["vehicles"]
-            return all(o["state"] not in ("waiting", "accepted") for o in outcomes) and outcomes
-
-        return harness.wait_until(over, 40, f"{action} is over")
-
-
 def in_the_air(station, name):
     return station.vehicle(name).get("relative_alt_m", 0) > 5
 
@@ -68,8 +26,7 @@ simulated = ["--home", "41.1780,-8.5980,90", "--speedup", "5", "--out", f"udpout
 with harness.lapwing("station", "--link", f"udpin://127.0.0.1:{link}", "--port", str(web)) as program, \
         harness.lapwing("sim", "--vehicles", "copter:3,rover:1", *simulated):
     harness.wait_until(station.up, 20, "the station answers")
-    harness.wait_until(lambda: all(station.vehicle(v).get("position") and station.vehicle(v).get("health", {}).get("prearm_ok")
-                                   for v in "1234"), 60, "four vehicles are ready")
+    station.is_ready(*"1234")
 
     # By hand: the ack matrix of a command to three, one of which cannot do it.
     outcomes = station.command("take_off", "3", "4", "9", height_m=12)

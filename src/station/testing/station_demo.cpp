@@ -228,7 +228,9 @@ void update_health(vehicle::VehicleState& state, base::TimePoint now, base::Time
   auto& battery = *state.battery.value;
   battery.consumed_ah = 1.31;
   battery.time_left = std::chrono::seconds(static_cast<int>(battery.remaining * 1200.0));
+  battery.time_left_error = *battery.time_left / 5;
   battery.time_left_is_estimate = true;
+  battery.in_flight = vehicle::Endurance{*battery.time_left, battery.time_left_error};
   auto pictures = state.pictures.value.value_or(vehicle::Pictures{});
   if (state.position.value && (!state.pictures.known() || now - state.pictures.heard >= 2s)) {
     pictures.recent.push_back({++pictures.taken, *state.position.value, 20.0});

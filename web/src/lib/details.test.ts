@@ -18,7 +18,9 @@ it('says first why a vehicle cannot arm, in its own words', () => {
 
 it.each<[VehicleFields, string]>([
   [{ battery: { remaining: 0.5, time_left_s: 720 } }, '12 min'],
-  [{ battery: { remaining: 0.5, time_left_s: 720, time_left_is_estimate: true } }, 'about 12 min (estimate)'],
+  [{ battery: { remaining: 0.5, time_left_s: 720, time_left_is_estimate: true, time_left_error_s: 60 } }, 'about 12 min'],
+  [{ battery: { remaining: 0.5, time_left_s: 1050, time_left_is_estimate: true, time_left_error_s: 150, in_flight_s: 1050 } }, '15–20 min'],
+  [{ battery: { remaining: 0.5, in_flight_s: 840, in_flight_error_s: 60 } }, 'about 14 min, by its last flight'],
   [{ battery: { remaining: 0.5, voltage_v: 15.21, current_a: 8, consumed_ah: 1.5 } }, '15.2 V, 8.0 A, 1.50 Ah used'],
   [{ gps: { fix: 'RTK fixed', satellites: 14, hdop: 0.71 } }, 'RTK fixed, 14 satellites, HDOP 0.7'],
   [{ gps: { fix: 'no GPS' } }, 'no GPS'],

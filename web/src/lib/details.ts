@@ -1,5 +1,5 @@
 import { ageOf, type Vehicle } from './fleet';
-import { heading, linkText, metres, percent, span, speed } from './format';
+import { heading, linkText, metres, percent, span, spanAbout, speed } from './format';
 import type { Battery, Component, LinkQuality, VehicleFields } from './protocol';
 import { batteryLevel, isOld, USUAL_LIMITS, type BatteryLimits } from './status';
 
@@ -99,7 +99,7 @@ function linkRows(links: LinkQuality[]): Detail[] {
 }
 
 function batteryRows({ battery, further_batteries }: VehicleFields, row: Row, limits: BatteryLimits): Detail[] {
-  const rows = battery ? [...row('Left', 'battery', timeLeft(battery)), ...row('Power', 'battery', powerText(battery))] : [];
+  const rows = battery ? [...row('Left', 'battery', timeLeft(battery)), ...row('In flight', 'battery', inFlight(battery)), ...row('Power', 'battery', powerText(battery))] : [];
   for (const other of further_batteries ?? []) {
     const text = [percent(other.remaining), timeLeft(other), powerText(other)].filter(Boolean).join(', ');
     const level = batteryLevel(other.remaining, limits);
@@ -108,9 +108,16 @@ function batteryRows({ battery, further_batteries }: VehicleFields, row: Row, li
   return rows;
 }
 
-function timeLeft({ time_left_s, time_left_is_estimate }: Battery): string | undefined {
+/** How long the charge lasts at what the vehicle does now. */
+export function timeLeft({ time_left_s, time_left_is_estimate, time_left_error_s = 0 }: Battery): string | undefined {
   if (time_left_s === undefined) return undefined;
-  return time_left_is_estimate ? `about ${span(time_left_s)} (estimate)` : span(time_left_s);
+  return time_left_is_estimate ? spanAbout(time_left_s, time_left_error_s) : span(time_left_s);
+}
+
+/** The same in flight, told only while it does not fly: by the flight before. */
+function inFlight({ time_left_s, in_flight_s, in_flight_error_s = 0 }: Battery): string | undefined {
+  if (time_left_s !== undefined || in_flight_s === undefined) return undefined;
+  return `${spanAbout(in_flight_s, in_flight_error_s)}, by its last flight`;
 }
 
 function powerText({ voltage_v, current_a, consumed_ah }: Battery): string | undefined {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { age, clock, heading, latitude, linkSummary, linkTitle, longitude, metres, percent, span, speed } from './format';
+import { age, clock, heading, latitude, linkSummary, linkTitle, longitude, metres, percent, span, spanAbout, speed } from './format';
 
 describe('format', () => {
   it('shows what is unknown as a dash, never as 0', () => {
@@ -30,6 +30,10 @@ describe('format', () => {
     expect(linkSummary([silent])).toBe('loss unknown');
     expect(linkTitle([silent])).toMatch(/^wifi: loss unknown/);
     expect(linkSummary([{ ...silent, loss }])).toBe('0 % lost');
+  });
+  it('shows a time that is not sure as a range that is no finer than it is', () => {
+    expect([spanAbout(1020, 60), spanAbout(1050, 150), spanAbout(3300, 900)]).toEqual(['about 17 min', '15–20 min', '40 min – 1 h 10 min']);
+    expect([spanAbout(40, 20), spanAbout(0, 6), spanAbout(70, 40)]).toEqual(['20–60 s', '0–6 s', '0–2 min']);
   });
   it('shows headings with three digits', () => {
     expect([heading(0), heading(Math.PI / 2), heading(-0.1), heading(6.28318)]).toEqual(['000°', '090°', '354°', '000°']);

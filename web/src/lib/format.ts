@@ -57,6 +57,16 @@ export function span(seconds: number): string {
   return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
+/** A time that may be off by so much to either side: "about 17 min", or "15–20 min" where that is more than a tenth. */
+export function spanAbout(seconds: number, error: number): string {
+  if (error <= seconds * 0.1) return `about ${span(seconds)}`;
+  const [least, most] = [Math.max(0, seconds - error), seconds + error];
+  if (most < 90) return `${Math.round(least)}–${Math.round(most)} s`;
+  const [shortest, longest] = [Math.floor(least / 60), Math.ceil(most / 60)];
+  if (longest < 60) return `${shortest}–${longest} min`;
+  return `${span(Math.max(60, least))} – ${span(most)}`;
+}
+
 export function heading(radians: number | undefined): string {
   if (radians === undefined) return UNKNOWN;
   const degrees = ((Math.round((radians * 180) / Math.PI) % 360) + 360) % 360;

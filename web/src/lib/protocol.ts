@@ -33,6 +33,11 @@ export interface Battery {
   time_left_s?: number;
   time_left_is_estimate?: boolean;
 }
+  /** Of an estimate, to either side. */
+  time_left_error_s?: number;
+  /** What is left would last so long in flight, by this flight or the last one. */
+  in_flight_s?: number;
+  in_flight_error_s?: number;
 
 /** What else is aboard; its age is that of the key component_ID. */
 export interface Component {
