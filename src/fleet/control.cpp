@@ -23,6 +23,7 @@ using vehicle::VehicleId;
 namespace {
 
 constexpr std::size_t max_records = 12;
+constexpr std::size_t max_records_with_open_ones = 60;
 
 /// What a command lacks, whatever vehicle it is for.
 Result<> check(vehicle::VehicleCommand const& command) {
@@ -43,13 +44,31 @@ bool may_arm(Action action) {
   return action == Action::arm || action == Action::take_off || action == Action::start_mission;
 }
 
-CommandState state_after(Result<> const& ended, bool was_accepted, bool is_past_expiry) {
-  if (ended) return CommandState::confirmed;
-  switch (ended.error().kind) {
+CommandState state_after(base::Error const& error, bool was_accepted, bool is_past_expiry) {
+  switch (error.kind) {
     case ErrorKind::refused:
     case ErrorKind::invalid_input: return CommandState::refused;
     case ErrorKind::cancelled: return CommandState::superseded;
     default: return is_past_expiry && !was_accepted ? CommandState::expired : CommandState::timed_out;
+  }
+}
+
+/// What has come too late to be sent, was refused, or has ended otherwise, stays so. What showed no effect may show it
+/// yet.
+bool is_final(CommandState state) {
+  return vehicle::is_over(state) && state != CommandState::timed_out;
+}
+
+/// Makes room for one more: for those of which something is still expected as long as there is any.
+void drop_oldest(std::deque<CommandRecord>& records) {
+  auto const is_closed = [](CommandRecord const& record) {
+    return std::ranges::all_of(record.outcomes, [](auto const& outcome) { return vehicle::is_over(outcome.state); });
+  };
+  auto const closed = std::ranges::find_if(records, is_closed);
+  if (closed != records.end()) {
+    records.erase(closed);
+  } else if (records.size() >= max_records_with_open_ones) {
+    records.pop_front();
   }
 }
 
@@ -79,7 +98,7 @@ Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::spa
                                        Commander by, bool takes_over) {
   if (vehicles.empty()) return fail(ErrorKind::invalid_input, "no vehicle was named to command");
   if (auto checked = check(command); !checked) return std::unexpected(checked.error());
-  if (records_.size() == max_records) records_.pop_front();
+  if (records_.size() >= max_records) drop_oldest(records_);
   auto& record = records_.emplace_back(CommandRecord{
       .number = ++last_number_, .command = std::move(command), .by = std::move(by), .asked = base::wall_now()});
   log_.info(fmt::format("{} commands {} to {} vehicle{}", record.by, to_string(record.command.action), vehicles.size(),
@@ -133,53 +152,112 @@ Result<> Control::let_through(Craft& craft, CommandRecord const& record, bool ta
 base::Task<> Control::carry(Craft& craft, std::uint64_t number, vehicle::VehicleCommand command,
                             base::TimePoint expires) {
   auto const id = craft.id();
-  std::function<void()> const on_accepted = [this, number, id] { show(number, id, CommandState::accepted, ""); };
+  Goal goal(craft, command, fleet_.loop().now());
+  std::function<void()> const on_accepted = [this, number, id, &goal] {
+    goal.acknowledge(fleet_.loop().now());
+    show(number, id, CommandState::accepted, "");
+  };
   ActionOptions const how{.not_after = expires, .is_urgent = is_stop(command.action), .on_accepted = on_accepted};
   auto const ended = co_await carry_out(craft.connection, craft, command, how);
   if (!ended) emergency_.resume(craft);
-  finish(craft, number, ended, expires);
+  if (!ended) fail_command(craft, number, ended.error(), expires);
+  running_[id].is_sent = true;
+  // An arming that comes late is taken back.
+  if (!ended && may_arm(command.action) && (command.action == Action::arm || craft.may_arm_late_until)) co_return;
+  auto const* const outcome = outcome_of(number, id);
+  if (outcome && !is_final(outcome->state)) co_await watch(craft, number, goal);
 }
 
-void Control::finish(Craft& craft, std::uint64_t number, Result<> const& ended, base::TimePoint expires) {
+base::Task<> Control::watch(Craft& craft, std::uint64_t number, Goal& goal) {
+  using Kind = Standing::Kind;
+  constexpr base::Duration look_at_least = std::chrono::seconds(1);
+  constexpr base::Duration late = std::chrono::minutes(10);
+  constexpr base::Duration is_silent = std::chrono::seconds(3);
+  auto& loop = fleet_.loop();
+  auto const begun = loop.now();
+  auto told = begun - look_at_least;
+  std::optional<base::TimePoint> heard;  // first, since then
+  for (;;) {
+    auto const now = loop.now();
+    auto const* const outcome = outcome_of(number, craft.id());
+    if (!outcome) co_return;
+    auto const state = outcome->state;
+    if (!heard && craft.state.heartbeat_heard >= begun) heard = now;
+    auto const standing = goal.look(craft, now);
+    auto const silent = now - craft.state.heartbeat_heard;
+    auto const age = silent < is_silent ? "" : fmt::format("; not heard for {:.0f} s", base::to_seconds(silent));
+    switch (standing.kind) {
+      case Kind::unseen:
+        if (state != CommandState::timed_out && now - begun >= goal.patience())
+          show(number, craft.id(), CommandState::timed_out, fmt::format("accepted, but {}{}", standing.text, age));
+        break;
+      case Kind::under_way:
+        if (state == CommandState::under_way && now - told < look_at_least) break;
+        told = now;
+        show(number, craft.id(), CommandState::under_way, standing.text + age, standing.left_m);
+        break;
+      case Kind::reached: show(number, craft.id(), CommandState::confirmed, standing.text); co_return;
+      case Kind::cut_short: show(number, craft.id(), CommandState::cut_short, standing.text); co_return;
+    }
+    bool const has_had_time = heard && now - *heard > 3 * goal.patience();
+    bool const is_hopeless = standing.kind == Kind::unseen && (has_had_time || now - begun > late);
+    if (state == CommandState::timed_out && is_hopeless) co_return;
+    co_await craft.changed.wait_until(now + look_at_least);
+  }
+}
+
+void Control::fail_command(Craft& craft, std::uint64_t number, base::Error const& error, base::TimePoint expires) {
+  auto const* const outcome = outcome_of(number, craft.id());
+  if (!outcome) return;
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
-  if (record == records_.end()) return;
-  auto const outcome = std::ranges::find(record->outcomes, craft.id(), &CommandOutcome::vehicle);
   bool const was_accepted = outcome->state == CommandState::accepted;
-  auto const state = state_after(ended, was_accepted, fleet_.loop().now() >= expires);
-  bool const is_unanswered = !ended && ended.error().kind != ErrorKind::refused;
-  if (may_arm(record->command.action) && is_unanswered) expect_late_arming(craft);
+  if (may_arm(record->command.action) && error.kind != ErrorKind::refused) expect_late_arming(craft);
   // Who asked for what the vehicle cannot do has not commanded it.
-  if (!ended && ended.error().kind == ErrorKind::invalid_input && running_[craft.id()].made_commander)
+  if (error.kind == ErrorKind::invalid_input && running_[craft.id()].made_commander)
     (void)fleet_.authority().yield(craft, record->by);
-  show(number, craft.id(), state, ended ? mode_name(craft, craft.custom_mode) : ended.error().message);
+  show(number, craft.id(), state_after(error, was_accepted, fleet_.loop().now() >= expires), error.message);
 }
 
 bool Control::supersede(VehicleId const& id, std::string const& reason) {
   auto const found = running_.find(id);
   if (found == running_.end()) return false;
   auto const number = found->second.number;
-  bool const was_under_way = !found->second.task.done();
+  bool const was_being_sent = !found->second.task.done() && !found->second.is_sent;
   running_.erase(found);  // from here on nothing of it is sent
+  auto const* const outcome = outcome_of(number, id);
+  if (!outcome) return was_being_sent;
+  auto const state = outcome->state;
+  if (vehicle::is_over(state)) return false;
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
-  if (record == records_.end()) return was_under_way;
-  auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
-  if (vehicle::is_over(outcome->state)) return false;
-  if (was_under_way && may_arm(record->command.action)) expect_late_arming(*fleet_.find(id));
-  show(number, id, CommandState::superseded, reason);
-  return was_under_way;
+  if (was_being_sent && may_arm(record->command.action)) expect_late_arming(*fleet_.find(id));
+  if (state == CommandState::under_way) {
+    show(number, id, CommandState::cut_short, fmt::format("{}, {}", reason, outcome->reason));
+  } else {
+    show(number, id, CommandState::superseded, reason);
+  }
+  return was_being_sent;
 }
 
-void Control::show(std::uint64_t number, VehicleId const& id, CommandState state, std::string reason) {
+CommandOutcome* Control::outcome_of(std::uint64_t number, VehicleId const& id) {
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
-  if (record == records_.end()) return;
+  if (record == records_.end()) return nullptr;
   auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
-  if (outcome == record->outcomes.end() || vehicle::is_over(outcome->state)) return;
-  outcome->state = state;
-  outcome->reason = std::move(reason);
+  return outcome == record->outcomes.end() ? nullptr : &*outcome;
+}
+
+void Control::show(std::uint64_t number, VehicleId const& id, CommandState state, std::string reason,
+                   std::optional<double> left_m) {
+  auto* const outcome = outcome_of(number, id);
+  if (!outcome || is_final(outcome->state)) return;
+  if (outcome->state == state && outcome->reason == reason && outcome->left_m == left_m) return;
+  bool const is_late = outcome->state == CommandState::timed_out;
+  *outcome = {.vehicle = id, .state = state, .reason = std::move(reason), .left_m = left_m};
   ++revision_;
   if (!vehicle::is_over(state)) return;
-  auto const line = fmt::format("{} of vehicle {}: {}{}{}", to_string(record->command.action), id.text,
-                                to_string(state), outcome->reason.empty() ? "" : ": ", outcome->reason);
+  auto const record = std::ranges::find(records_, number, &CommandRecord::number);
+  auto const line =
+      fmt::format("{} of vehicle {}: {}{}{}{}", to_string(record->command.action), id.text, to_string(state),
+                  is_late ? " after all" : "", outcome->reason.empty() ? "" : ": ", outcome->reason);
   state == CommandState::confirmed ? log_.info(line) : log_.warn(line);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/log.hpp"
 #include "base/scope.hpp"
+#include "fleet/control/goal.hpp"
 #include "fleet/emergency.hpp"
 #include "fleet/other_stations.hpp"
 #include "fleet/platform.hpp"
@@ -18,8 +19,8 @@ namespace lapwing::fleet {
 /// What operators do with the vehicles of a fleet: commands to many at once with what each made of them, the emergency
 /// stop, and the command of a vehicle handed from one to the other.
 ///
-/// Each command runs as one task a vehicle; a later one, or a stop, destroys that first, so that nothing of it can
-/// follow. Thread-bound.
+/// Each command runs as one task a vehicle, which sends it and then watches what comes of it; a later one, or a stop,
+/// destroys that first, so that nothing of it can follow. Thread-bound.
 class Control final : public vehicle::VehicleControl {
  public:
   struct Options {
@@ -53,16 +54,21 @@ class Control final : public vehicle::VehicleControl {
   struct Running {
     std::uint64_t number = 0;
     bool made_commander = false;  ///< nobody had the vehicle before
+    bool is_sent = false;         ///< nothing of it is sent any more; what comes of it is watched
     base::Task<> task;
   };
 
   void give(vehicle::CommandRecord& record, vehicle::VehicleId const& id, bool takes_over);
   [[nodiscard]] base::Result<> let_through(Craft& craft, vehicle::CommandRecord const& record, bool takes_over);
   base::Task<> carry(Craft& craft, std::uint64_t number, vehicle::VehicleCommand command, base::TimePoint expires);
-  void finish(Craft& craft, std::uint64_t number, base::Result<> const& ended, base::TimePoint expires);
-  /// Whether there was a command to end.
+  /// Watches what comes of it, for some minutes also of what seems to have failed.
+  base::Task<> watch(Craft& craft, std::uint64_t number, Goal& goal);
+  void fail_command(Craft& craft, std::uint64_t number, base::Error const& error, base::TimePoint expires);
+  /// Whether there was a command to end that was not sent completely.
   bool supersede(vehicle::VehicleId const& id, std::string const& reason);
-  void show(std::uint64_t number, vehicle::VehicleId const& id, vehicle::CommandState state, std::string reason);
+  [[nodiscard]] vehicle::CommandOutcome* outcome_of(std::uint64_t number, vehicle::VehicleId const& id);
+  void show(std::uint64_t number, vehicle::VehicleId const& id, vehicle::CommandState state, std::string reason,
+            std::optional<double> left_m = std::nullopt);
   void expect_late_arming(Craft& craft);
   void take_late_arming(Network& network, mavlink::Received const& received);
   base::Task<> take_back(Craft& craft);

@@ -61,9 +61,181 @@ TEST(Control, TakesOff) {
   ControlWorld world;
   auto& copter = world.add_ready();
   auto const number = world.give({.action = Action::take_off, .height_m = 15.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  EXPECT_LT(copter.height_m, 10.0);
+  EXPECT_TRUE(world.outcome(number).reason.ends_with(" of 15 m")) << world.outcome(number).reason;
   EXPECT_EQ(world.end_of(number), CommandState::confirmed);
-  EXPECT_TRUE(copter.is_flying);
+  EXPECT_EQ(world.outcome(number).reason, "at 15 m");
+  EXPECT_GT(copter.height_m, 14.0);
   EXPECT_EQ(copter.mode, copter_mode::guided);
+}
+
+// ---- what is confirmed, and what is not
+
+TEST(Control, DoesNotConfirmAnArmingIntoSilence) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.is_silent = true;
+  world.run_for(13s);
+  auto const number = world.give({.action = Action::arm});
+  EXPECT_NE(world.end_of(number), CommandState::confirmed) << "it was armed before";
+}
+
+TEST(Control, ConfirmsAnArmingOfWhatIsArmedByANewerHeartbeat) {
+  ControlWorld world;
+  world.add_flying();
+  EXPECT_EQ(world.end_of(world.give({.action = Action::arm})), CommandState::confirmed);
+}
+
+TEST(Control, DoesNotConfirmATakeOffThatGoesNoHigher) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.climbs = false;
+  auto const number = world.give({.action = Action::take_off, .height_m = 20.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  copter.height_m = 7.0;
+  world.run_for(60s);
+  EXPECT_EQ(world.outcome(number).state, CommandState::under_way);
+  EXPECT_EQ(world.outcome(number).reason, "at 7 of 20 m");
+  EXPECT_NEAR(world.outcome(number).left_m.value_or(0.0), 13.0, 0.1);
+}
+
+TEST(Control, SaysThatAnEmergencyStopCutATakeOffShort) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  auto const number = world.give({.action = Action::take_off, .height_m = 100.0});
+  EXPECT_TRUE(world.run_until([&] { return copter.height_m > 20.0; }, 20s));
+  EXPECT_TRUE(world.stops_all());
+  EXPECT_EQ(world.outcome(number).state, CommandState::cut_short);
+  EXPECT_TRUE(world.outcome(number).reason.starts_with("emergency stop by operator 1, at "))
+      << world.outcome(number).reason;
+}
+
+TEST(Control, SaysThatALaterCommandCutAnEarlierOneShort) {
+  ControlWorld world;
+  world.add_ready();
+  auto const number = world.give({.action = Action::take_off, .height_m = 100.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  (void)world.give({.action = Action::hold}, {"1"}, "operator 2");
+  EXPECT_EQ(world.outcome(number).state, CommandState::cut_short);
+  EXPECT_TRUE(world.outcome(number).reason.starts_with("hold by operator 2 came after it, at "));
+}
+
+TEST(Control, SaysThatThePilotCutACommandShort) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  auto const number = world.give({.action = Action::take_off, .height_m = 100.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  copter.change_mode(copter_mode::stabilize);
+  EXPECT_EQ(world.end_of(number), CommandState::cut_short);
+  EXPECT_TRUE(world.outcome(number).reason.starts_with(
+      "mode changed to STABILIZE (GUIDED to STABILIZE, not asked for here), at "))
+      << world.outcome(number).reason;
+}
+
+TEST(Control, DoesNotConfirmGoingToAPlaceByBeingGuided) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.moves = false;
+  auto const there = geo::displaced(TestAutopilot::home, {.north = 400, .east = 0, .down = 0});
+  auto const number = world.give({.action = Action::go_to, .place = there});
+  EXPECT_EQ(world.end_of(number), CommandState::timed_out);
+  EXPECT_EQ(world.outcome(number).reason, "accepted, but it does not come nearer");
+}
+
+TEST(Control, TellsHowFarItIsToAPlaceUntilItIsThere) {
+  for (bool const tells_target : {false, true}) {
+    ControlWorld world;
+    auto& copter = world.add_flying();
+    copter.tells_target = tells_target;
+    auto const there = geo::displaced(TestAutopilot::home, {.north = 400, .east = 0, .down = 0});
+    auto const number = world.give({.action = Action::go_to, .place = there});
+    EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+    EXPECT_TRUE(world.run_until([&] { return world.outcome(number).left_m.value_or(1e9) < 200.0; }, 40s));
+    EXPECT_TRUE(world.outcome(number).reason.ends_with(" m to go")) << world.outcome(number).reason;
+    EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+    EXPECT_EQ(world.outcome(number).reason, "there");
+    EXPECT_FALSE(world.outcome(number).left_m);
+  }
+}
+
+TEST(Control, SaysThatWhatIsUnderWayIsNotHeard) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  auto const number = world.give({.action = Action::take_off, .height_m = 100.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  copter.is_silent = true;
+  world.run_for(12s);
+  EXPECT_EQ(world.outcome(number).state, CommandState::under_way);
+  EXPECT_NE(world.outcome(number).reason.find("of 100 m; not heard for 1"), std::string::npos)
+      << world.outcome(number).reason;
+}
+
+TEST(Control, CorrectsALandingThatShowsLate) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.is_silent = true;
+  auto const number = world.give({.action = Action::land});
+  EXPECT_TRUE(world.comes_to(number, CommandState::timed_out));
+  world.run_for(30s);
+  copter.change_mode(copter_mode::land);  // it had heard the command
+  copter.disarm();
+  copter.is_silent = false;
+  EXPECT_TRUE(world.comes_to(number, CommandState::confirmed));
+  EXPECT_EQ(world.outcome(number).reason, "on the ground, motors off");
+  EXPECT_TRUE(world.has_logged("land of vehicle 1: confirmed after all"));
+}
+
+TEST(Control, DoesNotCorrectWhatTheVehicleWasSeenNotToDo) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.ignored_commands.insert(MavCmd::do_set_mode);
+  auto const number = world.give({.action = Action::land});
+  EXPECT_EQ(world.end_of(number), CommandState::timed_out);
+  world.run_for(60s);
+  copter.change_mode(copter_mode::land);  // by its pilot
+  copter.disarm();
+  world.run_for(10s);
+  EXPECT_EQ(world.outcome(number).state, CommandState::timed_out);
+}
+
+TEST(Control, KeepsTheHeightWhenItGoesToAPlaceUnlessToldOtherwise) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.height_m = 100.0;
+  world.run_for(2s);
+  (void)world.give({.action = Action::go_to, .place = TestAutopilot::home});
+  world.run_for(2s);
+  ASSERT_TRUE(copter.goal);
+  EXPECT_NEAR(copter.goal->alt_m, 100.0, 0.1);
+}
+
+TEST(Control, GivesPx4HeightsAboveTheSea) {
+  ControlWorld world;
+  auto& copter = world.add_ready({.autopilot = mavlink::MavAutopilot::px4});
+  copter.is_armed = copter.is_flying = true;  // 120 m above the sea
+  copter.height_m = 20.0;
+  world.run_for(2s);
+  (void)world.give({.action = Action::go_to, .place = TestAutopilot::home});
+  world.run_for(1s);
+  ASSERT_TRUE(copter.goal);
+  EXPECT_NEAR(copter.goal->alt_m, 120.0, 0.1);
+  (void)world.give({.action = Action::go_to, .height_m = 50.0, .place = TestAutopilot::home});
+  world.run_for(1s);
+  EXPECT_NEAR(copter.goal->alt_m, 150.0, 0.1);
+}
+
+TEST(Control, KeepsACommandInSightAsLongAsItIsUnderWay) {
+  ControlWorld world;
+  auto& copter = world.add_ready();
+  copter.climbs = false;
+  copter.height_m = 2.0;
+  world.add({.address = {2, 1}});
+  auto const number = world.give({.action = Action::take_off, .height_m = 100.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  for (int i = 0; i < 30; ++i) (void)world.end_of(world.give({.action = Action::hold}, {"2"}));
+  EXPECT_EQ(world.outcome(number).state, CommandState::under_way);
+  EXPECT_EQ(world.control->commands().size(), 12u);
 }
 
 TEST(Control, SendsAVehicleToAPlaceWithoutLosingPrecision) {
@@ -71,7 +243,8 @@ TEST(Control, SendsAVehicleToAPlaceWithoutLosingPrecision) {
   auto& copter = world.add_flying();
   auto const there = geo::Wgs84::from_degrees(40.0012345, -8.0012345, 0.0);
   auto const number = world.give({.action = Action::go_to, .height_m = 25.0, .place = there});
-  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  copter.height_m = 25.0;
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed) << world.outcome(number).reason;
   auto const found = std::ranges::find_if(copter.heard, [](auto const& message) {
     auto const* sent = std::get_if<mavlink::CommandInt>(&message);
     return sent && sent->command == MavCmd::do_reposition;
@@ -347,7 +520,7 @@ TEST(Control, TakesAVehicleOverFromAScript) {
   EXPECT_EQ(world.run->state(), tasks::RunState::failed);
   EXPECT_EQ(world.run->error(), "operator 1 took copter 1 over");
   EXPECT_EQ(world.state().control.commander, "operator 1");
-  EXPECT_EQ(world.end_of(number), CommandState::confirmed);
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
   EXPECT_EQ(world.copter.modes_commanded().back(), copter_mode::rtl) << "the script's end sends nothing after it";
   auto const again = world.platform->start(task_of(mission_ending_with(MavCmd::nav_land)), VehicleId{"1"});
   EXPECT_EQ(again->error(), "copter 1 is commanded by operator 1");

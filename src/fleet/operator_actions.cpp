@@ -10,6 +10,7 @@
 
 #include "mavlink/command.hpp"
 #include "mavlink/modes.hpp"
+#include "plan/performance.hpp"
 
 namespace lapwing::fleet {
 
@@ -25,15 +26,18 @@ using vehicle::Autopilot;
 using vehicle::Family;
 using vehicle::StopAction;
 
+std::optional<std::uint32_t> take_off_mode(Craft const& craft) {
+  auto const autopilot = craft.state.autopilot;
+  auto const by_name = [&](std::string_view name) { return mavlink::mode_number(autopilot, craft.state.family, name); };
+  if (autopilot == Autopilot::px4) return by_name("AUTO.TAKEOFF");
+  return craft.state.family == Family::copter ? std::nullopt : by_name("TAKEOFF");
+}
+
 namespace {
 
-constexpr base::Duration airborne_wait = 20s;  // spool-up and the climb of a plane's launch
 constexpr base::Duration effect_wait = 3s;
-constexpr double airborne_m = 1.0;
 
-bool flies(Family family) {
-  return family == Family::copter || family == Family::plane || family == Family::vtol;
-}
+using plan::flies;
 
 std::unexpected<base::Error> unable(Craft const& craft, std::string_view what) {
   return fail(ErrorKind::invalid_input, fmt::format("{} {}", craft.state.name, what));
@@ -50,14 +54,6 @@ Task<Result<>> go_into_role(mavlink::Connection& connection, Craft& craft, ModeR
                             ActionOptions how) {
   auto const mode = mavlink::mode_for(craft.state.autopilot, craft.state.family, role);
   co_return co_await go_into(connection, craft, mode, without, how);
-}
-
-/// What takes off by a mode of its own: planes of ArduPilot, everything of PX4.
-std::optional<std::uint32_t> take_off_mode(Craft const& craft) {
-  auto const autopilot = craft.state.autopilot;
-  auto const by_name = [&](std::string_view name) { return mavlink::mode_number(autopilot, craft.state.family, name); };
-  if (autopilot == Autopilot::px4) return by_name("AUTO.TAKEOFF");
-  return craft.state.family == Family::copter ? std::nullopt : by_name("TAKEOFF");
 }
 
 Task<Result<>> leave_the_ground(mavlink::Connection& connection, Craft& craft, double height_m, ActionOptions how) {
@@ -83,45 +79,58 @@ Task<Result<>> leave_the_ground(mavlink::Connection& connection, Craft& craft, d
 Task<Result<>> take_off(mavlink::Connection& connection, Craft& craft, double height_m, ActionOptions how) {
   if (!flies(craft.state.family)) co_return unable(craft, "does not fly");
   if (craft.state.landed.value == false) co_return unable(craft, "is in the air already");
-  auto left = co_await leave_the_ground(connection, craft, height_m, how);
-  if (!left) co_return left;
-  std::function<bool()> is_up = [&craft] {
-    return craft.state.landed.value == false || craft.state.relative_alt_m.value.value_or(0.0) > airborne_m;
-  };
-  if (co_await craft.changed.wait_for(std::move(is_up), airborne_wait)) co_return Result<>{};
-  co_return fail(ErrorKind::timed_out, "accepted, but it has not left the ground");
+  co_return co_await leave_the_ground(connection, craft, height_m, how);
 }
 
-/// Autopilots go there in their guided mode, which shows that they do.
+/// Where to go and how high. PX4 takes the height for one above sea level, whatever the frame says.
+Result<mavlink::CommandPlace> place_to_go(Craft const& craft, vehicle::VehicleCommand const& command) {
+  auto const& state = craft.state;
+  auto const height_m = command.height_m ? command.height_m : state.relative_alt_m.value;
+  if (flies(state.family) && !height_m) return unable(craft, "has not told its height: give one");
+  mavlink::CommandPlace there{.frame = mavlink::MavFrame::global_relative_alt,
+                              .lat_rad = command.place->lat_rad,
+                              .lon_rad = command.place->lon_rad,
+                              .z_m = height_m.value_or(0.0)};
+  if (state.autopilot != Autopilot::px4) return there;
+  bool const knows_home = state.position.value && state.relative_alt_m.value;
+  if (!knows_home) return unable(craft, "has not told how high it is above the sea");
+  double const home_alt_m = state.position.value->alt_m - *state.relative_alt_m.value;
+  there.frame = mavlink::MavFrame::global;
+  there.z_m = home_alt_m + *height_m;
+  return there;
+}
+
+/// Autopilots go there in their guided mode.
 Task<Result<>> go_to(mavlink::Connection& connection, Craft& craft, vehicle::VehicleCommand command,
                      ActionOptions how) {
   if (!command.place) co_return unable(craft, "was told no place to go to");
   if (flies(craft.state.family) && craft.state.landed.value.value_or(false))
     co_return unable(craft, "is on the ground: take off first");
   if (!craft.is_armed) co_return unable(craft, "is not armed");
-  auto const height_m = command.height_m ? command.height_m : craft.state.relative_alt_m.value;
-  if (flies(craft.state.family) && !height_m) co_return unable(craft, "has not told its height: give one");
-  auto const there = mavlink::reposition({.frame = mavlink::MavFrame::global_relative_alt,
-                                          .lat_rad = command.place->lat_rad,
-                                          .lon_rad = command.place->lon_rad,
-                                          .z_m = height_m.value_or(0.0)});
+  auto const place = place_to_go(craft, command);
+  if (!place) co_return std::unexpected(place.error());
   auto const guided = mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::guided);
   auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::hold);
-  auto const mode = guided ? guided : hold;  // PX4 goes there in AUTO.LOITER
-  craft.asked_mode = mode;
+  craft.asked_mode = guided ? guided : hold;  // PX4 goes there in AUTO.LOITER
   craft.mode_asked = connection.loop().now();
   mavlink::CommandOptions const options{.not_after = how.not_after, .takes_int = craft.takes_command_int()};
-  auto const asked = co_await mavlink::run_command(connection, craft.address, there, options);
-  if (!asked) co_return asked;
-  if (how.on_accepted) how.on_accepted();
-  std::function<bool()> shown = [&craft, mode] { return !mode || craft.custom_mode == *mode; };
-  if (co_await craft.changed.wait_for(std::move(shown), effect_wait)) co_return Result<>{};
-  co_return fail(ErrorKind::timed_out, fmt::format("accepted, but it is in {}", mode_name(craft, craft.custom_mode)));
+  auto const asked = co_await mavlink::run_command(connection, craft.address, mavlink::reposition(*place), options);
+  if (asked && how.on_accepted) how.on_accepted();
+  co_return asked;
 }
 
 Task<Result<>> resume(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
   if (!craft.is_armed) co_return unable(craft, "is not armed: start the mission instead");
   co_return co_await go_into_role(connection, craft, ModeRole::mission, "has no mission mode", how);
+}
+
+/// Also when it was armed already: that it still is must come from itself.
+Task<Result<>> arm_anew(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
+  if (!craft.is_armed) co_return co_await arm(connection, craft, how);
+  mavlink::CommandOptions const options{.not_after = how.not_after};
+  auto const asked = co_await mavlink::run_command(connection, craft.address, mavlink::arm(), options);
+  if (asked && how.on_accepted) how.on_accepted();
+  co_return asked;
 }
 
 bool flies_the_plan(Craft const& craft, vehicle::VehicleCommand const& command) {
@@ -141,7 +150,7 @@ Task<Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle:
         ErrorKind::refused,
         fmt::format("{} may hold a part of one plan and a part of another: upload a plan first", craft.state.name));
   switch (command.action) {
-    case Action::arm: co_return co_await arm(connection, craft, how);
+    case Action::arm: co_return co_await arm_anew(connection, craft, how);
     case Action::disarm: co_return co_await disarm(connection, craft, how);
     case Action::take_off:
       co_return co_await take_off(connection, craft, command.height_m.value_or(usual_height_m), how);

@@ -5,8 +5,13 @@
 
 namespace lapwing::fleet {
 
-/// Carries out what an operator commands, until it shows in the vehicle's state. Errors: invalid_input (the vehicle
-/// cannot do that), refused (with the vehicle's own reason), timed_out, those of Connection::send.
+/// The mode in which a vehicle takes off by itself, to a height of its own setting: planes of ArduPilot, everything of
+/// PX4. Nothing for those that are told the height.
+[[nodiscard]] std::optional<std::uint32_t> take_off_mode(Craft const& craft);
+
+/// Sends what an operator commands until the vehicle has acknowledged it and shows the mode for it; what it makes of it
+/// then is for `Goal` to see. Errors: invalid_input (the vehicle cannot do that), refused (with the vehicle's own
+/// reason), timed_out, those of Connection::send.
 base::Task<base::Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle::VehicleCommand command,
                                      ActionOptions how);
 

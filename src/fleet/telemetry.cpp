@@ -215,6 +215,14 @@ struct Taking {
     return true;
   }
 
+  bool operator()(mavlink::PositionTargetGlobalInt const& heard) const {
+    constexpr std::uint16_t horizontal = 0b11;
+    auto const& target = heard.setpoint;
+    bool const is_place = (target.ignore & horizontal) == 0 && (target.lat_rad != 0.0 || target.lon_rad != 0.0);
+    if (is_place) state.position_target.set({target.lat_rad, target.lon_rad, target.alt_m}, now);
+    return false;
+  }
+
   bool operator()(mavlink::RcChannels const& heard) const {
     state.remote_control.set({false, heard.count, heard.pulses_us, heard.rssi}, now);
     set_remote_control_lost(craft, state);

@@ -76,6 +76,7 @@ bool TestAutopilot::has_position() const {
 }
 
 geo::Wgs84 TestAutopilot::position() const {
+  if (place) return *place;
   // Ten metres north for every item, so that it travels.
   return geo::displaced(home, {.north = 10.0 * current_item, .east = 0.0, .down = is_flying ? -20.0 : 0.0});
 }
@@ -89,11 +90,15 @@ void TestAutopilot::change_mode(std::uint32_t wanted) {
     item_ends_ = loop_.now() + options_.item_time;
   }
   if (is_copter() && mode == copter_mode::land) is_flying = false;
+  if (mode != copter_mode::guided) climbs_to_m_.reset(), goal.reset();
+  if (!is_flying) height_m = 0.0;
   beat();
 }
 
 void TestAutopilot::disarm() {
   is_armed = is_flying = is_running_mission_ = false;
+  climbs_to_m_.reset();
+  goal.reset();
 }
 
 int TestAutopilot::commands_heard(MavCmd command) const {
@@ -133,8 +138,12 @@ void TestAutopilot::take(mavlink::Frame const& frame) {
   if (!asks_who_it_is(*message)) heard.push_back(*message);
   if (auto const* command = std::get_if<mavlink::CommandLong>(&*message))
     return obey(command->command, command->params, frame.source);
-  if (auto const* command = std::get_if<mavlink::CommandInt>(&*message))
+  if (auto const* command = std::get_if<mavlink::CommandInt>(&*message)) {
+    bool const is_taken = !ignored_commands.contains(command->command) && !refused_commands.contains(command->command);
+    if (is_taken && command->command == MavCmd::do_reposition)
+      goal = geo::Wgs84{command->place.lat_rad, command->place.lon_rad, command->place.z_m};
     return obey(command->command, {}, frame.source);
+  }
   if (auto const* chosen = std::get_if<mavlink::MissionSetCurrent>(&*message); chosen && takes_set_current_message) {
     current_item = chosen->seq;
     send_message(MessageId::mission_current);
@@ -167,6 +176,7 @@ MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& par
     case MavCmd::nav_takeoff:
       if (!is_armed || mode != copter_mode::guided) return MavResult::failed;
       is_flying = true;
+      climbs_to_m_ = params[6];
       return MavResult::accepted;
     case MavCmd::do_reposition: change_mode(copter_mode::guided); return MavResult::accepted;
     case MavCmd::mission_start:
@@ -292,6 +302,7 @@ base::Task<> TestAutopilot::live() {
     co_await loop_.sleep(step);
     if (loop_.now() >= next_beat_) beat();
     send_due_telemetry();
+    move();
     if (upload_ && loop_.now() - upload_->last_good >= upload_patience) {
       send(mavlink::MissionAck{.target = upload_->partner, .result = mavlink::MavMissionResult::operation_cancelled});
       upload_.reset();
@@ -304,6 +315,26 @@ base::Task<> TestAutopilot::live() {
     advance_mission();
     if (is_copter() && is_armed && !is_flying && loop_.now() - armed_at_ >= disarm_delay) disarm();
   }
+}
+
+void TestAutopilot::move() {
+  constexpr double seconds = std::chrono::duration<double>(step).count();
+  if (climbs && climbs_to_m_) height_m = std::min(*climbs_to_m_, height_m + 5.0 * seconds);
+  if (!goal) return;
+  if (tells_target && loop_.now() >= next_target_) {
+    mavlink::GlobalSetpoint setpoint;
+    setpoint.frame = mavlink::MavFrame::global;
+    setpoint.lat_rad = goal->lat_rad;
+    setpoint.lon_rad = goal->lon_rad;
+    send(mavlink::PositionTargetGlobalInt{loop_.now() - booted_, setpoint});
+    next_target_ = loop_.now() + 500ms;
+  }
+  auto const here = position();
+  double const left_m = geo::surface_distance_m(here, *goal);
+  if (!moves || left_m < 0.01) return;
+  double const share = std::min(1.0, 10.0 * seconds / left_m);
+  place = geo::Wgs84{here.lat_rad + share * (goal->lat_rad - here.lat_rad),
+                     here.lon_rad + share * (goal->lon_rad - here.lon_rad), here.alt_m};
 }
 
 void TestAutopilot::beat() {
@@ -330,11 +361,11 @@ void TestAutopilot::send_message(MessageId id) {
   auto const since_boot = loop_.now() - booted_;
   switch (id) {
     case MessageId::global_position_int: {
-      auto const place = has_position() ? position() : geo::Wgs84{};
+      auto const here = has_position() ? position() : geo::Wgs84{};
       return send(mavlink::GlobalPosition{.since_boot = since_boot,
-                                          .position = place,
-                                          .relative_alt_m = 0.0,
-                                          .velocity_m_s = geo::Ned{},
+                                          .position = here,
+                                          .relative_alt_m = height_m,
+                                          .velocity_m_s = velocity_m_s,
                                           .heading_rad = 0.5});
     }
     case MessageId::attitude:

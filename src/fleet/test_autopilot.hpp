@@ -35,7 +35,8 @@ inline constexpr std::uint32_t loiter = 12;
 }  // namespace plane_mode
 
 /// A scripted autopilot on the far end of a link, for tests: answers as ArduPilot does, misbehaves when told to. It has
-/// no physics: every mission item takes `item_time`, LAND puts it on the ground and disarms it.
+/// hardly any physics: every mission item takes `item_time`, LAND puts it on the ground, it climbs at 5 m/s and goes
+/// places at 10 m/s.
 class TestAutopilot {
  public:
   struct Options {
@@ -69,6 +70,10 @@ class TestAutopilot {
   bool ends_in_rtl = false;  ///< as ArduPlane does after its last item
   bool reports_complete = true;
 
+  bool climbs = true;         ///< when told to take off; else its height stays where it is
+  bool moves = true;          ///< when told to go to a place
+  bool tells_target = false;  ///< POSITION_TARGET_GLOBAL_INT, every half second while guided to a place
+
   // ---- what tests do to it ----
   void change_mode(std::uint32_t mode);
   void disarm();
@@ -86,6 +91,10 @@ class TestAutopilot {
   bool is_flying = false;
   std::vector<mavlink::MissionItem> mission;
   std::uint16_t current_item = 0;
+  double height_m = 0.0;  ///< above home, as it tells; of itself it changes at a take-off and a landing alone
+  geo::Ned velocity_m_s{};
+  std::optional<geo::Wgs84> place;      ///< when it is not where its mission has it
+  std::optional<geo::Wgs84> goal;       ///< of the last command to go somewhere
   std::vector<mavlink::Message> heard;  ///< from the ground; heartbeats and questions who it is excepted
   [[nodiscard]] int commands_heard(mavlink::MavCmd command) const;
   [[nodiscard]] std::vector<std::uint32_t> modes_commanded() const;
@@ -117,6 +126,7 @@ class TestAutopilot {
   void take(mavlink::Frame const& frame);
   void obey(mavlink::MavCmd command, std::array<float, 7> const& params, mavlink::Address from);
   mavlink::MavResult execute(mavlink::MavCmd command, std::array<float, 7> const& params);
+  void move();
   mavlink::MavResult arm();
   void serve_upload(mavlink::Message const& message, mavlink::Address from);
   void serve_download(mavlink::Message const& message, mavlink::Address from);
@@ -142,6 +152,8 @@ class TestAutopilot {
   base::TimePoint next_beat_{};
   base::TimePoint armed_at_{};
   base::TimePoint item_ends_{};
+  base::TimePoint next_target_{};
+  std::optional<double> climbs_to_m_;
   bool is_running_mission_ = false;
   bool is_complete_ = false;
   bool upload_cancelled_ = false;

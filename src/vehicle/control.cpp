@@ -32,13 +32,15 @@ constexpr std::array<std::pair<Action, std::string_view>, 11> actions{{{Action::
                                                                        {Action::pause_mission, "pause_mission"},
                                                                        {Action::resume_mission, "resume_mission"}}};
 
-constexpr std::array<std::pair<CommandState, std::string_view>, 7> states{{{CommandState::waiting, "waiting"},
+constexpr std::array<std::pair<CommandState, std::string_view>, 9> states{{{CommandState::waiting, "waiting"},
                                                                            {CommandState::accepted, "accepted"},
+                                                                           {CommandState::under_way, "under_way"},
                                                                            {CommandState::confirmed, "confirmed"},
                                                                            {CommandState::refused, "refused"},
                                                                            {CommandState::timed_out, "timed_out"},
                                                                            {CommandState::expired, "expired"},
-                                                                           {CommandState::superseded, "superseded"}}};
+                                                                           {CommandState::superseded, "superseded"},
+                                                                           {CommandState::cut_short, "cut_short"}}};
 
 constexpr std::array<std::pair<StopAction, std::string_view>, 4> stops{{{StopAction::hold, "hold"},
                                                                         {StopAction::land, "land"},
@@ -63,7 +65,7 @@ std::string_view to_string(CommandState state) {
   return word_of(states, state);
 }
 bool is_over(CommandState state) {
-  return state != CommandState::waiting && state != CommandState::accepted;
+  return state != CommandState::waiting && state != CommandState::accepted && state != CommandState::under_way;
 }
 
 std::string_view to_string(StopAction action) {

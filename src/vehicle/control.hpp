@@ -42,23 +42,28 @@ struct VehicleCommand {
   std::string mode = {};                           ///< of set_mode: the autopilot's own name
 };
 
-/// How far a command has come on one vehicle.
+/// How far a command has come on one vehicle. What a vehicle shows counts only when it was heard after the command and
+/// belongs to it alone.
 enum class CommandState {
-  waiting,    ///< sent, or about to be
-  accepted,   ///< the vehicle has acknowledged it
-  confirmed,  ///< its effect shows in the vehicle's state
-  refused,
-  timed_out,   ///< no answer, or no effect
+  waiting,     ///< sent, or about to be
+  accepted,    ///< the vehicle has acknowledged it
+  under_way,   ///< the vehicle shows that it obeys, and what is left
+  confirmed,   ///< the vehicle shows that it has done it: it is at the height, at the place, on the ground, in the mode
+  refused,     ///< by the vehicle or here
+  timed_out,   ///< no answer, or nothing that shows it; corrected when the vehicle shows it late
   expired,     ///< not sent any more: it came too late
-  superseded,  ///< a later command or a stop took its place
+  superseded,  ///< a later command or a stop took its place before it was under way
+  cut_short,   ///< the same while it was under way, or the vehicle has left off by itself or by another's hand
 };
 [[nodiscard]] std::string_view to_string(CommandState state);
+/// Nothing more is expected of it.
 [[nodiscard]] bool is_over(CommandState state);
 
 struct CommandOutcome {
   VehicleId vehicle;
   CommandState state = CommandState::waiting;
-  std::string reason = {};
+  std::string reason = {};            ///< "at 7 of 20 m", "arming refused: ..."
+  std::optional<double> left_m = {};  ///< to go or to climb, while it is under way and that is known
 };
 
 /// One command as it was given, and what each vehicle made of it.

@@ -201,6 +201,7 @@ struct VehicleState {
   Aged<geo::Wgs84> home;
   Aged<MissionProgress> mission;
   Aged<double> waypoint_distance_m;  ///< to where it is flying now
+  Aged<geo::Wgs84> position_target;  ///< where it is flying now, as it tells; latitude and longitude count
   Aged<Gimbal> gimbal;
   std::vector<Component> components;  ///< besides the autopilot, by id
   Aged<Pictures> pictures;

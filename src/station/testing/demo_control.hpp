@@ -12,7 +12,7 @@
 namespace lapwing::station::testing {
 
 /// Made-up vehicles under command, so that web/e2e can show every state: they acknowledge after 0.3 s and show the
-/// effect after 1 s; lost ones do neither; one refuses to arm.
+/// effect after 1 s, of a take-off or a way to go three seconds later; lost ones do neither; one refuses to arm.
 class DemoControl : public vehicle::VehicleControl {
  public:
   DemoControl(base::Loop& loop, vehicle::Registry& registry) : loop_(loop), registry_(registry) {}
@@ -26,7 +26,7 @@ class DemoControl : public vehicle::VehicleControl {
       auto& outcome = record.outcomes.emplace_back(vehicle::CommandOutcome{.vehicle = id});
       auto& has = registry_.edit(id).control.commander;
       if (!has.empty() && has != by && !takes_over && !stops)
-        outcome = {id, vehicle::CommandState::refused, fmt::format("vehicle {} is commanded by {}", id.text, has)};
+        outcome = {id, vehicle::CommandState::refused, fmt::format("vehicle {} is commanded by {}", id.text, has), {}};
       else if (!stops || takes_over)
         give(id, by);
     }
@@ -92,6 +92,7 @@ class DemoControl : public vehicle::VehicleControl {
   }
 
  private:
+  static constexpr base::Duration way_time = std::chrono::seconds(4);
   void answer(vehicle::CommandRecord const& record, vehicle::CommandOutcome& outcome, base::Duration since) {
     using namespace std::chrono_literals;
     using enum vehicle::CommandState;
@@ -99,13 +100,29 @@ class DemoControl : public vehicle::VehicleControl {
     if (vehicle::is_over(before)) return;
     auto const& state = registry_.edit(outcome.vehicle);
     if (state.connection == vehicle::Connection::lost) {
-      if (since > 2s) outcome = {outcome.vehicle, expired, "not heard: not sent any more"};
+      if (since > 2s) outcome = {outcome.vehicle, expired, "not heard: not sent any more", {}};
     } else if (state.family == vehicle::Family::plane && record.command.action == vehicle::Action::arm) {
-      if (since > 300ms) outcome = {outcome.vehicle, refused, "arming refused: Arm: Throttle too high"};
+      if (since > 300ms) outcome = {outcome.vehicle, refused, "arming refused: Arm: Throttle too high", {}};
+    } else if (takes_time(record.command.action) && since > 1s && since <= way_time) {
+      double const left = base::to_seconds(way_time - since) / base::to_seconds(way_time);
+      outcome = under_way_of(record, outcome.vehicle, left);
     } else if (since > 300ms) {
-      outcome.state = since > 1s ? confirmed : accepted;
+      outcome = {outcome.vehicle, since > 1s ? confirmed : accepted, "", {}};
     }
-    if (outcome.state != before) ++revision_;
+    if (outcome.state != before || outcome.state == under_way) ++revision_;
+  }
+  static bool takes_time(vehicle::Action action) {
+    return action == vehicle::Action::take_off || action == vehicle::Action::go_to;
+  }
+  static vehicle::CommandOutcome under_way_of(vehicle::CommandRecord const& record, vehicle::VehicleId const& id,
+                                              double left) {
+    constexpr double way_m = 300.0;
+    double const goal_m = record.command.height_m.value_or(10.0);
+    bool const climbs = record.command.action == vehicle::Action::take_off;
+    double const left_m = left * (climbs ? goal_m : way_m);
+    auto text =
+        climbs ? fmt::format("at {:.0f} of {:.0f} m", goal_m - left_m, goal_m) : fmt::format("{:.0f} m to go", left_m);
+    return {id, vehicle::CommandState::under_way, std::move(text), left_m};
   }
   void give(vehicle::VehicleId const& id, std::string to) {
     registry_.edit(id).control = {.commander = std::move(to)};
