@@ -19,7 +19,37 @@ export function addGoToTests(test, row, hold) {
     await chosen(page).waitFor();
     assert.equal(await cross(page).count(), 0);
     await hold(page, page.getByRole('button', { name: 'Go there' }));
-    await page.locator('#command summary', { hasText: 'Go to, 10 m' }).waitFor();
+    await page.locator('#command summary', { hasText: 'Go to' }).waitFor();
+    const sent = page.getByRole('img', { name: /^destination of copter 2, \d+ m$/ });
+    await sent.waitFor();
+    await page.locator('#command details', { hasText: 'Go to' }).getByText('reached').waitFor();
+    await sent.waitFor({ state: 'detached' });
+  });
+
+  test('keeps the height on the way to a place unless another one is given', async ({ open }) => {
+    const page = await open();
+    await row(page, 'copter 2').click();
+    const height = page.getByLabel('Height to go at');
+    assert.match(await height.getAttribute('placeholder'), /^keep [\d.]+ m$/);
+    const sentHeights = await page.evaluate(() => {
+      window.heights = [];
+      const send = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (text) {
+        const { action, height_m } = JSON.parse(text);
+        if (action === 'go_to') window.heights.push(height_m ?? 'as it is');
+        return send.call(this, text);
+      };
+    });
+    assert.equal(sentHeights, undefined);
+    for (const given of ['', '35']) {
+      await page.getByRole('button', { name: 'Go to…' }).click();
+      await page.locator('.maplibregl-canvas').click({ position: { x: 700, y: 700 } });
+      await height.fill(given);
+      await hold(page, page.getByRole('button', { name: 'Go there' }));
+    }
+    await page.locator('#command summary', { hasText: 'Go to, 35 m' }).waitFor();
+    assert.deepEqual(await page.evaluate(() => window.heights), ['as it is', 35]);
+    assert.equal(await height.inputValue(), '', 'the next place is at its own height again');
   });
 
   test('sends a vehicle to a place by keyboard alone', async ({ open }) => {
@@ -45,7 +75,7 @@ export function addGoToTests(test, row, hold) {
     const goThere = page.getByRole('button', { name: 'Go there' });
     await page.waitForFunction(() => document.activeElement.textContent.includes('Go there'));
     await page.keyboard.down('Enter');
-    await page.locator('#command summary', { hasText: 'Go to, 10 m' }).waitFor();
+    await page.locator('#command summary', { hasText: 'Go to' }).waitFor();
     await page.keyboard.down('Enter'); // as held keys repeat
     await page.keyboard.up('Enter');
     assert.equal(await goThere.count(), 0);

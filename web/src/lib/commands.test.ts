@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { commandedByOthers, commonModes, isStop, requestOf, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
+import { commandedByOthers, commonModes, destinationsOf, headlineOf, isStop, requestOf, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
 import type { Vehicle } from './fleet';
 import type { Command, VehicleFields } from './protocol';
 
@@ -18,11 +18,40 @@ describe('commands', () => {
     const vehicles = states.map((state, index) => ({ vehicle: String(index), state }));
     expect(summaryOf(command({ vehicles }))).toBe('2 of 5 confirmed, 2 failed, 1 under way');
     expect(summaryOf(command({ vehicles: [{ vehicle: '1', state: 'confirmed' }] }))).toBe('1 of 1 confirmed');
+    const flying = (['confirmed', 'under_way', 'cut_short'] as const).map((state, index) => ({ vehicle: String(index), state }));
+    expect(summaryOf(command({ action: 'take_off', vehicles: flying }))).toBe('1 of 3 reached, 1 cut short, 1 under way');
   });
 
   it('have a word and a sign of their own in each state', () => {
-    const all = (['waiting', 'accepted', 'confirmed', 'refused', 'timed_out', 'expired', 'superseded'] as const).map(stateOf);
+    const states = ['waiting', 'accepted', 'under_way', 'confirmed', 'refused', 'timed_out', 'expired', 'superseded', 'cut_short'] as const;
+    const all = states.map((state) => stateOf(state, 'arm'));
     expect(new Set(all.map(({ word }) => word)).size).toBe(all.length);
+    expect(stateOf('confirmed', 'take_off').word).toBe('reached');
+    expect(stateOf('confirmed', 'land').word).toBe('landed');
+  });
+
+  it('tell in one line how far one vehicle is, and of several the sum', () => {
+    const climbing = { vehicle: '1', state: 'under_way' as const, reason: 'at 7 of 20 m', left_m: 13 };
+    const takeOff = command({ action: 'take_off', height_m: 20, vehicles: [climbing] });
+    expect(headlineOf(takeOff)).toMatchObject({ text: 'Take off, 20 m: under way, at 7 of 20 m', level: 'active' });
+    const both = { ...takeOff, vehicles: [climbing, { vehicle: '2', state: 'cut_short' as const, reason: 'emergency stop by anna, at 9 of 20 m' }] };
+    expect(headlineOf(both)).toMatchObject({ text: 'Take off, 20 m: 0 of 2 reached, 1 cut short, 1 under way', level: 'warning' });
+  });
+
+  it('have a destination until the vehicle is there', () => {
+    const place = { lat_deg: 1, lon_deg: 2, alt_m: 0 };
+    const other = { ...place, lon_deg: 3 };
+    const goTo = (number: number, at: typeof place, ...vehicles: Command['vehicles']): Command => command({ number, action: 'go_to', place: at, vehicles });
+    const open = goTo(1, place, { vehicle: '1', state: 'under_way', left_m: 312.4 }, { vehicle: '2', state: 'accepted' }, { vehicle: '3', state: 'under_way', left_m: 2345 });
+    expect(destinationsOf([open])).toEqual([
+      { vehicle: '1', place, left: '312 m' },
+      { vehicle: '2', place, left: 'acknowledged' },
+      { vehicle: '3', place, left: '2.3 km' },
+    ]);
+    const later = goTo(2, other, { vehicle: '1', state: 'waiting' });
+    const cut = goTo(1, place, { vehicle: '1', state: 'cut_short' }, { vehicle: '2', state: 'confirmed' });
+    expect(destinationsOf([cut, later])).toEqual([{ vehicle: '1', place: other, left: 'sent' }]);
+    expect(destinationsOf([command({ action: 'take_off', vehicles: [{ vehicle: '1', state: 'under_way' }] })])).toEqual([]);
   });
 
   it('need no confirmation when they bring a vehicle to rest', () => {

@@ -1,5 +1,6 @@
 import type { Vehicle } from './fleet';
-import type { Action, Command, CommandState, Emergency } from './protocol';
+import { metres } from './format';
+import type { Action, Command, CommandOutcome, CommandState, Emergency, Position } from './protocol';
 import type { Level } from './status';
 
 export const ACTION_WORDS: Record<Action, string> = {
@@ -21,17 +22,27 @@ const STOPS: readonly Action[] = ['hold', 'land', 'rtl', 'disarm', 'pause_missio
 export const isStop = (action: Action): boolean => STOPS.includes(action);
 
 const STATES: Record<CommandState, { word: string; symbol: string; level: Level }> = {
-  waiting: { word: 'waiting', symbol: '…', level: 'active' },
-  accepted: { word: 'accepted', symbol: '✓', level: 'active' },
+  waiting: { word: 'sent', symbol: '…', level: 'active' },
+  accepted: { word: 'acknowledged', symbol: '✓', level: 'active' },
+  under_way: { word: 'under way', symbol: '➤', level: 'active' },
   confirmed: { word: 'confirmed', symbol: '✔', level: 'ready' },
   refused: { word: 'refused', symbol: '✖', level: 'critical' },
   timed_out: { word: 'no effect seen', symbol: '✖', level: 'critical' },
   expired: { word: 'expired', symbol: '⌛', level: 'warning' },
   superseded: { word: 'superseded', symbol: '↷', level: 'lost' },
+  cut_short: { word: 'cut short', symbol: '✂', level: 'warning' },
 };
+/** What is done when it is done, where that takes time. */
+const GOALS: Partial<Record<Action, string>> = { take_off: 'reached', go_to: 'reached', land: 'landed', rtl: 'returned' };
+const doneWord = (action: Action): string => GOALS[action] ?? STATES.confirmed.word;
+
 /** A state that this app does not know is told by its own word. */
-export const stateOf = (state: CommandState): { word: string; symbol: string; level: Level } =>
-  Object.hasOwn(STATES, state) ? STATES[state] : { word: state, symbol: '?', level: 'lost' };
+export function stateOf(state: CommandState, action: Action): { word: string; symbol: string; level: Level } {
+  if (!Object.hasOwn(STATES, state)) return { word: state, symbol: '?', level: 'lost' };
+  return state === 'confirmed' ? { ...STATES.confirmed, word: doneWord(action) } : STATES[state];
+}
+
+const OPEN: readonly CommandState[] = ['waiting', 'accepted', 'under_way'];
 
 /** "Take off, 15 m", "Set mode GUIDED". */
 export function titleOf({ action, height_m, mode }: Command): string {
@@ -41,13 +52,55 @@ export function titleOf({ action, height_m, mode }: Command): string {
 }
 
 /** "3 of 4 confirmed", and what else there is to know. */
-export function summaryOf({ vehicles }: Command): string {
+export function summaryOf({ action, vehicles }: Command): string {
   const count = (...states: CommandState[]): number => vehicles.filter(({ state }) => states.includes(state)).length;
   const failed = count('refused', 'timed_out', 'expired');
-  const open = count('waiting', 'accepted');
-  return [`${count('confirmed')} of ${vehicles.length} confirmed`, failed > 0 && `${failed} failed`, open > 0 && `${open} under way`]
+  const cut = count('cut_short');
+  const open = count(...OPEN);
+  return [
+    `${count('confirmed')} of ${vehicles.length} ${doneWord(action)}`,
+    failed > 0 && `${failed} failed`,
+    cut > 0 && `${cut} cut short`,
+    open > 0 && `${open} under way`,
+  ]
     .filter(Boolean)
     .join(', ');
+}
+
+/** In one line what has become of a command: of one vehicle how far it is, of several the sum. */
+export function headlineOf(command: Command): { text: string; symbol: string; level: Level } {
+  const [only] = command.vehicles;
+  if (only && command.vehicles.length === 1) {
+    const { word, symbol, level } = stateOf(only.state, command.action);
+    return { text: [titleOf(command) + ': ' + word, only.reason].filter(Boolean).join(', '), symbol, level };
+  }
+  const states = command.vehicles.map(({ state }) => state);
+  const worst = (['refused', 'timed_out', 'expired', 'cut_short', 'waiting', 'accepted', 'under_way'] as const).find((state) => states.includes(state));
+  const { symbol, level } = stateOf(worst ?? 'confirmed', command.action);
+  return { text: `${titleOf(command)}: ${summaryOf(command)}`, symbol, level };
+}
+
+/** Where a vehicle is being sent, until it is there or that was cut short. */
+export interface Destination {
+  vehicle: string;
+  place: Position;
+  left: string;
+}
+
+export function destinationsOf(commands: readonly Command[]): Destination[] {
+  const destinations = new Map<string, Destination>();
+  for (const { action, place, vehicles } of commands) {
+    if (action !== 'go_to' || !place) continue;
+    for (const outcome of vehicles) {
+      if (OPEN.includes(outcome.state)) destinations.set(outcome.vehicle, { vehicle: outcome.vehicle, place, left: leftOf(outcome) });
+    }
+  }
+  return [...destinations.values()];
+}
+
+function leftOf({ left_m, state }: CommandOutcome): string {
+  if (left_m === undefined) return state === 'under_way' ? '' : stateOf(state, 'go_to').word;
+  return left_m < 999.5 ? metres(left_m) : `${(left_m / 1000).toFixed(1)} km`;
 }
 
 export function stopSummary({ vehicles }: Emergency): string {

@@ -176,7 +176,7 @@ class Page {
         stopSummary(message);
         break;
       case 'commands':
-        for (const command of message.commands) [titleOf(command), summaryOf(command), command.vehicles.map(({ state }) => stateOf(state).word)];
+        for (const command of message.commands) [titleOf(command), summaryOf(command), command.vehicles.map(({ state }) => stateOf(state, command.action).word)];
         break;
       case 'alarms':
         groupAlarms(knownAlarms(message.alarms, 1000), (id) => id);
@@ -214,7 +214,7 @@ it('lists scripts by name, each once', () => {
 });
 
 it('shows a state of a command by its own word when it does not know it', () => {
-  for (const state of ['levitating', 'constructor']) expect(stateOf(state as never).word).toBe(state);
+  for (const state of ['levitating', 'constructor']) expect(stateOf(state as never, 'arm').word).toBe(state);
 });
 
 it('never breaks the page, nor shows what is no number, whatever the station sends', { timeout: 60_000 }, () => {

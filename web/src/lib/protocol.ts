@@ -30,14 +30,15 @@ export interface Battery {
   voltage_v?: number;
   current_a?: number;
   consumed_ah?: number;
+  /** At what the vehicle does now. */
   time_left_s?: number;
   time_left_is_estimate?: boolean;
-}
   /** Of an estimate, to either side. */
   time_left_error_s?: number;
   /** What is left would last so long in flight, by this flight or the last one. */
   in_flight_s?: number;
   in_flight_error_s?: number;
+}
 
 /** What else is aboard; its age is that of the key component_ID. */
 export interface Component {
@@ -170,7 +171,7 @@ export interface CommandDetails {
   mode?: string;
 }
 
-export type CommandState = 'waiting' | 'accepted' | 'confirmed' | 'refused' | 'timed_out' | 'expired' | 'superseded';
+export type CommandState = 'waiting' | 'accepted' | 'under_way' | 'confirmed' | 'refused' | 'timed_out' | 'expired' | 'superseded' | 'cut_short';
 
 export interface Command {
   number: number;
@@ -180,7 +181,16 @@ export interface Command {
   height_m?: number;
   place?: Position;
   mode?: string;
-  vehicles: { vehicle: string; state: CommandState; reason?: string }[];
+  vehicles: CommandOutcome[];
+}
+
+/** What one vehicle made of a command. */
+export interface CommandOutcome {
+  vehicle: string;
+  state: CommandState;
+  reason?: string;
+  /** To go or to climb, while it is under way. */
+  left_m?: number;
 }
 
 export type StopAction = 'hold' | 'land' | 'rtl' | 'terminate';

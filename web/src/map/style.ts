@@ -22,6 +22,7 @@ export function mapStyle(colours: MapColours, tiles: string): StyleSpecification
       plans: { type: 'geojson', data: EMPTY },
       trails: { type: 'geojson', data: EMPTY, tolerance: 0.1 },
       pictures: { type: 'geojson', data: EMPTY },
+      destinations: { type: 'geojson', data: EMPTY },
       ...(tiles && { tiles: { type: 'raster', tiles: [tiles], tileSize: 256, maxzoom: 19 } }),
     },
     layers: [
@@ -30,6 +31,7 @@ export function mapStyle(colours: MapColours, tiles: string): StyleSpecification
       ...gridLayers(colours, tiles !== ''),
       ...pathLayers(),
       pictureLayer(colours),
+      ...destinationLayers(colours),
     ],
   };
 }
@@ -89,6 +91,16 @@ function pathLayers(): LayerSpecification[] {
       layout: round,
       paint: { 'line-color': colour, 'line-width': 3, 'line-opacity': 0.55 },
     },
+  ];
+}
+
+/** From a vehicle to where it was sent: cased, to be seen on any ground. */
+function destinationLayers(colours: MapColours): LayerSpecification[] {
+  const colour = ['get', 'colour'] as unknown as string;
+  const line = { type: 'line', source: 'destinations', layout: { 'line-cap': 'round' } } as const;
+  return [
+    { id: 'destination-casings', ...line, paint: { 'line-color': colours.ground, 'line-width': 5, 'line-opacity': 0.8 } },
+    { id: 'destinations', ...line, paint: { 'line-color': colour, 'line-width': 2.4 } },
   ];
 }
 
