@@ -112,7 +112,10 @@ const BATTERY: Shape<Battery> = {
   current_a: number(-10_000, 10_000),
   consumed_ah: number(0, 1e6),
   time_left_s: seconds,
+  time_left_error_s: seconds,
   time_left_is_estimate: flag,
+  in_flight_s: seconds,
+  in_flight_error_s: seconds,
 };
 const battery = object(BATTERY, ['remaining']);
 
@@ -242,7 +245,7 @@ const logLine = object<LogLine>(
   ['seq', 'time', 'level', 'source', 'text'],
 );
 
-const outcome = object<Command['vehicles'][number]>({ vehicle: text, state: text as Parse<never>, reason: text }, ['vehicle', 'state']);
+const outcome = object<Command['vehicles'][number]>({ vehicle: text, state: text as Parse<never>, reason: text, left_m: metres }, ['vehicle', 'state']);
 const command = object<Command>(
   {
     number: count,
