@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { commandedByOthers, commonModes, destinationsOf, headlineOf, isStop, requestOf, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
+import { commandedByOthers, commonModes, destinationsOf, headlineOf, isStop, latestFor, requestOf, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
 import type { Vehicle } from './fleet';
 import type { Command, VehicleFields } from './protocol';
 
@@ -36,6 +36,14 @@ describe('commands', () => {
     expect(headlineOf(takeOff)).toMatchObject({ text: 'Take off, 20 m: under way, at 7 of 20 m', level: 'active' });
     const both = { ...takeOff, vehicles: [climbing, { vehicle: '2', state: 'cut_short' as const, reason: 'emergency stop by anna, at 9 of 20 m' }] };
     expect(headlineOf(both)).toMatchObject({ text: 'Take off, 20 m: 0 of 2 reached, 1 cut short, 1 under way', level: 'warning' });
+  });
+
+  it('concern those that are selected, whatever others were told since', () => {
+    const land = command({ number: 1, action: 'land', vehicles: [{ vehicle: '1', state: 'under_way' }, { vehicle: '2', state: 'refused' }] });
+    const arm = command({ number: 2, vehicles: [{ vehicle: '3', state: 'confirmed' }] });
+    expect(latestFor([land, arm], ['1'])).toEqual({ ...land, vehicles: [{ vehicle: '1', state: 'under_way' }] });
+    expect(latestFor([land, arm], ['1', '3'])?.number).toBe(2);
+    expect(latestFor([land, arm], ['9'])).toBeUndefined();
   });
 
   it('have a destination until the vehicle is there', () => {

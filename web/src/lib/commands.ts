@@ -67,6 +67,15 @@ export function summaryOf({ action, vehicles }: Command): string {
     .join(', ');
 }
 
+/** The latest command that concerns some of the vehicles, with what these made of it. */
+export function latestFor(commands: readonly Command[], ids: readonly string[]): Command | undefined {
+  for (const command of [...commands].reverse()) {
+    const vehicles = command.vehicles.filter(({ vehicle }) => ids.includes(vehicle));
+    if (vehicles.length > 0) return { ...command, vehicles };
+  }
+  return undefined;
+}
+
 /** In one line what has become of a command: of one vehicle how far it is, of several the sum. */
 export function headlineOf(command: Command): { text: string; symbol: string; level: Level } {
   const [only] = command.vehicles;
