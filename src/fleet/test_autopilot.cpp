@@ -77,8 +77,36 @@ bool TestAutopilot::has_position() const {
 
 geo::Wgs84 TestAutopilot::position() const {
   if (place) return *place;
-  // Ten metres north for every item, so that it travels.
-  return geo::displaced(home, {.north = 10.0 * current_item, .east = 0.0, .down = is_flying ? -20.0 : 0.0});
+  constexpr double flying_height_m = 20.0;
+  return {at_.lat_rad, at_.lon_rad, home.alt_m + (is_flying ? flying_height_m : 0.0)};
+}
+
+void TestAutopilot::begin_item() {
+  constexpr double top_speed_m_s = 40.0;
+  leg_from_ = at_;
+  item_began_ = loop_.now();
+  auto time = options_.item_time;
+  if (current_item < mission.size() && mavlink::has_place(mission[current_item].command)) {
+    auto const& there = mission[current_item].place;
+    double const far_m = geo::surface_distance_m(at_, {there.lat_rad, there.lon_rad, 0.0});
+    time = std::max<base::Duration>(time, base::from_seconds(far_m / top_speed_m_s));
+  }
+  item_ends_ = item_began_ + time;
+}
+
+void TestAutopilot::jump_to(std::uint16_t item) {
+  current_item = item;
+  begin_item();
+}
+
+void TestAutopilot::travel() {
+  if (!is_running_mission_ || is_stuck || current_item >= mission.size()) return;
+  auto const& there = mission[current_item].place;
+  if (!mavlink::has_place(mission[current_item].command)) return;
+  double const whole_s = base::to_seconds(item_ends_ - item_began_);
+  double const share = std::clamp(base::to_seconds(loop_.now() - item_began_) / whole_s, 0.0, 1.0);
+  at_.lat_rad = leg_from_.lat_rad + share * (there.lat_rad - leg_from_.lat_rad);
+  at_.lon_rad = leg_from_.lon_rad + share * (there.lon_rad - leg_from_.lon_rad);
 }
 
 void TestAutopilot::change_mode(std::uint32_t wanted) {
@@ -87,7 +115,7 @@ void TestAutopilot::change_mode(std::uint32_t wanted) {
   if (is_automatic() && is_armed && (is_flying || !is_copter())) {
     is_running_mission_ = true;
     is_complete_ = false;
-    item_ends_ = loop_.now() + options_.item_time;
+    begin_item();
   }
   if (is_copter() && mode == copter_mode::land) is_flying = false;
   if (mode != copter_mode::guided) climbs_to_m_.reset(), goal.reset();
@@ -154,7 +182,14 @@ void TestAutopilot::take(mavlink::Frame const& frame) {
 
 void TestAutopilot::obey(MavCmd command, std::array<float, 7> const& params, mavlink::Address from) {
   if (ignored_commands.contains(command)) return;
-  auto const result = refused_commands.contains(command) ? MavResult::failed : execute(command, params);
+  auto result = MavResult::temporarily_rejected;
+  if (refused_commands.contains(command)) {
+    result = MavResult::failed;
+  } else if (times_busy == 0 || command == MavCmd::set_message_interval) {
+    result = execute(command, params);
+  } else {
+    --times_busy;
+  }
   send(mavlink::CommandAck{.target = from, .command = command, .result = result, .progress = std::nullopt});
 }
 
@@ -312,8 +347,10 @@ base::Task<> TestAutopilot::live() {
       upload_->is_asking = true;
       upload_->next_request = loop_.now() + request_again;
     }
+    travel();
     advance_mission();
-    if (is_copter() && is_armed && !is_flying && loop_.now() - armed_at_ >= disarm_delay) disarm();
+    bool const idles = is_copter() && is_armed && !is_flying && !keeps_armed;
+    if (idles && loop_.now() - armed_at_ >= disarm_delay) disarm();
   }
 }
 
@@ -361,7 +398,7 @@ void TestAutopilot::send_message(MessageId id) {
   auto const since_boot = loop_.now() - booted_;
   switch (id) {
     case MessageId::global_position_int: {
-      auto const here = has_position() ? position() : geo::Wgs84{};
+      auto const here = has_position() ? false_position.value_or(position()) : geo::Wgs84{};
       return send(mavlink::GlobalPosition{.since_boot = since_boot,
                                           .position = here,
                                           .relative_alt_m = height_m,
@@ -414,7 +451,7 @@ void TestAutopilot::send_message(MessageId id) {
 }
 
 void TestAutopilot::advance_mission() {
-  if (!is_running_mission_ || loop_.now() < item_ends_) return;
+  if (!is_running_mission_ || is_stuck || loop_.now() < item_ends_) return;
   if (current_item < mission.size() && mission[current_item].command == MavCmd::nav_loiter_unlim) return;
   finish_item();
 }
@@ -423,10 +460,9 @@ void TestAutopilot::finish_item() {
   auto const done = current_item;
   send(mavlink::MissionItemReached{.seq = done});
   bool const lands = done < mission.size() && mission[done].command == MavCmd::nav_land;
-  item_ends_ = loop_.now() + options_.item_time;
   if (done + 1 < static_cast<int>(mission.size())) {
     ++current_item;
-    return;
+    return begin_item();
   }
   is_running_mission_ = false;
   is_complete_ = true;

@@ -35,8 +35,8 @@ inline constexpr std::uint32_t loiter = 12;
 }  // namespace plane_mode
 
 /// A scripted autopilot on the far end of a link, for tests: answers as ArduPilot does, misbehaves when told to. It has
-/// hardly any physics: every mission item takes `item_time`, LAND puts it on the ground, it climbs at 5 m/s and goes
-/// places at 10 m/s.
+/// hardly any physics: every mission item takes `item_time`, or longer where its place is far, and it moves there
+/// evenly; LAND puts it on the ground and disarms it. By hand it climbs at 5 m/s and goes places at 10 m/s.
 class TestAutopilot {
  public:
   struct Options {
@@ -69,6 +69,10 @@ class TestAutopilot {
   std::optional<double> battery = 0.8;
   bool ends_in_rtl = false;  ///< as ArduPlane does after its last item
   bool reports_complete = true;
+  bool is_stuck = false;                     ///< carries its item out for ever and moves no more
+  bool keeps_armed = false;                  ///< on the ground, too
+  std::optional<geo::Wgs84> false_position;  ///< which it tells instead of its own
+  int times_busy = 0;                        ///< so many commands are answered "temporarily rejected"
 
   bool climbs = true;         ///< when told to take off; else its height stays where it is
   bool moves = true;          ///< when told to go to a place
@@ -77,6 +81,8 @@ class TestAutopilot {
   // ---- what tests do to it ----
   void change_mode(std::uint32_t mode);
   void disarm();
+  /// What another ground station can do: go on with that item.
+  void jump_to(std::uint16_t item);
   /// Back on another link, disarmed, in its first mode, without its message rates.
   void reboot(std::unique_ptr<link::ByteLink> link);
   void say(mavlink::MavSeverity severity, std::string text);
@@ -104,6 +110,7 @@ class TestAutopilot {
     return found == intervals_.end() ? std::nullopt : std::optional(found->second.interval);
   }
   [[nodiscard]] bool was_upload_cancelled() const { return upload_cancelled_; }
+  /// Where it is.
   [[nodiscard]] geo::Wgs84 position() const;
 
   static constexpr geo::Wgs84 home = geo::Wgs84::from_degrees(40.0, -8.0, 100.0);
@@ -136,6 +143,8 @@ class TestAutopilot {
   void send_due_telemetry();
   void send_message(mavlink::MessageId id);
   void advance_mission();
+  void begin_item();
+  void travel();
   void finish_item();
   base::Task<> live();
   [[nodiscard]] bool is_automatic() const;
@@ -151,9 +160,12 @@ class TestAutopilot {
   base::TimePoint booted_{};
   base::TimePoint next_beat_{};
   base::TimePoint armed_at_{};
+  base::TimePoint item_began_{};
   base::TimePoint item_ends_{};
   base::TimePoint next_target_{};
   std::optional<double> climbs_to_m_;
+  geo::Wgs84 leg_from_ = home;
+  geo::Wgs84 at_ = home;  ///< but for its height
   bool is_running_mission_ = false;
   bool is_complete_ = false;
   bool upload_cancelled_ = false;

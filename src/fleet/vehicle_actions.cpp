@@ -54,10 +54,14 @@ Task<bool> wait_for(Craft& craft, std::function<bool()> condition, Duration time
   return craft.changed.wait_for(std::move(condition), timeout);
 }
 
+/// A text of the autopilot itself that explains something that happened at or after `since`.
+bool explains(vehicle::StatusText const& text, TimePoint since) {
+  return text.heard >= since && text.severity <= warning && text.component == mavlink::autopilot_component;
+}
+
 Task<> wait_for_reason(Craft& craft, TimePoint since) {
   std::function<bool()> given = [&craft, since] {
-    auto const& texts = craft.state.recent_texts;
-    return !texts.empty() && texts.back().heard >= since && texts.back().severity <= warning;
+    return std::ranges::any_of(craft.state.recent_texts, [since](auto const& text) { return explains(text, since); });
   };
   (void)co_await wait_for(craft, std::move(given), reason_wait);
 }
@@ -176,10 +180,16 @@ std::string mode_name(Craft const& craft, std::uint32_t custom_mode) {
 }
 
 std::string given_reason(Craft const& craft, TimePoint since) {
-  auto const newest_first = std::views::reverse(craft.state.recent_texts);
-  for (auto const& text : newest_first)
-    if (text.heard >= since && text.severity <= warning) return text.text;
-  for (auto const& text : newest_first)
+  // The cause comes first ("Auto: Missing Takeoff Cmd"), what came of it last ("Mode change to AUTO failed: init
+  // failed"). Where the link has lost the cause, the rest is better than nothing.
+  auto const& texts = craft.state.recent_texts;
+  auto const is_cause = [since](auto const& text) {
+    return explains(text, since) && !text.text.starts_with("Mode change to");
+  };
+  if (auto const cause = std::ranges::find_if(texts, is_cause); cause != texts.end()) return cause->text;
+  auto const explained = std::ranges::find_if(texts, [since](auto const& text) { return explains(text, since); });
+  if (explained != texts.end()) return explained->text;
+  for (auto const& text : std::views::reverse(texts))
     if (text.heard + prearm_repeats >= since && text.text.starts_with("PreArm")) return text.text;
   return {};
 }
@@ -216,16 +226,32 @@ Task<Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeCh
   co_return explained(what, asked.error(), given_reason(craft, since));
 }
 
+namespace {
+
+bool knows_its_place(Craft const& craft) {
+  auto const& health = craft.state.health.value;
+  bool const estimated = health && health->position_ok;
+  return craft.state.position.known() && (estimated || craft.state.autopilot == vehicle::Autopilot::other);
+}
+
+std::string_view missing_for_place(Craft const& craft) {
+  return !craft.fix || *craft.fix < mavlink::GpsFix::fix_3d ? "no GPS fix" : "no position estimate";
+}
+
+}  // namespace
+
+std::string why_not_ready(Craft const& craft) {
+  std::string what;
+  if (!knows_its_place(craft)) what = missing_for_place(craft);
+  for (auto const& objection : craft.state.arming_reasons) what += (what.empty() ? "" : "; ") + objection.text;
+  return what;
+}
+
 Task<Result<>> wait_until_ready(Craft& craft, base::Loop& loop, Duration patience) {
   auto const since = loop.now();
-  std::function<bool()> knows_its_place = [&craft] {
-    auto const& health = craft.state.health.value;
-    bool const estimated = health && health->position_ok;
-    return craft.state.position.known() && (estimated || craft.state.autopilot == vehicle::Autopilot::other);
-  };
-  if (!co_await wait_for(craft, knows_its_place, patience)) {
-    std::string_view const missing =
-        !craft.fix || *craft.fix < mavlink::GpsFix::fix_3d ? "no GPS fix" : "no position estimate";
+  std::function<bool()> is_placed = [&craft] { return knows_its_place(craft); };
+  if (!co_await wait_for(craft, std::move(is_placed), patience)) {
+    auto const missing = missing_for_place(craft);
     auto const what = fmt::format("not ready after {:.0f} s, {}", base::to_seconds(patience), missing);
     co_return fail(ErrorKind::timed_out, with_reason(what, given_reason(craft, since)));
   }
@@ -258,11 +284,18 @@ Task<Result<>> arm(mavlink::Connection& connection, Craft& craft, ActionOptions 
 Task<Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft, ActionOptions how) {
   constexpr int attempts = 3;  // a lossy link can eat up the seconds between arming and the start
   ActionOptions const first{.not_after = how.not_after};
+  bool const was_armed = craft.is_armed;
   Result<> entered;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (auto armed = co_await arm(connection, craft, first); !armed) co_return armed;
     entered = co_await enter_mission(connection, craft, how);
     if (entered || craft.is_armed) break;
+  }
+  // Motors that run for nothing. In the air, where it may be all the same, the autopilot refuses.
+  if (!entered && !was_armed && craft.is_armed) {
+    ActionOptions const at_once{.is_urgent = true};
+    auto const disarmed = co_await disarm(connection, craft, at_once);
+    if (!disarmed) entered.error().message += fmt::format("; it is still armed: {}", disarmed.error().message);
   }
   co_return entered;
 }

@@ -29,8 +29,8 @@ enum class OnStop {
 [[nodiscard]] bool in_mission_mode(Craft const& craft);
 /// Name of a mode of this vehicle.
 [[nodiscard]] std::string mode_name(Craft const& craft, std::uint32_t custom_mode);
-/// What the vehicle last gave as a reason, at or after `since`; its standing arming objection ("PreArm: ...")
-/// otherwise; or empty.
+/// The first reason that the vehicle gave at or after `since`; its standing arming objection ("PreArm: ...") otherwise;
+/// or empty.
 [[nodiscard]] std::string given_reason(Craft const& craft, base::TimePoint since);
 
 /// How a command of this page is sent.
@@ -50,6 +50,10 @@ struct ModeChange {
 /// Commands the mode until a heartbeat shows it. Errors: refused (at once), timed_out, those of Connection::send.
 base::Task<base::Result<>> change_mode(mavlink::Connection& connection, Craft& craft, ModeChange change);
 
+/// What it lacks to begin a mission, and what it has against arming: "no position estimate; PreArm: Need Position
+/// Estimate". Empty when nothing is missing.
+[[nodiscard]] std::string why_not_ready(Craft const& craft);
+
 /// Waits until the vehicle knows where it is and, for a few seconds more, until it has no objection to arming.
 /// Error: timed_out, with what is missing.
 base::Task<base::Result<>> wait_until_ready(Craft& craft, base::Loop& loop, base::Duration patience);
@@ -60,7 +64,8 @@ base::Task<base::Result<>> leave_mission(mavlink::Connection& connection, Craft&
 /// Arms, in a mode that allows it, until a heartbeat shows it.
 base::Task<base::Result<>> arm(mavlink::Connection& connection, Craft& craft, ActionOptions how);
 
-/// Arms and begins the mission it holds within the time in which an autopilot disarms again by itself.
+/// Arms and begins the mission it holds within the time in which an autopilot disarms again by itself. When it does not
+/// begin, what was armed for it is disarmed.
 base::Task<base::Result<>> arm_and_start(mavlink::Connection& connection, Craft& craft, ActionOptions how);
 
 /// Takes back an arming, until a heartbeat shows it. An autopilot in the air refuses it.
