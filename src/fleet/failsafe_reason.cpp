@@ -29,11 +29,15 @@ bool tells_failsafe(std::string_view text) {
   return has(text, "ailsafe") || fence || battery;
 }
 
-std::string recent_failsafe(vehicle::VehicleState const& state, base::TimePoint now) {
+std::string recent_failsafe(vehicle::VehicleState const& state, base::TimePoint now,
+                            std::optional<base::TimePoint> fence_breached) {
   for (auto const& text : std::views::reverse(state.recent_texts))
     if (text.heard + is_recent >= now && tells_failsafe(text.text)) return text.text;
   auto const& fence = state.fence;
-  if (!fence.value || !fence.value->is_breached || fence.heard + is_recent < now) return {};
+  if (!fence.value) return {};
+  bool const is_breached = fence.value->is_breached && fence.heard + is_recent >= now;
+  bool const was_breached = fence_breached && *fence_breached + is_recent >= now;
+  if (!is_breached && !was_breached) return {};
   return fence.value->type.empty() ? "fence breached" : fmt::format("fence breached: {}", fence.value->type);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,7 +13,8 @@ namespace lapwing::fleet {
 [[nodiscard]] bool tells_failsafe(std::string_view text);
 
 /// Why the vehicle may have changed its mode by itself just now, in its own words; what FENCE_STATUS tells where it has
-/// none (ArduRover). Empty when it told of nothing.
-[[nodiscard]] std::string recent_failsafe(vehicle::VehicleState const& state, base::TimePoint now);
+/// none (ArduRover). `fence_breached`: when the last new breach was heard of. Empty when it told of nothing.
+[[nodiscard]] std::string recent_failsafe(vehicle::VehicleState const& state, base::TimePoint now,
+                                          std::optional<base::TimePoint> fence_breached = std::nullopt);
 
 }  // namespace lapwing::fleet

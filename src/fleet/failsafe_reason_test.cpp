@@ -47,6 +47,7 @@ TEST(RecentFailsafe, IsToldByTheFenceWhereAVehicleHasNoWords) {
   EXPECT_EQ(recent_failsafe(state, at(30s)), "") << "too old to be the reason";
   state.fence.set({.is_breached = false, .breaches = 1}, at(30s));
   EXPECT_EQ(recent_failsafe(state, at(31s)), "");
+  EXPECT_EQ(recent_failsafe(state, at(31s), at(30s)), "fence breached") << "over already, and counted";
 }
 
 }  // namespace

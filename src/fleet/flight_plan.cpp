@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
+
+#include "fleet/mission/legs.hpp"
 
 namespace lapwing::fleet {
 
 using mavlink::MavCmd;
 
 namespace {
-
-constexpr int last_nav_command = 95;  // MAV_CMD_NAV_LAST: higher ones are done on the way
-
-bool is_nav(MavCmd command) {
-  return std::to_underlying(command) <= last_nav_command;
-}
 
 MissionEnding ending_of(MavCmd command) {
   switch (command) {
@@ -39,7 +34,7 @@ MissionShape shape_of(std::span<mavlink::MissionItem const> items) {
   MissionShape shape{.last_nav_seq = static_cast<int>(items.size()) - 1, .ending = MissionEnding::never};
   for (auto item = items.rbegin(); item != items.rend(); ++item) {
     if (item->command == MavCmd::do_jump) return shape;  // the last place is reached more than once
-    if (!is_nav(item->command)) continue;
+    if (!is_navigation(item->command)) continue;
     shape.last_nav_seq = item->seq;
     shape.ending = ending_of(item->command);
     return shape;
@@ -53,10 +48,13 @@ FlightPlan flight_plan(plan::Mission const& mission, vehicle::VehicleState const
   FlightPlan flight;
   flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.home.value, vehicle.family);
   flight.first_seq = static_cast<std::uint16_t>(flight.items.size() - mission.items.size());
-  flight.shape = shape_of(reachable(flight.items, vehicle));
+  auto const flown = reachable(flight.items, vehicle);
+  flight.shape = shape_of(flown);
+  flight.places = planned_places(flown, flight.first_seq, vehicle.autopilot, vehicle.family);
   auto const home = mission.home ? mission.home : vehicle.home.value;
+  flight.home = home;
   for (auto const& item : mission.items) {
-    if (!plan::has_position(item) || !is_nav(item.command)) continue;
+    if (!plan::has_position(item) || !is_navigation(item.command)) continue;
     auto const here = flight.path.empty() ? home : flight.path.back();
     flight.path.push_back(plan::place_of(item, here, home ? home->alt_m : 0.0));
   }

@@ -118,6 +118,31 @@ TEST(MissionEnd, AwaitsTheNewsOfTheEndThatABadLinkMayHaveLost) {
   EXPECT_EQ(judge(survey, sight).reason, "mode changed to HOLD by operator");
 }
 
+TEST(MissionEnd, AwaitsTheReasonThatFollowsAChangeOfMode) {
+  auto sight = flying(3);
+  sight.mode_is_auto = false;
+  sight.mode_is_return = true;
+  sight.mode = "RTL";
+  sight.mode_for = 200ms;
+  sight.reason_wait = 600ms;
+  EXPECT_EQ(judge(survey, sight).kind, Kind::running);
+  sight.failsafe = "Fence Breached";
+  EXPECT_EQ(judge(survey, sight).reason, "mode changed to RTL by the vehicle: Fence Breached");
+  sight.failsafe = {};
+  sight.mode_for = 700ms;
+  EXPECT_EQ(judge(survey, sight).reason, "mode changed to RTL by operator");
+}
+
+TEST(MissionEnd, IsNoLandingWhenTheMotorsGoOffInTheAir) {
+  auto sight = flying(5);
+  sight.armed = false;
+  sight.sinks = true;
+  sight.reports_complete = true;  // ArduPilot says so then
+  EXPECT_EQ(judge(home_and_land, sight).kind, Kind::running);
+  sight.fell = true;
+  EXPECT_EQ(judge(home_and_land, sight).reason, "its motors went off in the air, and it fell");
+}
+
 TEST(MissionEnd, BlamesNobodyForAModeThatChangedWithTheDisarming) {
   auto sight = flying(3);
   sight.mode_is_auto = false;

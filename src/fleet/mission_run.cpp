@@ -1,14 +1,12 @@
 #include "fleet/mission_run.hpp"
 
-#include <algorithm>
 #include <functional>
 
 #include <fmt/format.h>
 
-#include "fleet/failsafe_reason.hpp"
 #include "fleet/flight_plan.hpp"
+#include "fleet/mission/flight_watch.hpp"
 #include "mavlink/command.hpp"
-#include "mavlink/modes.hpp"
 #include "mavlink/plan_replacement.hpp"
 #include "plan/capabilities.hpp"
 
@@ -23,8 +21,6 @@ using base::TimePoint;
 
 namespace {
 
-// A heartbeat that was overtaken by the one that showed the mission mode still names the mode before.
-constexpr base::Duration mode_settles = 2s;
 constexpr mavlink::TransferOptions transfer{.tries = 12};
 // For a link that loses a third of its packets: one in a thousand fails.
 constexpr mavlink::CommandOptions patient{.tries = 12, .ack_timeout = 1s, .expiry = 15s};
@@ -126,38 +122,18 @@ Task<Result<>> start(RunContext context, plan::Mission const& mission, FlightPla
   co_return Result<>{};
 }
 
-MissionSight look(Craft const& craft, TimePoint started, TimePoint now) {
-  auto const& trace = craft.trace;
-  auto const return_mode = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::rtl);
-  return {.since_start = now - started,
-          .mode_is_auto = in_mission_mode(craft),
-          .mode_is_return = craft.custom_mode == return_mode,
-          .mode = mode_name(craft, craft.custom_mode),
-          .mode_for = now - craft.mode_changed,
-          .armed = craft.is_armed,
-          .disarmed_for = craft.is_armed ? base::Duration{} : now - craft.armed_changed,
-          .was_active = trace.was_active,
-          .reports_complete = trace.reports_complete,
-          .current_seq = trace.current_seq,
-          .reached_seq = trace.reached_seq,
-          .on_ground_for = trace.on_ground_for(),
-          .failsafe = recent_failsafe(craft.state, now)};
-}
-
 /// Phases 6 and 7.
-Task<Result<>> follow(RunContext context, FlightPlan const& plan, RunRecord& record) {
+Task<Result<>> follow(RunContext context, FlightPlan const& plan, RunRecord& record, FlightWatch& watch) {
   auto& craft = context.craft;
   auto& loop = context.connection.loop();
-  auto const started = loop.now();
+  watch.begin();
   while (true) {
-    auto const sight = look(craft, started, loop.now());
-    record.progress = fmt::format("item {}/{}", sight.current_seq.value_or(plan.first_seq), plan.last_seq());
-    bool const still_settling = !sight.mode_is_auto && sight.since_start < mode_settles;
-    MissionVerdict verdict;
-    if (!still_settling) verdict = judge(plan.shape, sight);
+    record.progress = fmt::format("item {}/{}", craft.trace.current_seq.value_or(plan.first_seq), plan.last_seq());
+    auto verdict = watch.look();
     if (verdict.kind == MissionVerdict::Kind::done) co_return Result<>{};
-    if (verdict.kind == MissionVerdict::Kind::failed) co_return fail(ErrorKind::refused, verdict.reason);
-    co_await craft.changed.wait_until(loop.now() + 1s);
+    record.aftermath = verdict.aftermath;
+    if (verdict.kind == MissionVerdict::Kind::failed) co_return fail(ErrorKind::refused, std::move(verdict.reason));
+    co_await craft.changed.wait_until(loop.now() + 500ms);
   }
 }
 
@@ -207,9 +183,10 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   craft.holds_parts = false;
   craft.state.planned_path = plan.path;
 
+  FlightWatch watch(context.connection, craft, plan, record.upload.held.opaque_id, context.log);
   auto started = co_await start(context, mission, plan, record);
   if (!started) co_return started;
-  co_return co_await follow(context, plan, record);
+  co_return co_await follow(context, plan, record, watch);
 }
 
 }  // namespace lapwing::fleet

@@ -6,6 +6,7 @@
 #include "base/log.hpp"
 #include "base/task.hpp"
 #include "fleet/craft.hpp"
+#include "fleet/mission_end.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "mavlink/connection.hpp"
 #include "mavlink/plan_replacement.hpp"
@@ -27,10 +28,11 @@ struct RunRecord {
   std::optional<plan::Flown> flown;
 
   // What a stop has to undo.
-  mavlink::Replacement upload;  ///< of the plan that the vehicle held
-  bool may_have_armed = false;  ///< it was disarmed before
-  bool has_begun = false;       ///< a heartbeat has confirmed the mission mode
-  bool took_over = false;       ///< when it was started, the vehicle flew another mission of ours
+  mavlink::Replacement upload;            ///< of the plan that the vehicle held
+  bool may_have_armed = false;            ///< it was disarmed before
+  bool has_begun = false;                 ///< a heartbeat has confirmed the mission mode
+  Aftermath aftermath = Aftermath::none;  ///< when it failed after it had begun
+  bool took_over = false;                 ///< when it was started, the vehicle flew another mission of ours
 
   // Where `flown` counts from.
   base::TimePoint begun{};

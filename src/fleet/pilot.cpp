@@ -64,8 +64,10 @@ Task<> Pilot::fly(plan::Mission mission) {
   }
   run->vehicle_failed = flown.error().kind == base::ErrorKind::lost;
   end(Outcome::failed, flown.error().message);
-  // A run that got as far as the mission mode and failed was taken over or ended by the vehicle: leave it alone then.
-  if (!run->has_begun) begin_rest(context_.options.on_stop);
+  // A run that got as far as the mission mode and failed was mostly taken over or ended by the vehicle, which is left
+  // alone then.
+  if (run->has_begun && run->aftermath == Aftermath::none) co_return;
+  begin_rest(run->aftermath == Aftermath::hold ? OnStop::loiter : context_.options.on_stop);
 }
 
 /// Ends the run when the vehicle can no longer be flown, whatever the flight is waiting for.
