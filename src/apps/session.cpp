@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/console.hpp"
 #include "apps/files.hpp"
@@ -66,6 +67,7 @@ Session::Session(Options const& options)
           loop, platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
       on_stop_(options.on_stop),
+      interrupted_(loop),
       events_(options.events) {
   hub.add_sink(terminal_sink(options.log_level));
   control.set_on_latched([this](std::string const& reason) { host.halt_for_operator(reason); });
@@ -156,7 +158,10 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
 }
 
 void Session::run_to_end(std::optional<base::Duration> timeout) {
-  StopSignals const signals(loop, [this] { host.stop("an interrupt"); });
+  StopSignals const signals(loop, [this] {
+    host.stop("an interrupt");
+    interrupted_.notify_all();
+  });
   auto const stall = host.halt_when_time_stands_still();
   loop.run_until_done(finish(timeout));
 }
@@ -164,8 +169,46 @@ void Session::run_to_end(std::optional<base::Duration> timeout) {
 base::Task<> Session::finish(std::optional<base::Duration> timeout) {
   base::Scope scope(loop);
   if (timeout) scope.spawn(host.halt_after(*timeout));
+  scope.spawn(tell_while_interrupted());
+  scope.spawn(tell_while_nobody_is_heard());
   co_await host.ended();
+  bool const is_alone = ground.registry.all().empty();
+  bool const is_done = host.outcome() && host.outcome()->kind == dolphin::Outcome::Kind::done;
+  if (is_alone && !is_done) log.error(fmt::format("no vehicle was heard on {}", links_text()));
   co_await platform.make_safe(on_stop_);
+}
+
+std::string Session::links_text() const {
+  std::string text;
+  for (auto const& link : ground.link_reports())
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", link.name,
+                        link.last_error.empty() ? "" : fmt::format(" ({})", link.last_error));
+  return text;
+}
+
+base::Task<> Session::tell_while_nobody_is_heard() {
+  using namespace std::chrono_literals;
+  auto const since = loop.now();
+  for (base::Duration wait = 3s;; wait = 10s) {
+    co_await loop.sleep(wait);
+    if (!ground.registry.all().empty()) co_return;
+    log.info(
+        fmt::format("no vehicle heard yet for {:.0f} s on {}", base::to_seconds(loop.now() - since), links_text()));
+  }
+}
+
+/// A vehicle that is out of reach cannot be stopped; whoever waits for it learns what else he can do.
+base::Task<> Session::tell_while_interrupted() {
+  using namespace std::chrono_literals;
+  co_await interrupted_.wait();
+  for (base::Duration wait = 3s;; wait = 10s) {
+    co_await loop.sleep(wait);
+    auto const names = platform.unsettled();
+    if (names.empty()) continue;
+    log.warn(fmt::format("still waiting for {} to stop; Ctrl-C again ends at once: {} then what {} told last",
+                         fmt::join(names, ", "), names.size() == 1 ? "it does" : "they do",
+                         names.size() == 1 ? "it was" : "they were"));
+  }
 }
 
 void Session::note(tasks::TaskEvent const& event) {

@@ -85,9 +85,13 @@ class Session {
 
  private:
   base::Task<> finish(std::optional<base::Duration> timeout);
+  base::Task<> tell_while_interrupted();
+  base::Task<> tell_while_nobody_is_heard();
+  [[nodiscard]] std::string links_text() const;
   void note(tasks::TaskEvent const& event);
 
   fleet::OnStop on_stop_;
+  base::Notifier interrupted_;  ///< by Ctrl-C
   EventFile const* events_;
   std::string record_folder_;
 };

@@ -136,6 +136,48 @@ TEST_F(MissionStop, HoldsARover) {
   EXPECT_EQ(rover.mode, rover_mode::hold);
 }
 
+struct RoverAtTheEnd : MissionStop {
+  RoverAtTheEnd() { world->run_for(5s); }
+  std::unique_ptr<tasks::TaskRun> drive() {
+    auto mission = mission_ending_with(MavCmd::nav_waypoint);
+    mission.items.erase(mission.items.begin());  // no take-off
+    auto run = world->platform->start(task_of(std::move(mission)), one);
+    EXPECT_TRUE(world->run_until([&] { return run->state() == RunState::done; })) << run->error();
+    return run;
+  }
+
+  TestAutopilot& rover = world->add({.type = mavlink::MavType::ground_rover});
+};
+
+TEST_F(RoverAtTheEnd, IsHeldAndDisarmed) {
+  auto const run = drive();
+  EXPECT_TRUE(rover.is_armed);
+  settle();
+  EXPECT_EQ(rover.mode, rover_mode::hold);
+  EXPECT_FALSE(rover.is_armed);
+  EXPECT_EQ(run->state(), RunState::done);
+  EXPECT_TRUE(world->has_logged("rover 1 parked: HOLD, disarmed"));
+}
+
+TEST_F(RoverAtTheEnd, DrivesOnWhenTheNextTaskWantsIt) {
+  auto const first = drive();
+  world->run_for(100ms);
+  auto const second = drive();
+  EXPECT_EQ(second->state(), RunState::done) << second->error();
+  EXPECT_EQ(rover.commands_heard(MavCmd::component_arm_disarm), 1);
+  settle();
+  EXPECT_FALSE(rover.is_armed);
+}
+
+TEST_F(RoverAtTheEnd, IsLeftToWhoeverTakesIt) {
+  auto const run = drive();
+  world->platform->yield(one, "somebody wants it");
+  settle();
+  world->run_for(10s);
+  EXPECT_EQ(rover.mode, rover_mode::automatic);
+  EXPECT_TRUE(rover.is_armed);
+}
+
 TEST_F(MissionStop, LetsAPlaneCircle) {
   auto& plane = world->add({.type = mavlink::MavType::fixed_wing});
   world->run_for(5s);

@@ -5,7 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "fleet/mission/waiting.hpp"
+
 namespace lapwing::fleet {
+
+using namespace std::chrono_literals;
 
 using base::Task;
 using vehicle::Connection;
@@ -19,7 +23,7 @@ std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
   }
   rest_ = {};
   tidy_ = {};
-  if (std::exchange(is_settling_, false)) settled_.notify_all();
+  be_settled();
   run_ = std::make_shared<RunRecord>();
   run_->mission = mission.name;
   run_->took_over = takes_over;
@@ -27,8 +31,10 @@ std::shared_ptr<RunRecord const> Pilot::start(plan::Mission mission) {
   auto const run = run_;
   flight_ = fly(std::move(mission));
   guard_ = guard();
+  words_ = tell_waiting(context_, run_);
   flight_.start();
   guard_.start();
+  words_.start();
   return run;
 }
 
@@ -47,7 +53,7 @@ void Pilot::stop(OnStop on_stop) {
 
 void Pilot::yield(std::string reason) {
   rest_ = {};
-  if (std::exchange(is_settling_, false)) settled_.notify_all();
+  be_settled();
   if (is_flying()) {
     flight_ = {};
     end(Outcome::failed, std::move(reason));
@@ -60,6 +66,7 @@ Task<> Pilot::fly(plan::Mission mission) {
   auto flown = co_await fly_mission(context_, std::move(mission), *run);
   if (flown) {
     end(Outcome::done, {});
+    begin_parking();
     co_return;
   }
   run->vehicle_failed = flown.error().kind == base::ErrorKind::lost;
@@ -119,7 +126,39 @@ void Pilot::begin_rest(OnStop on_stop) {
   if (!flies && !run_->may_have_armed && !context_.craft.holds_parts) return;
   is_settling_ = true;
   rest_ = rest(on_stop, flies);
+  words_ = tell_stopping(context_);
   rest_.start();
+  words_.start();
+}
+
+void Pilot::be_settled() {
+  if (!std::exchange(is_settling_, false)) return;
+  words_ = {};
+  settled_.notify_all();
+}
+
+/// ArduPilot's rovers stay armed in AUTO behind the end of their mission.
+void Pilot::begin_parking() {
+  if (context_.craft.state.family != vehicle::Family::rover || !context_.craft.is_armed) return;
+  is_settling_ = true;
+  rest_ = park();
+  rest_.start();
+}
+
+Task<> Pilot::park() {
+  constexpr auto next_task_has_begun = 500ms;  // some ticks of the script
+  auto& craft = context_.craft;
+  co_await context_.connection.loop().sleep(next_task_has_begun);
+  std::function<void()> const nobody_waits;
+  auto parked = co_await bring_to_rest(context_.connection, craft, OnStop::loiter, nobody_waits);
+  ActionOptions const at_once{.is_urgent = true};
+  if (parked && craft.is_armed) parked = co_await disarm(context_.connection, craft, at_once);
+  if (parked) {
+    context_.log.info(fmt::format("{} parked: {}, disarmed", craft.state.name, craft.state.mode.value.value_or("")));
+  } else {
+    context_.log.error(fmt::format("{} could not be parked: {}", craft.state.name, parked.error().message));
+  }
+  be_settled();
 }
 
 Task<> Pilot::rest(OnStop on_stop, bool flies) {
@@ -128,8 +167,7 @@ Task<> Pilot::rest(OnStop on_stop, bool flies) {
       .turn();  // the next task on this vehicle may start in this turn and will deal with it
   if (flies || run->may_have_armed) co_await bring_down(on_stop, flies);
   if (context_.craft.holds_parts) co_await discard_parts();
-  is_settling_ = false;
-  settled_.notify_all();
+  be_settled();
 }
 
 Task<> Pilot::bring_down(OnStop on_stop, bool flies) {

@@ -10,7 +10,8 @@
 namespace lapwing::fleet {
 
 /// The one who commands a vehicle: runs one mission at a time on it, ends it when the vehicle is lost, and puts the
-/// vehicle to rest after a stop.
+/// vehicle to rest after a stop. A rover whose mission is done is parked: held and disarmed, for it would stay armed in
+/// its mission mode for ever.
 ///
 /// `start` and `stop` are called from outside its own coroutines, at any time.
 class Pilot {
@@ -44,9 +45,12 @@ class Pilot {
   base::Task<> rest(OnStop on_stop, bool flies);
   base::Task<> bring_down(OnStop on_stop, bool flies);
   base::Task<> discard_parts();
+  base::Task<> park();
   base::Task<> tidy();
   void end(RunRecord::Outcome outcome, std::string error);
   void begin_rest(OnStop on_stop);
+  void begin_parking();
+  void be_settled();
   void begin_tidying();
 
   RunContext context_;
@@ -57,7 +61,8 @@ class Pilot {
   base::Task<> flight_;
   base::Task<> guard_;
   base::Task<> rest_;
-  base::Task<> tidy_;  ///< the vehicle is not ours while it runs, or not there
+  base::Task<> words_;  ///< says what the run or the rest waits for
+  base::Task<> tidy_;   ///< the vehicle is not ours while it runs, or not there
 };
 
 }  // namespace lapwing::fleet

@@ -175,6 +175,13 @@ base::Task<void> FleetPlatform::make_safe(OnStop on_stop) {
   co_await settle();
 }
 
+std::vector<std::string> FleetPlatform::unsettled() const {
+  std::vector<std::string> names;
+  for (auto const& [id, its_pilot] : pilots_)
+    if (its_pilot->is_settling()) names.push_back(fleet_.find(id)->state.name);
+  return names;
+}
+
 std::vector<MissionReport> FleetPlatform::missions(VehicleId const& id) const {
   std::vector<MissionReport> reports;
   auto const found = pilots_.find(id);

@@ -60,6 +60,8 @@ class FleetPlatform final : public tasks::Platform {
   /// Gives the vehicle, or all of them, up to somebody else: a run on it fails with `reason`, and nothing more is sent.
   void yield(vehicle::VehicleId const& id, std::string const& reason);
   void yield_all(std::string const& reason);
+  /// Names of the vehicles that were told to stop and have not confirmed it.
+  [[nodiscard]] std::vector<std::string> unsettled() const;
   /// Every mission that was run on the vehicle, oldest first.
   [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
 
