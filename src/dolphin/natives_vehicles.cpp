@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -6,6 +7,7 @@
 
 #include "dolphin/fiber.hpp"
 #include "dolphin/internal/natives.hpp"
+#include "dolphin/internal/pick_filter.hpp"
 #include "dolphin/runtime.hpp"
 #include "dolphin/text.hpp"
 
@@ -19,40 +21,7 @@ using tasks::VehicleInfo;
 
 // ---- pick
 
-/// What a vehicle must be to be picked.
-struct Filter {
-  std::size_t count = 1;
-  base::Duration timeout{};
-  std::optional<std::string> type;
-  std::optional<std::string> id;
-  std::vector<std::string> payload;
-  std::optional<geo::Disc> region;
-};
-
-Filter as_filter(Map const& fields) {
-  Filter filter;
-  for (auto const& [key, value] : fields.items()) {
-    auto const field = to_text(key);
-    if (field == "count") filter.count = static_cast<std::size_t>(value.integer());
-    if (field == "timeout") filter.timeout = base::from_seconds(value.number());
-    if (field == "type") filter.type = to_text(value);
-    if (field == "id") filter.id = to_text(value);
-    if (field == "region") filter.region = value.as<Area>()->value;
-    if (field != "payload") continue;
-    for (auto const& name : value.as<List>()->items) filter.payload.push_back(to_text(name));
-  }
-  return filter;
-}
-
-bool matches(Filter const& filter, VehicleInfo const& info) {
-  auto const carries = [&](auto const& name) { return std::ranges::find(info.payload, name) != info.payload.end(); };
-  if (filter.type && *filter.type != info.type) return false;
-  if (filter.id && *filter.id != info.id.text) return false;
-  if (filter.region && !(info.position && filter.region->contains(*info.position))) return false;
-  return std::ranges::all_of(filter.payload, carries);
-}
-
-std::string as_log_text(Filter const& filter) {
+std::string as_log_text(PickFilter const& filter) {
   std::string payload;
   for (auto const& name : filter.payload) payload += (payload.empty() ? "" : "+") + name;
   return fmt::format("id={},type={},payload={},area={}", filter.id.value_or("<null>"), filter.type.value_or("<null>"),
@@ -70,33 +39,64 @@ void log_available(Runtime const& runtime) {
 }
 
 /// The first `count` free vehicles that match, in the platform's order; nothing when there are fewer.
-std::optional<std::vector<VehicleId>> chosen(Runtime const& runtime, Filter const& filter) {
+std::optional<std::vector<VehicleId>> chosen(Runtime const& runtime, PickFilter const& filter) {
   std::vector<VehicleId> ids;
   for (auto const& info : runtime.platform.vehicles()) {
     bool const is_free = std::ranges::find(runtime.picked, info.id) == runtime.picked.end();
-    if (ids.size() < filter.count && is_free && info.connected && matches(filter, info)) ids.push_back(info.id);
+    if (ids.size() < filter.count && is_free && info.connected && objections(filter, info).empty())
+      ids.push_back(info.id);
   }
   if (ids.size() < filter.count) return std::nullopt;
   return ids;
 }
+
+std::vector<std::string> why_not(Runtime const& runtime, PickFilter const& filter) {
+  return why_not_picked(filter, runtime.platform.vehicles(), runtime.picked);
+}
+
+/// Says what `pick` waits for: after three seconds, and then every ten.
+class PickWords {
+ public:
+  PickWords(Runtime const& runtime, PickFilter const& filter, base::TimePoint deadline)
+      : runtime_(runtime), filter_(filter), begun_(runtime.loop.now()), deadline_(deadline) {}
+
+  void tell_if_due() {
+    auto const now = runtime_.loop.now();
+    if (now < next_) return;
+    next_ += std::chrono::seconds(10);
+    runtime_.log.info(fmt::format("pick waits for {}, {:.0f} of {:.0f} s: {}", pick_text(filter_),
+                                  base::to_seconds(now - begun_), base::to_seconds(deadline_ - begun_),
+                                  fmt::join(why_not(runtime_, filter_), "; ")));
+  }
+
+ private:
+  Runtime const& runtime_;
+  PickFilter const& filter_;
+  base::TimePoint begun_;
+  base::TimePoint deadline_;
+  base::TimePoint next_ = begun_ + std::chrono::seconds(3);
+};
 
 base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<Value> arguments) {
   // Arrivals wake us; a vehicle that flies into a region, or learns its position, is seen within this time.
   constexpr base::Duration look_again = std::chrono::seconds(1);
   auto const* fields = arguments[0].as<Map>();
   if (!fields) co_return fault("pick takes a block: pick { type 'UAV' }", "IllegalArgumentException");
-  auto const filter = as_filter(*fields);
+  auto const filter = pick_filter(*fields);
   auto const deadline = std::max(runtime.loop.now() + filter.timeout, runtime.platform.all_heard_by());
   log_available(runtime);
   runtime.log.info(fmt::format("Matching requirement: {} count={}", as_log_text(filter), filter.count));
+  PickWords words(runtime, filter, deadline);
   auto ids = chosen(runtime, filter);
   while (!ids && runtime.loop.now() < deadline) {
     auto const next = std::min(deadline, runtime.loop.now() + look_again);
     co_await runtime.platform.vehicles_changed().wait_until(next);
     ids = chosen(runtime, filter);
+    if (!ids) words.tell_if_due();
   }
   if (!ids) {
     runtime.log.info("Requirements were not met!");
+    for (auto const& line : why_not(runtime, filter)) runtime.log.info("  " + line);
     co_return halting("Could not find required vehicles!", "VehicleError");
   }
   for (auto const& id : *ids) {
