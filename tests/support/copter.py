@@ -32,6 +32,11 @@ class Faults:
     reports_mission_state: bool = True  # False: MISSION_CURRENT without it, as of old
     reports_battery: bool = True  # False: no SYS_STATUS at all
     battery: int = 88  # percent; -1: not known
+    stuck: bool = False  # carries its item out for ever
+    false_place: tuple[float, float] | None = None  # tells this one instead of its own, in degrees
+    busy: int = 0  # so many commands to arm or to fly are "temporarily rejected"
+    asks_no_further_than: int | None = None  # the last item of an upload that it asks for
+    estimated: bool = True  # False: its estimator has no position
 
 
 HARDWARE = itertools.count(1)
@@ -104,7 +109,7 @@ class Copter:
             if now >= self.next_sent.get(message_id, 0.0):
                 self.next_sent[message_id] = now + interval
                 self.send_telemetry(message_id, now)
-        if self.mode == AUTO and self.armed and now >= self.next_leg:
+        if self.mode == AUTO and self.armed and not self.faults.stuck and now >= self.next_leg:
             self.next_leg = now + self.leg_time
             self.fly_leg()
 
@@ -130,13 +135,14 @@ class Copter:
 
     def send_telemetry(self, message_id: int, now: float):
         boot_ms, mav, battery = int((now - self.booted) * 1000) & 0xFFFFFFFF, self.mav, self.faults.battery
-        lat, lon, alt_mm = round(self.lat * 1e7), round(self.lon * 1e7), round(self.alt * 1000)
+        place = self.faults.false_place or (self.lat, self.lon)
+        lat, lon, alt_mm = round(place[0] * 1e7), round(place[1] * 1e7), round(self.alt * 1000)
         if message_id == mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT:
             mav.global_position_int_send(boot_ms, lat, lon, alt_mm, round((self.alt - HOME[2]) * 1000), 0, 0, 0, 0)
         elif message_id == mavlink.MAVLINK_MSG_ID_ATTITUDE:
             mav.attitude_send(boot_ms, 0, 0, 0, 0, 0, 0)
         elif message_id == mavlink.MAVLINK_MSG_ID_EKF_STATUS_REPORT:
-            mav.ekf_status_report_send(0x33F, 0, 0, 0, 0, 0)
+            mav.ekf_status_report_send(0x33F if self.faults.estimated else 0xA7, 0, 0, 0, 0, 0)
         elif message_id == mavlink.MAVLINK_MSG_ID_SYS_STATUS and self.faults.reports_battery:
             healthy = 0x1FFFFFFF
             mav.sys_status_send(healthy, healthy, healthy, 0, 12600, 100, battery, 0, 0, 0, 0, 0, 0)
@@ -196,7 +202,10 @@ class Copter:
 
     def command(self, message):
         result = mavlink.MAV_RESULT_ACCEPTED
-        if message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL and int(message.param1) in LACKING:
+        if self.faults.busy and message.command in (mavlink.MAV_CMD_COMPONENT_ARM_DISARM, mavlink.MAV_CMD_MISSION_START):
+            self.faults.busy -= 1
+            result = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+        elif message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL and int(message.param1) in LACKING:
             result = mavlink.MAV_RESULT_DENIED
         elif message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
             self.intervals[int(message.param1)] = message.param2 / 1e6
@@ -262,6 +271,8 @@ class Copter:
         """MISSION_REQUEST for even items, MISSION_REQUEST_INT for odd ones: both kinds exist in the field."""
         seq = len(self.incoming)
         self.next_request = now + 1.0
+        if self.faults.asks_no_further_than is not None and seq > self.faults.asks_no_further_than:
+            return
         if seq in self.faults.unsent_requests:
             self.faults.unsent_requests.remove(seq)
             return
