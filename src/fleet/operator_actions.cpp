@@ -56,6 +56,20 @@ Task<Result<>> go_into_role(mavlink::Connection& connection, Craft& craft, ModeR
   co_return co_await go_into(connection, craft, mode, without, how);
 }
 
+/// In the vehicle's own words where it has any. It may have left the ground a moment ago, and be about to tell so.
+Task<Result<>> take_off_refused(Craft& craft, base::Error error, base::TimePoint since) {
+  constexpr base::Duration word_wait = 1500ms;
+  std::function<bool()> is_explained = [&craft, since] {
+    return !given_reason(craft, since).empty() || craft.state.landed.value == false;
+  };
+  (void)co_await craft.changed.wait_for(std::move(is_explained), word_wait);
+  if (auto const reason = given_reason(craft, since); !reason.empty())
+    error.message += ": " + reason;
+  else if (craft.state.landed.value == false)
+    co_return unable(craft, "is in the air already");
+  co_return std::unexpected(std::move(error));
+}
+
 Task<Result<>> leave_the_ground(mavlink::Connection& connection, Craft& craft, double height_m, ActionOptions how) {
   ActionOptions const before{.not_after = how.not_after};
   if (auto const mode = take_off_mode(craft)) {
@@ -71,7 +85,7 @@ Task<Result<>> leave_the_ground(mavlink::Connection& connection, Craft& craft, d
   mavlink::CommandOptions const options{.not_after = how.not_after};
   auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
   if (!asked && asked.error().kind == ErrorKind::refused)
-    co_return fail(ErrorKind::refused, fmt::format("{} {}", asked.error().message, given_reason(craft, since)));
+    co_return co_await take_off_refused(craft, asked.error(), since);
   if (asked && how.on_accepted) how.on_accepted();
   co_return asked;
 }
