@@ -1,6 +1,7 @@
 #include "tasks/allocation.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -20,7 +21,8 @@ using Takers = std::vector<int>;
 
 class Allocator {
  public:
-  explicit Allocator(std::vector<VehicleInfo> const& vehicles) : vehicles_(vehicles) {}
+  explicit Allocator(std::vector<VehicleInfo> const& vehicles)
+      : vehicles_(vehicles), serve_already_(vehicles.size(), false) {}
 
   /// Serves all of `task`; its first platform task is occurrence `first`.
   Result<> serve(TaskTree const& task, int first, Takers& takers) {
@@ -29,9 +31,7 @@ class Allocator {
   Allocation take() { return std::move(allocation_); }
 
  private:
-  Result<> serve_kind(Sequence const& kind, int first, Takers& takers) {
-    return serve_sharing(kind.parts, first, takers);
-  }
+  Result<> serve_kind(Sequence const& kind, int first, Takers& takers);
   Result<> serve_kind(Concurrent const& kind, int first, Takers& takers);
   Result<> serve_kind(Choice const& kind, int first, Takers& takers) {
     return serve_branches(kind.branches, first, takers);
@@ -48,35 +48,46 @@ class Allocator {
   Result<> serve_kind(Condition const&, int, Takers&) { return {}; }
   Result<> serve_kind(Idle const&, int, Takers&) { return {}; }
 
-  Result<> serve_sharing(std::vector<TaskTree> const& parts, int first, Takers& takers);
+  Result<> serve_sharing(std::vector<TaskTree> const& parts, int first, Takers& takers, bool is_sequence);
   Result<> serve_branches(std::vector<Branch> const& branches, int first, Takers& takers);
+  void keep_nearest(PlatformTask const& task, std::vector<std::size_t>& candidates) const;
   [[nodiscard]] std::optional<std::string> rejection(PlatformTask const& task, std::size_t vehicle,
                                                      Takers const& takers) const;
   [[nodiscard]] std::unexpected<base::Error> failure(PlatformTask const& task, Takers const& takers) const;
 
   std::vector<VehicleInfo> const& vehicles_;
   std::vector<Restricted const*> restrictions_;  ///< round the task being served, outermost first
+  std::vector<bool> serve_already_;              ///< the sequence round the task being served, by vehicle
   Allocation allocation_;
 };
 
 /// Every part chooses from the same vehicles; what any of them took is gone for others.
-Result<> Allocator::serve_sharing(std::vector<TaskTree> const& parts, int first, Takers& takers) {
+Result<> Allocator::serve_sharing(std::vector<TaskTree> const& parts, int first, Takers& takers, bool is_sequence) {
   auto const before = takers;
   for (auto const& part : parts) {
     auto own = before;
     if (auto served = serve(part, first, own); !served) return served;
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (takers[i] == nobody) takers[i] = own[i];
+      if (is_sequence && before[i] == nobody && own[i] != nobody) serve_already_[i] = true;
     }
     first += part->performed;
   }
   return {};
 }
 
+/// The vehicle that has flown the first half is where the second one begins.
+Result<> Allocator::serve_kind(Sequence const& kind, int first, Takers& takers) {
+  auto const round_it = serve_already_;
+  auto served = serve_sharing(kind.parts, first, takers, true);
+  serve_already_ = round_it;
+  return served;
+}
+
 Result<> Allocator::serve_branches(std::vector<Branch> const& branches, int first, Takers& takers) {
   std::vector<TaskTree> parts;
   for (auto const& branch : branches) parts.push_back(branch.then);
-  return serve_sharing(parts, first, takers);
+  return serve_sharing(parts, first, takers, false);
 }
 
 Result<> Allocator::serve_kind(Concurrent const& kind, int first, Takers& takers) {
@@ -101,25 +112,33 @@ Result<> Allocator::serve_kind(Restricted const& kind, int first, Takers& takers
 }
 
 Result<> Allocator::serve_kind(Performed const& kind, int first, Takers& takers) {
-  auto const reference = kind.task->reference_position();
-  auto best = vehicles_.size();
-  double best_distance_m = std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     // Taken ones first: looking up who took them is only worth it for the error.
-    if (takers[i] != nobody || rejection(*kind.task, i, takers)) continue;
-    auto const& position = vehicles_[i].position;
-    bool const measurable = reference && position;
-    double const distance_m =
-        measurable ? geo::distance_m(*reference, *position) : std::numeric_limits<double>::infinity();
-    if (best == vehicles_.size() || distance_m < best_distance_m) {
-      best = i;
-      best_distance_m = distance_m;
-    }
+    if (takers[i] == nobody && !rejection(*kind.task, i, takers)) candidates.push_back(i);
   }
-  if (best == vehicles_.size()) return failure(*kind.task, takers);
+  if (candidates.empty()) return failure(*kind.task, takers);
+  keep_nearest(*kind.task, candidates);
+  auto const best = candidates.front();
   takers[best] = first;
   allocation_.assignments.push_back({.occurrence = first, .task = kind.task, .vehicle = vehicles_[best].id});
   return {};
+}
+
+/// Leaves those that are about equally near. Nothing is measured for a task that begins anywhere.
+void Allocator::keep_nearest(PlatformTask const& task, std::vector<std::size_t>& candidates) const {
+  constexpr double about_as_near_m = 2.0;  // what GPS tells apart
+  auto const reference = task.reference_position();
+  if (!reference) return;
+  auto const serves = [this](std::size_t i) { return serve_already_[i]; };
+  if (std::ranges::any_of(candidates, serves)) std::erase_if(candidates, std::not_fn(serves));
+  auto const distance_m = [&](std::size_t i) {
+    auto const& position = vehicles_[i].position;
+    return position ? geo::surface_distance_m(*reference, *position) : std::numeric_limits<double>::infinity();
+  };
+  double least_m = std::numeric_limits<double>::infinity();
+  for (auto const i : candidates) least_m = std::min(least_m, distance_m(i));
+  std::erase_if(candidates, [&](std::size_t i) { return distance_m(i) > least_m + about_as_near_m; });
 }
 
 std::optional<std::string> Allocator::rejection(PlatformTask const& task, std::size_t vehicle,

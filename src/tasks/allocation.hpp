@@ -22,8 +22,9 @@ struct Allocation {
 
 /// Gives every occurrence of a platform task one of the `available` vehicles (language spec, 4.5).
 ///
-/// Of the suitable ones the first is taken, or the nearest to the task's reference position if it has one. Parts of a
-/// sequence, and the branches of a choice or allOf, share vehicles; parts of a concurrent never do, and those of its
+/// Of the suitable ones the first is taken; for a task with a reference position the nearest to it, the first of those
+/// that are about as near, and within a sequence one that serves it already before any other. Parts of a sequence, and
+/// the branches of a choice or allOf, share vehicles; parts of a concurrent never do, and those of its
 /// parts that are bound to vehicle sets choose first. On failure nothing is assigned, and the error names the task and
 /// why each vehicle was rejected.
 [[nodiscard]] base::Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const& available);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tasks/mission_task.hpp"
 #include "tasks/test_script.hpp"
 
 namespace lapwing::tasks {
@@ -108,6 +109,31 @@ TEST_F(AllocationTest, VehicleOfUnknownPositionIsTheLastResortOfAPlacedTask) {
   auto const placed = performed(std::make_shared<Survey>("Sidescan", geo::Wgs84::from_degrees(42.0, -8.0)));
   EXPECT_EQ(allocated(placed, {"a1", "u1"}), "survey#0@u1");
   EXPECT_EQ(allocated(placed, {"a1"}), "survey#0@a1");
+}
+
+TEST_F(AllocationTest, GivesEachMissionTheVehicleOnItsPadWhateverTheOrder) {
+  auto const to = [](double lat) {
+    plan::Mission mission{
+        .name = fmt::format("to {:.2f}", lat), .home = geo::Wgs84::from_degrees(lat, -8.0), .items = {}};
+    return performed(std::make_shared<MissionTask const>(std::move(mission)));
+  };
+  EXPECT_EQ(allocated(concurrent(to(41.01), to(41.0)), {"a1", "a2"}), "to 41.01#0@a2 to 41.00#1@a1");
+  EXPECT_EQ(allocated(concurrent(to(41.0), to(41.01)), {"a1", "a2"}), "to 41.00#0@a1 to 41.01#1@a2");
+}
+
+TEST_F(AllocationTest, OfVehiclesThatAreAboutAsNearTakesTheFirst) {
+  auto near = *stage_.platform.find({"a2"});
+  near.position = geo::displaced(*stage_.platform.find({"a1"})->position, {.north = 1.0});
+  stage_.platform.set_vehicle(near);
+  auto const placed = performed(std::make_shared<Survey>("Camera", *near.position));
+  EXPECT_EQ(allocated(placed, {"a1", "a2"}), "survey#0@a1");
+}
+
+TEST_F(AllocationTest, ASecondHalfStaysWithTheVehicleOfTheFirst) {
+  auto const here = performed(std::make_shared<Survey>("Camera", geo::Wgs84::from_degrees(41.0, -8.0)));
+  auto const there = performed(std::make_shared<Survey>("Camera", geo::Wgs84::from_degrees(41.01, -8.0)));
+  EXPECT_EQ(allocated(sequence(here, there), {"a1", "a2"}), "survey#0@a1 survey#1@a1");
+  EXPECT_EQ(allocated(concurrent(sequence(here, there), there), {"a1", "a2"}), "survey#0@a1 survey#1@a1 survey#2@a2");
 }
 
 TEST_F(AllocationTest, TellsWhoTookTheVehicles) {  // case 36

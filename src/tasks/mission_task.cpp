@@ -31,6 +31,16 @@ std::optional<std::string> MissionTask::unsuited(VehicleInfo const& vehicle) con
   return "no payload Camera";
 }
 
+std::optional<geo::Wgs84> MissionTask::reference_position() const {
+  if (mission_.home) return mission_.home;
+  for (auto const& item : mission_.items) {
+    auto const place = plan::position_of(item);
+    bool const is_here = place.lat_rad == 0.0 && place.lon_rad == 0.0;
+    if (plan::has_position(item) && item.command != mavlink::MavCmd::do_set_home && !is_here) return place;
+  }
+  return std::nullopt;
+}
+
 bool MissionTask::never_ends() const {
   return std::ranges::find(mission_.items, mavlink::MavCmd::nav_loiter_unlim, &mavlink::MissionItem::command) !=
          mission_.items.end();

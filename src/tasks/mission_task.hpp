@@ -22,9 +22,8 @@ class MissionTask final : public PlatformTask {
   /// A vehicle of a type that cannot carry out one of the items is unsuited (`plan::objection`). Photos need a vehicle
   /// with the payload "Camera"; one of which no payload at all is known gets the benefit of the doubt.
   [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override;
-  /// Nothing: missions take the first suitable vehicle. Of vehicles parked side by side the nearest is a matter of
-  /// chance.
-  [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override { return std::nullopt; }
+  /// Its home; without one its first place.
+  [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override;
 
  private:
   plan::Mission mission_;
