@@ -7,6 +7,7 @@
 
 #include "base/wall_clock.hpp"
 #include "fleet/operator_actions.hpp"
+#include "fleet/plausibility/commands.hpp"
 
 namespace lapwing::fleet {
 
@@ -98,6 +99,7 @@ Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::spa
                                        Commander by, bool takes_over) {
   if (vehicles.empty()) return fail(ErrorKind::invalid_input, "no vehicle was named to command");
   if (auto checked = check(command); !checked) return std::unexpected(checked.error());
+  if (auto allowed = settings_for(command, options_.plausibility); !allowed) return std::unexpected(allowed.error());
   if (records_.size() >= max_records) drop_oldest(records_);
   auto& record = records_.emplace_back(CommandRecord{
       .number = ++last_number_, .command = std::move(command), .by = std::move(by), .asked = base::wall_now()});
@@ -158,7 +160,9 @@ base::Task<> Control::carry(Craft& craft, std::uint64_t number, vehicle::Vehicle
     show(number, id, CommandState::accepted, "");
   };
   ActionOptions const how{.not_after = expires, .is_urgent = is_stop(command.action), .on_accepted = on_accepted};
-  auto const ended = co_await carry_out(craft.connection, craft, command, how);
+  auto ended = co_await heed_command(craft, command, *settings_for(command, options_.plausibility),
+                                     platform_.neighbours(), log_);
+  if (ended) ended = co_await carry_out(craft.connection, craft, command, how);
   if (!ended) emergency_.resume(craft);
   if (!ended) fail_command(craft, number, ended.error(), expires);
   running_[id].is_sent = true;

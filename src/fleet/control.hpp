@@ -12,6 +12,7 @@
 #include "fleet/emergency.hpp"
 #include "fleet/other_stations.hpp"
 #include "fleet/platform.hpp"
+#include "plan/plausibility/settings.hpp"
 #include "vehicle/control.hpp"
 
 namespace lapwing::fleet {
@@ -26,7 +27,8 @@ class Control final : public vehicle::VehicleControl {
   struct Options {
     vehicle::StopAction stop_action = vehicle::StopAction::hold;  ///< of an emergency stop that names none
     base::Duration expiry = std::chrono::seconds(10);             ///< of commands that make a vehicle move
-    base::Duration answer_timeout = std::chrono::seconds(10);     ///< of who is asked for a vehicle
+    plan::plausibility::Settings plausibility = {};
+    base::Duration answer_timeout = std::chrono::seconds(10);  ///< of who is asked for a vehicle
   };
   /// `fleet` and `platform` outlive this.
   Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log);

@@ -42,10 +42,11 @@ struct MissionTrace {
 /// and of its loss. Thread-bound; lives as long as its fleet, so references to it may be kept.
 struct Craft {
   Craft(mavlink::Connection& heard_on, vehicle::VehicleState& shown)
-      : connection(heard_on), state(shown), changed(heard_on.loop()) {}
+      : connection(heard_on), state(shown), discovered(heard_on.loop().now()), changed(heard_on.loop()) {}
 
   mavlink::Connection& connection;  ///< of its network
   vehicle::VehicleState& state;     ///< the registry's
+  base::TimePoint discovered;       ///< when it was first heard
   std::string network;              ///< its name; empty: the one without
   mavlink::Address address{};
   mavlink::MavAutopilot mav_autopilot{};

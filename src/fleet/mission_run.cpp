@@ -6,9 +6,11 @@
 
 #include "fleet/flight_plan.hpp"
 #include "fleet/mission/flight_watch.hpp"
+#include "fleet/plausibility/doubts.hpp"
 #include "mavlink/command.hpp"
 #include "mavlink/plan_replacement.hpp"
 #include "plan/capabilities.hpp"
+#include "plan/plausibility/judge.hpp"
 
 namespace lapwing::fleet {
 
@@ -90,8 +92,27 @@ Task<Result<>> select_first_item(RunContext context, std::uint16_t seq) {
                  fmt::format("the vehicle would not begin at item {}: {}", seq, set.error().message));
 }
 
+/// Whether the mission makes sense for the vehicle as it is now.
+Result<> heed(RunContext const& context, plan::Mission const& mission, Doubts& doubts) {
+  auto const situation = situation_of(context.craft, context.options.neighbours);
+  auto const findings = plan::plausibility::judge(mission, situation, context.options.plausibility);
+  return doubts.heed(findings, fmt::format("{}: '{}'", context.craft.state.name, mission.name),
+                     context.log.named("plausibility"));
+}
+
+/// From here on every return goes there, a failsafe's too.
+void tell_home(RunContext const& context, geo::Wgs84 home) {
+  auto const& state = context.craft.state;
+  auto const from = state.home.value ? state.home.value : state.position.value;
+  double const moved_m = from ? geo::surface_distance_m(*from, home) : 0.0;
+  if (moved_m > context.options.plausibility.limits.gps_error_m)
+    context.log.info(
+        fmt::format("{}: home moves {:.0f} m, to {:.5f}, {:.5f}", state.name, moved_m, home.lat_deg(), home.lon_deg()));
+}
+
 /// The script's `home` becomes the vehicle's. A vehicle that refuses keeps its own, which is safe.
 Task<> set_home(RunContext context, geo::Wgs84 home) {
+  tell_home(context, home);
   auto const command = mavlink::set_home(home);
   auto const set = co_await mavlink::run_command(context.connection, context.craft.address, command, patient);
   if (!set) context.log.warn(fmt::format("{} keeps its own home: {}", context.craft.state.name, set.error().message));
@@ -167,10 +188,14 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   auto const& shown = craft.state;
   if (auto wrong = plan::objection(flight_plan(mission, shown).items, shown.autopilot, shown.family))
     co_return std::unexpected(*std::move(wrong));
+  record.lands_at = plan::plausibility::landing_places(mission, shown.home.value);
+  Doubts doubts;
+  if (auto heeded = heed(context, mission, doubts); !heeded) co_return heeded;
 
   record.progress = "waiting until the vehicle is ready";
   auto ready = co_await wait_until_ready(craft, context.connection.loop(), context.options.ready_timeout);
   if (!ready) co_return ready;
+  if (auto heeded = heed(context, mission, doubts); !heeded) co_return heeded;
 
   record.progress = "stopping what it does";
   auto quiet = co_await leave_mission(context.connection, craft, context.options.on_stop);
@@ -183,6 +208,8 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   craft.holds_parts = false;
   craft.state.planned_path = plan.path;
 
+  // Perhaps it has landed meanwhile.
+  if (auto heeded = heed(context, mission, doubts); !heeded) co_return heeded;
   FlightWatch watch(context.connection, craft, plan, record.upload.held.opaque_id, context.log);
   auto started = co_await start(context, mission, plan, record);
   if (!started) co_return started;

@@ -2,16 +2,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/log.hpp"
 #include "base/task.hpp"
 #include "fleet/craft.hpp"
 #include "fleet/mission_end.hpp"
+#include "fleet/plausibility/situation.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "mavlink/connection.hpp"
 #include "mavlink/plan_replacement.hpp"
 #include "plan/estimate.hpp"
 #include "plan/mission.hpp"
+#include "plan/plausibility/settings.hpp"
 
 namespace lapwing::fleet {
 
@@ -26,6 +29,8 @@ struct RunRecord {
   bool vehicle_failed = false;  ///< when failed: the vehicle or the way to it broke down, not the mission
   /// From when the mission was begun, beside what was expected; grows until the run ends.
   std::optional<plan::Flown> flown;
+
+  std::vector<geo::Wgs84> lands_at = {};  ///< where it will come down, for other vehicles to keep clear of
 
   // What a stop has to undo.
   mavlink::Replacement upload;            ///< of the plan that the vehicle held
@@ -43,8 +48,10 @@ struct RunRecord {
 struct RunOptions {
   OnStop on_stop = OnStop::loiter;
   base::Duration ready_timeout =
-      std::chrono::seconds(90);  ///< ArduPilot's estimator takes about 45 s after a cold start
-  bool verifies = true;          ///< reads the mission back and compares before the start
+      std::chrono::seconds(90);                    ///< ArduPilot's estimator takes about 45 s after a cold start
+  bool verifies = true;                            ///< reads the mission back and compares before the start
+  plan::plausibility::Settings plausibility = {};  ///< what is refused, and what somebody has allowed
+  Neighbours neighbours = {};                      ///< the other vehicles; empty: there are none
 };
 
 /// Where a run happens. References outlive it.

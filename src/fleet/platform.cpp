@@ -75,6 +75,16 @@ VehicleInfo info_of(Craft const& craft) {
   return info;
 }
 
+/// When whatever was switched on together with the vehicle has been heard as well: they are chosen in the order of
+/// their ids, not in that in which their first heartbeats happened to come.
+base::TimePoint counted_at(Craft const& craft, std::vector<Craft*> const& all) {
+  constexpr base::Duration heartbeats = std::chrono::milliseconds(1200);  // once a second
+  auto last = craft.discovered;
+  for (auto const* other : all)
+    if (other->discovered - craft.discovered < heartbeats) last = std::max(last, other->discovered);
+  return last + heartbeats;
+}
+
 /// Nothing for what no field of a message holds.
 std::optional<mavlink::RawValue> raw_value(tasks::Argument const& value) {
   if (auto const* whole = std::get_if<std::int64_t>(&value)) return *whole;
@@ -96,6 +106,7 @@ FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
       all_heard_by_(fleet.loop().now() + listening_time),
       settled_(fleet.loop()) {
   builders_.push_back(tasks::mission_builder());
+  options_.run.neighbours = [this](Craft const& craft) { return neighbours(craft); };
 }
 
 Result<std::shared_ptr<tasks::PlatformTask const>> FleetPlatform::named_task(std::string_view name) const {
@@ -104,7 +115,10 @@ Result<std::shared_ptr<tasks::PlatformTask const>> FleetPlatform::named_task(std
 
 std::vector<VehicleInfo> FleetPlatform::vehicles() const {
   std::vector<VehicleInfo> infos;
-  for (auto const* craft : fleet_.all()) infos.push_back(info_of(*craft));
+  auto const crafts = fleet_.all();
+  auto const now = fleet_.loop().now();
+  for (auto const* craft : crafts)
+    if (now >= counted_at(*craft, crafts)) infos.push_back(info_of(*craft));
   return infos;
 }
 
@@ -190,6 +204,20 @@ std::vector<MissionReport> FleetPlatform::missions(VehicleId const& id) const {
     reports.push_back({run->mission, run->items, base::to_seconds(run->upload.upload_time),
                        std::string(to_string(run->outcome)), run->error, run->flown});
   return reports;
+}
+
+std::vector<plan::plausibility::Neighbour> FleetPlatform::neighbours(Craft const& craft) const {
+  std::vector<plan::plausibility::Neighbour> others;
+  for (auto const* other : fleet_.all()) {
+    if (other == &craft) continue;
+    plan::plausibility::Neighbour neighbour{.name = other->state.name};
+    if (stands_on_ground(*other).value_or(false)) neighbour.stands = other->state.position.value;
+    auto const found = pilots_.find(other->id());
+    if (found != pilots_.end() && found->second->is_flying())
+      neighbour.lands_at = found->second->runs().back()->lands_at;
+    others.push_back(std::move(neighbour));
+  }
+  return others;
 }
 
 Pilot& FleetPlatform::pilot(Craft& craft) {

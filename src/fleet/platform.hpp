@@ -62,11 +62,14 @@ class FleetPlatform final : public tasks::Platform {
   void yield_all(std::string const& reason);
   /// Names of the vehicles that were told to stop and have not confirmed it.
   [[nodiscard]] std::vector<std::string> unsettled() const;
+  /// What somebody who commands one of the vehicles has to know of the others.
+  [[nodiscard]] Neighbours const& neighbours() const { return options_.run.neighbours; }
   /// Every mission that was run on the vehicle, oldest first.
   [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
 
  private:
   Pilot& pilot(Craft& craft);
+  [[nodiscard]] std::vector<plan::plausibility::Neighbour> neighbours(Craft const& craft) const;
 
   Fleet& fleet_;
   Options options_;

@@ -48,6 +48,22 @@ Result<std::optional<geo::Wgs84>> place_from(Json const& object) {
   return geo::Wgs84::from_degrees(**lat, **lon, 0.0);
 }
 
+/// `"allow": {"rule": "reason"}`
+Result<std::map<std::string, std::string>> allowances_from(Json const& object) {
+  constexpr std::size_t most = 50;
+  constexpr std::size_t longest = 500;
+  std::map<std::string, std::string> allow;
+  auto const found = object.find("allow");
+  if (found == object.end()) return allow;
+  if (!found->is_object() || found->size() > most) return wrong("\"allow\" must name rules with the reasons.");
+  for (auto const& [rule, reason] : found->items()) {
+    bool const is_reason = reason.is_string() && reason.get_ref<std::string const&>().size() <= longest;
+    if (!is_reason) return wrong(fmt::format("\"allow\": the reason of \"{}\" must be a text.", rule));
+    allow.emplace(rule, reason.get<std::string>());
+  }
+  return allow;
+}
+
 Result<CommandVehicles> command_from(Json const& object) {
   auto const word = text_member(object, "action", "");
   if (!word) return std::unexpected(word.error());
@@ -63,9 +79,12 @@ Result<CommandVehicles> command_from(Json const& object) {
   if (!mode) return std::unexpected(mode.error());
   auto const take_over = object.find("take_over");
   if (take_over != object.end() && !take_over->is_boolean()) return wrong("\"take_over\" must be true or false.");
-  return CommandVehicles{{.action = *action, .height_m = *height_m, .place = *place, .mode = std::move(*mode)},
-                         *std::move(vehicles),
-                         take_over != object.end() && take_over->get<bool>()};
+  auto allow = allowances_from(object);
+  if (!allow) return std::unexpected(allow.error());
+  return CommandVehicles{
+      {.action = *action, .height_m = *height_m, .place = *place, .mode = std::move(*mode), .allow = *std::move(allow)},
+      *std::move(vehicles),
+      take_over != object.end() && take_over->get<bool>()};
 }
 
 Result<StopAll> stop_from(Json const& object) {
@@ -93,6 +112,7 @@ Json to_json(vehicle::CommandRecord const& record) {
   if (record.command.height_m) json["height_m"] = *record.command.height_m;
   if (record.command.place) json["place"] = position_json(*record.command.place);
   if (!record.command.mode.empty()) json["mode"] = record.command.mode;
+  if (!record.command.allow.empty()) json["allow"] = record.command.allow;
   return json;
 }
 

@@ -32,6 +32,18 @@ TEST(ControlMessages, ReadACommandWithWhatItNeeds) {
   EXPECT_TRUE(asked.takes_over);
 }
 
+TEST(ControlMessages, ReadWhatMayBeImplausibleAndWhy) {
+  auto const request = parse_control_request(
+      "command", R"({"vehicles":["1"],"action":"go_to","lat_deg":1,"lon_deg":2,"allow":{"too_far":"area B"}})");
+  ASSERT_TRUE(request) << request.error().message;
+  std::map<std::string, std::string> const expected{{"too_far", "area B"}};
+  EXPECT_EQ(std::get<CommandVehicles>(request->what).command.allow, expected);
+  EXPECT_EQ(complaint("command", R"({"action":"arm","vehicles":["1"],"allow":["too_far"]})"),
+            R"("allow" must name rules with the reasons.)");
+  EXPECT_EQ(complaint("command", R"({"action":"arm","vehicles":["1"],"allow":{"too_far":1}})"),
+            R"("allow": the reason of "too_far" must be a text.)");
+}
+
 TEST(ControlMessages, ReadEveryAction) {
   for (std::string_view const word : {"arm", "disarm", "take_off", "land", "rtl", "hold", "go_to", "set_mode",
                                       "start_mission", "pause_mission", "resume_mission"}) {

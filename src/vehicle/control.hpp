@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,6 +41,7 @@ struct VehicleCommand {
   std::optional<double> height_m = std::nullopt;  ///< above home: of take_off; of go_to, where nothing means "as it is"
   std::optional<geo::Wgs84> place = std::nullopt;  ///< of go_to; its altitude does not count
   std::string mode = {};                           ///< of set_mode: the autopilot's own name
+  std::map<std::string, std::string> allow = {};   ///< rules of plausibility that may be broken, with the reasons
 };
 
 /// How far a command has come on one vehicle. What a vehicle shows counts only when it was heard after the command and

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <set>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "plan/plausibility/finding.hpp"
+
+namespace lapwing::fleet {
+
+/// Says what a look at a mission or a command has found, each rule once however often it is looked at.
+class Doubts {
+ public:
+  /// Logs warnings, and with its reason what is allowed. Error: invalid_input with the first finding that refuses.
+  /// `subject`: "copter 1: 'West'".
+  [[nodiscard]] base::Result<> heed(plan::plausibility::Findings const& findings, std::string_view subject,
+                                    base::Logger const& log);
+
+ private:
+  std::set<plan::plausibility::Rule> said_;
+};
+
+}  // namespace lapwing::fleet

@@ -1,0 +1,43 @@
+#include "fleet/plausibility/situation.hpp"
+
+namespace lapwing::fleet {
+
+namespace {
+
+bool knows_its_place(vehicle::VehicleState const& state) {
+  auto const& health = state.health.value;
+  return state.position.known() && ((health && health->position_ok) || state.autopilot == vehicle::Autopilot::other);
+}
+
+/// Zero only when it says that there is none: an autopilot that does not count tells nothing.
+std::optional<int> items_held(vehicle::VehicleState const& state) {
+  auto const& mission = state.mission.value;
+  if (!mission) return std::nullopt;
+  if (mission->state == "no mission") return 0;
+  return mission->total > 0 ? std::optional(mission->total) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<bool> stands_on_ground(Craft const& craft) {
+  if (!craft.is_armed) return true;
+  return craft.state.landed.value;
+}
+
+plan::plausibility::Situation situation_of(Craft const& craft, Neighbours const& neighbours) {
+  auto const& state = craft.state;
+  plan::plausibility::Situation situation{.vehicle = state.name,
+                                          .family = state.family,
+                                          .autopilot = state.autopilot,
+                                          .home = state.home.value,
+                                          .on_ground = stands_on_ground(craft),
+                                          .items_held = items_held(state)};
+  if (knows_its_place(state)) situation.position = state.position.value;
+  // What standing on the ground uses says nothing about a flight.
+  bool const is_under_way = situation.on_ground == false;
+  if (is_under_way && state.battery.value) situation.endurance = state.battery.value->time_left;
+  if (neighbours) situation.neighbours = neighbours(craft);
+  return situation;
+}
+
+}  // namespace lapwing::fleet

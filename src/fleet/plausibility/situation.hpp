@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fleet/craft.hpp"
+#include "plan/plausibility/situation.hpp"
+
+namespace lapwing::fleet {
+
+/// What the other vehicles of the fleet mean to one of them on the ground.
+using Neighbours = std::function<std::vector<plan::plausibility::Neighbour>(Craft const&)>;
+
+/// Whether it stands on the ground, so far as it has told.
+[[nodiscard]] std::optional<bool> stands_on_ground(Craft const& craft);
+
+/// What is known of the vehicle now. A position that its estimator does not stand by counts as none.
+[[nodiscard]] plan::plausibility::Situation situation_of(Craft const& craft, Neighbours const& neighbours);
+
+}  // namespace lapwing::fleet
