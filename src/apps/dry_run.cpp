@@ -68,13 +68,18 @@ DryRun::DryRun(Options options)
       log_(hub_, "lapwing"),
       air_(loop_),
       ground_(loop_, log_, {.payload = equipped(options_.world, options_.payload)}),
-      platform_(ground_.fleet, {.plan_library = options_.plans}, log_.named("fleet")),
+      platform_(ground_.fleet, {.run = {.plausibility = options_.plausibility}, .plan_library = options_.plans},
+                log_.named("fleet")),
       world_(
           loop_, options_.world, [this] { return base::Result<std::unique_ptr<link::ByteLink>>(air_.connect()); },
           log_.named("sim")),
       recorder_(crew(), {}),
       voice_(std::make_unique<Voice>(loop_, recorder_, options_.answers)),
       host_(loop_, platform_, *voice_, log_, [this](tasks::TaskEvent const& event) { recorder_.note(event); }) {
+  hub_.add_sink([](base::LogRecord const& record) {
+    bool const warns = record.source == "plausibility" && record.level != base::LogLevel::debug;
+    if (warns) fmt::print(stderr, "warning: {}\n", record.text);
+  });
   ground_.connection.add_link(air_.take_server());
 }
 

@@ -11,6 +11,7 @@
 #include "dryrun/recorder.hpp"
 #include "fleet/platform.hpp"
 #include "link/pipe_link.hpp"
+#include "plan/plausibility/settings.hpp"
 #include "sim/world.hpp"
 
 namespace lapwing::apps {
@@ -24,7 +25,8 @@ class DryRun {
     base::Duration timeout = std::chrono::hours(2);  ///< simulated: a script that still runs then is cut off
     std::vector<std::string> answers;                ///< to the script's questions, in order
     tasks::PlanLibrary plans;                        ///< what scripts name by `task('...')`
-    std::vector<std::string> payload;                ///< what every vehicle carries, by the names that scripts use
+    plan::plausibility::Settings plausibility = {};
+    std::vector<std::string> payload;  ///< what every vehicle carries, by the names that scripts use
   };
   explicit DryRun(Options options);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,10 +12,14 @@
 #include "apps/find_vehicles.hpp"
 #include "apps/link_session.hpp"
 #include "apps/plan_summary.hpp"
+#include "apps/plausibility/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/simulation.hpp"
 #include "apps/vehicle_plans.hpp"
 #include "apps/verb.hpp"
+#include "fleet/plausibility/situation.hpp"
+#include "mavlink/command.hpp"
+#include "plan/plausibility/judge.hpp"
 #include "sim/vehicle_spec.hpp"
 
 namespace lapwing::apps {
@@ -33,6 +39,7 @@ struct MissionOptions {
   std::vector<std::string> vehicle;  ///< one at most
   std::string type = "all";
   std::optional<double> altitude_m;
+  PlausibilityArguments plausibility;
   double wait_s = 10.0;
   bool json = false;
   bool is_armed_allowed = false;
@@ -86,6 +93,7 @@ struct Exchange {
   std::optional<Progress> progress;  ///< of the phase
   fleet::Craft const* craft = nullptr;
   plan::Plan plan;  ///< to upload, or what was downloaded
+  plan::plausibility::Settings plausibility;
   std::vector<ListReport> reports;
 };
 
@@ -163,12 +171,53 @@ Result<> may_change(Exchange const& exchange) {
                     "--armed does it all the same");
 }
 
+/// Many vehicles tell nothing regularly before a ground station asks for it.
+Task<bool> learn_place(fleet::Craft& craft) {
+  constexpr base::Duration patience = std::chrono::seconds(2);
+  constexpr mavlink::CommandOptions quickly{.tries = 2, .ack_timeout = std::chrono::milliseconds(500)};
+  std::function<bool()> const is_known = [&craft] { return craft.state.position.known() && craft.state.home.known(); };
+  for (auto const message : {mavlink::MessageId::global_position_int, mavlink::MessageId::home_position}) {
+    if (is_known()) break;
+    auto const command = mavlink::request_message(message);
+    (void)co_await mavlink::run_command(craft.connection, craft.address, command, quickly);
+  }
+  auto until_known = is_known;
+  (void)co_await craft.changed.wait_for(std::move(until_known), patience);
+  co_return craft.state.position.known();
+}
+
+/// Whether the mission makes sense where the vehicle is. Its ground and home are waited for, since a plan of another
+/// place is known by nothing else; a vehicle that knows no place is given the benefit of the doubt.
+Task<Result<>> heed_upload(Exchange& exchange, std::vector<mavlink::MissionType> const& types) {
+  bool const has_mission =
+      std::ranges::find(types, mavlink::MissionType::mission) != types.end() && !exchange.plan.mission.items.empty();
+  if (!has_mission) co_return Result<>{};
+  auto& craft = *exchange.session.ground.fleet.find(exchange.craft->id());
+  if (!co_await learn_place(craft))
+    say(fmt::format("{} has not told where it is: nobody knows whether this plan is for here", craft.state.name));
+  auto situation = fleet::situation_of(craft, {});
+  situation.position = craft.state.position.value;  // good enough for a plan, before it is for a flight
+  situation.fence = exchange.plan.fence.empty() ? std::nullopt : std::optional(exchange.plan.fence);
+  auto const findings = judge(exchange.plan.mission, situation, exchange.plausibility);
+  for (auto const& finding : findings) {
+    if (finding.allowed_because)
+      say(fmt::format("allowed: {}: {}", *finding.allowed_because, to_text(finding)));
+    else if (!finding.refuses())
+      say(fmt::format("warning: {}", to_text(finding)));
+  }
+  auto const* refused = refusal(findings);
+  if (!refused) co_return Result<>{};
+  co_return base::fail(base::ErrorKind::invalid_input, fmt::format("{}: {}", exchange.options.file, to_text(*refused)),
+                       fmt::format("if it is meant: --allow {}=REASON", to_string(refused->rule)));
+}
+
 Task<Result<>> upload_action(Exchange& exchange) {
   if (auto may = may_change(exchange); !may) co_return may;
   auto const types = *parse_types(exchange.options.type);
   auto uploads = uploads_for(exchange.options.file, exchange.plan, types, *exchange.craft);
   if (!uploads) co_return std::unexpected(uploads.error());
   tell(exchange.options.file, "lost", uploads->lost);
+  if (auto heeded = co_await heed_upload(exchange, types); !heeded) co_return heeded;
   auto show = show_on(exchange);
   co_return co_await upload_lists(*exchange.craft, std::move(uploads->lists), std::move(show), exchange.reports);
 }
@@ -193,8 +242,11 @@ int upload(MissionOptions const& options) {
   if (!plan) return refuse(plan.error());
   auto signing = read_signing(options.signing_key);
   if (!signing) return refuse(signing.error());
+  auto plausibility = plausibility_of(options.plausibility);
+  if (!plausibility) return refuse(plausibility.error());
   Exchange exchange(options, *std::move(signing));
   exchange.plan = *std::move(plan);
+  exchange.plausibility = *std::move(plausibility);
   return run_exchange(exchange, upload_action);
 }
 
@@ -297,6 +349,7 @@ void add_mission(CLI::App& program, int& exit_code) {
   add_vehicle_options(*verb, *options);
   add_type(*verb, *options, false);
   verb->add_flag("--armed", options->is_armed_allowed, armed_help);
+  add_plausibility_options(*verb, options->plausibility);
 
   options = std::make_shared<MissionOptions>();
   verb = add_verb(*group, "download", "Fetch what a vehicle holds, and show it or write it to a file", download,

@@ -9,6 +9,7 @@
 #include "apps/dry_run.hpp"
 #include "apps/files.hpp"
 #include "apps/plans.hpp"
+#include "apps/plausibility/options.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
@@ -38,6 +39,7 @@ struct PlanOptions {
   std::uint64_t seed = 1;
   double timeout_s = 7200.0;
   std::optional<double> swap_batteries_s;
+  PlausibilityArguments plausibility;
 };
 
 /// Prints what is wrong with the script; nothing when it can be flown.
@@ -75,6 +77,8 @@ base::Result<> place_world(PlanOptions const& options, dolphin::Needs const& nee
 }
 
 base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::string const& text) {
+  auto plausibility = plausibility_of(options.plausibility);
+  if (!plausibility) return std::unexpected(plausibility.error());
   auto const needs = read_needs(options.script, text);
   if (!needs) return std::unexpected(needs.error());
   auto plans = load_plans(options.plans);
@@ -83,6 +87,7 @@ base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::s
   result.plans = std::move(plans->library);
   result.timeout = base::from_seconds(options.timeout_s);
   result.payload = payload_for(*needs);
+  result.plausibility = *std::move(plausibility);
   auto& world = result.world;
   world.seed = options.seed;
   if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
@@ -155,6 +160,7 @@ void add_plan(CLI::App& program, int& exit_code) {
                    "File of the areas to stay in or out of (GeoJSON, .plan, KML); a breach exits with 1");
   verb->add_option("--plans", options->plans, plans_help);
   verb->add_option("--wind", options->wind, "How the air moves: NORTH,EAST in m/s");
+  add_plausibility_options(*verb, options->plausibility);
   verb->add_option("--svg", options->svg, "Draw the flight, map and time lines, to this file");
   verb->add_option("--json", options->json, "Write everything, tracks included, to this file");
   verb->add_option("--swap-batteries", options->swap_batteries_s, swap_help)->check(CLI::Range(1.0, 1e6));

@@ -9,6 +9,7 @@
 #include "apps/files.hpp"
 #include "apps/harness_run.hpp"
 #include "apps/key_file.hpp"
+#include "apps/plausibility/options.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
@@ -40,6 +41,7 @@ struct RunOptions {
   std::vector<std::string> payload;
   std::vector<std::string> forward;
   std::optional<double> swap_batteries_s;
+  PlausibilityArguments plausibility;
 
   [[nodiscard]] std::optional<base::Duration> timeout() const {
     return timeout_s ? std::optional(base::from_seconds(*timeout_s)) : std::nullopt;
@@ -118,6 +120,8 @@ int run_on_vehicles(RunOptions const& options, std::vector<ScriptText> const& sc
   auto equipment = equipment_for(options, world, needs);
   if (!equipment) return refuse(equipment.error());
 
+  auto plausibility = plausibility_of(options.plausibility);
+  if (!plausibility) return refuse(plausibility.error());
   auto const signing = read_signing(options.signing_key);
   if (!signing) return refuse(signing.error());
   if (world) world->keys = signing->ring;
@@ -125,6 +129,7 @@ int run_on_vehicles(RunOptions const& options, std::vector<ScriptText> const& sc
                    .on_stop = *on_stop,
                    .plans = std::move(plans),
                    .payload = *std::move(equipment),
+                   .plausibility = *std::move(plausibility),
                    .events = &events,
                    .seed = options.seed,
                    .signing = *signing});
@@ -207,6 +212,7 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--payload", options.payload,
                   std::string(payload_help) + "; simulated ones carry what the script asks for too")
       ->allow_extra_args(false);
+  add_plausibility_options(verb, options.plausibility);
   verb.add_option("--on-stop", options.on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
   verb.add_option("--platform", options.platform, "mavlink, or test: the language's own test vehicles, no MAVLink")
       ->check(CLI::IsMember({"mavlink", "test"}));

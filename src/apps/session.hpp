@@ -19,6 +19,7 @@
 #include "fleet/control.hpp"
 #include "fleet/parameters.hpp"
 #include "fleet/platform.hpp"
+#include "plan/plausibility/settings.hpp"
 #include "route/router.hpp"
 #include "sim/world.hpp"
 #include "station/station.hpp"
@@ -36,6 +37,7 @@ class Session {
     vehicle::BatteryLimits battery_limits = {};  ///< of alarms
     LoadedPlans plans = {};
     Equipment payload = {};
+    plan::plausibility::Settings plausibility = {};
     EventFile const* events = nullptr;  ///< outlives the session
     base::LogLevel log_level = base::LogLevel::info;
     /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.

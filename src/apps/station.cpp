@@ -6,6 +6,7 @@
 
 #include "apps/config_file.hpp"
 #include "apps/key_file.hpp"
+#include "apps/plausibility/options.hpp"
 #include "apps/session.hpp"
 #include "apps/signals.hpp"
 #include "apps/station_config.hpp"
@@ -28,6 +29,7 @@ struct StationArguments {
   std::optional<std::string> record;
   std::optional<std::string> signing_key;
   std::optional<std::string> tiles;
+  PlausibilityArguments plausibility;
   WebArguments web;
 };
 
@@ -51,6 +53,9 @@ base::Result<StationConfig> settings_of(StationArguments const& arguments) {
     if (!action) return std::unexpected(action.error());
     config->emergency_action = *action;
   }
+  auto plausibility = plausibility_of(arguments.plausibility, config->plausibility);
+  if (!plausibility) return std::unexpected(plausibility.error());
+  config->plausibility = *std::move(plausibility);
   if (arguments.tiles) {
     if (auto checked = check_tiles(*arguments.tiles); !checked) return std::unexpected(checked.error());
     config->map.tiles = *arguments.tiles;
@@ -79,6 +84,7 @@ int serve(StationArguments const& arguments) {
                    .battery_limits = config->battery_limits,
                    .plans = *std::move(plans),
                    .payload = config->payload,
+                   .plausibility = config->plausibility,
                    .signing = *signing});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return refuse(begun.error());
@@ -118,6 +124,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");
   verb->add_option("--on-stop", arguments->on_stop,
                    "What a vehicle does when its task is stopped: loiter (default), rtl or land");
+  add_plausibility_options(*verb, arguments->plausibility);
   verb->add_option("--emergency-stop", arguments->emergency_stop,
                    "What the emergency stop does: hold (default), land, rtl or terminate");
   verb->callback([arguments, &exit_code] { exit_code = serve(*arguments); });

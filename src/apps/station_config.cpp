@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/ground.hpp"
+#include "apps/plausibility/reading.hpp"
 #include "apps/session.hpp"
 #include "apps/simulation.hpp"
 #include "base/config.hpp"
@@ -166,6 +167,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   for (auto& table : root.tables("forward")) config.forward.push_back(read_forward(std::move(table)));
   if (auto const file = root.text("signing_key")) config.signing_key = beside(source, file->value).string();
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
+  if (auto table = root.table("plausibility")) config.plausibility = read_plausibility(std::move(*table));
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);
   if (auto map = root.table("map")) read_map(std::move(*map), source, diagnostics, config.map);
   if (auto alarms = root.table("alarms")) read_alarms(std::move(*alarms), diagnostics, config.battery_limits);

@@ -11,6 +11,7 @@
 #include "base/diagnostic.hpp"
 #include "fleet/vehicle_actions.hpp"
 #include "geo/position.hpp"
+#include "plan/plausibility/settings.hpp"
 #include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
 
@@ -30,6 +31,7 @@ struct StationConfig {
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   vehicle::StopAction emergency_action = vehicle::StopAction::hold;
+  plan::plausibility::Settings plausibility = {};
   std::vector<Forward> forward = {};           ///< other programs that ride along
   std::string signing_key = {};                ///< file; empty: nothing is signed
   std::string record = {};                     ///< folder for recordings; empty: none are made

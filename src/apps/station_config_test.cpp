@@ -49,6 +49,18 @@ TEST(StationConfig, OfAnEmptyFileIsLoopbackAlone) {
   EXPECT_FALSE(read.config.map.home);
 }
 
+TEST(StationConfig, ReadsLimitsOfPlausibilityAndWhatIsAllowed) {
+  Read const read("[plausibility]\nceiling = 300\n[plausibility.allow]\nshared_pad = \"one pad, in turn\"\n");
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_EQ(read.config.plausibility.limits.ceiling_m, 300.0);
+  EXPECT_EQ(read.config.plausibility.allowed.at(plan::plausibility::Rule::shared_pad), "one pad, in turn");
+  EXPECT_EQ(first_complaint("[plausibility]\nceilng = 300\n"),
+            "2:1 there is no setting ceilng | did you mean ceiling?");
+  EXPECT_NE(first_complaint("[plausibility]\nceiling = -5\n"), "");
+  EXPECT_NE(first_complaint("[plausibility.allow]\ntoo_far = \" \"\n"), "");
+  EXPECT_NE(first_complaint("[plausibility.allow]\ntoo_fr = \"x\"\n"), "");
+}
+
 TEST(StationConfig, ReadsWhoRidesAlong) {
   Read const read(R"([[forward]]
 name = "qgc"
