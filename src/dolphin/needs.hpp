@@ -19,8 +19,8 @@ struct VehicleNeed {
   base::Span span;  ///< of the pick
 };
 
-/// What a script asks of the world that it is to run in, as far as its text tells: literals, and variables that are
-/// given a value once. A pick that is repeated or never reached still counts once.
+/// What a script asks of the world that it is to run in, as far as its text tells: literals, units, sums, and variables
+/// that are given a value once. A pick that is repeated or never reached still counts once.
 struct Needs {
   std::vector<VehicleNeed> vehicles;
   std::vector<base::Span> unclear;  ///< picks of particular vehicles, or of a type or count known only at run time

@@ -58,6 +58,23 @@ TEST(Needs, TakesTheHomeOfTheFirstMission) {
   EXPECT_EQ(found.home->alt_m, 90.0);
 }
 
+TEST(Needs, TakesAHomeInNumbersAndUnits) {
+  auto const found = needs(
+      "m = mission { name 'Orchard'; home 41.2, -8.6, 90.meters; takeOff location(41.2, -8.6, 120); move 30, 0 }");
+  ASSERT_TRUE(found.home);
+  EXPECT_NEAR(found.home->lat_deg(), 41.2, 1e-12);
+  EXPECT_NEAR(found.home->lon_deg(), -8.6, 1e-12);
+  EXPECT_EQ(found.home->alt_m, 90.0);
+  EXPECT_EQ(needs("ground = 60 + 30\nm = mission { home 41.2, -8.6, ground }").home->alt_m, 90.0);
+  EXPECT_EQ(needs("m = mission { home 41.2, -8.6 }").home->alt_m, 0.0);
+}
+
+TEST(Needs, LeavesOutAHomeThatIsNoPlace) {
+  EXPECT_FALSE(needs("m = mission { home 141.2, -8.6, 90 }").home);
+  EXPECT_FALSE(needs("m = mission { home somewhere, -8.6, 90 }").home);
+  EXPECT_FALSE(needs("m = mission { home 1, 2, 3, 4 }").home);
+}
+
 TEST(Needs, WithoutAHomeTakesTheFirstLocation) {
   EXPECT_NEAR(needs("area = (location 38.5, -8.5) ^ 2.km").home->lat_deg(), 38.5, 1e-12);
   EXPECT_FALSE(needs("message 'hello'").home);
