@@ -15,12 +15,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-base::Result<std::string> read_standard_input() {
+/// Of something whose size is not known before it ends.
+base::Result<std::string> read_to_end(std::istream& in, std::string_view name) {
   std::string text;
-  for (char c = 0; std::cin.get(c);) {
+  for (char c = 0; in.get(c);) {
     text += c;
     if (text.size() > max_script_bytes)
-      return base::fail(base::ErrorKind::invalid_input, "standard input: too large for a script");
+      return base::fail(base::ErrorKind::invalid_input, fmt::format("{}: too large for a script", name));
   }
   return text;
 }
@@ -28,10 +29,14 @@ base::Result<std::string> read_standard_input() {
 }  // namespace
 
 base::Result<std::string> read_script(std::string const& path) {
-  if (path == "-") return read_standard_input();
+  if (path == "-") return read_to_end(std::cin, "standard input");
   std::error_code error;
   auto const status = fs::status(path, error);
   if (!fs::exists(status)) return base::fail(base::ErrorKind::not_found, fmt::format("{}: no such file", path));
+  if (fs::is_fifo(status)) {  // check <(make_script)
+    std::ifstream pipe(path, std::ios::binary);
+    return read_to_end(pipe, path);
+  }
   if (!fs::is_regular_file(status))
     return base::fail(base::ErrorKind::invalid_input, fmt::format("{}: not a file", path));
   if (auto const size = fs::file_size(path, error); !error && size > max_script_bytes) {

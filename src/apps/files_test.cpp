@@ -1,6 +1,10 @@
 #include "apps/files.hpp"
 
+#include <fstream>
+#include <thread>
+
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "apps/testing/temporary_folder.hpp"
 
@@ -22,6 +26,15 @@ TEST(Files, SaysWhyAScriptCannotBeRead) {
   EXPECT_EQ(absent.error().kind, base::ErrorKind::not_found);
   EXPECT_NE(absent.error().message.find("absent.dolphin: no such file"), std::string::npos);
   EXPECT_EQ(read_script(folder.path().string()).error().kind, base::ErrorKind::invalid_input);
+}
+
+/// `check <(make_script)`
+TEST(Files, ReadsAPipeToItsEnd) {
+  TemporaryFolder const folder;
+  auto const path = (folder.path() / "pipe").string();
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  std::jthread const writer([&] { std::ofstream(path) << "message 'hello'\n"; });
+  EXPECT_EQ(read_script(path).value(), "message 'hello'\n");
 }
 
 TEST(Files, RefusesAScriptBeyondTheLimitBeforeReadingIt) {
