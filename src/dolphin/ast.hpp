@@ -83,7 +83,7 @@ struct Range {
   bool inclusive = true;
 };
 
-enum class UnaryOp { logical_not, minus, plus };
+enum class UnaryOp { logical_not, minus, plus, complement };
 struct Unary {
   UnaryOp op;
   ExprPtr operand;
@@ -119,6 +119,8 @@ enum class BinaryOp {
   logical_and,
   logical_or,
   elvis,
+  find,   ///< =~
+  match,  ///< ==~
 };
 struct Binary {
   BinaryOp op;
@@ -126,7 +128,11 @@ struct Binary {
   ExprPtr right;
   Span op_span;
 };
-/// x as T
+/// /x+/: a regular expression.
+struct PatternLiteral {
+  std::string text;
+};
+/// x as T, (T) x
 struct Cast {
   ExprPtr operand;
   Identifier type;
@@ -146,7 +152,8 @@ struct Ternary {
 struct Member {
   ExprPtr object;
   Identifier name;
-  bool safe = false;  ///< ?.
+  bool safe = false;       ///< ?.
+  bool is_spread = false;  ///< *.: of each element
 };
 /// object[index]; task[vehicles].
 struct Index {
@@ -201,7 +208,8 @@ struct Chain {
   ChainKind kind;
   ExprPtr subject;
   ExprPtr body;
-  Span head_span;  ///< the first word
+  Span head_span;             ///< the first word
+  bool is_otherwise = false;  ///< `otherwise task`: the same as `when { true } then task`, and last
 };
 
 /// Stands where something was too wrong to keep; the sink then holds an error.
@@ -209,8 +217,8 @@ struct ErrorExpr {};
 
 struct Expr {
   using Node = std::variant<ErrorExpr, NullLiteral, BoolLiteral, IntegerLiteral, DecimalLiteral, StringLiteral, GString,
-                            Name, ListLiteral, MapLiteral, Range, Unary, Step, Binary, Cast, InstanceOf, Ternary,
-                            Member, Index, Call, New, Closure, Chain>;
+                            PatternLiteral, Name, ListLiteral, MapLiteral, Range, Unary, Step, Binary, Cast, InstanceOf,
+                            Ternary, Member, Index, Call, New, Closure, Chain>;
   Node node;
   Span span;  ///< parentheses not included
   bool in_parentheses = false;
@@ -227,6 +235,8 @@ struct Assign {
   ExprPtr target;              ///< Name, Member or Index
   std::optional<BinaryOp> op;  ///< add for +=, and so on
   ExprPtr value;
+  std::vector<ExprPtr> more = {};  ///< further targets: a = b = value, (a, b) = list; then there is no op
+  bool unpacks = false;            ///< (a, b) = list: each target gets an element
 };
 /// def x = e, int k = 4, def (p, q) = list. A local: seen by nested closures, not by functions declared with def f().
 struct VarDecl {
@@ -248,6 +258,7 @@ struct If {
 struct While {
   ExprPtr condition;
   Block body;
+  bool body_first = false;  ///< do { } while (condition)
 };
 /// for (init; condition; update); each part may be null.
 struct For {

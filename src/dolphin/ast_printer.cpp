@@ -33,6 +33,19 @@ std::string_view symbol(ast::BinaryOp op) {
     case logical_and: return "&&";
     case logical_or: return "||";
     case elvis: return "?:";
+    case find: return "=~";
+    case match: return "==~";
+  }
+  return "?";
+}
+
+std::string_view symbol(ast::UnaryOp op) {
+  using enum ast::UnaryOp;
+  switch (op) {
+    case logical_not: return "!";
+    case minus: return "-";
+    case plus: return "+";
+    case complement: return "~";
   }
   return "?";
 }
@@ -115,6 +128,7 @@ struct ExprPrinter {
     }
     return out + ")";
   }
+  std::string operator()(ast::PatternLiteral const& n) const { return "/" + n.text + "/"; }
   std::string operator()(ast::Name const& n) const { return n.text; }
   std::string operator()(ast::ListLiteral const& n) const {
     std::string out = "[";
@@ -130,10 +144,7 @@ struct ExprPrinter {
   std::string operator()(ast::Range const& n) const {
     return fmt::format("({} {} {})", n.inclusive ? ".." : "..<", print(n.first), print(n.last));
   }
-  std::string operator()(ast::Unary const& n) const {
-    auto const* sign = n.op == ast::UnaryOp::logical_not ? "!" : n.op == ast::UnaryOp::minus ? "-" : "+";
-    return fmt::format("({} {})", sign, print(n.operand));
-  }
+  std::string operator()(ast::Unary const& n) const { return fmt::format("({} {})", symbol(n.op), print(n.operand)); }
   std::string operator()(ast::Step const& n) const {
     auto const* sign = n.by > 0 ? "++" : "--";
     return n.prefix ? fmt::format("({}_ {})", sign, print(n.target)) : fmt::format("(_{} {})", sign, print(n.target));
@@ -149,7 +160,7 @@ struct ExprPrinter {
     return fmt::format("(? {} {} {})", print(n.condition), print(n.if_true), print(n.if_false));
   }
   std::string operator()(ast::Member const& n) const {
-    return fmt::format("{}{}{}", print(n.object), n.safe ? "?." : ".", n.name.text);
+    return fmt::format("{}{}{}", print(n.object), n.is_spread ? "*." : n.safe ? "?." : ".", n.name.text);
   }
   std::string operator()(ast::Index const& n) const {
     return fmt::format("(at {} {})", print(n.object), print(n.index));
@@ -164,6 +175,7 @@ struct ExprPrinter {
     return n.has_arrow ? fmt::format("{{{} -> {}", print(n.parameters), body.substr(1)) : body;
   }
   std::string operator()(ast::Chain const& n) const {
+    if (n.is_otherwise) return fmt::format("(otherwise {})", print(n.body));
     return fmt::format("({} {} {})", head(n.kind), print(n.subject), print(n.body));
   }
 };
@@ -171,7 +183,10 @@ struct ExprPrinter {
 struct StmtPrinter {
   std::string operator()(ast::ExprStmt const& n) const { return print(n.expr); }
   std::string operator()(ast::Assign const& n) const {
-    return fmt::format("({}= {} {})", n.op ? symbol(*n.op) : "", print(n.target), print(n.value));
+    std::string targets = print(n.target);
+    for (auto const& one : n.more) targets += (n.unpacks ? ", " : " = ") + print(one);
+    return fmt::format("({}= {} {})", n.op ? symbol(*n.op) : "", n.unpacks ? "[" + targets + "]" : targets,
+                       print(n.value));
   }
   std::string operator()(ast::VarDecl const& n) const {
     auto const names = n.unpacks ? "[" + print(n.names) + "]" : print(n.names);
@@ -185,6 +200,7 @@ struct StmtPrinter {
     return fmt::format("(if {} {}{})", print(n.condition), print(n.then), otherwise);
   }
   std::string operator()(ast::While const& n) const {
+    if (n.body_first) return fmt::format("(do {} while {})", print(n.body), print(n.condition));
     return fmt::format("(while {} {})", print(n.condition), print(n.body));
   }
   std::string operator()(ast::For const& n) const {

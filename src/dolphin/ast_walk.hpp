@@ -23,6 +23,10 @@ void each(Block const& block, Visit&& visit) {
   for (auto const& statement : block.statements) each(statement, visit);
 }
 template <class Visit>
+void each(std::vector<ExprPtr> const& children, Visit&& visit) {
+  for (auto const& child : children) each(child, visit);
+}
+template <class Visit>
 void each(std::vector<Argument> const& arguments, Visit&& visit) {
   for (auto const& argument : arguments) each(argument.value, visit);
 }
@@ -63,7 +67,7 @@ struct ExprChildren {
   void operator()(Leaf const&) const {
     static_assert(std::is_empty_v<Leaf> || std::is_same_v<Leaf, BoolLiteral> || std::is_same_v<Leaf, IntegerLiteral> ||
                   std::is_same_v<Leaf, DecimalLiteral> || std::is_same_v<Leaf, StringLiteral> ||
-                  std::is_same_v<Leaf, Name>);
+                  std::is_same_v<Leaf, PatternLiteral> || std::is_same_v<Leaf, Name>);
   }
 
   template <class... Children>
@@ -77,14 +81,17 @@ struct StmtChildren {
   Visit& visit;
 
   void operator()(ExprStmt const& n) const { all(n.expr); }
-  void operator()(Assign const& n) const { all(n.target, n.value); }
+  void operator()(Assign const& n) const { all(n.target, n.more, n.value); }
   void operator()(VarDecl const& n) const { all(n.value); }
   void operator()(FunctionDecl const& n) const { all(n.parameters, n.body); }
   void operator()(If const& n) const {
     all(n.condition, n.then);
     if (n.otherwise) all(*n.otherwise);
   }
-  void operator()(While const& n) const { all(n.condition, n.body); }
+  void operator()(While const& n) const {
+    if (n.body_first) return all(n.body, n.condition);
+    all(n.condition, n.body);
+  }
   void operator()(For const& n) const { all(n.init, n.condition, n.update, n.body); }
   void operator()(ForIn const& n) const { all(n.iterable, n.body); }
   void operator()(Switch const& n) const {

@@ -38,7 +38,8 @@ enum class Op : std::uint8_t {
   binary,   ///< pops two, pushes left op right; a: ast::BinaryOp
   compare,  ///< pops two, pushes a boolean; a: ast::BinaryOp (less .. not_equal, in) or compare
   negate,
-  plus,  ///< a fault unless the operand is a number
+  plus,        ///< a fault unless the operand is a number
+  complement,  ///< all bits of an integer; of a text the pattern that it is
   logical_not,
   truth,            ///< pops a value, pushes whether it counts as true
   jump,             ///< to a
@@ -57,6 +58,7 @@ enum class Op : std::uint8_t {
   get_index,        ///< pops object, index
   set_index,        ///< pops object, index, value
   cast,             ///< pops, pushes the value as type names[a]
+  hold,             ///< pops, pushes what a variable of that type holds; names[a] "int n", b: a parameter
   instance_of,      ///< pops, pushes whether it is a names[a]
   call_function,    ///< pops b arguments; program.functions[a]
   call_native,      ///< pops b arguments; natives()[a]

@@ -62,6 +62,7 @@ Checker::Checker(ast::Program const& program, std::span<tasks::BuilderSpec const
 
 void Checker::run() {
   function_overloads();
+  hidden_instructions();
   for (auto const* name : resolution_.redeclared) {
     diagnostics_.report(code("redeclared-variable"), name->span, fmt::format("{} is already declared here", name->text),
                         "write it without def to change its value");
@@ -70,6 +71,7 @@ void Checker::run() {
   // What could not be read may have picked or released any vehicle.
   if (program_.unread.empty()) check_vehicle_flow(program_, resolution_, inference_, tasks_, diagnostics_);
   unused_tasks();
+  unposted_signals();
 }
 
 /// Functions of one name differ in the number of their parameters.
@@ -116,6 +118,9 @@ std::string_view Checker::ends_with(ast::Call const& call) {
 
 void Checker::block(ast::Block const& block, bool is_value) {
   bool const is_script = &block == &program_.body;
+  // `case 1: 'one'; break` has the value that stands before the break.
+  bool const breaks = block.statements.size() > 1 && std::holds_alternative<ast::Break>(block.statements.back()->node);
+  auto const last = block.statements.size() - (breaks ? 1 : 0);
   std::string_view end;
   for (std::size_t i = 0; i < block.statements.size(); ++i) {
     auto const& one = *block.statements[i];
@@ -125,7 +130,7 @@ void Checker::block(ast::Block const& block, bool is_value) {
                           fmt::format("this is never reached: it stands behind {}", end));
       end = {};
     }
-    statement(one, is_value && i + 1 == block.statements.size());
+    statement(one, is_value && i + 1 == last);
     if (auto const why = ends_with(one); !why.empty()) end = why;
   }
 }
@@ -135,14 +140,17 @@ void Checker::statement(ast::Stmt const& statement, bool is_value) {
 }
 
 void Checker::check(ast::ExprStmt const& n, ast::Stmt const& statement, bool is_value) {
+  auto const before = diagnostics_.error_count();
   expression(n.expr);
-  if (is_value) return;
+  if (is_value || diagnostics_.error_count() > before) return;
   auto const kinds = inference_.facts(*n.expr).kinds;
   if (kinds == Kinds(Kind::task)) {
     diagnostics_.report(code("never-executed"), n.expr->span, "this task is never executed",
                         executed(diagnostics_.source(), statement.span));
   } else if (std::holds_alternative<ast::Closure>(n.expr->node)) {
     diagnostics_.report(code("never-called"), n.expr->span, "this closure is never called");
+  } else {
+    unused_value(*n.expr);
   }
 }
 
@@ -154,9 +162,17 @@ void Checker::check(ast::Assign const& n, ast::Stmt const&, bool) {
   expression(n.value);
   defining_ = outer;
   if (is_first && !n.op) assigned_field(*n.target);
+  assigned(n, *n.target);
+  for (auto const& target : n.more) assigned(n, *target);
+}
+
+void Checker::assigned(ast::Assign const& n, ast::Expr const& target) {
+  auto const* name = std::get_if<ast::Name>(&target.node);
   bool const is_place =
-      std::holds_alternative<ast::Member>(n.target->node) || std::holds_alternative<ast::Index>(n.target->node);
-  if (is_place || (is_name && n.op)) expression(n.target);  // of anything else the reader has complained
+      std::holds_alternative<ast::Member>(target.node) || std::holds_alternative<ast::Index>(target.node);
+  if (is_place || (name && n.op)) expression(target);  // of anything else the reader has complained
+  auto const* variable = name && !n.op && !n.unpacks ? resolution_.find(target) : nullptr;
+  if (variable && variable->type) declared_value({name->text, target.span}, variable->type->text, *n.value);
 }
 
 /// `pick { type = 'UAV' }` picks vehicles of any type.
@@ -170,12 +186,17 @@ void Checker::assigned_field(ast::Expr const& target) {
 
 void Checker::check(ast::VarDecl const& n, ast::Stmt const&, bool) {
   expression(n.value);
+  if (n.type) declared_type(*n.type);
+  if (n.type && n.value && !n.unpacks) declared_value(n.names.front(), n.type->text, *n.value);
 }
 
 void Checker::check(ast::FunctionDecl const& n, ast::Stmt const&, bool) {
   auto const outer = std::exchange(place_, {.in_closure = true});
   auto const contexts = std::exchange(contexts_, {});
-  for (auto const& parameter : n.parameters) expression(parameter.fallback);
+  for (auto const& parameter : n.parameters) {
+    expression(parameter.fallback);
+    if (parameter.type) declared_type(*parameter.type);
+  }
   block(n.body, true);
   contexts_ = contexts;
   place_ = outer;
@@ -195,8 +216,9 @@ void Checker::loop_body(ast::Block const& body) {
 }
 
 void Checker::check(ast::While const& n, ast::Stmt const& statement, bool) {
+  if (n.body_first) loop_body(n.body);
   expression(n.condition);
-  loop_body(n.body);
+  if (!n.body_first) loop_body(n.body);
   spinning(n.condition.get(), n.body, statement);
 }
 
@@ -220,18 +242,20 @@ void Checker::spinning(ast::Expr const* condition, ast::Block const& body, ast::
   bool const may_be_changed = place_.in_closure && condition && !never_ends(statement);
   if (may_be_changed || !spins(condition, body, resolution_)) return;
   auto const begin = statement.span.begin;
-  auto const word = std::holds_alternative<ast::While>(statement.node) ? 5u : 3u;
+  auto const* loop = std::get_if<ast::While>(&statement.node);
+  auto const word = !loop ? 3u : loop->body_first ? 2u : 5u;
   diagnostics_.report(code("endless-loop"), {begin, begin + word}, "this loop never ends, and nothing in it waits",
                       "to wait write pause 1, or execute condition { ... }");
 }
 
-void Checker::check(ast::Switch const& n, ast::Stmt const&, bool) {
+void Checker::check(ast::Switch const& n, ast::Stmt const&, bool is_value) {
   expression(n.subject);
+  duplicate_cases(n);
   auto const outer = place_;
   place_.in_switch = true;
   for (auto const& one : n.cases) {
     expression(one.value);
-    block(one.body, false);
+    block(one.body, is_value);
   }
   place_ = outer;
 }
@@ -239,7 +263,7 @@ void Checker::check(ast::Switch const& n, ast::Stmt const&, bool) {
 void Checker::check(ast::Try const& n, ast::Stmt const&, bool is_value) {
   block(n.body, is_value);
   for (auto const& one : n.catches) {
-    for (auto const& type : one.types) type_name(type);
+    for (auto const& type : one.types) caught_type(type);
     block(one.body, is_value);
   }
   if (n.finally) block(*n.finally, false);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "dolphin/hints/foreign_words.hpp"
 #include "dolphin/internal/checker.hpp"
 #include "dolphin/internal/fixes.hpp"
 
@@ -55,45 +56,21 @@ std::size_t positional_count(ast::Call const& call) {
   return static_cast<std::size_t>(std::ranges::count_if(call.arguments, positional));
 }
 
-/// For words that other languages have for what an instruction does; empty for any other.
-std::string in_our_words(std::string_view word) {
-  struct Word {
-    std::string_view theirs;
-    std::string_view hint;
-  };
-  static constexpr Word words[] = {
-      {"wait", "pause 5 waits 5 seconds"},
-      {"sleep", "pause 5 waits 5 seconds"},
-      {"echo", "message 'text' prints for the operator"},
-      {"printf", "message \"text with ${values}\" prints for the operator"},
-      {"input", "ask 'question' waits for a line"},
-      {"exit", "halt 'reason' ends the script"},
-      {"quit", "halt 'reason' ends the script"},
-      {"abort", "halt 'reason' ends the script"},
-      {"run", "execute task runs a task"},
-      {"start", "execute task runs a task"},
-      {"fly", "execute task runs a task"},
-  };
-  auto const* found = std::ranges::find(words, word, &Word::theirs);
-  return found == std::end(words) ? std::string() : std::string(found->hint);
-}
-
 }  // namespace
 
 void Checker::call(ast::Expr const& expr) {
   auto const& n = std::get<ast::Call>(expr.node);
   duplicate_keys(n);
   auto const* callee = std::get_if<ast::Name>(&n.callee->node);
-  if (!callee) {
-    expression(n.callee);
-    return arguments(n, std::nullopt);
-  }
+  if (std::holds_alternative<ast::Member>(n.callee->node)) return method_call(n);
+  if (!callee) return value_call(n);
   auto const& text = callee->text;
   auto const* word = block_word(text);
   if (n.style == ast::CallStyle::label) {
     if (!word) {
       diagnostics_.report(code("label"), n.callee->span, fmt::format("a label does nothing: {}:", text),
-                          is_callable(text) ? without_colon(diagnostics_.source(), n.callee->span) : base::Hint());
+                          is_callable(text) ? without_colon(diagnostics_.source(), n.callee->span)
+                                            : base::Hint("a map is written in square brackets: [name: value]"));
       return arguments(n, std::nullopt);
     }
     diagnostics_.report(code("legacy-spelling"), n.callee->span, fmt::format("{} takes no colon", text),
@@ -114,14 +91,26 @@ void Checker::call(ast::Expr const& expr) {
 void Checker::undefined_call(ast::Call const& call, base::Span span) {
   auto const& text = std::get<ast::Name>(call.callee->node).text;
   if (!may_be_defined_in_unread(text) && reported_.insert(text).second) {
-    auto hint = suggestion(text, span);
+    bool const in_mission = !contexts_.empty() && contexts_.back().kind == BlockKind::platform;
+    base::Hint hint = in_mission ? hint_for_mission_word(text) : hint_for_call(text);
+    if (hint.empty()) hint = suggestion(text, span);
     if (hint.empty()) hint = block_of(text);
-    if (hint.empty()) hint = in_our_words(text);
+    if (hint.empty()) hint = hint_in_mission(text);
     auto const where = contexts_.empty() ? "" : fmt::format(" inside {}", contexts_.back().name);
     diagnostics_.report(code("unknown-instruction"), span, fmt::format("there is no instruction {}{}", text, where),
                         std::move(hint));
   }
   arguments(call, std::nullopt);
+}
+
+/// `'abc'()`: a value that is written where it is called.
+void Checker::value_call(ast::Call const& call) {
+  expression(call.callee);
+  arguments(call, std::nullopt);
+  auto const kinds = inference_.facts(*call.callee).kinds;
+  if (kinds.is_none() || kinds.meets(Kinds(Kind::closure) | Kind::other)) return;
+  diagnostics_.report(code("unknown-instruction"), call.callee->span,
+                      fmt::format("{} cannot be called", describe(kinds)));
 }
 
 /// Checks the values of all arguments; the closure at the end, if any, in the context of the block that it is.
@@ -159,13 +148,16 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
                         "define a mission { ... }, or write imcPlan('name') for a plan made elsewhere");
     return;
   }
+  note_signals(call, spec.name);
   names_plans_ = names_plans_ || spec.name == "task" || spec.name == "imcPlan";
   std::optional<BlockContext> context;
   if (spec.block != BlockKind::none) context = BlockContext{spec.block, spec.name, block_words(spec.block)};
   auto const outer = place_;
+  auto const before = diagnostics_.error_count();
   place_.in_task = place_.in_task || spec.name == "action" || spec.name == "condition";
   arguments(call, context);
   place_ = outer;
+  bool const is_broken = diagnostics_.error_count() > before;  // what they are is not known
   if (spec.name == "execute" && place_.in_task) {
     diagnostics_.report(code("nested-execute"), call.callee->span, "execute inside a task fails",
                         "join the tasks with >> or | and execute them together");
@@ -186,8 +178,7 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
     return vehicle_keys(call, spec);
   }
   if (named > 0 && positional == 0) return;  // signals and parameters have any name
-  auto const before = diagnostics_.error_count();
-  signatures(call, span, spec);
+  if (!is_broken) signatures(call, span, spec);
   if (diagnostics_.error_count() > before) return;
   if (spec.name == "setConnectionTimeout" && positional == 1) connection_timeout(*call.arguments[0].value);
   if (spec.block == BlockKind::choice) empty_choice(call, spec);
@@ -319,7 +310,9 @@ void Checker::function_call(ast::Call const& call, base::Span span,
         std::ranges::count_if(function->parameters, [](ast::Parameter const& one) { return !one.fallback; });
     // A call without arguments may leave a single parameter null, as in Groovy.
     bool const leaves_null = count == 0 && function->parameters.size() == 1;
-    if ((count >= static_cast<std::size_t>(least) && count <= function->parameters.size()) || leaves_null) return;
+    bool const fits = count >= static_cast<std::size_t>(least) && count <= function->parameters.size();
+    if (fits && functions.size() == 1) declared_arguments(call, *function);
+    if (fits || leaves_null) return;
   }
   std::vector<std::string_view> parameters;
   for (auto const& parameter : functions.front()->parameters) parameters.push_back(parameter.name.text);

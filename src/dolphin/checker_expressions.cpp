@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "dolphin/ast_walk.hpp"
+#include "dolphin/hints/foreign_words.hpp"
 #include "dolphin/internal/checker.hpp"
 #include "dolphin/internal/fixes.hpp"
+#include "dolphin/patterns/regular_expression.hpp"
 
 namespace lapwing::dolphin {
 
@@ -97,9 +99,19 @@ void Checker::undefined_name(std::string const& name, base::Span span) {
                         "def makes a local; assign without def to see it everywhere");
     return;
   }
-  auto hint = suggestion(name, span);
+  bool const in_mission = !contexts_.empty() && contexts_.back().kind == BlockKind::platform;
+  base::Hint hint = in_mission ? hint_for_mission_word(name) : hint_for_name(name);
+  if (hint.empty()) hint = suggestion(name, span);
   if (hint.empty()) hint = block_of(name);
+  if (hint.empty()) hint = hint_in_mission(name);
   diagnostics_.report(code("unknown-name"), span, fmt::format("{} is not defined", name), std::move(hint));
+}
+
+/// For words of ground stations, which want a mission round them: `land`, `rtl`.
+std::string Checker::hint_in_mission(std::string_view name) const {
+  bool const in_mission = !contexts_.empty() && contexts_.back().kind == BlockKind::platform;
+  auto hint = hint_for_mission_word(name);
+  return hint.empty() || in_mission ? hint : fmt::format("inside mission {{ ... }} {}", hint);
 }
 
 void Checker::name(ast::Expr const& expr) {
@@ -125,13 +137,6 @@ bool Checker::used_too_early(ast::Expr const& expr, Variable const& variable) {
   return true;
 }
 
-/// Any exception of Java may be thrown and caught by its name.
-void Checker::type_name(ast::Identifier const& type) {
-  if (has_name(types(), type.text) || type.text.ends_with("Exception") || type.text.ends_with("Error")) return;
-  diagnostics_.report(code("unknown-type"), type.span, fmt::format("there is no type {}", type.text),
-                      base::did_you_mean(type.span, type.text, names_of(types())));
-}
-
 // ---- expressions --------------------------------------------------------------------------------
 
 void Checker::expression(ast::ExprPtr const& expr) {
@@ -148,8 +153,10 @@ void Checker::expression(ast::Expr const& expr) {
   if (auto const* cast = std::get_if<ast::Cast>(&expr.node)) type_name(cast->type);
   if (auto const* test = std::get_if<ast::InstanceOf>(&expr.node)) type_name(test->type);
   if (auto const* literal = std::get_if<ast::MapLiteral>(&expr.node)) map(*literal);
+  if (auto const* literal = std::get_if<ast::PatternLiteral>(&expr.node)) pattern(*literal, expr.span);
   if (auto const* made = std::get_if<ast::New>(&expr.node)) {
-    type_name(made->type);
+    bool const is_own = made->type.text.ends_with("Exception") || made->type.text.ends_with("Error");
+    if (!is_own) type_name(made->type);
     if (made->type.text == "Position") {
       diagnostics_.report(code("radians"), made->type.span, "new Position takes radians",
                           "location(lat, lon, height) takes degrees");
@@ -186,31 +193,9 @@ void Checker::map(ast::MapLiteral const& map) {
   }
 }
 
-/// Members of values whose kind is known for sure.
-void Checker::member(ast::Expr const& expr) {
-  auto const& n = std::get<ast::Member>(expr.node);
-  expression(n.object);
-  auto const facts = inference_.facts(*n.object);
-  if (facts.is_number()) {
-    if (find_unit(n.name.text)) return;
-    bool const is_member = std::ranges::any_of(methods(), [&](MethodSpec const& method) {
-      return method.name == n.name.text && method.receiver.meets(Kinds::number());
-    });
-    if (is_member) return;
-    diagnostics_.report(code("unknown-unit"), n.name.span, fmt::format("there is no unit {}", n.name.text),
-                        base::did_you_mean(n.name.span, n.name.text, names_of(units())));
-    return;
-  }
-  constexpr auto closed_kinds = Kinds(Kind::position) | Kind::displacement | Kind::area | Kind::vehicles | Kind::task;
-  if (facts.kinds.is_none() || !facts.kinds.within(closed_kinds)) return;
-  std::vector<std::string_view> known;
-  for (auto const& method : methods()) {
-    if (method.receiver.meets(facts.kinds)) known.push_back(method.name);
-  }
-  if (std::ranges::find(known, n.name.text) != known.end()) return;
-  diagnostics_.report(code("unknown-member"), n.name.span,
-                      fmt::format("{} has no member {}", describe(facts.kinds), n.name.text),
-                      base::did_you_mean(n.name.span, n.name.text, known));
+void Checker::pattern(ast::PatternLiteral const& literal, base::Span span) {
+  auto const made = RegularExpression::make(literal.text);
+  if (!made) diagnostics_.report(code("invalid-pattern"), span, "this is no pattern: " + made.error());
 }
 
 /// `message [1, 2]` indexes something called message.
@@ -244,11 +229,24 @@ void Checker::index(ast::Expr const& expr) {
   }
 }
 
+/// `otherwise task` stands in `oneOf` and `choose`.
+void Checker::otherwise(ast::Chain const& chain) {
+  auto const choice = std::ranges::find(contexts_.rbegin(), contexts_.rend(), BlockKind::choice, &BlockContext::kind);
+  if (choice == contexts_.rend()) {
+    diagnostics_.report(code("misplaced-when"), chain.head_span, "otherwise stands outside oneOf and choose");
+  } else if (choice->name == "allOf") {
+    diagnostics_.report(code("misplaced-when"), chain.head_span, "allOf runs every branch, so it has no otherwise",
+                        "write when { condition } then task");
+  }
+}
+
 void Checker::chain(ast::Expr const& expr) {
   auto const& n = std::get<ast::Chain>(expr.node);
   bool const in_choice =
       std::ranges::any_of(contexts_, [](BlockContext const& context) { return context.kind == BlockKind::choice; });
-  if (n.kind == ast::ChainKind::when && !in_choice) {
+  if (n.is_otherwise) {
+    otherwise(n);
+  } else if (n.kind == ast::ChainKind::when && !in_choice) {
     diagnostics_.report(code("misplaced-when"), n.head_span, "when stands outside oneOf, choose and allOf",
                         "outside of them write waitFor { ... } then task");
   }

@@ -56,11 +56,14 @@ constexpr auto operations = std::to_array<Operation>({
     {shift_left, Kind::map, Kind::map},
     {bit_and, whole, whole},
     {bit_and, vehicles, vehicles},
+    {bit_and, Kind::boolean, Kind::boolean},
     {bit_xor, whole, whole},
     {bit_xor, Kind::position, number},
+    {bit_xor, Kind::boolean, Kind::boolean},
     {bit_or, whole, whole},
     {bit_or, task, task},
     {bit_or, vehicles, Kind::closure},
+    {bit_or, Kind::boolean, Kind::boolean},
 });
 
 bool is_order(ast::BinaryOp op) {
@@ -74,6 +77,8 @@ bool is_equality(ast::BinaryOp op) {
 constexpr auto ordered = std::to_array<Kinds>({number, text, Kind::boolean, vehicles});
 
 bool can_meet(ast::BinaryOp op, Kinds left, Kinds right) {
+  if ((op == logical_and || op == logical_or) && left == task && right == task) return false;
+  if (op == find || op == match) return left.meets(text | Kinds(Kind::other)) && right.meets(text | Kinds(Kind::other));
   if (left.is_none() || right.is_none() || left.meets(Kind::other) || right.meets(Kind::other)) return true;
   auto const fits = [&](Operation const& one) {
     return one.op == op && left.meets(one.left) && right.meets(one.right);

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string>
 
 #include "dolphin/ast_walk.hpp"
+#include "dolphin/hints/foreign_words.hpp"
 #include "dolphin/internal/checker.hpp"
 #include "dolphin/internal/fixes.hpp"
 #include "dolphin/vehicle_types.hpp"
@@ -128,7 +130,11 @@ void Checker::vehicle_type(ast::Call const& call) {
   auto const constant = inference_.constant(wanted);
   auto const* type = constant ? std::get_if<std::string>(&*constant) : nullptr;
   if (!type || std::ranges::find(vehicle_types, *type) != vehicle_types.end()) return;
-  auto hint = did_you_mean_in_quotes(diagnostics_.source(), wanted, *type, vehicle_types);
+  auto const meant = vehicle_type_meant(*type);
+  auto hint = meant.empty()
+                  ? did_you_mean_in_quotes(diagnostics_.source(), wanted, *type, vehicle_types)
+                  : base::Hint(fmt::format("write type '{}'; the types are {}", meant, fmt::join(vehicle_types, ", ")),
+                               {{wanted.span, fmt::format("'{}'", meant)}});
   if (hint.empty()) return;
   diagnostics_.report(code("misspelt-type"), wanted.span, fmt::format("no vehicle is of type {}", *type),
                       std::move(hint));

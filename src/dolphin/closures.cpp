@@ -130,8 +130,10 @@ base::Task<void> drive(Runtime& runtime, Fiber& fiber) {
       auto result = co_await wait;
       fiber.resume(std::move(result));
     }
+    auto const began = runtime.loop.now();
     int budget = runtime.limits.slice;
-    if (fiber.run(budget) == Fiber::State::ready) co_await runtime.loop.turn();
+    if (fiber.run(budget) == Fiber::State::ready)
+      co_await runtime.loop.sleep_until(began + runtime.limits.slice * time_of_step);
   }
 }
 

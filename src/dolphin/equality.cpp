@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
@@ -30,24 +33,45 @@ bool same_members(Vehicles const& a, Vehicles const& b) {
   return a.ids.size() == b.ids.size() && std::ranges::all_of(a.ids, in_b);
 }
 
-/// Counts what it compares, so that lists that share parts many times over, or hold themselves, end as unequal.
+/// Compares lists in lists to any depth, without recursion. A pair of containers that is being compared, or has been,
+/// is not looked at again: lists that hold themselves, or share parts many times over, come to an end.
 class Comparison {
  public:
-  [[nodiscard]] int compared() const { return compared_; }
-  bool equal(Value const& a, Value const& b, int depth) {
+  [[nodiscard]] std::size_t compared() const { return compared_; }
+
+  bool equal(Value const& a, Value const& b) {
+    if (!equal_so_far(a, b)) return false;
+    while (!pending_.empty()) {
+      auto const [x, y] = std::move(pending_.back());
+      pending_.pop_back();
+      if (!equal_inside(x, y)) return false;
+    }
+    return true;
+  }
+
+ private:
+  static bool is_container(Value const& value) {
+    return value.is(ValueKind::list) || value.is(ValueKind::map) || value.is(ValueKind::entry);
+  }
+
+  /// Whether they are equal as far as can be seen without looking into them; containers are put by for later.
+  bool equal_so_far(Value const& a, Value const& b) {
     if (a.is_number() && b.is_number()) return same_number(a, b);
-    if (a.kind() != b.kind()) return same_sequence(a, b, depth);
-    if (a.is_object() && &a.object() == &b.object()) return true;
-    if (depth > 64 || ++compared_ > 1'000'000) return false;
+    if (a.is_object() && b.is_object() && &a.object() == &b.object()) return true;
+    if (++compared_ > max_comparisons) return false;
+    bool const are_lists = a.is(ValueKind::range) || b.is(ValueKind::range);
+    if (a.kind() != b.kind()) return are_lists && same_sequence(a, b);
+    if (!is_container(a)) return equal_values(a, b);
+    bool const is_new = seen_.emplace(&a.object(), &b.object()).second;
+    if (is_new) pending_.emplace_back(a, b);
+    return true;
+  }
+
+  static bool equal_values(Value const& a, Value const& b) {
     switch (a.kind()) {
       case ValueKind::null: return true;
       case ValueKind::boolean: return a.boolean() == b.boolean();
       case ValueKind::text: return a.as<Text>()->text == b.as<Text>()->text;
-      case ValueKind::list: return equal_lists(*a.as<List>(), *b.as<List>(), depth);
-      case ValueKind::map: return equal_maps(*a.as<Map>(), *b.as<Map>(), depth);
-      case ValueKind::entry:
-        return equal(a.as<Entry>()->key, b.as<Entry>()->key, depth + 1) &&
-               equal(a.as<Entry>()->value, b.as<Entry>()->value, depth + 1);
       case ValueKind::range: {
         auto const& x = *a.as<Range>();
         auto const& y = *b.as<Range>();
@@ -58,33 +82,41 @@ class Comparison {
       case ValueKind::position: return a.as<Position>()->value == b.as<Position>()->value;
       case ValueKind::displacement: return a.as<Displacement>()->value == b.as<Displacement>()->value;
       case ValueKind::area: return a.as<Area>()->value == b.as<Area>()->value;
+      case ValueKind::pattern: return a.as<PatternValue>()->value->text() == b.as<PatternValue>()->value->text();
       case ValueKind::type: return a.as<TypeValue>()->value.name == b.as<TypeValue>()->value.name;
       default: return false;
     }
   }
 
- private:
+  bool equal_inside(Value const& a, Value const& b) {
+    if (auto const* entry = a.as<Entry>()) {
+      return equal_so_far(entry->key, b.as<Entry>()->key) && equal_so_far(entry->value, b.as<Entry>()->value);
+    }
+    if (auto const* list = a.as<List>()) {
+      return std::ranges::equal(list->items, b.as<List>()->items,
+                                [&](Value const& x, Value const& y) { return equal_so_far(x, y); });
+    }
+    auto const& map = *a.as<Map>();
+    auto const& other = *b.as<Map>();
+    return map.size() == other.size() && std::ranges::all_of(map.items(), [&](auto const& item) {
+             return other.contains(item.first) && equal_so_far(item.second, other.at(item.first));
+           });
+  }
+
   /// [1, 2, 3] == 1..3
-  bool same_sequence(Value const& a, Value const& b, int depth) {
+  bool same_sequence(Value const& a, Value const& b) {
     auto const* list = a.as<List>() ? a.as<List>() : b.as<List>();
     auto const* range = a.as<Range>() ? a.as<Range>() : b.as<Range>();
     if (!list || !range || static_cast<std::int64_t>(list->items.size()) != range->size) return false;
     for (std::int64_t i = 0; i < range->size; ++i) {
-      if (!equal(list->items[static_cast<std::size_t>(i)], Value::integer(range->at(i)), depth + 1)) return false;
+      if (!equal_so_far(list->items[static_cast<std::size_t>(i)], Value::integer(range->at(i)))) return false;
     }
     return true;
   }
-  bool equal_lists(List const& a, List const& b, int depth) {
-    return std::ranges::equal(a.items, b.items, [&](auto const& x, auto const& y) { return equal(x, y, depth + 1); });
-  }
-  bool equal_maps(Map const& a, Map const& b, int depth) {
-    if (a.size() != b.size()) return false;
-    return std::ranges::all_of(a.items(), [&](auto const& item) {
-      return b.contains(item.first) && equal(item.second, b.at(item.first), depth + 1);
-    });
-  }
 
-  int compared_ = 0;
+  std::size_t compared_ = 0;
+  std::vector<std::pair<Value, Value>> pending_;
+  std::set<std::pair<Object const*, Object const*>> seen_;
 };
 
 std::partial_ordering order_numbers(Value const& a, Value const& b) {
@@ -112,14 +144,14 @@ bool is_true(Value const& value) {
 }
 
 bool equal(Value const& a, Value const& b) {
-  return Comparison().equal(a, b, 0);
+  return Comparison().equal(a, b);
 }
 
 Checked<std::optional<std::size_t>> find(std::span<Value const> items, Value const& wanted, std::size_t& compared) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     Comparison comparison;
-    bool const is_found = comparison.equal(items[i], wanted, 0);
-    compared += 1 + static_cast<std::size_t>(comparison.compared());
+    bool const is_found = comparison.equal(items[i], wanted);
+    compared += 1 + comparison.compared();
     if (is_found) return i;
     if (compared > max_comparisons) return fault("the lists are too long to compare", "OutOfMemoryError");
   }

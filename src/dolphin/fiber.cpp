@@ -246,6 +246,7 @@ void Fiber::execute(Instruction i) {
     case Op::get_index:
     case Op::set_index:
     case Op::cast:
+    case Op::hold:
     case Op::instance_of: return execute_member(i);
     case Op::begin_block:
     case Op::block_command:

@@ -86,6 +86,7 @@ class Fiber {
   void call_method(std::string const& name, int count);
   void call_native(int index, int count);
   void filter_vehicles();
+  Checked<Value> compared_with_pattern(bool finds, Value const& text, Value const& wanted);
   void compare(int op);
   void binary(int op);
   void make_closure(int index);

@@ -13,6 +13,7 @@
 #include "dolphin/runtime.hpp"
 #include "dolphin/signatures.hpp"
 #include "dolphin/text.hpp"
+#include "dolphin/types/declared_type.hpp"
 
 /// The instructions of a fiber that work on values: operators, members, calls, blocks. Frames and control flow are in
 /// fiber.cpp.
@@ -26,6 +27,13 @@ void Fiber::execute_operator(Instruction i) {
     case Op::plus:
       if (!top().is_number()) raise({"RuntimeException", fmt::format("{} has no sign", kind_name(top()))});
       return;
+    case Op::complement: {
+      if (top().is(ValueKind::integer)) {
+        top() = Value::integer(~top().integer());
+        return;
+      }
+      return replace(1, make_pattern(heap, runtime_.patterns, Value(top())));
+    }
     case Op::logical_not: top() = Value::boolean(!is_true(top())); return;
     case Op::truth: top() = Value::boolean(is_true(top())); return;
     case Op::make_list: {
@@ -64,6 +72,9 @@ void Fiber::make_closure(int index) {
 
 void Fiber::binary(int op) {
   auto const operation = static_cast<ast::BinaryOp>(op);
+  if (operation == ast::BinaryOp::find || operation == ast::BinaryOp::match) {
+    return replace(2, compared_with_pattern(operation == ast::BinaryOp::find, Value(top(1)), Value(top())));
+  }
   if (top().is(ValueKind::closure)) {
     if (operation == ast::BinaryOp::bit_or && top(1).is(ValueKind::vehicles)) return filter_vehicles();
     if (operation == ast::BinaryOp::divide && top(1).is(ValueKind::task)) {
@@ -74,6 +85,19 @@ void Fiber::binary(int op) {
   }
   auto result = apply(runtime_.heap, operation, top(1), top(), {.line = static_cast<int>(line())});
   replace(2, std::move(result));
+}
+
+/// `text =~ pattern`, `text ==~ pattern`.
+Checked<Value> Fiber::compared_with_pattern(bool finds, Value const& text, Value const& wanted) {
+  auto const* held = text.as<Text>();
+  if (!held) {
+    return fault(fmt::format("{} has no operator {} with a pattern", kind_name(text), finds ? "=~" : "==~"),
+                 "MissingMethodException");
+  }
+  auto const pattern = runtime_.patterns.of(wanted);
+  if (!pattern) return std::unexpected(pattern.error());
+  if (finds) return found_in(runtime_.heap, **pattern, held->text);
+  return Value::boolean((*pattern)->matches(held->text));
 }
 
 /// `set | { test }` is the method findAll, whose arguments lie as it needs them.
@@ -118,6 +142,8 @@ Checked<bool> Fiber::matches(Value const& subject, Value const& label) {
                         (label.is(ValueKind::area) && subject.is(ValueKind::position));
   if (holds_it) return contains(label, subject);
   if (auto const* type = label.as<TypeValue>()) return is_instance(subject, type->value.name);
+  auto const* pattern = label.as<PatternValue>();
+  if (pattern && subject.is(ValueKind::text)) return pattern->value->matches(subject.as<Text>()->text);
   return equal(subject, label);
 }
 
@@ -179,6 +205,8 @@ void Fiber::execute_member(Instruction i) {
       return;
     }
     case Op::cast: return replace(1, cast(runtime_, Value(top()), name(i.a)));
+    case Op::hold:
+      return replace(1, held(runtime_, Value(top()), name(i.a), i.b != 0 ? Holder::parameter : Holder::variable));
     case Op::instance_of: top() = Value::boolean(is_instance(top(), name(i.a))); return;
     default: return;
   }

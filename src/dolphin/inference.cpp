@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "dolphin/types/declared_type.hpp"
+
 namespace lapwing::dolphin {
 
 namespace {
@@ -71,7 +73,7 @@ class Evaluator {
   Value of(ast::Unary const& n, ast::Expr const&) {
     auto const operand = value(*n.operand);
     if (n.op == ast::UnaryOp::plus) return operand;
-    if (n.op == ast::UnaryOp::logical_not || !operand) return std::nullopt;
+    if (n.op != ast::UnaryOp::minus || !operand) return std::nullopt;
     if (auto const* whole = std::get_if<std::int64_t>(&*operand)) {
       return *whole == std::numeric_limits<std::int64_t>::min() ? Value() : Value(-*whole);
     }
@@ -139,6 +141,7 @@ std::optional<tasks::Argument> Inference::constant(ast::Expr const& expr) const 
 }
 
 Facts Inference::facts(Variable const& variable, int depth) {
+  if (variable.type && is_checked_type(variable.type->text)) return {kinds_held(variable.type->text), {}};
   if (variable.has_other_values || variable.values.empty() || depth <= 0) return {};
   if (auto const known = known_.find(&variable); known != known_.end()) return known->second;
   known_.emplace(&variable, Facts{});  // a variable whose value depends on itself
@@ -163,10 +166,18 @@ struct Inference::Visitor {
   Facts operator()(ast::MapLiteral const&) const { return {Kind::map, {}}; }
   Facts operator()(ast::Range const&) const { return {Kind::other, {}}; }
   Facts operator()(ast::Closure const&) const { return {Kind::closure, {}}; }
+  Facts operator()(ast::PatternLiteral const&) const { return {Kind::other, {}}; }
+  Facts operator()(ast::Cast const& n) const {
+    if (!is_checked_type(n.type.text)) return {};
+    return {kinds_held(n.type.text) | Kind::other, {}};  // null stays null
+  }
   Facts operator()(ast::InstanceOf const&) const { return {Kind::boolean, {}}; }
   Facts operator()(ast::Name const&) const { return self.facts_of_name(expr, depth); }
   Facts operator()(ast::Unary const& n) const {
-    return n.op == ast::UnaryOp::logical_not ? Facts{Kind::boolean, {}} : self.facts(*n.operand, depth - 1);
+    if (n.op == ast::UnaryOp::logical_not) return {Kind::boolean, {}};
+    auto const operand = self.facts(*n.operand, depth - 1);
+    if (n.op != ast::UnaryOp::complement) return operand;
+    return {operand.kinds == Kinds(Kind::integer) ? operand.kinds : Kinds(Kind::integer) | Kind::other, {}};
   }
   Facts operator()(ast::Binary const& n) const { return self.facts_of_binary(n, depth); }
   Facts operator()(ast::Ternary const& n) const {
@@ -202,6 +213,7 @@ Facts Inference::facts_of_binary(ast::Binary const& binary, int depth) {
   using enum ast::BinaryOp;
   auto const left = facts(*binary.left, depth - 1);
   auto const right = facts(*binary.right, depth - 1);
+  bool const are_truths = is_exactly(left, Kind::boolean) && is_exactly(right, Kind::boolean);
   bool const numbers = left.is_number() && right.is_number();
   switch (binary.op) {
     case less:
@@ -211,8 +223,10 @@ Facts Inference::facts_of_binary(ast::Binary const& binary, int depth) {
     case equal:
     case not_equal:
     case in:
+    case match:
     case logical_and:
     case logical_or: return {Kind::boolean, {}};
+    case find: return {Kind::list, {}};
     case compare: return {Kind::integer, Dimension::none};
     case elvis: return join(left, right);
     case power:
@@ -226,16 +240,21 @@ Facts Inference::facts_of_binary(ast::Binary const& binary, int depth) {
     case divide:
       if (is_exactly(left, Kind::task)) return right.kinds.meets(Kind::closure) ? left : Facts{};
       return numbers ? product(left, right, true) : Facts{};
-    case bit_xor: return is_exactly(left, Kind::position) ? Facts{Kind::area, {}} : Facts{};
+    case bit_xor:
+      if (are_truths) return left;
+      return is_exactly(left, Kind::position) ? Facts{Kind::area, {}} : Facts{};
     case shift_right: return is_exactly(left, Kind::task) && right.kinds.meets(Kind::task) ? left : Facts{};
     case bit_or:
-    case bit_and: return is_exactly(left, Kind::task) || is_exactly(left, Kind::vehicles) ? left : Facts{};
+    case bit_and:
+      if (are_truths) return left;
+      return is_exactly(left, Kind::task) || is_exactly(left, Kind::vehicles) ? left : Facts{};
     case shift_left: return {};
   }
   return {};
 }
 
 Facts Inference::facts_of_member(ast::Member const& member, int depth) {
+  if (member.is_spread) return {Kind::list, {}};
   auto const object = facts(*member.object, depth - 1);
   if (object.is_number()) {
     if (auto const* unit = find_unit(member.name.text)) return number_facts(unit->dimension);
@@ -253,6 +272,7 @@ Facts Inference::facts_of_call(ast::Call const& call, int depth) {
   auto const* name = std::get_if<ast::Name>(&call.callee->node);
   if (!name) {
     auto const* member = std::get_if<ast::Member>(&call.callee->node);
+    if (member && member->is_spread) return {Kind::list, {}};
     auto const object = member ? facts(*member->object, depth - 1) : Facts{};
     if (object.kinds.is_any()) return {};
     for (auto const& method : methods()) {

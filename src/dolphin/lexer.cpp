@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "dolphin/codes.hpp"
 #include "dolphin/internal/brackets.hpp"
 #include "dolphin/internal/characters.hpp"
+#include "dolphin/internal/signs.hpp"
 
 namespace lapwing::dolphin {
 
@@ -17,94 +18,6 @@ namespace {
 
 using base::Span;
 using enum TokenKind;
-
-constexpr auto words = std::to_array<std::pair<std::string_view, TokenKind>>({
-    {"as", kw_as},
-    {"assert", kw_assert},
-    {"break", kw_break},
-    {"case", kw_case},
-    {"catch", kw_catch},
-    {"class", kw_class},
-    {"continue", kw_continue},
-    {"def", kw_def},
-    {"default", kw_default},
-    {"do", kw_do},
-    {"else", kw_else},
-    {"enum", kw_enum},
-    {"false", kw_false},
-    {"finally", kw_finally},
-    {"for", kw_for},
-    {"if", kw_if},
-    {"import", kw_import},
-    {"in", kw_in},
-    {"instanceof", kw_instanceof},
-    {"interface", kw_interface},
-    {"new", kw_new},
-    {"null", kw_null},
-    {"package", kw_package},
-    {"return", kw_return},
-    {"switch", kw_switch},
-    {"throw", kw_throw},
-    {"true", kw_true},
-    {"try", kw_try},
-    {"while", kw_while},
-});
-static_assert(std::ranges::is_sorted(words, {}, &std::pair<std::string_view, TokenKind>::first));
-
-/// Longest first where one begins another.
-constexpr auto operators = std::to_array<std::pair<std::string_view, TokenKind>>({
-    {"..<", range_exclusive},
-    {"<=>", compare},
-    {"**=", power_assign},
-    {"<<=", shift_left_assign},
-    {">>=", shift_right_assign},
-    {"..", range},
-    {"?.", safe_dot},
-    {"?:", elvis},
-    {"->", arrow},
-    {"+=", plus_assign},
-    {"-=", minus_assign},
-    {"*=", times_assign},
-    {"/=", divide_assign},
-    {"%=", remainder_assign},
-    {"&=", bit_and_assign},
-    {"^=", bit_xor_assign},
-    {"|=", bit_or_assign},
-    {"**", power},
-    {"++", plus_plus},
-    {"--", minus_minus},
-    {"<<", shift_left},
-    {">>", shift_right},
-    {"<=", less_equal},
-    {">=", greater_equal},
-    {"==", equal},
-    {"!=", not_equal},
-    {"&&", logical_and},
-    {"||", logical_or},
-    {"(", left_paren},
-    {")", right_paren},
-    {"[", left_bracket},
-    {"]", right_bracket},
-    {"{", left_brace},
-    {"}", right_brace},
-    {",", comma},
-    {";", semicolon},
-    {":", colon},
-    {".", dot},
-    {"?", question},
-    {"=", assign},
-    {"+", plus},
-    {"-", minus},
-    {"*", star},
-    {"/", slash},
-    {"%", percent},
-    {"<", less},
-    {">", greater},
-    {"!", logical_not},
-    {"&", bit_and},
-    {"|", bit_or},
-    {"^", bit_xor},
-});
 
 /// A string whose interpolation is being read.
 struct OpenString {
@@ -136,13 +49,19 @@ class Lexer {
   bool skip_line_end();
   void skip_line_comment();
   void skip_block_comment();
+  void note_inner_comment(std::size_t begin);
+  void close_no_comment();
   void skip_unreadable();
+  [[nodiscard]] bool is_unreadable() const;
   void read_typographic_string(Unreadable const& quote);
 
   void read_token();
   void read_word();
   void read_number();
   void read_operator();
+  bool read_foreign_operator();
+  bool read_pattern();
+  void refuse_utf16();
   void read_plain_string(std::size_t quote_size);
   void read_double_quoted(std::size_t quote_size);
   void read_string_text();
@@ -158,6 +77,13 @@ class Lexer {
   std::size_t at_ = 0;
   TokenStream out_;
   std::vector<OpenString> open_;
+  /// The last comment, when another seems to begin in it.
+  struct InnerComment {
+    std::size_t begin;
+    std::size_t end;     ///< of both
+    std::size_t tokens;  ///< before it
+  };
+  std::optional<InnerComment> inner_comment_;
   bool newline_before_ = true;
 };
 
@@ -195,6 +121,7 @@ void Lexer::skip_block_comment() {
   auto const begin = at_;
   auto const end = text_.find("*/", at_ + 2);
   at_ = end == std::string_view::npos ? text_.size() : end + 2;
+  if (end != std::string_view::npos) note_inner_comment(begin);
   auto const comment = since(begin);
   if (end == std::string_view::npos) {
     diagnostics_.report(code("unclosed-comment"), {comment.begin, comment.begin + 2}, "this comment is never closed",
@@ -203,6 +130,32 @@ void Lexer::skip_block_comment() {
   if (text_.substr(comment.begin, comment.size()).find_first_of("\r\n") != std::string_view::npos)
     newline_before_ = true;
   out_.comments.push_back(comment);
+}
+
+/// Comments do not nest: in /* a /* b */ c */ the first */ ends both, and the last one closes nothing. What stands
+/// between them is then passed over, as it was meant to be.
+void Lexer::note_inner_comment(std::size_t begin) {
+  auto const inner = text_.substr(0, at_).find("/*", begin + 2);
+  bool const is_there = inner != std::string_view::npos && inner + 2 < at_;
+  inner_comment_.reset();
+  if (is_there && open_.empty()) inner_comment_ = InnerComment{inner, at_, out_.tokens.size()};
+}
+
+void Lexer::close_no_comment() {
+  auto const begin = at_;
+  at_ += 2;
+  if (!inner_comment_) {
+    diagnostics_.report(code("nested-comment"), since(begin), "this */ closes no comment");
+    return emit(invalid, begin);
+  }
+  auto const place = [](std::size_t at) {
+    return Span{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at + 2)};
+  };
+  diagnostics_.report(code("nested-comment"), place(inner_comment_->begin), "a comment cannot stand in a comment",
+                      "// begins one that ends with its line", {{place(inner_comment_->end - 2), "both end here"}});
+  out_.tokens.resize(inner_comment_->tokens);
+  newline_before_ = true;
+  inner_comment_.reset();
 }
 
 /// Blanks, comments and line ends before the next token. False when an open interpolation ends with its line.
@@ -243,8 +196,18 @@ void Lexer::skip_unreadable() {
   }
   do {
     at_ += unreadable_character(text_.substr(at_)).size;
-  } while (!at_end() && unreadable_character(text_.substr(at_)).message == first.message);
+  } while (!at_end() && is_unreadable() && unreadable_character(text_.substr(at_)).message == first.message);
   diagnostics_.report(code("invalid-character"), since(begin), std::string(first.message), std::string(first.hint));
+  if (first.looks_like == Unreadable::Like::comment) return skip_line_comment();
+  if (first.looks_like != Unreadable::Like::blank) emit(invalid, begin);
+}
+
+/// Nothing that could stand in a script begins here.
+bool Lexer::is_unreadable() const {
+  auto const rest = text_.substr(at_);
+  if (identifier_character(rest) > 0 || blank_size(rest) > 0) return false;
+  if (std::string_view("\n\r'\"").contains(rest.front())) return false;
+  return !sign_at(rest);
 }
 
 void Lexer::read_typographic_string(Unreadable const& quote) {
@@ -271,8 +234,7 @@ void Lexer::read_word() {
   auto const begin = at_;
   while (auto const size = identifier_character(text_.substr(at_))) at_ += size;
   auto const word = text_.substr(begin, at_ - begin);
-  auto const found = std::ranges::lower_bound(words, word, {}, &std::pair<std::string_view, TokenKind>::first);
-  emit(found != words.end() && found->first == word ? found->second : identifier, begin);
+  emit(kind_of_word(word), begin);
 }
 
 void Lexer::read_number() {
@@ -293,19 +255,44 @@ void Lexer::read_number() {
   emit(number.is_decimal ? decimal : integer, begin);
 }
 
+bool Lexer::read_foreign_operator() {
+  auto const* found = foreign_sign_at(text_.substr(at_));
+  if (!found) return false;
+  auto const begin = at_;
+  at_ += found->theirs.size();
+  diagnostics_.report(code("foreign-operator"), since(begin), fmt::format("there is no operator {}", found->theirs),
+                      std::string(found->hint));
+  emit(found->kind, begin);
+  return true;
+}
+
+/// `/a+b/` where a value may begin, closed in the same line. A slash that begins a line goes on dividing.
+bool Lexer::read_pattern() {
+  if (peek() != '/' || newline_before_ || out_.tokens.empty() || !asks_for_value(out_.tokens.back().kind)) return false;
+  auto end = at_ + 1;
+  while (end < text_.size() && text_[end] != '/' && text_[end] != '\n' && text_[end] != '\r') {
+    end += text_[end] == '\\' && end + 1 < text_.size() && text_[end + 1] == '/' ? 2 : 1;
+  }
+  if (end >= text_.size() || text_[end] != '/') return false;
+  auto const begin = std::exchange(at_, end + 1);
+  emit(pattern, begin);
+  return true;
+}
+
 void Lexer::read_operator() {
-  auto const rest = text_.substr(at_);
-  auto const found = std::ranges::find_if(operators, [&](auto const& entry) { return rest.starts_with(entry.first); });
-  if (found == operators.end()) return skip_unreadable();
+  if (looking_at("*/") && open_.empty()) return close_no_comment();
+  if (read_pattern() || read_foreign_operator()) return;
+  auto const sign = sign_at(text_.substr(at_));
+  if (!sign) return skip_unreadable();
   auto const begin = at_;
   if (!open_.empty()) {
     auto& braces = open_.back().open_braces;
-    if (found->second == right_brace && braces == 0) return close_interpolation(begin);
-    if (found->second == left_brace) ++braces;
-    if (found->second == right_brace) --braces;
+    if (sign->kind == right_brace && braces == 0) return close_interpolation(begin);
+    if (sign->kind == left_brace) ++braces;
+    if (sign->kind == right_brace) --braces;
   }
-  at_ += found->first.size();
-  emit(found->second, begin);
+  at_ += sign->size;
+  emit(sign->kind, begin);
 }
 
 bool Lexer::at_quotes(char quote, std::size_t size) const {
@@ -421,6 +408,16 @@ void Lexer::read_token() {
   read_operator();
 }
 
+/// As other editors save: every second byte of English text is 0, and each would be a mistake of its own.
+void Lexer::refuse_utf16() {
+  auto const begin = text_.substr(0, 64);
+  auto const zeros = static_cast<std::size_t>(std::ranges::count(begin, '\0'));
+  bool const is_marked = begin.starts_with("\xFF\xFE") || begin.starts_with("\xFE\xFF");
+  if (!is_marked && (begin.size() < 8 || zeros * 3 < begin.size())) return;
+  diagnostics_.report(code("wrong-encoding"), {0, 0}, "this file is saved as UTF-16", "save it as UTF-8");
+  text_ = {};
+}
+
 TokenStream Lexer::run() {
   if (text_.size() > max_source_size) {
     diagnostics_.report(
@@ -428,6 +425,7 @@ TokenStream Lexer::run() {
         fmt::format("the script is too long: {} bytes, at most {} are read", text_.size(), max_source_size));
     text_ = {};
   }
+  refuse_utf16();
   out_.tokens.reserve(text_.size() / 4);
   skip_first_line();
   while (true) {

@@ -159,10 +159,10 @@ TEST(Lexer, GivesTheSourceBackFromTokensAndGaps) {
 }
 
 TEST(Lexer, GivesTheSourceBackFromRandomPieces) {
-  std::vector<std::string> const pieces = {"\"", "'",  "\"\"\"", "'''", "${", "}",   "{",    "(",   ")",  "[",
-                                           "]",  "$x", "a",      "1",   ".",  "..",  "\n",   " ",   "\\", "/",
-                                           "*",  "//", "/*",     "*/",  "->", "ä",   "=",    "\r",  ">>", "?",
-                                           ":",  "#",  "@",      ",",   ";",  "def", "1e3x", "\xFF"};
+  std::vector<std::string> const pieces = {"\"", "'",  "\"\"\"", "'''",  "${",   "}",  "{",  "(",   ")",  "[", "]",
+                                           "$x", "a",  "1",      ".",    "..",   "\n", " ",  "\\",  "/",  "*", "//",
+                                           "/*", "*/", "->",     "ä",    "=",    "\r", ">>", "?",   ":",  "#", "@",
+                                           ",",  ";",  "def",    "1e3x", "\xFF", "~",  "$ ", "===", "/x/"};
   std::mt19937 random(7);
   for (int round = 0; round < 2000; ++round) {
     std::string text;
@@ -170,6 +170,25 @@ TEST(Lexer, GivesTheSourceBackFromRandomPieces) {
     expect_source_back(text);
     if (HasFailure()) FAIL() << text;
   }
+}
+
+TEST(Lexer, SaysOnceThatAFileIsUtf16) {
+  std::string wide("\xFF\xFE", 2);
+  for (char const c : std::string_view("message 'north'\n")) wide += {c, '\0'};
+  EXPECT_EQ(lexed(wide).errors, 1U);
+  EXPECT_NE(lexed(wide).complaints.find("this file is saved as UTF-16"), std::string::npos);
+  EXPECT_NE(lexed(wide.substr(2)).complaints.find("this file is saved as UTF-16"), std::string::npos);
+}
+
+TEST(Lexer, TellsPatternsFromDivisions) {
+  EXPECT_EQ(lexed("x = /a b/").texts, (Texts{"x", "=", "/a b/"}));
+  EXPECT_EQ(lexed("f(/a\\/b/, /c/)").texts, (Texts{"f", "(", "/a\\/b/", ",", "/c/", ")"}));
+  EXPECT_EQ(lexed("t ==~ /a/").kinds, (Kinds{identifier, full_match, pattern}));
+  EXPECT_EQ(lexed("x = a / b / c").kinds,
+            (Kinds{identifier, assign, identifier, slash, identifier, slash, identifier}));
+  EXPECT_EQ(lexed("x = (a\n / b / c)").errors, 0U);
+  EXPECT_EQ(lexed("t / { c } / { d }").kinds.size(), 9U);
+  EXPECT_EQ(lexed("x = /a\nb/").kinds, (Kinds{identifier, assign, slash, identifier, identifier, slash}));
 }
 
 TEST(Lexer, RefusesTextsThatAreTooLong) {

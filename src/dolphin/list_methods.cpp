@@ -14,8 +14,6 @@
 namespace lapwing::dolphin::internal {
 namespace {
 
-constexpr int deepest_flattened = 64;
-
 Checked<Value> membership(Value const& container, Value const& item) {
   auto const holds = contains(container, item);
   if (!holds) return std::unexpected(holds.error());
@@ -35,24 +33,29 @@ Checked<Value> joined(MethodCall const& call, auto const& items) {
   return call.long_text(std::move(text));
 }
 
-/// False when there are too many: lists may share parts, and hold themselves.
-bool flatten(List const& list, int depth, std::size_t& looked_at, std::vector<Value>& out) {
-  for (auto const& item : list.items) {
-    if (++looked_at > max_spread_values) return false;
-    auto const* inner = item.as<List>();
-    if (!inner || depth >= deepest_flattened) {
-      out.push_back(item);
-    } else if (!flatten(*inner, depth + 1, looked_at, out)) {
-      return false;
+/// The items of lists in lists, to any depth. Lists may share parts, and hold themselves: then there are too many.
+Checked<Value> flattened(MethodCall const& call, List const& list) {
+  struct Place {
+    List const* list;
+    std::size_t next = 0;
+  };
+  std::vector<Value> flat;
+  std::vector<Place> open{{&list}};
+  std::size_t looked_at = 0;
+  while (!open.empty()) {
+    auto& place = open.back();
+    if (place.next == place.list->items.size()) {
+      open.pop_back();
+      continue;
+    }
+    if (++looked_at > max_spread_values) return fault("the lists are too long to flatten", "OutOfMemoryError");
+    auto const& item = place.list->items[place.next++];
+    if (auto const* inner = item.as<List>()) {
+      open.push_back({inner});
+    } else {
+      flat.push_back(item);
     }
   }
-  return true;
-}
-
-Checked<Value> flattened(MethodCall const& call, List const& list) {
-  std::vector<Value> flat;
-  std::size_t looked_at = 0;
-  if (!flatten(list, 0, looked_at, flat)) return fault("the lists are too long to flatten", "OutOfMemoryError");
   return call.list(std::move(flat));
 }
 

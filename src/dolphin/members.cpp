@@ -145,6 +145,7 @@ std::string_view type_name(Value const& value) {
     case ValueKind::area: return "Area";
     case ValueKind::task: return "Task";
     case ValueKind::error: return value.as<Error>()->value.type;
+    case ValueKind::pattern: return "Pattern";
     default: return "Object";
   }
 }
@@ -186,13 +187,18 @@ bool is_error_type(std::string_view type) {
 
 }  // namespace
 
+Value type_of(Heap& heap, Value const& value) {
+  if (value.is(ValueKind::type)) return value;
+  return Value(heap.make<TypeValue>(TypeName{std::string(type_name(value))}));
+}
+
 Checked<Value> member(Runtime& runtime, Value const& object, std::string_view name) {
   auto& heap = runtime.heap;
   if (object.is_number()) {
     if (auto result = with_unit(object, name)) return *result;
   }
   if (name == "class" && !object.is(ValueKind::map) && !object.is(ValueKind::error) && !object.is(ValueKind::type)) {
-    return Value(heap.make<TypeValue>(TypeName{std::string(type_name(object))}));
+    return type_of(heap, object);
   }
   switch (object.kind()) {
     case ValueKind::null: return fault(fmt::format("cannot read {} of null", name), "NullPointerException");
@@ -295,8 +301,9 @@ Checked<Value> construct(Runtime& runtime, std::string_view type, Native::Argume
 
 Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type) {
   auto& heap = runtime.heap;
-  bool const to_integer =
-      type == "int" || type == "long" || type == "Integer" || type == "Long" || type == "short" || type == "byte";
+  static constexpr std::string_view integers[] = {"int",  "long",  "short", "byte",      "Integer",
+                                                  "Long", "Short", "Byte",  "BigInteger"};
+  bool const to_integer = std::ranges::find(integers, type) != std::end(integers);
   bool const to_real =
       type == "double" || type == "float" || type == "Double" || type == "Float" || type == "BigDecimal";
   if (type == "boolean" || type == "Boolean") return Value::boolean(is_true(value));

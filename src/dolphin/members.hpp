@@ -15,6 +15,9 @@ namespace lapwing::dolphin {
 [[nodiscard]] std::optional<Checked<Value>> call_method(Runtime& runtime, Value const& object, std::string_view name,
                                                         Native::Arguments arguments);
 
+/// The type of the value, as `getClass()` and, but for maps, `class` give it.
+[[nodiscard]] Value type_of(Heap& heap, Value const& value);
+
 /// "Math.abs", "System.currentTimeMillis", "Position.fromDegrees".
 [[nodiscard]] Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name,
                                          Native::Arguments arguments);

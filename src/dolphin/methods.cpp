@@ -129,6 +129,7 @@ std::optional<ast::BinaryOp> operator_of(std::string_view name) {
 
 MethodResult common_method(Call const& call, Value const& object) {
   if (call.is("toString", 0)) return call.text(to_text(object));
+  if (call.is("getClass", 0)) return type_of(call.heap, object);
   if (call.is("equals", 1)) return Value::boolean(equal(object, call.arguments[0]));
   if (call.is("compareTo", 1)) {
     auto const order = compare(object, call.arguments[0]);
@@ -168,10 +169,11 @@ bool is_getter(std::string_view name) {
 
 std::optional<Checked<Value>> call_method(Runtime& runtime, Value const& object, std::string_view name,
                                           Native::Arguments arguments) {
-  Call const call{runtime.heap, name, arguments};
+  Call const call{runtime.heap, runtime.patterns, name, arguments};
   if (auto result = kind_method(call, object)) return result;
   if (auto result = common_method(call, object)) return result;
-  if (is_getter(name) && arguments.empty()) {
+  // A map has what was put into it and nothing that getters could get.
+  if (is_getter(name) && arguments.empty() && !object.is(ValueKind::map)) {
     std::string property(name.substr(3));
     property[0] = static_cast<char>(std::tolower(property[0]));
     return member(runtime, object, property);

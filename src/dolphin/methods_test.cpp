@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "dolphin/signatures.hpp"
 #include "dolphin/testing.hpp"
 
 /// Methods and operators of texts, lists, maps, ranges, sets and numbers.
@@ -62,11 +65,24 @@ TEST(Text, IsFormatted) {
   EXPECT_EQ(
       value_of("String.format('%.2f m|%5d|%-4s|%03d|%x|%d%%|%+d|%e', 3.14159, 42, 'ä', 7, 255, 50, 1, 12345.678)"),
       "3.14 m|   42|ä   |007|ff|50%|+1|1.234568e+04");
-  EXPECT_EQ(value_of("'%.1f'.format(-0.25)"), "-0.2");
+  EXPECT_EQ(value_of("'%.1f %.2f %.0f %.3f'.format(-0.25, 0.005, 0.5, 9.9996)"), "-0.3 0.01 1 10.000");
+  EXPECT_EQ(value_of("'%10.3e|%-12E|%g|%g|%.3g'.format(0.00012345, 12345.0, 0.0001, 1234567.0, 999.6)"),
+            " 1.235e-04|1.234500E+04|0.000100000|1.23457e+06|1.00e+03");
+  EXPECT_EQ(value_of("'%,d %,.2f %o %X %c %c %2$s %<s %S'.format(1234567, 1234.5, 8, 255, 'a', 66, 'ab')"),
+            "1,234,567 1,234.50 10 FF a B 1234.5 1234.5 AB");
+  EXPECT_EQ(value_of("'%+d|% d|%(d|%08.2f|%#x|%#o|%.2s|%b|%B'.format(5, 5, -5, -3.14159, 255, 8, 'abc', null, 1)"),
+            "+5| 5|(5)|-0003.14|0xff|010|ab|false|TRUE");
+  EXPECT_EQ(value_of("'%2000d'.format(1).size()"), "2000");
   EXPECT_EQ(value_of("'%s %s'.format([1, 2], null)"), "[1, 2] null");
   expect_fault("'%d'.format(1.5)", "%d cannot show a number");
   expect_fault("'%d'.format()", "format has too few values");
-  expect_fault("'%q'.format(1)", "format knows");
+  expect_fault("'%q'.format(1)", "%q is no field of format: it knows %d");
+  expect_fault("'%20000d'.format(1)", "%20000d is wider than 10000 characters");
+  expect_fault("'%-d'.format(1)", "%-d has a - or 0 and no width");
+  expect_fault("'%.2d'.format(1)", "%.2d takes no precision");
+  expect_fault("'%tY'.format(1)", "%t is no field of format");
+  expect_fault("'%3$s'.format(1)", "format has too few values for %3$s");
+  expect_fault("'10 %'.format(1)", "% is no field of format: its letter is missing");
 }
 
 TEST(List, HasPlacesAndParts) {
@@ -132,7 +148,115 @@ TEST(Number, IsRoundedAndDivided) {
   EXPECT_EQ(value_of("3.plus(4).multiply(2).mod(5).power(2)"), "16");
   expect_fault("NaN.round()", "ArithmeticException: NaN is no integer");
   expect_fault("1.5.intdiv(2)", "intdiv divides integers, not a number by an integer");
-  expect_fault("1.foo()", "there is no unit foo");
+  expect_fault("1.foo()", "a whole number has no member foo");
+}
+
+// ---- the table of methods
+
+struct Receiver {
+  Kind kind;
+  std::string_view value;
+};
+constexpr Receiver receivers[] = {{Kind::integer, "3"},
+                                  {Kind::decimal, "2.5"},
+                                  {Kind::text, "'abc'"},
+                                  {Kind::list, "[1, 2]"},
+                                  {Kind::map, "[a: 1]"},
+                                  {Kind::position, "location(41, -8)"},
+                                  {Kind::displacement, "moveDistance { north 5 }"},
+                                  {Kind::area, "(location(41, -8) ^ 5)"},
+                                  {Kind::vehicles, "(pick { })"},
+                                  {Kind::task, "idle(1)"},
+                                  {Kind::closure, "{ 1 }"},
+                                  {Kind::boolean, "true"}};
+
+/// Whether the engine knows a method of that name for the value, with some number of arguments of some kind.
+bool has_method(std::string_view value, MethodSpec const& method) {
+  auto const wanted = argument_count(method);
+  for (auto count = wanted.least; count <= std::min<std::size_t>(wanted.most, wanted.least + 2); ++count) {
+    for (auto const* argument : {"1", "'a'", "[1]", "[a: 1]", "{ 1 }", "location(41, -8)"}) {
+      std::string arguments;
+      for (std::size_t i = 0; i < count; ++i) arguments += i == 0 ? argument : ", 1";
+      // Through a variable that the checker cannot follow, so that nothing is refused before it runs.
+      auto const script = fmt::format(
+          "values = [{}]\nvalues.each {{ v -> try {{ v.{}({}) }} "
+          "catch (Exception e) {{ print(e.message) }} }}",
+          value, method.name, arguments);
+      if (printed(script).find("has no method") == std::string::npos) return true;
+      if (count == 0) break;
+    }
+  }
+  return false;
+}
+
+/// What the checker lets pass is there when the script runs.
+TEST(Methods, AreThoseOfTheTable) {
+  for (auto const& method : methods()) {
+    if (method.is_property) continue;
+    for (auto const& receiver : receivers) {
+      bool const is_said = std::ranges::any_of(methods(), [&](MethodSpec const& one) {
+        return one.name == method.name && !one.is_property && one.receiver.meets(receiver.kind);
+      });
+      if (is_said) {
+        EXPECT_TRUE(has_method(receiver.value, method)) << receiver.value << "." << method.name;
+      }
+    }
+  }
+}
+
+TEST(Patterns, AreFoundInTexts) {
+  EXPECT_EQ(value_of("'uav7 ugv8' =~ /\\d/"), "[7, 8]");
+  EXPECT_EQ(value_of("('uav7 ugv8' =~ /(u.v)(\\d)/)[1][2]"), "8");
+  EXPECT_EQ(value_of("['uav7' ==~ /uav\\d/, 'xuav7' ==~ /uav\\d/, 'a.b' ==~ 'a.b', 'axb' ==~ ~'a.b']"),
+            "[true, false, true, true]");
+  EXPECT_EQ(value_of("'a1b22'.findAll(/\\d+/) + 'a1'.find(/x/) + 'a, b;c'.split(/[,;]\\s*/) + 'aXbX'.count(/X/)"),
+            "[1, 22, null, a, b, c, 2]");
+  EXPECT_EQ(value_of("'abc'.contains(/b./) && !'abc'.contains('b.') && 'a|b'.split('|').size() == 2"), "true");
+  EXPECT_EQ(printed("if ('abc' =~ /x/) { print 'yes' } else { print 'no' }"), "no");
+  EXPECT_EQ(printed("switch ('uav7') { case /ugv./: print 'g'; break; case ~'uav.': print 'a' }"), "a");
+}
+
+TEST(Patterns, ReplaceWithGroupsAndClosures) {
+  EXPECT_EQ(value_of("'2026-11-22'.replaceAll(/(\\d+)-(\\d+)-(\\d+)/, '$3.$2.$1')"), "22.11.2026");
+  EXPECT_EQ(value_of("'abc'.replaceAll(/x*/, '-') + 'aba'.replaceFirst(/a/, '\\\\$')"), "-a-b-c-$ba");
+  EXPECT_EQ(value_of("'a1b2'.replaceAll(/\\d/) { it.toInteger() + 1 }"), "a2b3");
+  EXPECT_EQ(value_of("'a1b2'.replaceAll(/(\\w)(\\d)/) { all, letter, digit -> digit + letter }"), "1a2b");
+  expect_fault("'a'.replaceAll(/a/, '$1')", "the pattern has no group 1");
+  expect_fault("'a' =~ ('(' + '')", "PatternSyntaxException: this is no pattern");
+  expect_fault("[1][0] =~ /1/", "an integer has no operator =~");
+}
+
+/// What takes other engines longer than the world has been there.
+TEST(Patterns, TakeLinearTime) {
+  EXPECT_EQ(value_of("('a' * 100000) ==~ /(a+)+b/"), "false");
+  EXPECT_EQ(value_of("(('a' * 50000) =~ /(a|aa)*c/).size()"), "0");
+}
+
+TEST(Truths, HaveOperatorsWithoutShortCut) {
+  EXPECT_EQ(value_of("[true & false, true | false, true ^ true, ~5]"), "[false, true, false, -6]");
+  expect_fault("true & [1][0]", "a boolean has no operator & with an integer");
+}
+
+TEST(Spread, CallsEachElement) {
+  EXPECT_EQ(value_of("['a', null, 'b']*.toUpperCase()"), "[A, null, B]");
+  EXPECT_EQ(value_of("[[n: 1], [n: 2]]*.n + (1..2)*.plus(1)"), "[1, 2, 2, 3]");
+}
+
+TEST(DeclaredTypes, TurnOrRefuseValues) {
+  EXPECT_EQ(
+      printed(
+          "int n = 2.9\nn = 7.5\nString s = 5\nboolean b = 'x'\ndouble d = 1\nint zero\nprint \"$n $s $b $d $zero\""),
+      "7 5 true 1.0 0");
+  EXPECT_NE(printed("x = ['abc']\nint n = x[0]").find("ClassCastException: int n cannot hold a text"),
+            std::string::npos);
+  EXPECT_NE(printed("def f(int n) { n }\nf([1.5][0])").find("MissingMethodException: int n does not take a number"),
+            std::string::npos);
+  EXPECT_EQ(printed("def f(double d, String s) { \"$d $s\" }\nprint f(3, 'a')"), "3.0 a");
+  EXPECT_EQ(printed("int n = 1\nc = { n = 2.5 }\nc()\nprint n"), "2");
+}
+
+TEST(ClassOfMaps, IsToldByGetClass) {
+  EXPECT_EQ(value_of("[a: 1].getClass().simpleName + [class: 3].class"), "Map3");
 }
 
 }  // namespace

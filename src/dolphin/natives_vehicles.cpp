@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dolphin/fiber.hpp"
+#include "dolphin/hints/foreign_words.hpp"
 #include "dolphin/internal/natives.hpp"
 #include "dolphin/internal/pick_filter.hpp"
 #include "dolphin/runtime.hpp"
@@ -36,6 +37,13 @@ void log_available(Runtime const& runtime) {
   }
   runtime.log.info(fmt::format("Available nodes: {}", available.size()));
   for (auto const& info : available) runtime.log.info(fmt::format("  id={} type={}", info.id.text, info.type));
+}
+
+/// What the script's author may have meant by a type that no vehicle has.
+std::string unmet(PickFilter const& filter) {
+  auto const meant = filter.type ? vehicle_type_meant(*filter.type) : std::string_view();
+  return fmt::format("Could not find required vehicles!{}",
+                     meant.empty() ? "" : fmt::format(" Perhaps type '{}' was meant.", meant));
 }
 
 /// The first `count` free vehicles that match, in the platform's order; nothing when there are fewer.
@@ -97,7 +105,7 @@ base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<
   if (!ids) {
     runtime.log.info("Requirements were not met!");
     for (auto const& line : why_not(runtime, filter)) runtime.log.info("  " + line);
-    co_return halting("Could not find required vehicles!", "VehicleError");
+    co_return halting(unmet(filter), "VehicleError");
   }
   for (auto const& id : *ids) {
     runtime.log.info("Requirement met by node " + id.text);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dolphin/fault.hpp"
+#include "dolphin/patterns/regular_expression.hpp"
 #include "dolphin/value.hpp"
 #include "geo/position.hpp"
 #include "tasks/task.hpp"
@@ -161,5 +162,15 @@ struct TypeName {
   std::string name;
 };
 using TypeValue = Boxed<TypeName, ValueKind::type>;
+
+/// `/x+/`, `~text`.
+struct PatternValue final : Object {
+  static constexpr ValueKind its_kind = ValueKind::pattern;
+  PatternValue(Heap& heap, std::shared_ptr<RegularExpression const> expression)
+      : Object(heap, its_kind), value(std::move(expression)) {
+    charge(RegularExpression::most_bytes);
+  }
+  std::shared_ptr<RegularExpression const> const value;
+};
 
 }  // namespace lapwing::dolphin

@@ -30,6 +30,8 @@ std::string_view spelling(BinaryOp op) {
     case BinaryOp::bit_and: return "&";
     case BinaryOp::bit_xor: return "^";
     case BinaryOp::bit_or: return "|";
+    case BinaryOp::find: return "=~";
+    case BinaryOp::match: return "==~";
     default: return "this operator";
   }
 }
@@ -111,6 +113,15 @@ Checked<Value> real_operation(BinaryOp op, Value const& left, Value const& right
       if (b == 0.0) return fault("division by zero", "ArithmeticException");
       return Value::real(std::fmod(a, b));
     case BinaryOp::power: return Value::real(std::pow(a, b));
+    default: return no_such_operation(op, left, right);
+  }
+}
+
+Checked<Value> truth_operation(BinaryOp op, Value const& left, Value const& right) {
+  switch (op) {
+    case BinaryOp::bit_and: return Value::boolean(left.boolean() && right.boolean());
+    case BinaryOp::bit_or: return Value::boolean(left.boolean() || right.boolean());
+    case BinaryOp::bit_xor: return Value::boolean(left.boolean() != right.boolean());
     default: return no_such_operation(op, left, right);
   }
 }
@@ -263,6 +274,7 @@ Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& ri
   if (left.is(ValueKind::integer) && right.is(ValueKind::integer))
     return integer_operation(op, left.integer(), right.integer());
   if (left.is_number() && right.is_number()) return real_operation(op, left, right);
+  if (left.is(ValueKind::boolean) && right.is(ValueKind::boolean)) return truth_operation(op, left, right);
   bool const takes_items = left.is(ValueKind::list) || left.is(ValueKind::range);
   if (op == BinaryOp::add && (left.is(ValueKind::text) || (right.is(ValueKind::text) && !takes_items))) {
     return make_text(heap, to_text(left) + to_text(right));

@@ -101,6 +101,8 @@ std::string Parser::describe(Token const& token) const {
 }
 
 void Parser::expected(std::string_view what, base::Hint hint) {
+  if (at(invalid)) quiet_ = true;  // the lexer has complained
+  if (hint.empty()) hint = hint_for_place();
   error(code("syntax"), here(), fmt::format("expected {}, found {}", what, describe(token())), std::move(hint));
 }
 

@@ -71,7 +71,7 @@ ast::ExprPtr Parser::command() {
 
 /// The number of tokens of the name or dotted path that begins here, else 0.
 std::size_t Parser::path_size() const {
-  if (!at(identifier) || chain_head()) return 0;
+  if (!at(identifier) || chain_head() || at_otherwise()) return 0;
   std::size_t size = 1;
   while (kind(size) == dot && (kind(size + 1) == identifier || is_reserved_word(kind(size + 1))) &&
          on_same_line(size + 1))
@@ -92,7 +92,7 @@ bool Parser::starts_argument(std::size_t ahead) const {
   if (!on_same_line(ahead)) return false;
   if (at_argument_name(ahead)) return true;
   switch (kind(ahead)) {
-    case identifier: return !is_chain_word(text(token(ahead))) || at_during_chain(ahead);
+    case identifier: return (!is_chain_word(text(token(ahead))) && !at_joining_word(ahead)) || at_during_chain(ahead);
     case integer:
     case decimal:
     case string:
@@ -195,7 +195,8 @@ bool Parser::at_wrapped_argument() const {
   }
   auto const& after = tokens_[token(1).partner + 1];
   bool const continues = !newlines_matter_ || !after.newline_before || (after.kind != plus && after.kind != minus);
-  bool const goes_on_with_it = (after.kind == dot || after.kind == left_bracket) && !after.newline_before;
+  bool const goes_on_with_it =
+      (after.kind == dot || after.kind == spread_dot || after.kind == left_bracket) && !after.newline_before;
   return goes_on_with_it || (joins_values(after.kind) && continues);
 }
 
@@ -238,9 +239,7 @@ ast::ExprPtr Parser::postfix_of(ast::ExprPtr object, std::uint32_t begin) {
     bool const callable = std::holds_alternative<ast::Name>(object->node) ||
                           std::holds_alternative<ast::Member>(object->node) ||
                           std::holds_alternative<ast::Call>(object->node);
-    if (at(star) && kind(1) == dot && on_same_line()) {
-      object = spread_member(std::move(object), begin);
-    } else if ((at(dot) || at(safe_dot)) && operator_continues()) {
+    if ((at(dot) || at(safe_dot) || at(spread_dot)) && operator_continues()) {
       if (quiet_) return object;
       object = member(std::move(object), begin);
     } else if (at(left_paren) && adjacent) {
@@ -259,24 +258,14 @@ ast::ExprPtr Parser::postfix_of(ast::ExprPtr object, std::uint32_t begin) {
 }
 
 ast::ExprPtr Parser::member(ast::ExprPtr object, std::uint32_t begin) {
-  bool const safe = advance().kind == safe_dot;
+  auto const point = advance().kind;
   if (!at(identifier) && !is_reserved_word(kind())) {
     unread_.push_back(object->span);
     expected("a name after the point", at(integer) ? fmt::format("write 0.{}", text(token())) : "");
     return object;
   }
   auto name = identifier_of(advance());
-  return make(ast::Member{std::move(object), std::move(name), safe}, since(begin));
-}
-
-/// `list*.size()`, as Groovy spells the member of all.
-ast::ExprPtr Parser::spread_member(ast::ExprPtr object, std::uint32_t begin) {
-  auto const star = advance().span;
-  auto const name = kind(1) == identifier ? text(token(1)) : std::string_view("name");
-  auto const call = kind(2) == left_paren ? "(...)" : "";
-  error(code("syntax"), cover(star, token().span), "*. is not part of the language",
-        fmt::format("write .collect {{ it.{}{} }}", name, call));
-  return member(std::move(object), begin);
+  return make(ast::Member{std::move(object), std::move(name), point == safe_dot, point == spread_dot}, since(begin));
 }
 
 std::vector<ast::Argument> Parser::arguments_in_parentheses() {
@@ -375,6 +364,25 @@ ast::ExprPtr Parser::chain(ast::ChainKind kind) {
     body = chain_body(kind);
   }
   return make(ast::Chain{kind, std::move(subject), std::move(body), head}, since(head.begin));
+}
+
+/// `otherwise task`, the last branch of a choice.
+bool Parser::at_otherwise() const {
+  if (!at_word("otherwise") || !on_same_line(1)) return false;
+  return kind(1) == left_brace || kind(1) == left_paren || at_word("then", 1) || starts_argument(1);
+}
+
+ast::ExprPtr Parser::otherwise() {
+  auto const head = advance().span;
+  if (at_word("then")) {
+    error(code("incomplete-chain"), advance().span, "otherwise takes no then", "write otherwise task");
+  }
+  ast::Closure always;
+  always.body.span = head;
+  always.body.statements.push_back(make_statement(ast::ExprStmt{make(ast::BoolLiteral{true}, head)}, head.begin));
+  auto subject = make(std::move(always), head);
+  auto body = expression();
+  return make(ast::Chain{ast::ChainKind::when, std::move(subject), std::move(body), head, true}, since(head.begin));
 }
 
 ast::ExprPtr Parser::chain_subject(ast::ChainKind kind) {

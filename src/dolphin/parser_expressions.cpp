@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <optional>
+#include <cctype>
 #include <utility>
 
 #include "dolphin/internal/literals.hpp"
@@ -13,166 +12,13 @@ namespace lapwing::dolphin {
 using base::Span;
 using enum TokenKind;
 
-namespace {
-
-/// How tightly a binary operator binds; 1 is the weakest. (Language specification 2: Groovy's order.)
-struct Operator {
-  int strength;
-  enum class Form { binary, range, range_exclusive, cast, instance_of } form = Form::binary;
-  ast::BinaryOp op = ast::BinaryOp::add;
-};
-
-constexpr int weakest_operator = 1;
-
-std::optional<Operator> binary_operator(TokenKind kind) {
-  using ast::BinaryOp;
-  using Form = Operator::Form;
-  auto const plain = [](int strength, BinaryOp op) { return Operator{strength, Form::binary, op}; };
-  switch (kind) {
-    case logical_or: return plain(1, BinaryOp::logical_or);
-    case logical_and: return plain(2, BinaryOp::logical_and);
-    case bit_or: return plain(3, BinaryOp::bit_or);
-    case bit_xor: return plain(4, BinaryOp::bit_xor);
-    case bit_and: return plain(5, BinaryOp::bit_and);
-    case equal: return plain(6, BinaryOp::equal);
-    case not_equal: return plain(6, BinaryOp::not_equal);
-    case compare: return plain(6, BinaryOp::compare);
-    case less: return plain(7, BinaryOp::less);
-    case less_equal: return plain(7, BinaryOp::less_equal);
-    case greater: return plain(7, BinaryOp::greater);
-    case greater_equal: return plain(7, BinaryOp::greater_equal);
-    case kw_in: return plain(7, BinaryOp::in);
-    case kw_as: return Operator{7, Form::cast};
-    case kw_instanceof: return Operator{7, Form::instance_of};
-    case shift_left: return plain(8, BinaryOp::shift_left);
-    case shift_right: return plain(8, BinaryOp::shift_right);
-    case range: return Operator{8, Form::range};
-    case range_exclusive: return Operator{8, Form::range_exclusive};
-    case plus: return plain(9, BinaryOp::add);
-    case minus: return plain(9, BinaryOp::subtract);
-    case star: return plain(10, BinaryOp::multiply);
-    case slash: return plain(10, BinaryOp::divide);
-    case percent: return plain(10, BinaryOp::remainder);
-    default: return std::nullopt;
-  }
-}
-
-std::optional<ast::UnaryOp> unary_operator(TokenKind kind) {
-  switch (kind) {
-    case logical_not: return ast::UnaryOp::logical_not;
-    case minus: return ast::UnaryOp::minus;
-    case plus: return ast::UnaryOp::plus;
-    default: return std::nullopt;
-  }
-}
-
-}  // namespace
-
-// ---- operators ----------------------------------------------------------------------------------
-
-ast::ExprPtr Parser::expression() {
-  Nesting const nesting(*this);
-  if (!nesting) {
-    quiet_ = true;
-    return broken();
-  }
-  return ternary();
-}
-
-ast::ExprPtr Parser::ternary() {
-  auto const begin = token().span.begin;
-  auto first = binary(weakest_operator);
-  if (at(elvis) && operator_continues()) {
-    auto const op = advance().span;
-    auto other = expression();
-    return make(ast::Binary{ast::BinaryOp::elvis, std::move(first), std::move(other), op}, since(begin));
-  }
-  if (!at(question) || !operator_continues()) return first;
-  advance();
-  auto if_true = expression();
-  if (!expect(colon, "':' and the other value")) return if_true;
-  auto if_false = expression();
-  return make(ast::Ternary{std::move(first), std::move(if_true), std::move(if_false)}, since(begin));
-}
-
-/// Whether the operator that comes next belongs to this statement: it does when it cannot begin one (REC-7e).
-bool Parser::operator_continues() const {
-  if (!newlines_matter_ || !token().newline_before) return true;
-  auto const which = kind();
-  bool const could_begin =
-      which == plus || which == minus || which == logical_not || which == plus_plus || which == minus_minus;
-  return which >= dot && which <= bit_xor && !could_begin && which != assign && which != arrow;
-}
-
-ast::ExprPtr Parser::binary(int weakest) {
-  using Form = Operator::Form;
-  auto const begin = token().span.begin;
-  auto left = unary();
-  while (true) {
-    auto const found = binary_operator(kind());
-    if (!found || found->strength < weakest || !operator_continues()) return left;
-    auto const op = advance().span;
-    if (found->form == Form::cast || found->form == Form::instance_of) {
-      if (!at(identifier)) {
-        expected("the name of a type");
-        return left;
-      }
-      auto type = identifier_of(advance());
-      left = found->form == Form::cast ? make(ast::Cast{std::move(left), std::move(type)}, since(begin))
-                                       : make(ast::InstanceOf{std::move(left), std::move(type)}, since(begin));
-      continue;
-    }
-    auto right = binary(found->strength + 1);
-    left = found->form == Form::binary
-               ? make(ast::Binary{found->op, std::move(left), std::move(right), op}, since(begin))
-               : make(ast::Range{std::move(left), std::move(right), found->form == Form::range}, since(begin));
-  }
-}
-
-/// The digits of the least integer, which has no positive counterpart.
-bool Parser::at_least_integer() const {
-  return at(integer) && text(token()) == "9223372036854775808";
-}
-
-ast::ExprPtr Parser::unary() {
-  auto const begin = token().span.begin;
-  auto const sign = unary_operator(kind());
-  if (!sign && !at(plus_plus) && !at(minus_minus)) return power();
-  Nesting const nesting(*this);
-  if (!nesting) {
-    quiet_ = true;
-    return broken();
-  }
-  auto const op = advance().kind;
-  if (op == minus && at_least_integer()) {
-    advance();
-    return make(ast::IntegerLiteral{std::numeric_limits<std::int64_t>::min()}, since(begin));
-  }
-  auto operand = unary();
-  if (sign) return make(ast::Unary{*sign, std::move(operand)}, since(begin));
-  return make(ast::Step{std::move(operand), op == plus_plus ? 1 : -1, true}, since(begin));
-}
-
-ast::ExprPtr Parser::power() {
-  auto const begin = token().span.begin;
-  auto base = postfix();
-  if (!at(TokenKind::power) || !operator_continues()) return base;
-  Nesting const nesting(*this);
-  if (!nesting) {
-    quiet_ = true;
-    return broken();
-  }
-  auto const op = advance().span;
-  auto exponent = unary();
-  return make(ast::Binary{ast::BinaryOp::power, std::move(base), std::move(exponent), op}, since(begin));
-}
-
 // ---- primaries ----------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::primary() {
   switch (kind()) {
     case identifier: {
       if (auto const head = chain_head()) return chain(*head);
+      if (at_otherwise()) return otherwise();
       auto const& word = advance();
       return make(ast::Name{std::string(text(word))}, word.span);
     }
@@ -183,6 +29,12 @@ ast::ExprPtr Parser::primary() {
     case kw_true:
     case kw_false: return literal();
     case string_open: return interpolated_string();
+    case pattern: return pattern_literal();
+    case invalid: {
+      unread_.push_back(advance().span);
+      quiet_ = true;  // the lexer has complained
+      return broken();
+    }
     case left_paren: return in_parentheses();
     case left_bracket: return list_or_map();
     case left_brace: return closure();
@@ -215,6 +67,24 @@ ast::ExprPtr Parser::literal() {
     }
     default: return make(decode_number(word.span, word.kind == decimal, diagnostics_), word.span);
   }
+}
+
+/// Between slashes a backslash stands for itself, but before a slash.
+ast::ExprPtr Parser::pattern_literal() {
+  auto const& word = advance();
+  ast::PatternLiteral made;
+  auto const inside = text(word).substr(1, word.span.size() - 2);
+  for (std::size_t at = 0; at < inside.size(); ++at) {
+    if (inside.substr(at).starts_with("\\/")) ++at;
+    made.text += inside[at];
+    bool const interpolates = inside[at] == '$' && at + 1 < inside.size() &&
+                              (inside[at + 1] == '{' || std::isalpha(static_cast<unsigned char>(inside[at + 1])));
+    if (interpolates) {
+      error(code("invalid-pattern"), word.span, "a pattern between slashes takes no $name",
+            "write ~\"...${name}...\", with \\\\ for each backslash");
+    }
+  }
+  return make(std::move(made), word.span);
 }
 
 ast::ExprPtr Parser::interpolated_string() {

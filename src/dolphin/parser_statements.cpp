@@ -111,7 +111,7 @@ void Parser::unexpected_in_statement() {
     return expected("the end of the statement",
                     fmt::format("a call inside an expression needs parentheses: {}(...)", text(*before)));
   }
-  if (before && before->kind == identifier && (at(logical_not) || at(plus_plus) || at(minus_minus))) {
+  if (before && before->kind == identifier && (at(logical_not) || at(tilde) || at(plus_plus) || at(minus_minus))) {
     if (!quiet_) unread_.push_back(before->span);
     return expected("the end of the statement", fmt::format("write {}({}...)", text(*before), text(token())));
   }
@@ -126,6 +126,8 @@ ast::StmtPtr Parser::statement() {
   }
   if (is_reserved_word(kind())) return keyword_statement();
   if (at_typed_declaration()) return declaration();
+  if (at_foreign_declaration()) return foreign_declaration();
+  if (at_foreign_function()) return foreign_function();
   if (at(identifier) && kind(1) == colon && !at_word("execute")) return labelled();
   return simple_statement();
 }
@@ -142,6 +144,7 @@ ast::StmtPtr Parser::keyword_statement() {
     case kw_return: return return_statement();
     case kw_throw: return throw_statement();
     case kw_assert: return assert_statement();
+    case kw_do: return do_statement();
     case kw_import: return import_statement();
     case kw_break: advance(); return make_statement(ast::Break{}, begin);
     case kw_continue: advance(); return make_statement(ast::Continue{}, begin);
@@ -156,14 +159,11 @@ ast::StmtPtr Parser::keyword_statement() {
 ast::StmtPtr Parser::unsupported_statement() {
   auto const& word = advance();
   if (word.kind == kw_else) {
-    error(code("syntax"), word.span, "this else belongs to no if");
+    error(code("syntax"), word.span, "this else belongs to no if", "in oneOf and choose write otherwise task");
   } else if (word.kind == kw_catch || word.kind == kw_finally) {
     error(code("syntax"), word.span, fmt::format("this {} belongs to no try", text(word)));
   } else if (word.kind == kw_case || word.kind == kw_default) {
     error(code("syntax"), word.span, fmt::format("this {} belongs to no switch", text(word)));
-  } else if (word.kind == kw_do) {
-    error(code("unsupported-statement"), word.span, "do is not part of the language",
-          "write while (true) { ... if (done) break }");
   } else {
     error(code("unsupported-statement"), word.span, fmt::format("{} cannot begin a statement", text(word)));
   }
@@ -176,6 +176,7 @@ ast::StmtPtr Parser::unsupported_statement() {
 
 ast::StmtPtr Parser::simple_statement() {
   auto const begin = token().span.begin;
+  if (at_unpacking_assignment()) return unpacking_assignment();
   auto expr = command();
   if (is_assignment(kind()) && on_same_line()) return assignment(std::move(expr), begin);
   return make_statement(ast::ExprStmt{std::move(expr)}, begin);
@@ -183,19 +184,59 @@ ast::StmtPtr Parser::simple_statement() {
 
 ast::StmtPtr Parser::assignment(ast::ExprPtr target, std::uint32_t begin) {
   auto const& sign = advance();
-  bool const assignable =
-      std::holds_alternative<ast::Name>(target->node) || std::holds_alternative<ast::Member>(target->node) ||
-      std::holds_alternative<ast::Index>(target->node) || std::holds_alternative<ast::ErrorExpr>(target->node);
-  if (!assignable) {
-    error(code("not-assignable"), target->span, "nothing can be assigned to this",
-          "assign to a variable, a member or an element");
+  assignable(*target);
+  ast::Assign made{std::move(target), compound(sign.kind), command()};
+  while (at(assign) && on_same_line() && !made.op) {  // a = b = 1
+    assignable(*made.value);
+    advance();
+    made.more.push_back(std::move(made.value));
+    made.value = command();
   }
-  auto value = command();
   if (is_assignment(kind()) && on_same_line()) {
     error(code("syntax"), token().span, "one statement assigns once", "write each assignment on its own line");
-    unread_.push_back(value->span);
+    unread_.push_back(made.value->span);
   }
-  return make_statement(ast::Assign{std::move(target), compound(sign.kind), std::move(value)}, begin);
+  return make_statement(std::move(made), begin);
+}
+
+void Parser::assignable(ast::Expr const& target) {
+  bool const is_place =
+      std::holds_alternative<ast::Name>(target.node) || std::holds_alternative<ast::Member>(target.node) ||
+      std::holds_alternative<ast::Index>(target.node) || std::holds_alternative<ast::ErrorExpr>(target.node);
+  if (is_place) return;
+  error(code("not-assignable"), target.span, "nothing can be assigned to this",
+        "assign to a variable, a member or an element");
+}
+
+/// `(a, b) = [b, a]`
+bool Parser::at_unpacking_assignment() const {
+  if (!at(left_paren) || kind(1) != identifier || token().partner == Token::unclosed) return false;
+  auto const& after = tokens_[token().partner + 1];
+  if (after.kind != assign || after.newline_before) return false;
+  for (auto at = next_ + 1; at < token().partner; ++at) {
+    if (tokens_[at].kind == comma) return true;
+  }
+  return false;
+}
+
+ast::StmtPtr Parser::unpacking_assignment() {
+  auto const opener = next_;
+  auto const begin = advance().span.begin;
+  std::vector<ast::ExprPtr> targets;
+  {
+    Lines const lines(newlines_matter_, false);
+    do {
+      targets.push_back(postfix());
+      assignable(*targets.back());
+    } while (accept(comma));
+    close(opener);
+  }
+  advance();
+  ast::Assign made{std::move(targets.front()), std::nullopt, command()};
+  targets.erase(targets.begin());
+  made.more = std::move(targets);
+  made.unpacks = true;
+  return make_statement(std::move(made), begin);
 }
 
 /// `type: 'UAV'`: a field of a builder with a needless colon, which the checker judges (REC-10).
@@ -253,6 +294,11 @@ ast::StmtPtr Parser::declaration() {
     made.names.push_back(identifier_of(advance()));
   }
   if (made.names.size() == 1 && accept(assign)) made.value = command();
+  if (made.value && at(assign) && on_same_line()) {
+    error(code("syntax"), token().span, "one declaration gives one variable a value",
+          fmt::format("write {} = ... on a line of its own", diagnostics_.source().text(made.value->span)));
+    unread_.push_back(made.value->span);
+  }
   if (at(comma))
     error(code("syntax"), token().span, "one declaration gives one variable a value", "write each on its own line");
   return make_statement(std::move(made), begin);
@@ -312,185 +358,6 @@ std::vector<ast::Parameter> Parser::parameters(TokenKind end) {
     if (!accept(comma)) break;
   }
   return out;
-}
-
-// ---- control flow -------------------------------------------------------------------------------
-
-ast::ExprPtr Parser::condition(std::string_view what) {
-  if (!at(left_paren)) {
-    expected(fmt::format("'(' and {}", what));
-    return broken();
-  }
-  return in_parentheses();
-}
-
-ast::Block Parser::block() {
-  if (at(left_brace)) return braces("'{'");
-  ast::Block block;
-  auto const begin = token().span.begin;
-  if (!at(semicolon)) {
-    if (auto made = statement()) block.statements.push_back(std::move(made));
-  }
-  block.span = since(begin);
-  return block;
-}
-
-ast::Block Parser::braces(std::string_view what) {
-  if (!at(left_brace)) {
-    expected(what);
-    return {};
-  }
-  auto const opener = next_;
-  auto const begin = advance().span.begin;
-  auto block = statements(right_brace);
-  close(opener);
-  block.span = since(begin);
-  return block;
-}
-
-ast::StmtPtr Parser::if_statement() {
-  auto const begin = advance().span.begin;
-  ast::If made;
-  made.condition = condition("a condition");
-  if (quiet_ && !at(left_brace)) return make_statement(std::move(made), begin);
-  made.then = block();
-  if (at(semicolon) && kind(1) == kw_else) advance();
-  if (accept(kw_else)) made.otherwise = block();
-  return make_statement(std::move(made), begin);
-}
-
-ast::StmtPtr Parser::while_statement() {
-  auto const begin = advance().span.begin;
-  ast::While made;
-  made.condition = condition("a condition");
-  if (quiet_ && !at(left_brace)) return make_statement(std::move(made), begin);
-  made.body = block();
-  return make_statement(std::move(made), begin);
-}
-
-ast::StmtPtr Parser::for_statement() {
-  auto const begin = advance().span.begin;
-  if (!at(left_paren)) {
-    expected("'(' after for", "write for (x in list) { ... }");
-    return nullptr;
-  }
-  auto const opener = next_;
-  advance();
-  auto const typed = kind(1) == identifier && (at(identifier) || at(kw_def)) ? std::size_t{1} : std::size_t{0};
-  if (kind(typed + 1) == kw_in || kind(typed + 1) == colon) return for_in(opener, begin);
-  ast::For made;
-  {
-    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
-    if (!at(semicolon)) made.init = statement();
-    if (expect(semicolon, "';'") && !at(semicolon)) made.condition = expression();
-    if (expect(semicolon, "';'") && !at(right_paren)) made.update = simple_statement();
-    close(opener);
-  }
-  made.body = block();
-  return make_statement(std::move(made), begin);
-}
-
-ast::StmtPtr Parser::for_in(std::size_t opener, std::uint32_t begin) {
-  ast::ForIn made;
-  {
-    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
-    if (kind(1) == identifier) advance();  // the type
-    made.variable = identifier_of(advance());
-    advance();
-    made.iterable = command();
-    close(opener);
-  }
-  made.body = block();
-  return make_statement(std::move(made), begin);
-}
-
-ast::StmtPtr Parser::switch_statement() {
-  auto const begin = advance().span.begin;
-  ast::Switch made;
-  made.subject = condition("a value");
-  if (!at(left_brace)) {
-    expected("'{' and cases");
-    return make_statement(std::move(made), begin);
-  }
-  auto const opener = next_;
-  advance();
-  while (at(kw_case) || at(kw_default)) made.cases.push_back(switch_case());
-  close(opener);
-  return make_statement(std::move(made), begin);
-}
-
-ast::SwitchCase Parser::switch_case() {
-  ast::SwitchCase made;
-  quiet_ = false;
-  if (advance().kind == kw_case) made.value = expression();
-  expect(colon, "':'");
-  made.body = statements(kw_case);
-  return made;
-}
-
-ast::StmtPtr Parser::try_statement() {
-  auto const begin = advance().span.begin;
-  ast::Try made;
-  made.body = braces("'{'");
-  while (at(kw_catch)) made.catches.push_back(catch_clause());
-  if (accept(kw_finally)) made.finally = braces("'{'");
-  if (made.catches.empty() && !made.finally) {
-    error(code("syntax"), {begin, begin + 3}, "try needs catch or finally", "add catch (e) { ... }");
-  }
-  return make_statement(std::move(made), begin);
-}
-
-/// `catch (e)`, `catch (TaskError e)`, `catch (A | B e)`.
-ast::Catch Parser::catch_clause() {
-  ast::Catch made;
-  advance();
-  auto const opener = next_;
-  if (expect(left_paren, "'(' and the name of the error")) {
-    Lines const lines(newlines_matter_, tokens_[opener].partner == Token::unclosed);
-    while (at(identifier) && (kind(1) == identifier || kind(1) == bit_or || kind(1) == dot)) {
-      made.types.push_back(identifier_of(advance()));
-      while (accept(dot)) made.types.back() = identifier_of(advance());  // java.lang.Exception is Exception
-      accept(bit_or);
-    }
-    if (at(identifier)) {
-      made.name = identifier_of(advance());
-    } else {
-      expected("the name of the error");
-    }
-    close(opener);
-  }
-  made.body = braces("'{'");
-  return made;
-}
-
-ast::StmtPtr Parser::return_statement() {
-  auto const begin = advance().span.begin;
-  ast::Return made;
-  if (!at_statement_end()) made.value = command();
-  return make_statement(std::move(made), begin);
-}
-
-ast::StmtPtr Parser::throw_statement() {
-  auto const begin = advance().span.begin;
-  return make_statement(ast::Throw{expression()}, begin);
-}
-
-ast::StmtPtr Parser::assert_statement() {
-  auto const begin = advance().span.begin;
-  ast::Assert made{expression(), nullptr};
-  if (accept(colon) || accept(comma)) made.message = expression();
-  return make_statement(std::move(made), begin);
-}
-
-ast::StmtPtr Parser::import_statement() {
-  auto const begin = advance().span.begin;
-  if (at_word("static")) advance();
-  auto const path = token().span.begin;
-  while (!at_statement_end()) advance();
-  auto text = std::string(diagnostics_.source().text(since(path)));
-  auto made = make_statement(ast::Import{std::move(text)}, begin);
-  diagnostics_.report(code("needless-import"), since(begin), "imports are not needed and do nothing");
-  return made;
 }
 
 }  // namespace lapwing::dolphin

@@ -38,6 +38,12 @@ TEST(Precedence, IsThatOfTheLanguage) {
   EXPECT_EQ(tree("x = a - b - c"), "(= x (- (- a b) c))");
   EXPECT_EQ(tree("x = -2 ** 2"), "(= x (- (** 2 2)))");
   EXPECT_EQ(tree("x = 2 ** -1 * 3"), "(= x (* (** 2 (- 1)) 3))");
+  EXPECT_EQ(tree("x = 2 ** 3 ** 2"), "(= x (** (** 2 3) 2))");
+  EXPECT_EQ(tree("x = 2 ** -3 ** -a"), "(= x (** (** 2 (- 3)) (- a)))");
+  EXPECT_EQ(tree("x = a =~ /b/ && c ==~ ~d"), "(= x (&& (=~ a /b/) (==~ c (~ d))))");
+  EXPECT_EQ(tree("x = (int) a / b as int"), "(= x (as (/ (as a int) b) int))");
+  EXPECT_EQ(tree("x = (int) -a\ny = (n) - a\nz = (int) (a)"), "(= x (as (- a) int))\n(= y (- n a))\n(= z (as a int))");
+  EXPECT_EQ(tree("x = a*.b*.c(1)"), "(= x (call a*.b*.c 1))");
   EXPECT_EQ(tree("x = a || b && c | d ^ e & f == g < h >> i + j * k"),
             "(= x (|| a (&& b (| c (^ d (& e (== f (< g (>> h (+ i (* j k)))))))))))");
   EXPECT_EQ(tree("x = a ? b : c ? d : e"), "(= x (? a b (? c d e)))");
@@ -151,6 +157,14 @@ TEST(Statements, AssignWithEveryOperator) {
   EXPECT_EQ(tree("a %= 1; b **= 2; c <<= 3; d >>= 4; e &= 5; f ^= 6; g |= 7"),
             "(%= a 1)\n(**= b 2)\n(<<= c 3)\n(>>= d 4)\n(&= e 5)\n(^= f 6)\n(|= g 7)");
   EXPECT_EQ(tree("a || b; a | b; a >> b; a ** b"), "(|| a b)\n(| a b)\n(>> a b)\n(** a b)");
+}
+
+TEST(Statements, AssignToSeveralTargets) {
+  EXPECT_EQ(tree("a = b.c = d[0] = 1"), "(= a = b.c = (at d 0) 1)");
+  EXPECT_EQ(tree("(a, b) = [b, a]"), "(= [a, b] [b, a])");
+  EXPECT_EQ(tree("do { a } while (b)\nc"), "(do {a} while b)\nc");
+  EXPECT_EQ(tree("choose { when { a } then b\n otherwise c >> d }"),
+            "(call choose {(when {a} b); (otherwise (>> c d))})");
 }
 
 TEST(Closures, TakeTheirArrowOnTheNextLine) {

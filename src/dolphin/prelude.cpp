@@ -202,6 +202,15 @@ def step(first, last, by, f) {
   for (def i = first; by > 0 ? i < last : i > last; i += by) { f(i) }
   return null
 }
+def replaceAll(text, pattern, f) {
+  def pieces = text.cutBy(pattern)
+  for (def i = 1; i < pieces.size(); i += 2) { pieces[i] = f(pieces[i]) }
+  return pieces.join('')
+}
+def eachMatch(text, pattern, f) {
+  for (match in text =~ pattern) { f(match) }
+  return text
+}
 def during(limit, t) {
   return duringSeconds(limit instanceof Closure ? limit() : limit, t)
 }

@@ -63,9 +63,9 @@ std::string cell(std::string_view text) {
 // ---- operators
 
 /// All but `as` and `instanceof`, behind which stands a type.
-constexpr std::array<std::string_view, 23> infix{"**", "*",   "/", "%",  "+", "-",  ">>", "<<",
-                                                 "..", "..<", "<", "<=", ">", ">=", "in", "==",
-                                                 "!=", "<=>", "&", "^",  "|", "&&", "||"};
+constexpr std::array<std::string_view, 25> infix{"**",  "*",   "/",  "%", "+",  "-",  ">>", "<<", "..",
+                                                 "..<", "<",   "<=", ">", ">=", "in", "==", "!=", "<=>",
+                                                 "=~",  "==~", "&",  "^", "|",  "&&", "||"};
 
 std::string tree_of(std::string const& script) {
   base::SourceFile const source("x", script);
@@ -365,15 +365,23 @@ std::string names(std::string_view heading, std::span<NameSpec const> table) {
 std::string limits() {
   Limits const running;
   return fmt::format(
-      "\n## Limits\n\nBeyond a limit there is a diagnostic or an exception, never a crash. A script has up to {} MB "
-      "and "
-      "{} words. Its values take up to {} MB in all; a text up to {} MB; {} signals wait to be consumed; calls nest up "
-      "to "
-      "{} deep. A guard that has taken {} steps of the interpreter in one test is an error, and so is a script that "
-      "computes "
-      "for some ten seconds without ever waiting.\n",
-      max_source_size >> 20U, max_token_count, running.heap_bytes >> 20U, max_text_size >> 20U, max_signals,
-      running.call_depth, running.guard_budget);
+      "\n## Limits\n\nBeyond a limit there is a diagnostic or an exception, never a crash.\n\n| | |\n|---|---|\n"
+      "| a script | {} MB, {} words |\n"
+      "| brackets, blocks and operators within each other or behind each other | {} |\n"
+      "| parts of a task; levels of a task | {}; {} |\n"
+      "| all values | {} MB |\n"
+      "| a text that is made while the script runs | {} MB |\n"
+      "| a width in `String.format`, `padLeft`, `padRight` | 10000 |\n"
+      "| calls within each other | {} |\n"
+      "| signals that nobody has consumed | {} |\n"
+      "| one test of a guard | {} steps of the interpreter |\n"
+      "| computing without waiting for anything | {} steps |\n\n"
+      "While a script computes, time goes on for everything else; each step takes {} ns of it, in simulated time too, "
+      "so "
+      "that `--timeout` ends it.\n",
+      max_source_size >> 20U, max_token_count, ast::max_tree_height, tasks::max_task_size, tasks::max_task_depth,
+      running.heap_bytes >> 20U, max_text_size >> 20U, running.call_depth, max_signals, running.guard_budget,
+      running.busy_steps, std::chrono::nanoseconds(time_of_step).count());
 }
 
 std::string reference_text() {

@@ -99,15 +99,19 @@ class Resolver {
   }
   void visit(ast::Assign const& n) {
     walk(n.value);
-    auto const* name = std::get_if<ast::Name>(&n.target->node);
-    if (!name || n.op) walk(n.target);
+    assign(n, *n.target);
+    for (auto const& target : n.more) assign(n, *target);
+  }
+  void assign(ast::Assign const& n, ast::Expr const& target) {
+    auto const* name = std::get_if<ast::Name>(&target.node);
+    if (!name || n.op) walk(target);
     if (!name) return;
     auto* variable = local(name->text);
-    if (!variable && !n.op) variable = &global(name->text, n.target->span);
+    if (!variable && !n.op) variable = &global(name->text, target.span);
     if (!variable) changed_globals_.push_back(name->text);
     if (!variable) return;
-    if (variable->kind != VariableKind::global) out_.locals.emplace(n.target.get(), variable);
-    if (n.op) {
+    if (variable->kind != VariableKind::global) out_.locals.emplace(&target, variable);
+    if (n.op || n.unpacks) {
       variable->has_other_values = true;
     } else {
       variable->values.push_back(n.value.get());
@@ -118,6 +122,7 @@ class Resolver {
     walk(n.value);
     for (auto const& name : n.names) {
       auto& variable = declare(name, VariableKind::local);
+      variable.type = n.type ? &*n.type : nullptr;
       variable.has_other_values = n.unpacks || !n.value || n.type;
       if (n.value && !n.unpacks) variable.values.push_back(n.value.get());
     }
@@ -140,8 +145,9 @@ class Resolver {
     if (n.otherwise) walk(*n.otherwise);
   }
   void visit(ast::While const& n) {
+    if (n.body_first) walk(n.body);
     walk(n.condition);
-    walk(n.body);
+    if (!n.body_first) walk(n.body);
   }
   void visit(ast::For const& n) {
     Inside const inside(*this);
@@ -212,7 +218,9 @@ class Resolver {
   void declare_parameters(std::vector<ast::Parameter> const& parameters) {
     for (auto const& parameter : parameters) {
       walk(parameter.fallback);
-      declare(parameter.name, VariableKind::parameter).has_other_values = true;
+      auto& variable = declare(parameter.name, VariableKind::parameter);
+      variable.has_other_values = true;
+      variable.type = parameter.type ? &*parameter.type : nullptr;
     }
   }
 

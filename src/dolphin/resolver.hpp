@@ -22,8 +22,9 @@ enum class VariableKind {
 struct Variable {
   std::string name;
   VariableKind kind = VariableKind::global;
-  base::Span defined;                    ///< the first place that gives it a value
-  std::vector<ast::Expr const*> values;  ///< every expression that is assigned to it
+  base::Span defined;                     ///< the first place that gives it a value
+  ast::Identifier const* type = nullptr;  ///< as declared; null for def
+  std::vector<ast::Expr const*> values;   ///< every expression that is assigned to it
   bool has_other_values = false;    ///< also gets values that are no expression of the script: parameters, loops, steps
   std::size_t first_statement = 0;  ///< statement of the script with the first assignment; 0 when a function assigns it
 };

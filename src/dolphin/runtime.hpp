@@ -15,6 +15,7 @@
 #include "dolphin/limits.hpp"
 #include "dolphin/objects.hpp"
 #include "dolphin/output.hpp"
+#include "dolphin/patterns/patterns.hpp"
 #include "dolphin/signals.hpp"
 #include "dolphin/value.hpp"
 #include "tasks/execution.hpp"
@@ -38,6 +39,7 @@ struct Runtime {
   std::function<void(tasks::TaskView)> on_executed = {};
 
   Heap heap = {};
+  Patterns patterns = {};
   std::uint64_t steps = 0;  ///< instructions carried out
   std::vector<Value> globals = {};
   std::vector<bool> is_defined = {};  ///< of each global: has it got a value yet

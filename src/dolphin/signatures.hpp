@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -107,9 +108,16 @@ struct MethodSpec {
   bool is_property;  ///< written without parentheses
   Kinds result;
   std::string_view doc;
-  std::string_view arguments = {};  ///< what stands in its parentheses, for people: "closure", "from, to?"
+  std::string_view arguments = {};  ///< what stands in its parentheses: "closure", "from, to?", "values..."
   std::string_view example = {};    ///< an expression whose value shows what it does
 };
+
+/// How many arguments a method takes.
+struct ArgumentCount {
+  std::size_t least = 0;
+  std::size_t most = 0;
+};
+[[nodiscard]] ArgumentCount argument_count(MethodSpec const& method);
 
 struct NameSpec {
   std::string_view name;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 
 #include "dolphin/signatures.hpp"
@@ -30,53 +32,57 @@ constexpr auto all_units = std::to_array<UnitSpec>({
 
 constexpr auto lists = Kinds(Kind::list);
 constexpr auto many = Kinds(Kind::list) | Kind::map | Kind::vehicles | Kind::other;
+constexpr auto walked = many | Kind::text;
 constexpr auto parts = Kinds(Kind::list) | Kind::text | Kind::vehicles | Kind::other;
+constexpr auto joined = lists | number | Kind::text | Kind::map | Kind::vehicles | Kind::position | Kind::other;
 constexpr auto all_methods = std::to_array<MethodSpec>({
     {many | Kind::text, "size", false, Kind::integer, "How many.", "", "[3, 1].size()"},
     {many | Kind::text, "isEmpty", false, Kind::boolean, "Whether there is nothing in it.", "", "[].isEmpty()"},
-    {many | Kind::text, "contains", false, Kind::boolean, "Whether the value is in it.", "value",
-     "'harbour'.contains('bo')"},
-    {many, "each", false, any, "Calls the closure with each.", "closure"},
-    {many, "eachWithIndex", false, any, "Calls the closure with each and its index.", "closure"},
-    {many, "collect", false, Kind::list, "What the closure makes of each.", "closure", "[1, 2].collect { it * 10 }"},
-    {many, "collectEntries", false, Kind::map, "A map of what the closure makes of each.", "closure",
+    {lists | Kind::text | Kind::vehicles | Kind::other, "contains", false, Kind::boolean,
+     "Whether the value is in it; a text has parts that fit a pattern, too.", "value", "'harbour'.contains('bo')"},
+    {walked, "each", false, any, "Calls the closure with each.", "closure"},
+    {walked, "eachWithIndex", false, any, "Calls the closure with each and its index.", "closure"},
+    {walked, "collect", false, Kind::list, "What the closure makes of each.", "closure", "[1, 2].collect { it * 10 }"},
+    {walked, "collectEntries", false, Kind::map, "A map of what the closure makes of each.", "closure",
      "['a', 'b'].collectEntries { [it, it.toUpperCase()] }"},
-    {many, "find", false, any, "The first for which the closure is true, or null.", "closure",
+    {walked, "find", false, any, "The first for which the closure is true, or null.", "closure",
      "[1, 2, 3].find { it > 1 }"},
-    {many, "findAll", false, any, "Those for which the closure is true.", "closure", "[1, 2, 3].findAll { it > 1 }"},
-    {many, "findIndexOf", false, Kind::integer, "The index of the first for which the closure is true, or -1.",
+    {walked, "findAll", false, any, "Those for which the closure is true.", "closure", "[1, 2, 3].findAll { it > 1 }"},
+    {walked, "findIndexOf", false, Kind::integer, "The index of the first for which the closure is true, or -1.",
      "closure", "[5, 6].findIndexOf { it > 5 }"},
-    {many, "any", false, Kind::boolean, "Whether the closure is true for one.", "closure?", "[1, 2].any { it > 1 }"},
-    {many, "every", false, Kind::boolean, "Whether the closure is true for all.", "closure?",
+    {walked, "any", false, Kind::boolean, "Whether the closure is true for one.", "closure?", "[1, 2].any { it > 1 }"},
+    {walked, "every", false, Kind::boolean, "Whether the closure is true for all.", "closure?",
      "[1, 2].every { it > 1 }"},
-    {many, "inject", false, any, "Folds all into one value.", "start?, closure",
+    {walked, "inject", false, any, "Folds all into one value.", "start?, closure",
      "[1, 2, 3].inject(10) { a, b -> a + b }"},
-    {many, "collectMany", false, Kind::list, "The lists that the closure makes of each, as one.", "closure",
+    {walked, "collectMany", false, Kind::list, "The lists that the closure makes of each, as one.", "closure",
      "[1, 2].collectMany { [it, -it] }"},
-    {many, "findResult", false, any, "The first that the closure gives and is not null.", "closure",
+    {walked, "findResult", false, any, "The first that the closure gives and is not null.", "closure",
      "[1, 2].findResult { it > 1 ? 'two' : null }"},
-    {many, "reverseEach", false, any, "Calls the closure with each, the last one first.", "closure"},
-    {many, "withIndex", false, Kind::list, "Pairs of each and its index.", "", "['a', 'b'].withIndex()"},
-    {many, "toSorted", false, Kind::list, "A new list, in order.", "closure?", "[3, 1, 2].toSorted()"},
-    {many, "join", false, Kind::text, "All as one text.", "between?", "[1, 2].join('-')"},
-    {many, "sort", false, any, "In order; a list is itself put into order, unless the first argument is false.",
+    {walked, "reverseEach", false, any, "Calls the closure with each, the last one first.", "closure"},
+    {walked, "withIndex", false, Kind::list, "Pairs of each and its index.", "", "['a', 'b'].withIndex()"},
+    {walked, "toSorted", false, Kind::list, "A new list, in order.", "closure?", "[3, 1, 2].toSorted()"},
+    {lists | Kind::vehicles | Kind::other, "join", false, Kind::text, "All as one text.", "between?",
+     "[1, 2].join('-')"},
+    {walked, "sort", false, any, "In order; a list is itself put into order, unless the first argument is false.",
      "changes itself?, closure?", "[3, 1, 2].sort { -it }"},
-    {many, "sum", false, any, "All added up, from a first value if there is one.", "start?, closure?", "[1, 2].sum()"},
+    {walked, "sum", false, any, "All added up, from a first value if there is one.", "start?, closure?",
+     "[1, 2].sum()"},
     {many, "count", false, Kind::integer, "How many equal the value, or for how many the closure is true.",
      "value or closure", "[1, 2, 3].count { it > 1 }"},
-    {many, "groupBy", false, Kind::map, "Parts by what the closure makes of each.", "closure",
+    {walked, "groupBy", false, Kind::map, "Parts by what the closure makes of each.", "closure",
      "[1, 2, 3].groupBy { it % 2 }"},
-    {many, "countBy", false, Kind::map, "How many there are by what the closure makes of each.", "closure",
+    {walked, "countBy", false, Kind::map, "How many there are by what the closure makes of each.", "closure",
      "[1, 2, 3].countBy { it % 2 }"},
-    {many, "takeWhile", false, any, "The first ones, as long as the closure is true.", "closure",
+    {walked, "takeWhile", false, any, "The first ones, as long as the closure is true.", "closure",
      "[1, 2, 3, 1].takeWhile { it < 3 }"},
-    {many, "dropWhile", false, any, "What is left from the first on for which the closure is false.", "closure",
+    {walked, "dropWhile", false, any, "What is left from the first on for which the closure is false.", "closure",
      "[1, 2, 3, 1].dropWhile { it < 3 }"},
-    {many, "toSet", false, Kind::list, "A new list in which each is once.", "", "[1, 2, 1].toSet()"},
-    {many, "min", false, any, "The smallest.", "closure?", "['aa', 'b'].min { it.size() }"},
-    {many, "max", false, any, "The largest.", "closure?", "[3, 1, 2].max()"},
-    {many, "first", false, any, "The first.", "", "[1, 2].first()"},
-    {many, "last", false, any, "The last.", "", "[1, 2].last()"},
+    {walked, "toSet", false, Kind::list, "A new list in which each is once.", "", "[1, 2, 1].toSet()"},
+    {walked, "min", false, any, "The smallest.", "closure?", "['aa', 'b'].min { it.size() }"},
+    {walked, "max", false, any, "The largest.", "closure?", "[3, 1, 2].max()"},
+    {lists | Kind::vehicles | Kind::other, "first", false, any, "The first.", "", "[1, 2].first()"},
+    {lists | Kind::vehicles | Kind::other, "last", false, any, "The last.", "", "[1, 2].last()"},
     {lists | Kind::vehicles | Kind::other, "indexOf", false, Kind::integer, "Where the value is, or -1.", "value",
      "['a', 'b'].indexOf('b')"},
     {lists | Kind::other, "lastIndexOf", false, Kind::integer, "Where the value is last, or -1.", "value",
@@ -100,6 +106,7 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {lists | Kind::other, "containsAll", false, Kind::boolean, "Whether all of the other list are in it.", "list",
      "[1, 2].containsAll([2])"},
     {lists, "add", false, Kind::boolean, "Appends the value.", "index?, value"},
+    {lists, "leftShift", false, Kind::boolean, "Appends the value, as << does.", "value"},
     {lists, "push", false, Kind::boolean, "Appends the value.", "value"},
     {lists, "addAll", false, Kind::boolean, "Appends all of the other list.", "list"},
     {lists, "pop", false, any, "Takes the last one out.", "", "[1, 2].pop()"},
@@ -112,9 +119,12 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {lists | Kind::text | Kind::vehicles | Kind::other, "reverse", false, any, "In reverse order.", "",
      "[1, 2].reverse()"},
     {lists, "unique", false, Kind::list, "Takes out what is in it already.", "", "[1, 2, 1].unique()"},
-    {lists | Kind::map, "get", false, any, "The element.", "index or key", "[a: 1].get('a')"},
+    {lists | Kind::vehicles | Kind::other, "get", false, any, "The element.", "index", "[5, 6].get(1)"},
+    {Kind::map, "get", false, any, "The element, or null or the other value when there is none.", "key, value?",
+     "[a: 1].get('a')"},
     {lists | Kind::map, "getAt", false, any, "The element, as [ ] gives it.", "index or key", "[5, 6].getAt(1)"},
     {lists, "set", false, any, "Puts the value in the place of an element.", "index, value"},
+    {lists, "putAt", false, any, "The same as `set`.", "index, value"},
     {lists | Kind::map, "remove", false, any, "Takes an element out.", "index or key"},
     {lists | Kind::map, "clear", false, any, "Takes everything out."},
     {Kind::map, "put", false, any, "Sets a value.", "key, value"},
@@ -127,7 +137,7 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {Kind::map, "keySet", false, Kind::list, "The keys.", "", "[a: 1, b: 2].keySet()"},
     {Kind::map, "values", false, Kind::list, "The values.", "", "[a: 1, b: 2].values()"},
     {Kind::map, "entrySet", false, Kind::list, "The entries, each with a key and a value.", "", "[a: 1].entrySet()"},
-    {many, "toList", false, Kind::list, "As a list.", "", "(1..3).toList()"},
+    {walked, "toList", false, Kind::list, "As a list.", "", "(1..3).toList()"},
     {Kind::text, "length", false, Kind::integer, "How many characters.", "", "'name'.length()"},
     {Kind::text, "toUpperCase", false, Kind::text, "In capitals.", "", "'name'.toUpperCase()"},
     {Kind::text, "toLowerCase", false, Kind::text, "In small letters.", "", "'NAME'.toLowerCase()"},
@@ -149,13 +159,27 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {Kind::text, "tokenize", false, Kind::list, "Its words, none of them empty.", "separators?",
      "'a, b'.tokenize(', ')"},
     {Kind::text, "readLines", false, Kind::list, "Its lines.", "", "'a\\nb'.readLines()"},
-    {Kind::text, "split", false, Kind::list, "Its parts.", "separator?", "'a;b'.split(';')"},
+    {Kind::text, "split", false, Kind::list, "Its parts, between a text or what fits a pattern.", "separator?",
+     "'a;b'.split(';')"},
     {Kind::text, "replace", false, Kind::text, "With one part replaced.", "old, new", "'north'.replace('n', 'N')"},
+    {Kind::text, "matches", false, Kind::boolean, "Whether all of it fits the pattern.", "pattern",
+     "'uav7'.matches(/uav\\d/)"},
+    {Kind::text, "find", false, any, "The first part that fits the pattern, or null.", "pattern",
+     "'uav7 ugv8'.find(/\\d/)"},
+    {Kind::text, "findAll", false, any, "All parts that fit the pattern.", "pattern", "'uav7 ugv8'.findAll(/\\d/)"},
+    {Kind::text, "replaceAll", false, Kind::text,
+     "With all that fits the pattern replaced, by a text in which $1 is the first group, or by what a closure makes of "
+     "it.",
+     "pattern, text or closure", "'uav7 ugv8'.replaceAll(/u(.)v/, '$1')"},
+    {Kind::text, "replaceFirst", false, Kind::text, "The same for the first that fits.", "pattern, text",
+     "'uav7 ugv8'.replaceFirst(/u(.)v/, '$1')"},
+    {Kind::text, "eachMatch", false, any, "Calls the closure with all that fits the pattern.", "pattern, closure"},
     {Kind::text, "substring", false, Kind::text, "A part of it.", "from, to?", "'harbour'.substring(0, 3)"},
     {Kind::text, "indexOf", false, Kind::integer, "Where the part begins, or -1.", "text", "'harbour'.indexOf('bo')"},
     {Kind::text, "lastIndexOf", false, Kind::integer, "Where the part begins last, or -1.", "text",
      "'harbour'.lastIndexOf('r')"},
-    {Kind::text, "count", false, Kind::integer, "How often the part is in it.", "text", "'harbour'.count('r')"},
+    {Kind::text, "count", false, Kind::integer, "How often the text, or what fits a pattern, is in it.", "text",
+     "'harbour'.count('r')"},
     {Kind::text | number, "toInteger", false, Kind::integer, "As an integer.", "", "'42'.toInteger()"},
     {Kind::text | number, "toDouble", false, Kind::decimal, "As a decimal.", "", "'1.5'.toDouble()"},
     {Kind::text | number, "toFloat", false, Kind::decimal, "As a decimal."},
@@ -166,9 +190,9 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {number, "step", false, any, "Calls the closure with each up to before the other, so far apart.",
      "end, by, closure"},
     {number, "isInfinite", false, Kind::boolean, "Whether it is beyond all numbers.", "", "1.0.isInfinite()"},
-    {number, "plus", false, any, "The same as +.", "n"},
-    {number, "minus", false, any, "The same as -.", "n"},
-    {number, "multiply", false, any, "The same as *.", "n"},
+    {joined, "plus", false, any, "The same as +.", "n"},
+    {joined, "minus", false, any, "The same as -.", "n"},
+    {Kind::list | number | Kind::text, "multiply", false, any, "The same as *.", "n"},
     {number, "div", false, any, "The same as /.", "n"},
     {number, "mod", false, any, "The same as %.", "n"},
     {number, "power", false, any, "The same as **.", "n"},
@@ -181,7 +205,6 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {number, "longValue", false, Kind::integer, "As an integer."},
     {number, "toLong", false, Kind::integer, "As an integer."},
     {number, "isNaN", false, Kind::boolean, "Whether it is not a number.", "", "NaN.isNaN()"},
-    {number, "compareTo", false, Kind::integer, "-1, 0 or 1.", "n", "1.compareTo(2)"},
     {number, "doubleValue", false, Kind::decimal, "As a decimal."},
     {Kind::position, "lat", true, Kind::decimal, "Latitude, degrees.", "", "location(41, -8).lat"},
     {Kind::position, "lon", true, Kind::decimal, "Longitude, degrees.", "", "location(41, -8).lon"},
@@ -213,8 +236,11 @@ constexpr auto all_methods = std::to_array<MethodSpec>({
     {Kind::task, "name", true, Kind::text, "The same as `id`."},
     {Kind::closure, "call", false, any, "Calls it.", "values...", "{ a, b -> a + b }.call(1, 2)"},
     {any, "toString", false, Kind::text, "As text.", "", "1.5.toString()"},
+    {any, "compareTo", false, Kind::integer, "-1, 0 or 1, as <=> gives.", "value", "1.compareTo(2)"},
+    {any, "getClass", false, Kind::other, "Its type, also of a map.", "", "[a: 1].getClass().simpleName"},
     {any, "equals", false, Kind::boolean, "Whether both are equal.", "value", "[1].equals([1.0])"},
-    {any, "class", true, Kind::other, "Its type.", "", "'text'.class.simpleName"},
+    {any, "class", true, Kind::other, "Its type; of a map it is the value of the key `class`.", "",
+     "'text'.class.simpleName"},
 });
 
 constexpr auto all_constants = std::to_array<NameSpec>({
@@ -258,6 +284,8 @@ constexpr auto all_types = std::to_array<NameSpec>({
     {"Object", "Anything."},
     {"OutOfMemoryError", "The script holds too much."},
     {"PRECISION_LAND_MODE", "MAVLink's precision land modes."},
+    {"Pattern", "A regular expression: /a+/, ~'a+'."},
+    {"PatternSyntaxException", "A pattern that cannot be read."},
     {"Position", "A place."},
     {"Range", "Whole numbers from one to another."},
     {"RuntimeException", "What went wrong."},
@@ -277,6 +305,20 @@ constexpr auto all_types = std::to_array<NameSpec>({
 });
 
 }  // namespace
+
+ArgumentCount argument_count(MethodSpec const& method) {
+  ArgumentCount out;
+  auto rest = method.arguments;
+  while (!rest.empty()) {
+    auto const end = std::min(rest.find(", "), rest.size());
+    auto const one = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 2, rest.size()));
+    if (one.ends_with("...")) return {out.least, std::numeric_limits<std::size_t>::max()};
+    ++out.most;
+    out.least += one.ends_with('?') ? 0 : 1;
+  }
+  return out;
+}
 
 std::span<UnitSpec const> units() {
   return all_units;

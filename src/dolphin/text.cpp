@@ -133,6 +133,7 @@ class Printer {
         return outcome.done ? "done" : "failed: " + outcome.error;
       }
       case ValueKind::type: return value.as<TypeValue>()->value.name;
+      case ValueKind::pattern: return value.as<PatternValue>()->value->text();
       default: return std::string(kind_name(value));
     }
   }
@@ -182,7 +183,7 @@ std::string_view kind_name(ValueKind kind) {
       "null",       "a boolean",      "an integer", "a number",  "a text",        "a list",
       "a map",      "an entry",       "a range",    "a closure", "a vehicle set", "a vehicle",
       "a position", "a displacement", "an area",    "a task",    "an exception",  "a result of execute",
-      "a type",     "a variable"};
+      "a type",     "a pattern",      "a variable"};
   static_assert(names.size() == static_cast<std::size_t>(ValueKind::cell) + 1);
   return names[static_cast<std::size_t>(kind)];
 }

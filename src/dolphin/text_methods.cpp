@@ -191,6 +191,7 @@ MethodResult changed_text(MethodCall const& call, std::string const& text) {
 }  // namespace
 
 MethodResult text_method(MethodCall const& call, std::string const& text) {
+  if (auto result = pattern_method(call, text)) return result;
   if (auto result = question(call, text)) return result;
   if (auto result = changed_text(call, text)) return result;
   if (call.is("split", 0)) return tokenized(call, text, blanks);

@@ -20,6 +20,8 @@ enum class TokenKind : std::uint8_t {
   interpolation_open,   ///< ${
   interpolation_close,  ///< its }
   string_close,         ///< the closing quotes
+  pattern,              ///< a regular expression, slashes included
+  invalid,              ///< what no script has; a mistake that has been reported
   // brackets and separators
   left_paren,
   right_paren,
@@ -32,6 +34,7 @@ enum class TokenKind : std::uint8_t {
   colon,
   dot,
   safe_dot,
+  spread_dot,
   range,
   range_exclusive,
   arrow,
@@ -67,12 +70,15 @@ enum class TokenKind : std::uint8_t {
   equal,
   not_equal,
   compare,
+  find_match,
+  full_match,
   logical_not,
   logical_and,
   logical_or,
   bit_and,
   bit_or,
   bit_xor,
+  tilde,
   // reserved words
   kw_as,
   kw_assert,

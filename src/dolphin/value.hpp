@@ -27,6 +27,7 @@ enum class ValueKind : std::uint8_t {
   error,
   outcome,
   type,
+  pattern,
   cell,  ///< a captured variable; never seen by a script
 };
 

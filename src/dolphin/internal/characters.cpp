@@ -146,6 +146,8 @@ Unreadable unreadable_character(std::string_view text) {
     case U'\u2013':
     case U'\u2014':
     case U'\u2212': return {c.size, "a typographic dash is not a minus sign", "write -", Unreadable::Like::dash};
+    case U'#': return {1, "# begins no comment", "write //", Unreadable::Like::comment};
+    case U'$': return {1, "a name needs no $ outside a text", "", Unreadable::Like::blank};
     default: break;
   }
   if (c.size == 0) return {1, "these bytes are not UTF-8 text", "save the script as UTF-8"};

@@ -34,7 +34,7 @@ struct Unreadable {
   std::size_t size;
   std::string_view message;
   std::string_view hint;
-  enum class Like { nothing, quote, dash } looks_like = Like::nothing;
+  enum class Like { nothing, quote, dash, comment, blank } looks_like = Like::nothing;
 };
 [[nodiscard]] Unreadable unreadable_character(std::string_view text);
 

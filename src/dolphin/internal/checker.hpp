@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,6 +68,7 @@ class Checker {
   void check(ast::Import const& n, ast::Stmt const& statement, bool is_value);
   void loop_body(ast::Block const& body);
   void spinning(ast::Expr const* condition, ast::Block const& body, ast::Stmt const& statement);
+  void assigned(ast::Assign const& n, ast::Expr const& target);
   void assigned_field(ast::Expr const& target);
   void function_overloads();
   [[nodiscard]] std::string_view ends_with(ast::Stmt const& statement);
@@ -79,11 +81,11 @@ class Checker {
   void undefined_name(std::string const& name, base::Span span);
   bool used_too_early(ast::Expr const& expr, Variable const& variable);
   void closure(ast::Closure const& closure, std::optional<BlockContext> context);
-  void member(ast::Expr const& expr);
+  void pattern(ast::PatternLiteral const& literal, base::Span span);
   void index(ast::Expr const& expr);
   void map(ast::MapLiteral const& map);
   void chain(ast::Expr const& expr);
-  void type_name(ast::Identifier const& type);
+  void otherwise(ast::Chain const& chain);
 
   // ---- operators (checker_operators.cpp)
   void operation(ast::Binary const& binary);
@@ -101,7 +103,7 @@ class Checker {
   void closure_call(ast::Call const& call, base::Span span, Variable const& variable);
   void builder_call(ast::Call const& call, base::Span span, Builder const& builder);
   void undefined_call(ast::Call const& call, base::Span span);
-  void method_call(ast::Call const& call);
+  void value_call(ast::Call const& call);
   void arguments(ast::Call const& call, std::optional<BlockContext> context);
   void duplicate_keys(ast::Call const& call);
   void vehicle_keys(ast::Call const& call, InstructionSpec const& spec);
@@ -111,6 +113,26 @@ class Checker {
   void report_mismatch(ast::Call const& call, InstructionSpec const& spec, SignatureSpec const& signature,
                        std::size_t position);
   void rehearse(ast::Closure const& body, Builder const& builder, base::Span span);
+
+  // ---- behind a point (checks/methods.cpp)
+  void member(ast::Expr const& expr);
+  void unit(ast::Member const& n);
+  void method_call(ast::Call const& call);
+  void unknown_method(ast::Member const& callee, Kinds kinds, bool is_property);
+  [[nodiscard]] bool is_function_of_type(ast::Member const& callee);
+  [[nodiscard]] bool may_be_key(std::string const& name);
+
+  // ---- types, signals, statements that do nothing (checks/statements.cpp)
+  void unused_value(ast::Expr const& expr);
+  void duplicate_cases(ast::Switch const& n);
+  void type_name(ast::Identifier const& type);
+  void caught_type(ast::Identifier const& type);
+  void declared_type(ast::Identifier const& type);
+  void declared_value(ast::Identifier const& name, std::string_view type, ast::Expr const& value);
+  void declared_arguments(ast::Call const& call, ast::FunctionDecl const& function);
+  void hidden_instructions();
+  void note_signals(ast::Call const& call, std::string_view instruction);
+  void unposted_signals();
 
   // ---- tasks (checker_tasks.cpp)
   void empty_choice(ast::Call const& call, InstructionSpec const& spec);
@@ -131,6 +153,7 @@ class Checker {
   [[nodiscard]] base::Hint suggestion(std::string_view name, base::Span span) const;
   /// "stands inside mission { ... }" for a word that is known only there.
   [[nodiscard]] std::string block_of(std::string_view name) const;
+  [[nodiscard]] std::string hint_in_mission(std::string_view name) const;
 
   ast::Program const& program_;
   base::Diagnostics& diagnostics_;
@@ -139,6 +162,17 @@ class Checker {
   std::vector<Builder> builders_;
   std::vector<BlockContext> contexts_;
   std::unordered_set<std::string> unread_names_;
+  std::optional<std::unordered_set<std::string>> map_keys_;    ///< made when it is needed first
+  std::optional<std::unordered_set<std::string>> made_types_;  ///< behind `new`; made when it is needed first
+  /// A signal that is consumed or polled.
+  struct Awaited {
+    std::string name;
+    base::Span span;
+    bool is_taken;
+  };
+  std::vector<Awaited> awaited_;
+  std::set<std::string, std::less<>> posted_;
+  bool posts_unknown_ = false;
   std::unordered_set<std::string> reported_;  ///< undefined names, each once
   std::unordered_set<std::string_view> locals_;
   std::unordered_set<Variable const*> read_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include "dolphin/bytecode.hpp"
 #include "dolphin/codes.hpp"
 #include "dolphin/internal/function_builder.hpp"
+#include "dolphin/types/declared_type.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::dolphin::internal {
@@ -72,8 +74,13 @@ class Compilation {
   void last_statement(ast::Stmt const& stmt);
   void statement(ast::Stmt const& stmt);
   void assign(ast::Assign const& assign, bool keeps_value);
+  void assign_several(ast::Assign const& assign, bool keeps_value);
+  void assign_to(ast::Expr const& target, std::optional<ast::BinaryOp> op, bool keeps_value,
+                 std::function<void()> const& push_value);
+  void hold(std::string_view type, std::string const& variable, Holder holder);
   void declare_variables(ast::VarDecl const& decl);
   void if_statement(ast::If const& node, int sink = nowhere);
+  void do_loop(ast::While const& node);
   void while_loop(ast::While const& node);
   void for_loop(ast::For const& node);
   void for_in_loop(ast::ForIn const& node);
@@ -96,6 +103,7 @@ class Compilation {
   void ternary(ast::Ternary const& node);
   void step(ast::Step const& node);
   void member(ast::Member const& node);
+  void each_element(ast::Expr const& object, std::function<void()> const& push_value);
   void map_literal(ast::MapLiteral const& node);
   void closure(ast::Closure const& node);
   std::shared_ptr<Function const> function(std::string name, std::vector<ast::Parameter> const& parameters, bool has_it,

@@ -141,6 +141,12 @@ void Compilation::method_call(ast::Member const& callee, ast::Call const& node) 
     f.emit(Op::call_static, f.name(type->text + "." + callee.name.text), count);
     return;
   }
+  if (callee.is_spread) {
+    return each_element(*callee.object, [&] {
+      int const count = arguments(node.arguments);
+      f.emit(Op::call_method, f.name(callee.name.text), count);
+    });
+  }
   expression(*callee.object);
   int const nothing = callee.safe ? f.emit(Op::jump_if_null) : -1;
   int const count = arguments(node.arguments);

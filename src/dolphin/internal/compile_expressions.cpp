@@ -102,6 +102,12 @@ void Compilation::expression_node(ast::Expr const& expr) {
     void operator()(ast::DecimalLiteral const& node) const { f.emit_constant(Value::real(node.value)); }
     void operator()(ast::StringLiteral const& node) const { self.text(node.value); }
     void operator()(ast::GString const& node) const { self.gstring(node); }
+    void operator()(ast::PatternLiteral const& node) const {
+      auto expression = RegularExpression::make(node.text);
+      if (!expression)
+        return self.diagnostics_.report(code("invalid-pattern"), span, "this is no pattern: " + expression.error());
+      f.emit_constant(Value(self.program_.texts.make<PatternValue>(*std::move(expression))));
+    }
     void operator()(ast::Name const& node) const { self.name(node.text, span); }
     void operator()(ast::ListLiteral const& node) const {
       for (auto const& item : node.items) self.expression(*item);
@@ -119,6 +125,7 @@ void Compilation::expression_node(ast::Expr const& expr) {
         case ast::UnaryOp::logical_not: f.emit(Op::logical_not); break;
         case ast::UnaryOp::minus: f.emit(Op::negate); break;
         case ast::UnaryOp::plus: f.emit(Op::plus); break;
+        case ast::UnaryOp::complement: f.emit(Op::complement); break;
       }
     }
     void operator()(ast::Step const& node) const { self.step(node); }
@@ -248,7 +255,36 @@ void Compilation::step(ast::Step const& node) {
   f.emit(Op::load_local, node.prefix ? fresh : old);
 }
 
+/// `list*.name`, `list*.name()`: the list of what `push_value` makes of each element on the stack; null of null.
+void Compilation::each_element(ast::Expr const& object, std::function<void()> const& push_value) {
+  auto& f = *function_;
+  int const result = f.hidden();
+  int const value = f.hidden();
+  expression(object);
+  int const items = f.hidden();
+  f.hidden();  // the index, next to it
+  f.emit(Op::start_iteration, items);
+  f.emit(Op::make_list, 0);
+  f.emit(Op::store_local, result);
+  int const begin = f.here();
+  int const next = f.emit(Op::next_item, 0, items);
+  int const nothing = f.emit(Op::jump_if_null);
+  push_value();
+  f.patch(nothing);
+  f.emit(Op::store_local, value);
+  f.emit(Op::load_local, result);
+  f.emit(Op::load_local, value);
+  f.emit(Op::binary, static_cast<int>(ast::BinaryOp::shift_left));
+  f.emit(Op::pop);
+  f.emit(Op::jump_back, begin);
+  f.patch(next);
+  f.emit(Op::load_local, result);
+}
+
 void Compilation::member(ast::Member const& node) {
+  if (node.is_spread) {
+    return each_element(*node.object, [&] { function_->emit(Op::get_member, function_->name(node.name.text)); });
+  }
   expression(*node.object);
   int const nothing = node.safe ? function_->emit(Op::jump_if_null) : -1;
   function_->emit(Op::get_member, function_->name(node.name.text));
@@ -270,7 +306,9 @@ std::shared_ptr<Function const> Compilation::function(std::string name, std::vec
   auto const outer_blocks = enclosing ? blocks_ : std::exchange(blocks_, {});
   f.at_line(diagnostics_.source().line(its_body.span.begin));
   f.function().is_library = is_library_;
-  for (auto const& parameter : parameters) f.declare(parameter.name.text);
+  for (auto const& parameter : parameters) {
+    f.declare(parameter.name.text, parameter.type ? std::string_view(parameter.type->text) : std::string_view());
+  }
   if (has_it) f.declare("it");
   f.function().parameters = f.function().locals;
   f.function().required = has_it ? 0 : static_cast<int>(parameters.size());
@@ -290,6 +328,12 @@ std::shared_ptr<Function const> Compilation::function(std::string name, std::vec
     f.patch(ready);
   }
   if (has_it) f.emit(Op::adopt_parameter, 0);
+  for (auto const& parameter : parameters) {
+    if (!parameter.type || !is_checked_type(parameter.type->text)) continue;
+    load(parameter.name.text);
+    hold(parameter.type->text, parameter.name.text, Holder::parameter);
+    store(parameter.name.text);
+  }
   body(its_body);
   function_ = outer;
   surroundings_ = outer_surroundings;

@@ -1,22 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <variant>
 
 #include "dolphin/internal/compilation.hpp"
 #include "dolphin/objects.hpp"
+#include "dolphin/types/declared_type.hpp"
 
 namespace lapwing::dolphin::internal {
-namespace {
-
-/// Types that a declared variable's first value is turned into: `int n = 2.5` is 2.
-bool is_converting_type(std::string_view type) {
-  static constexpr std::array names = {"int",    "long",  "short",  "byte", "double",     "float",
-                                       "String", "Float", "Double", "Long", "BigDecimal", "Integer"};
-  return std::ranges::find(names, type) != names.end();
-}
-
-}  // namespace
-
 void Compilation::declare_functions(ast::Block const& block) {
   for (auto const& stmt : block.statements) {
     auto const* decl = std::get_if<ast::FunctionDecl>(&stmt->node);
@@ -159,21 +148,53 @@ void Compilation::statement(ast::Stmt const& stmt) {
   std::visit(Visitor{*this, stmt.span}, stmt.node);
 }
 
+/// Turns the value on the stack into what a variable of that type holds.
+void Compilation::hold(std::string_view type, std::string const& variable, Holder holder) {
+  if (type.empty() || !is_checked_type(type)) return;
+  auto const declaration = std::string(type) + " " + variable;
+  function_->emit(Op::hold, function_->name(declaration), holder == Holder::parameter ? 1 : 0);
+}
+
+/// `a = b = value` and `(a, b) = list`: the value first, once, then each target from right to left.
+void Compilation::assign_several(ast::Assign const& assign, bool keeps_value) {
+  auto& f = *function_;
+  int const value = f.hidden();
+  expression(*assign.value);
+  f.emit(Op::store_local, value);
+  for (auto i = assign.more.size() + 1; i-- > 0;) {
+    auto const& target = i == 0 ? *assign.target : *assign.more[i - 1];
+    assign_to(target, std::nullopt, false, [&] {
+      f.emit(Op::load_local, value);
+      if (!assign.unpacks) return;
+      f.emit_constant(Value::integer(static_cast<std::int64_t>(i)));
+      f.emit(Op::get_index);
+    });
+  }
+  if (keeps_value) f.emit(Op::load_local, value);
+}
+
 void Compilation::assign(ast::Assign const& assign, bool keeps_value) {
+  if (!assign.more.empty()) return assign_several(assign, keeps_value);
+  assign_to(*assign.target, assign.op, keeps_value, [&] { expression(*assign.value); });
+}
+
+void Compilation::assign_to(ast::Expr const& target, std::optional<ast::BinaryOp> op, bool keeps_value,
+                            std::function<void()> const& push_value) {
   auto& f = *function_;
   auto const value = [&](auto const& load_old) {
-    if (assign.op) load_old();
-    expression(*assign.value);
-    if (assign.op) f.emit(Op::binary, static_cast<int>(*assign.op));
+    if (op) load_old();
+    push_value();
+    if (op) f.emit(Op::binary, static_cast<int>(*op));
   };
-  if (auto const* name = std::get_if<ast::Name>(&assign.target->node)) {
+  if (auto const* name = std::get_if<ast::Name>(&target.node)) {
     value([&] { load(name->text); });
+    hold(f.type_of(name->text), name->text, Holder::variable);
     if (keeps_value) f.emit(Op::duplicate);
     return store(name->text);
   }
   int const object = f.hidden();
   int const result = f.hidden();
-  if (auto const* member = std::get_if<ast::Member>(&assign.target->node)) {
+  if (auto const* member = std::get_if<ast::Member>(&target.node)) {
     expression(*member->object);
     f.emit(Op::store_local, object);
     int const member_name = f.name(member->name.text);
@@ -185,7 +206,7 @@ void Compilation::assign(ast::Assign const& assign, bool keeps_value) {
     f.emit(Op::load_local, object);
     f.emit(Op::load_local, result);
     f.emit(Op::set_member, member_name);
-  } else if (auto const* index = std::get_if<ast::Index>(&assign.target->node)) {
+  } else if (auto const* index = std::get_if<ast::Index>(&target.node)) {
     int const at = f.hidden();
     expression(*index->object);
     f.emit(Op::store_local, object);
@@ -204,24 +225,26 @@ void Compilation::assign(ast::Assign const& assign, bool keeps_value) {
     f.emit(Op::load_local, result);
     f.emit(Op::set_index);
   } else {
-    diagnostics_.report(code("not-assignable"), assign.target->span, "this cannot be assigned to");
+    diagnostics_.report(code("not-assignable"), target.span, "this cannot be assigned to");
   }
   if (keeps_value) f.emit(Op::load_local, result);
 }
 
 void Compilation::declare_variables(ast::VarDecl const& decl) {
   auto& f = *function_;
-  if (decl.value) expression(*decl.value);
-  if (!decl.value) f.emit(Op::null);
+  auto const type = decl.type ? std::string_view(decl.type->text) : std::string_view();
   if (!decl.unpacks) {
-    if (decl.type && decl.value && is_converting_type(decl.type->text)) f.emit(Op::cast, f.name(decl.type->text));
-    f.emit(Op::declare_local, f.declare(decl.names.front().text));
-    for (std::size_t i = 1; i < decl.names.size(); ++i) {
-      f.emit(Op::null);
-      f.emit(Op::declare_local, f.declare(decl.names[i].text));
+    for (std::size_t i = 0; i < decl.names.size(); ++i) {
+      auto const& variable = decl.names[i].text;
+      bool const has_value = i == 0 && decl.value;
+      if (has_value) expression(*decl.value);
+      if (has_value) hold(type, variable, Holder::variable);
+      if (!has_value) f.emit_constant(value_at_first(type));
+      f.emit(Op::declare_local, f.declare(variable, type));
     }
     return;
   }
+  expression(*decl.value);
   int const list = f.hidden();
   f.emit(Op::store_local, list);
   for (std::size_t i = 0; i < decl.names.size(); ++i) {
@@ -248,7 +271,19 @@ void Compilation::close_loop() {
   surroundings_.loops.pop_back();
 }
 
+void Compilation::do_loop(ast::While const& node) {
+  int const begin = function_->here();
+  surroundings_.loops.push_back({.breaks = {}, .continues = {}, .finallies = surroundings_.finallies.size()});
+  block(node.body);
+  for (int const jump : surroundings_.loops.back().continues) function_->patch(jump);
+  expression(*node.condition);
+  surroundings_.loops.back().breaks.push_back(function_->emit(Op::jump_if_false));
+  function_->emit(Op::jump_back, begin);
+  close_loop();
+}
+
 void Compilation::while_loop(ast::While const& node) {
+  if (node.body_first) return do_loop(node);
   int const begin = function_->here();
   expression(*node.condition);
   int const end = function_->emit(Op::jump_if_false);

@@ -7,10 +7,16 @@ namespace lapwing::dolphin {
 
 namespace {
 
-Variable const* assigned_by(ast::Stmt const& statement, Resolution const& resolution) {
+std::vector<Variable const*> assigned_by(ast::Stmt const& statement, Resolution const& resolution) {
+  std::vector<Variable const*> out;
   auto const* assign = std::get_if<ast::Assign>(&statement.node);
-  bool const is_name = assign && std::holds_alternative<ast::Name>(assign->target->node);
-  return is_name ? resolution.find(*assign->target) : nullptr;
+  auto const add = [&](ast::Expr const& target) {
+    if (!std::holds_alternative<ast::Name>(target.node)) return;
+    if (auto const* variable = resolution.find(target)) out.push_back(variable);
+  };
+  if (assign) add(*assign->target);
+  for (std::size_t i = 0; assign && i < assign->more.size(); ++i) add(*assign->more[i]);
+  return out;
 }
 
 /// Finds assignments and picks in closures and functions.
@@ -20,9 +26,10 @@ class DeferredFinder {
 
   void visit(ast::Stmt const& statement) {
     auto const* function = std::get_if<ast::FunctionDecl>(&statement.node);
-    auto const* variable = assigned_by(statement, resolution_);
-    bool const is_foreign = variable && variable->kind == VariableKind::global && in_function_;
-    if (variable && (closures_ > 0 || is_foreign)) out_.assigned.insert(variable);
+    for (auto const* variable : assigned_by(statement, resolution_)) {
+      bool const is_foreign = variable->kind == VariableKind::global && in_function_;
+      if (closures_ > 0 || is_foreign) out_.assigned.insert(variable);
+    }
     if (auto const* declared = std::get_if<ast::VarDecl>(&statement.node); declared && closures_ > 0) {
       for (auto const& name : declared->names) out_.assigned.insert(resolution_.find(name));
     }
@@ -65,7 +72,7 @@ void FlowChanges::add(ast::Block const& block, Resolution const& resolution) {
 
 void FlowChanges::add(ast::Stmt const& statement, Resolution const& resolution) {
   if (std::holds_alternative<ast::FunctionDecl>(statement.node)) return;
-  if (auto const* variable = assigned_by(statement, resolution)) assigned.insert(variable);
+  for (auto const* variable : assigned_by(statement, resolution)) assigned.insert(variable);
   if (auto const* declared = std::get_if<ast::VarDecl>(&statement.node)) {
     for (auto const& name : declared->names) assigned.insert(resolution.find(name));
   }

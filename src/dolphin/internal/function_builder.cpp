@@ -29,8 +29,9 @@ int FunctionBuilder::new_slot() {
   return function_.locals++;
 }
 
-int FunctionBuilder::declare(std::string const& variable) {
+int FunctionBuilder::declare(std::string const& variable, std::string_view type) {
   int const slot = new_slot();
+  if (!type.empty()) types_.emplace(slot, type);
   scopes_.back()[variable] = slot;
   return slot;
 }
@@ -40,6 +41,13 @@ std::optional<int> FunctionBuilder::find_local(std::string const& variable) cons
     if (auto const found = scope.find(variable); found != scope.end()) return found->second;
   }
   return std::nullopt;
+}
+
+std::string_view FunctionBuilder::type_of(std::string const& variable) const {
+  auto const local = find_local(variable);
+  if (!local) return enclosing_ ? enclosing_->type_of(variable) : std::string_view();
+  auto const found = types_.find(*local);
+  return found == types_.end() ? std::string_view() : found->second;
 }
 
 std::optional<int> FunctionBuilder::capture(std::string const& variable) {

@@ -37,7 +37,10 @@ class FunctionBuilder {
 
   void open_scope() { scopes_.emplace_back(); }
   void close_scope() { scopes_.pop_back(); }
-  int declare(std::string const& variable);
+  /// `type`: empty when none was declared.
+  int declare(std::string const& variable, std::string_view type = {});
+  /// The declared type of a local variable or one of an enclosing function; empty when there is none.
+  [[nodiscard]] std::string_view type_of(std::string const& variable) const;
   /// A slot without a name.
   int hidden() { return new_slot(); }
   [[nodiscard]] std::optional<int> find_local(std::string const& variable) const;
@@ -53,6 +56,7 @@ class FunctionBuilder {
   Function function_;
   std::vector<std::map<std::string, int>> scopes_{1};
   std::vector<bool> is_captured_;
+  std::map<int, std::string> types_;  ///< of slots
   std::map<std::pair<bool, int>, int> capture_index_;
   std::map<std::string, int, std::less<>> name_index_;
   std::uint32_t line_ = 0;

@@ -6,6 +6,7 @@
 
 #include "dolphin/natives.hpp"
 #include "dolphin/objects.hpp"
+#include "dolphin/patterns/patterns.hpp"
 #include "dolphin/text.hpp"
 
 /// Methods that need no closure, by the kind of their receiver. Those that take closures are in the prelude.
@@ -17,6 +18,7 @@ using MethodResult = std::optional<Checked<Value>>;
 /// One call: what it is about and what it was given.
 struct MethodCall {
   Heap& heap;
+  Patterns& patterns;
   std::string_view name;
   Native::Arguments arguments;
 
@@ -32,6 +34,8 @@ struct MethodCall {
   [[nodiscard]] Value list(std::vector<Value> items) const { return Value(heap.make<List>(std::move(items))); }
 };
 
+/// `text.matches(/x+/)` and others that take a pattern.
+[[nodiscard]] MethodResult pattern_method(MethodCall const& call, std::string const& text);
 [[nodiscard]] MethodResult text_method(MethodCall const& call, std::string const& text);
 [[nodiscard]] MethodResult list_method(MethodCall const& call, List& list);
 [[nodiscard]] MethodResult map_method(MethodCall const& call, Map& map);

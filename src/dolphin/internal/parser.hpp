@@ -12,6 +12,13 @@
 
 namespace lapwing::dolphin {
 
+/// How tightly a binary operator binds; 1 is the weakest. (Language specification 2: Groovy's order.)
+struct Operator {
+  int strength;
+  enum class Form { binary, range, range_exclusive, cast, instance_of } form = Form::binary;
+  ast::BinaryOp op = ast::BinaryOp::add;
+};
+
 /// Recursive descent over the tokens of one script; binary operators by precedence climbing (language specification 1.3
 /// to 1.7).
 ///
@@ -48,6 +55,8 @@ class Parser {
   void expected(std::string_view what, base::Hint hint = {});
   bool expect(TokenKind wanted, std::string_view what);
   [[nodiscard]] std::string describe(Token const& token) const;
+  /// What people who come from other languages probably meant by the next token.
+  [[nodiscard]] std::string hint_for_place() const;
   ast::ExprPtr broken();
 
   // ---- brackets and lines (parser.cpp)
@@ -69,6 +78,18 @@ class Parser {
   ast::StmtPtr keyword_statement();
   ast::StmtPtr simple_statement();
   ast::StmtPtr assignment(ast::ExprPtr target, std::uint32_t begin);
+  void assignable(ast::Expr const& target);
+  [[nodiscard]] bool at_unpacking_assignment() const;
+  ast::StmtPtr unpacking_assignment();
+  ast::StmtPtr do_statement();
+  [[nodiscard]] bool at_else_if_word() const;
+  // words of other languages that begin statements (parser_foreign.cpp)
+  [[nodiscard]] bool at_foreign_declaration() const;
+  [[nodiscard]] bool at_foreign_function() const;
+  ast::StmtPtr foreign_declaration();
+  ast::StmtPtr foreign_function();
+  ast::ExprPtr bare_condition(std::string_view keyword, std::uint32_t begin);
+  ast::StmtPtr bare_for(std::uint32_t begin);
   ast::StmtPtr labelled();
   ast::StmtPtr if_statement();
   ast::StmtPtr while_statement();
@@ -88,7 +109,7 @@ class Parser {
   ast::StmtPtr unpacking(std::uint32_t begin);
   [[nodiscard]] bool at_typed_declaration() const;
   std::vector<ast::Parameter> parameters(TokenKind end);
-  ast::ExprPtr condition(std::string_view what);
+  ast::ExprPtr condition(std::string_view keyword, std::string_view what);
   ast::Block block();
   ast::Block braces(std::string_view what);
 
@@ -100,8 +121,15 @@ class Parser {
   ast::ExprPtr unary();
   [[nodiscard]] bool at_least_integer() const;
   ast::ExprPtr power();
+  ast::ExprPtr signed_postfix();
+  [[nodiscard]] bool starts_value(std::size_t ahead) const;
+  [[nodiscard]] bool at_joining_word(std::size_t ahead) const;
+  std::optional<Operator> joining_word();
+  [[nodiscard]] bool at_cast() const;
+  ast::ExprPtr cast();
   ast::ExprPtr primary();
   ast::ExprPtr literal();
+  ast::ExprPtr pattern_literal();
   ast::ExprPtr interpolated_string();
   ast::ExprPtr interpolated_name(Token const& token);
   ast::ExprPtr interpolated_expression();
@@ -129,7 +157,6 @@ class Parser {
   ast::ExprPtr postfix();
   ast::ExprPtr postfix_of(ast::ExprPtr object, std::uint32_t begin);
   ast::ExprPtr member(ast::ExprPtr object, std::uint32_t begin);
-  ast::ExprPtr spread_member(ast::ExprPtr object, std::uint32_t begin);
   ast::ExprPtr call(ast::ExprPtr callee, std::uint32_t begin);
   ast::ExprPtr trailing_closure(ast::ExprPtr callee, std::uint32_t begin);
   ast::ExprPtr index(ast::ExprPtr object, std::uint32_t begin);
@@ -140,6 +167,8 @@ class Parser {
   ast::ExprPtr chain_subject(ast::ChainKind kind);
   ast::ExprPtr chain_body(ast::ChainKind kind);
   bool chain_word(ast::ChainKind kind);
+  [[nodiscard]] bool at_otherwise() const;
+  ast::ExprPtr otherwise();
 
   std::vector<Token> const& tokens_;
   base::Diagnostics& diagnostics_;

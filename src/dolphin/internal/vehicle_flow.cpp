@@ -55,10 +55,14 @@ class VehicleFlow {
     is_dead_ = call && called_instruction(*call, resolution_) == "halt";
   }
   void follow(ast::Assign const& n) {
-    auto set = value(*n.value);
-    if (!std::holds_alternative<ast::Name>(n.target->node)) return (void)value(*n.target);
-    auto const* variable = resolution_.find(*n.target);
-    if (set && !n.op && is_followed(variable)) return state_.assign(variable, *std::move(set));
+    auto const set = value(*n.value);
+    assign(n, *n.target, set);
+    for (auto const& target : n.more) assign(n, *target, set);
+  }
+  void assign(ast::Assign const& n, ast::Expr const& target, Set const& set) {
+    if (!std::holds_alternative<ast::Name>(target.node)) return (void)value(target);
+    auto const* variable = resolution_.find(target);
+    if (set && !n.op && !n.unpacks && is_followed(variable)) return state_.assign(variable, *set);
     state_.forget(variable);
   }
   void follow(ast::VarDecl const& n) {

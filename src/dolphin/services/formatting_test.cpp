@@ -228,5 +228,12 @@ TEST(Format, EndsQuicklyOnLongAndDeepScripts) {
   EXPECT_EQ(formatted(deep), deep + "\n");
 }
 
+TEST(Format, KnowsPatternsCastsSpreadsAndDo) {
+  EXPECT_EQ(formatted("x=a=~/b c/\ny=(int)2.5\nz=l*.n()\nw = ~ 'a'\n"),
+            "x = a =~ /b c/\ny = (int) 2.5\nz = l*.n()\nw = ~'a'\n");
+  EXPECT_EQ(formatted("do{a()}while(b)\n(c,d)=[d,c]\ne=f=1\n"), "do { a() } while (b)\n(c, d) = [d, c]\ne = f = 1\n");
+  expect_same_program("execute choose {\nwhen { a } then b\notherwise c >> d }\n");
+}
+
 }  // namespace
 }  // namespace lapwing::dolphin

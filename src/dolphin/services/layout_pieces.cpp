@@ -15,12 +15,12 @@ bool closes(TokenKind kind) {
   return kind == right_paren || kind == right_bracket || kind == right_brace;
 }
 bool is_point(TokenKind kind) {
-  return kind == dot || kind == safe_dot || kind == range || kind == range_exclusive;
+  return kind == dot || kind == safe_dot || kind == spread_dot || kind == range || kind == range_exclusive;
 }
 
 bool is_value(TokenKind kind) {
-  return kind == identifier || kind == integer || kind == decimal || kind == string || closes(kind) ||
-         kind == kw_true || kind == kw_false || kind == kw_null;
+  return kind == identifier || kind == integer || kind == decimal || kind == string || kind == pattern ||
+         closes(kind) || kind == kw_true || kind == kw_false || kind == kw_null;
 }
 bool ends_value(Piece const& piece) {
   return piece.role == Role::operand || piece.role == Role::postfix;
@@ -46,7 +46,8 @@ class Roles {
   Role role_of(Piece const& before, Piece const& piece) {
     bool const follows_value = ends_value(before) && !piece.begins_statement;
     switch (piece.kind) {
-      case logical_not: return Role::prefix;
+      case logical_not:
+      case tilde: return Role::prefix;
       case plus:
       case minus: return follows_value ? Role::plain : Role::prefix;
       case plus_plus:
@@ -130,7 +131,8 @@ std::vector<Piece> layout_pieces(TokenStream const& stream, StatementPlaces cons
     end = piece.span.end;
     if (piece.is_comment()) continue;
     auto const& left = before ? *before : start;
-    if (is_reserved_word(piece.kind) && (left.kind == dot || left.kind == safe_dot)) piece.kind = identifier;
+    if (is_reserved_word(piece.kind) && (left.kind == dot || left.kind == safe_dot || left.kind == spread_dot))
+      piece.kind = identifier;
     piece.begins_statement = places.contains(piece.span.begin);
     piece.role = roles.next(left, piece);
     before = &piece;

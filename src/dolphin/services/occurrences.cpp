@@ -104,8 +104,9 @@ class Collector {
     if (n.otherwise) block(*n.otherwise);
   }
   void visit(ast::While const& n, ast::Stmt const&) {
-    expression(n.condition);
+    if (!n.body_first) expression(n.condition);
     block(n.body);
+    if (n.body_first) expression(n.condition);
   }
   void visit(ast::For const& n, ast::Stmt const& one) {
     auto const outer = std::exchange(scope_, one.span);
@@ -173,7 +174,10 @@ class Collector {
 
   void chain(ast::Chain const& n) {
     auto const words = chain_words();
-    add(n.head_span, WordKind::chain).chain = &*std::ranges::find(words, n.kind, &ChainSpec::kind);
+    auto const is_head = [&](ChainSpec const& one) {
+      return one.kind == n.kind && (one.name == "otherwise") == n.is_otherwise;
+    };
+    add(n.head_span, WordKind::chain).chain = &*std::ranges::find_if(words, is_head);
     expression(n.subject);
     auto const* handler = n.body ? std::get_if<ast::Closure>(&n.body->node) : nullptr;
     if (n.kind == ast::ChainKind::watch && handler) {

@@ -40,7 +40,8 @@ std::optional<SemanticType> type_of(Token const& token, std::string_view text) {
     case string:
     case string_open:
     case string_text:
-    case string_close: return SemanticType::string;
+    case string_close:
+    case pattern: return SemanticType::string;
     case identifier:
       if (text == "then" || text == "run" || text == "onError") return SemanticType::keyword;
       return std::nullopt;

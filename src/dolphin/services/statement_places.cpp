@@ -45,8 +45,11 @@ class Placing {
     body(other, level);
   }
   void visit(ast::While const& n, ast::Stmt const&, std::size_t level) {
-    expression(n.condition);
+    if (!n.body_first) expression(n.condition);
     body(n.body, level);
+    if (!n.body_first) return;
+    word(TokenKind::kw_while, n.body.span.end, level);
+    expression(n.condition);
   }
   void visit(ast::For const& n, ast::Stmt const&, std::size_t level) {
     if (n.init) statement(*n.init, 0);

@@ -14,6 +14,8 @@ constexpr auto all_chains = std::to_array<ChainSpec>({
      "Waits until the closure is true, then runs the task."},
     {ast::ChainKind::when, "when", "when { condition } then task",
      "A branch of `oneOf`, `choose` or `allOf`: the task runs when the closure is true."},
+    {ast::ChainKind::when, "otherwise", "otherwise task",
+     "The last branch of `oneOf` or `choose`: the task runs when no guard before it is true."},
     {ast::ChainKind::until, "until", "until { condition } run task",
      "Runs the task, and stops it when the closure becomes true."},
     {ast::ChainKind::during, "during", "during 30.seconds run task", "Runs the task for that long at most."},
