@@ -48,7 +48,12 @@ Result<Json> Server::completion(Json const& parameters) {
   if (!place) return std::unexpected(place.error());
   auto const& document = place->document;
   Positions positions(document.source());
-  return completion_result(dolphin::complete(document, place->offset), positions, takes_snippets_);
+  auto found = dolphin::complete(document, place->offset);
+  // A parenthesis opens the list of errors behind catch, and no other.
+  bool const is_parenthesis = text(member(member(parameters, "context"), "triggerCharacter")) == "(";
+  auto const is_no_type = [](dolphin::CompletionItem const& one) { return one.kind != dolphin::CompletionKind::type; };
+  if (is_parenthesis) std::erase_if(found.items, is_no_type);
+  return completion_result(found, positions, takes_snippets_);
 }
 
 Result<Json> Server::signature_help(Json const& parameters) {

@@ -301,6 +301,17 @@ TEST(Server, CompletesWithSnippetsOnlyWhereTheEditorTakesThem) {
   }
 }
 
+TEST(Server, OpensAListAtTheParenthesisOfCatchAlone) {
+  Talk talk("try { } catch (\nx = sqrt(\n");
+  auto const offered = [&](int line, int character) {
+    auto parameters = Talk::at(line, character);
+    parameters["context"] = {{"triggerKind", 2}, {"triggerCharacter", "("}};
+    return talk.ask("textDocument/completion", parameters)["items"].size();
+  };
+  EXPECT_GT(offered(0, 15), 3u);
+  EXPECT_EQ(offered(1, 9), 0u);
+}
+
 TEST(Server, FormatsWithOneEditAndLeavesBrokenScriptsAlone) {
   Talk talk("x=1\ny = 2\n");
   Json const parameters{{"textDocument", {{"uri", uri}}}, {"options", Json::object()}};
