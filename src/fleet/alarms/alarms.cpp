@@ -30,6 +30,15 @@ bool is_link(AlarmKind kind) {
   return kind == AlarmKind::silent || kind == AlarmKind::lost || kind == AlarmKind::conflict;
 }
 
+bool is_battery(AlarmKind kind) {
+  return kind == AlarmKind::battery_low || kind == AlarmKind::battery_critical;
+}
+
+/// It is worse or better than before, but not over.
+bool is_about_the_same(AlarmKind before, AlarmKind now) {
+  return before == now || (is_link(before) && is_link(now)) || (is_battery(before) && is_battery(now));
+}
+
 }  // namespace
 
 Alarms::Alarms(base::Loop& loop, vehicle::Registry const& registry, vehicle::BatteryLimits limits, base::Logger log)
@@ -73,9 +82,7 @@ bool Alarms::look_at(VehicleState const& state, Watched& watched) {
   auto const is_over = [&](Alarm const& alarm) {
     if (std::erase_if(conditions, [&](Condition const& condition) { return is_same(alarm, condition); }) > 0)
       return false;
-    auto const follows = [&](Condition const& condition) {
-      return condition.kind == alarm.kind || (is_link(condition.kind) && is_link(alarm.kind));
-    };
+    auto const follows = [&](Condition const& condition) { return is_about_the_same(alarm.kind, condition.kind); };
     if (std::ranges::none_of(conditions, follows)) say_ended(state, alarm);
     return true;
   };

@@ -138,6 +138,7 @@ TEST(Alarms, GoByTheVehiclesOwnWordForItsBattery) {
   world.drain(copter, 0.5, critical);
   ASSERT_TRUE(world.raises(AlarmKind::battery_critical));
   EXPECT_EQ(world.find(AlarmKind::battery_low), nullptr);
+  EXPECT_FALSE(world.has_logged("over: copter 1 battery low")) << "it is worse, not over";
   EXPECT_EQ(world.find(AlarmKind::battery_critical)->severity, Severity::critical);
 }
 
