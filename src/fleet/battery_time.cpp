@@ -110,7 +110,9 @@ std::optional<Drain> BatteryTime::by_current() const {
   double const spread = std::sqrt(std::max(0.0, current_.squares / current_.weight_s)) / current_.mean_a;
   double const unsure = 0.5 / (1.0 + current_.weight_s);
   double const climbs = climb_error * (1.0 - current_.level_s / current_.weight_s);
-  return Drain{.per_s = current_.mean_a / s_per_h / capacity->ah, .error = capacity->error + spread + unsure + climbs};
+  // What the climb drew is in the spread already; the others have nothing to do with each other.
+  double const error = capacity->error + std::hypot(std::max(spread, climbs), unsure);
+  return Drain{.per_s = current_.mean_a / s_per_h / capacity->ah, .error = error};
 }
 
 }  // namespace lapwing::fleet
