@@ -158,7 +158,6 @@ TEST(Fixes, WriteWhatTheHintsSay) {
            {"execute idle(5).during(2.seconds) >> idle(1)", "execute (during(2.seconds) run idle(5)) >> idle(1)"},
            {"x = .5", "x = 0.5"},
            {"pause 5seconds", "pause 5.seconds"},
-           {"t = idle(1) >> task 'a'\nexecute t", "t = idle(1) >> task('a')\nexecute t"},
            {"message \u201Chello\u201D", "message \"hello\""},
            {"x = 3 \u2212 2", "x = 3 - 2"},
            {"message [1]", "message([1])"},

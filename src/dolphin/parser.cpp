@@ -155,19 +155,6 @@ void Parser::skip_statement() {
   unread_.push_back(since(tokens_[first].span.begin));
 }
 
-Span Parser::rest_of_statement() const {
-  auto out = token().span;
-  for (auto i = next_; i < tokens_.size(); ++i) {
-    auto const& one = tokens_[i];
-    bool const is_over = one.kind == end_of_file || one.kind == semicolon || is_closing(one.kind) ||
-                         (i > next_ && newlines_matter_ && one.newline_before);
-    if (is_over) break;
-    if (one.partner != Token::unclosed && one.partner > i) i = one.partner;
-    out.end = tokens_[i].span.end;
-  }
-  return out;
-}
-
 // ---- nodes --------------------------------------------------------------------------------------
 
 ast::ExprPtr Parser::make(ast::Expr::Node node, Span span) {

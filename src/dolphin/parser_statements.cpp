@@ -109,8 +109,7 @@ void Parser::unexpected_in_statement() {
   if (before && before->kind == identifier && starts_argument(0)) {
     if (!quiet_) unread_.push_back(before->span);
     return expected("the end of the statement",
-                    {fmt::format("a call inside an expression needs parentheses: {}(...)", text(*before)),
-                     with_parentheses(before->span, rest_of_statement())});
+                    fmt::format("a call inside an expression needs parentheses: {}(...)", text(*before)));
   }
   if (before && before->kind == identifier && (at(logical_not) || at(tilde) || at(plus_plus) || at(minus_minus))) {
     if (!quiet_) unread_.push_back(before->span);

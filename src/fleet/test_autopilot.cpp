@@ -131,8 +131,9 @@ void TestAutopilot::disarm() {
 
 int TestAutopilot::commands_heard(MavCmd command) const {
   return static_cast<int>(std::ranges::count_if(heard, [command](mavlink::Message const& message) {
-    auto const* sent = std::get_if<mavlink::CommandLong>(&message);
-    return sent && sent->command == command;
+    auto const* plain = std::get_if<mavlink::CommandLong>(&message);
+    auto const* placed = std::get_if<mavlink::CommandInt>(&message);
+    return (plain && plain->command == command) || (placed && placed->command == command);
   }));
 }
 

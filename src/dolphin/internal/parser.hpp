@@ -65,8 +65,6 @@ class Parser {
   /// Steps behind the bracket that closes `opener`, over whatever is left before it; nothing when it is never closed.
   void close(std::size_t opener);
   void skip_statement();
-  /// From the next token to the end of the statement, or of the brackets that it stands in.
-  [[nodiscard]] base::Span rest_of_statement() const;
 
   // ---- nodes (parser.cpp)
   ast::ExprPtr make(ast::Expr::Node node, base::Span span);
