@@ -31,7 +31,7 @@ def the_wrong_ones_are_there():
     field = flight.Field()
     field.add()
     ended = field.fly("v = pick { type 'UGV'; payload 'Sonar'; timeout 8.seconds }\n")
-    ended.expect(3, "pick waits for 1 UGV with Sonar, 3 of 8 s: vehicle 7 is a UAV, has no Sonar", "Requirements were not met!",
+    ended.expect(3, "pick waits for 1 UGV with Sonar, ", " of 8 s: vehicle 7 is a UAV, has no Sonar", "Requirements were not met!",
                  "  vehicle 7 is a UAV, has no Sonar")
 
 
