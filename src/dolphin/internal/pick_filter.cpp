@@ -57,7 +57,7 @@ std::vector<std::string> why_not_picked(PickFilter const& filter, std::vector<ta
     }
     auto reasons = objections(filter, vehicle);
     if (std::ranges::find(picked, vehicle.id) != picked.end()) reasons.insert(reasons.begin(), "is picked already");
-    if (!vehicle.connected) reasons.insert(reasons.begin(), "is not heard");
+    if (!vehicle.connected) reasons.insert(reasons.begin(), "is not heard, or shares its id");
     lines.push_back(fmt::format("vehicle {} {}", vehicle.id.text,
                                 reasons.empty() ? "would do" : fmt::format("{}", fmt::join(reasons, ", "))));
   }

@@ -36,10 +36,10 @@ TEST(PickFilter, SaysOfEveryVehicleWhyItWasNotPicked) {
   filter.type = "UAV";
   auto lost = vehicle("4", "UAV");
   lost.connected = false;
-  EXPECT_EQ(
-      why_not_picked(filter, {vehicle("1", "UAV"), vehicle("2", "UGV"), vehicle("3", "UAV"), lost},
-                     {tasks::VehicleId{"1"}}),
-      (Lines{"vehicle 1 is picked already", "vehicle 2 is a UGV", "vehicle 3 would do", "vehicle 4 is not heard"}));
+  EXPECT_EQ(why_not_picked(filter, {vehicle("1", "UAV"), vehicle("2", "UGV"), vehicle("3", "UAV"), lost},
+                           {tasks::VehicleId{"1"}}),
+            (Lines{"vehicle 1 is picked already", "vehicle 2 is a UGV", "vehicle 3 would do",
+                   "vehicle 4 is not heard, or shares its id"}));
   EXPECT_EQ(why_not_picked(filter, {}, {}), Lines{"no vehicle was heard"});
 }
 
