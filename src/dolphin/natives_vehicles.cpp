@@ -39,7 +39,7 @@ void log_available(Runtime const& runtime) {
   for (auto const& info : available) runtime.log.info(fmt::format("  id={} type={}", info.id.text, info.type));
 }
 
-/// What the script's author may have meant by a type that no vehicle has.
+/// With what the script's author may have meant by a type that no vehicle has.
 std::string unmet(PickFilter const& filter) {
   auto const meant = filter.type ? vehicle_type_meant(*filter.type) : std::string_view();
   return fmt::format("Could not find required vehicles!{}",
@@ -67,6 +67,8 @@ class PickWords {
  public:
   PickWords(Runtime const& runtime, PickFilter const& filter, base::TimePoint deadline)
       : runtime_(runtime), filter_(filter), begun_(runtime.loop.now()), deadline_(deadline) {}
+
+  [[nodiscard]] base::TimePoint due() const { return next_; }
 
   void tell_if_due() {
     auto const now = runtime_.loop.now();
@@ -97,7 +99,7 @@ base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<
   PickWords words(runtime, filter, deadline);
   auto ids = chosen(runtime, filter);
   while (!ids && runtime.loop.now() < deadline) {
-    auto const next = std::min(deadline, runtime.loop.now() + look_again);
+    auto const next = std::min({deadline, runtime.loop.now() + look_again, words.due()});
     co_await runtime.platform.vehicles_changed().wait_until(next);
     ids = chosen(runtime, filter);
     if (!ids) words.tell_if_due();

@@ -31,13 +31,16 @@ with tempfile.TemporaryDirectory() as folder:
     seen, run = wire.flown(str(LISTING), "sub:3", HOME, "--plans", folder, "--timeout", "1500", *payload(3))
     assert run.returncode == 0, run.stderr
     assert run.stdout == "Program message: Done!\n", run.stdout
+    flown = []
     for vehicle in (1, 2, 3):
-        # First plan to the first vehicle: home and three places each, three metres down.
+        # Home, some centimetres off, and three places each, three metres down.
         (items,) = seen.missions(vehicle)
         assert [item.command for item in items] == [16, 16, 16, 16], items
-        assert abs(items[1].y / 1e7 - (-8.86118 + vehicle * 0.0002)) < 1e-6, items[1]
-        assert [round(item.z, 2) for item in items] == [0, -3, -3, -3], items
+        assert abs(items[0].z) < 0.5 and [round(item.z, 2) for item in items[1:]] == [-3, -3, -3], items
         assert AUTO in seen.modes(vehicle), seen.modes(vehicle)
+        flown.append(round((items[1].y / 1e7 + 8.86118) / 0.0002, 2))
+    # Each plan to the vehicle that was nearest to it, so each to one.
+    assert sorted(flown) == [1, 2, 3], flown
     # All three are under way at once.
     under_way = [next(i for i, one in enumerate(seen.seen) if one.vehicle == vehicle and not one.to_vehicle
                       and one.message.get_type() == "HEARTBEAT" and one.message.custom_mode == AUTO)

@@ -77,7 +77,7 @@ def interrupted(folder: pathlib.Path):
     whole = folder / "whole.plan"
     whole.write_text(plan_of(MISSION, with_rest=False))
     long = folder / "long.plan"
-    long.write_text(plan_of([(16, 41.17 + i * 1e-5, -8.6, 20) for i in range(400)], with_rest=False))
+    long.write_text(plan_of([(16 if i else 22, 41.17 + i * 1e-5, -8.6, 20) for i in range(400)], with_rest=False))
     with harness.lapwing("sim", "--vehicles", "copter:1", "--home", HOME, "--out", f"udpout://127.0.0.1:{port}", "--delay", "0.03"):
         upload(whole, link)
         process = subprocess.Popen([harness.LAPWING, "mission", "upload", str(long), "--link", link, "--vehicle", "1"], stderr=subprocess.PIPE, text=True)

@@ -43,7 +43,7 @@ for (const size of [{ width: 1280, height: 800 }, { width: 900, height: 800 }, {
     const page = await open({ size });
     await row(page, 'copter 1').click();
     const details = page.locator('#vehicles .details');
-    await details.getByText('about', { exact: false }).waitFor();
+    await details.getByText(/about|\d–\d+ min/).first().waitFor();
     const text = await details.innerText();
     for (const part of [/RTK fixed, 14 satellites/, /compass 0\.6/, /Maker M1, standby/, /90° down, towards 046°/, /EKF3 compass variance/]) assert.match(text, part);
     assert.doesNotMatch(await details.locator('dd', { hasText: 'active' }).first().innerText(), /ago/);
