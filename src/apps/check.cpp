@@ -7,6 +7,7 @@
 
 #include "apps/files.hpp"
 #include "apps/plans.hpp"
+#include "apps/plausibility/options.hpp"
 #include "apps/verb.hpp"
 #include "base/diagnostic.hpp"
 #include "dolphin/engine.hpp"
@@ -29,6 +30,7 @@ nlohmann::json to_json(base::DiagnosticRecord const& record) {
 struct CheckOptions {
   std::vector<std::string> scripts;
   std::string plans;
+  PlausibilityArguments plausibility;
   bool json = false;
 };
 
@@ -44,7 +46,9 @@ std::size_t check_plans(CheckOptions const& options, nlohmann::json& records) {
 }
 
 int check(CheckOptions const& options) {
-  std::array const builders{tasks::mission_builder()};
+  auto plausibility = plausibility_of(options.plausibility);
+  if (!plausibility) return refuse(plausibility.error());
+  std::array const builders{tasks::mission_builder(*std::move(plausibility))};
   auto all = nlohmann::json::array();
   std::size_t errors = check_plans(options, all);
   std::size_t warnings = 0;
@@ -83,6 +87,7 @@ void add_check(CLI::App& program, int& exit_code) {
   auto* verb = program.add_subcommand("check", "Show every mistake in scripts, without vehicles");
   verb->add_option("script", options->scripts, "Dolphin scripts")->required();
   verb->add_option("--plans", options->plans, "Check the plan files of this directory too (.plan, .waypoints)");
+  add_plausibility_options(*verb, options->plausibility);
   verb->add_flag("--json", options->json, "Machine-readable list on standard output");
   verb->callback([options, &exit_code] { exit_code = check(*options); });
 }

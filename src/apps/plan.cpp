@@ -43,10 +43,11 @@ struct PlanOptions {
 };
 
 /// Prints what is wrong with the script; nothing when it can be flown.
-base::Result<dolphin::Needs> read_needs(std::string const& name, std::string const& text) {
+base::Result<dolphin::Needs> read_needs(std::string const& name, std::string const& text,
+                                        plan::plausibility::Settings const& settings) {
   auto const source = std::make_shared<base::SourceFile const>(name, text);
   base::Diagnostics diagnostics(*source);
-  std::array const builders{tasks::mission_builder()};
+  std::array const builders{tasks::mission_builder(settings)};
   auto const program = dolphin::load(source, builders, diagnostics);
   fmt::print(stderr, "{}", base::render(diagnostics));
   if (!program) return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not check", name));
@@ -79,7 +80,7 @@ base::Result<> place_world(PlanOptions const& options, dolphin::Needs const& nee
 base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::string const& text) {
   auto plausibility = plausibility_of(options.plausibility);
   if (!plausibility) return std::unexpected(plausibility.error());
-  auto const needs = read_needs(options.script, text);
+  auto const needs = read_needs(options.script, text, *plausibility);
   if (!needs) return std::unexpected(needs.error());
   auto plans = load_plans(options.plans);
   if (!plans) return std::unexpected(plans.error());

@@ -119,6 +119,12 @@ void Diagnostics::report(DiagnosticKind const& kind, Span span, std::string mess
           std::move(hint.fix)});
 }
 
+bool Diagnostics::has_error_within(Span span) const {
+  return std::ranges::any_of(kept_, [span](Diagnostic const& diagnostic) {
+    return diagnostic.severity == Severity::error && span.contains(diagnostic.span.begin);
+  });
+}
+
 std::vector<Diagnostic> Diagnostics::sorted() const {
   std::vector<std::size_t> order(kept_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

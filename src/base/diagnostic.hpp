@@ -86,6 +86,8 @@ class Diagnostics {
   [[nodiscard]] std::size_t error_count() const { return errors_; }
   [[nodiscard]] std::size_t warning_count() const { return warnings_; }
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  /// Whether an error that was kept begins within `span`.
+  [[nodiscard]] bool has_error_within(Span span) const;
   /// How many were counted but not kept.
   [[nodiscard]] std::size_t dropped_count() const { return errors_ + warnings_ + others_ - kept_.size(); }
   /// What was kept, in order of place.

@@ -133,6 +133,7 @@ void Checker::block(ast::Block const& block, bool is_value) {
     statement(one, is_value && i + 1 == last);
     if (auto const why = ends_with(one); !why.empty()) end = why;
   }
+  landed_executes(block);
 }
 
 void Checker::statement(ast::Stmt const& statement, bool is_value) {

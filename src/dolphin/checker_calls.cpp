@@ -373,18 +373,23 @@ void Checker::builder_call(ast::Call const& call, base::Span span, Builder const
     return;
   }
   auto const* body = std::get_if<ast::Closure>(&value.node);
-  if (body && diagnostics_.error_count() == before) rehearse(*body, builder, call.callee->span);
+  if (!body) return;
+  // A command that was not understood is missing in the block: what is said of the rest would be a follow-up mistake.
+  bool const is_whole = diagnostics_.error_count() == before && !diagnostics_.has_error_within(value.span);
+  if (is_whole) rehearse(*body, builder, call.callee->span);
 }
 
 /// Lets the platform build the block from the arguments that are known, so that it finds now what it would refuse
 /// later.
 void Checker::rehearse(ast::Closure const& body, Builder const& builder, base::Span span) {
   if (!builder.spec->begin) return;
-  auto const& [problem, task, unreached] = tasks_.rehearsed(body, *builder.spec);
+  auto const& [problem, task, unreached, doubts] = tasks_.rehearsed(body, *builder.spec);
   if (unreached) {
     diagnostics_.report(code("unreachable-code"), *unreached, "this is never reached: what stands before it never ends",
                         "give it a time or a number of turns, or make a mission of its own of what follows");
   }
+  for (auto const& [place, doubt] : doubts)
+    diagnostics_.report(code("implausible-mission"), place.size() > 0 ? place : span, doubt.what, doubt.hint);
   if (problem) {
     auto const place = problem->place.size() > 0 ? problem->place : span;
     diagnostics_.report(code("invalid-mission"), place, problem->error.message, problem->error.hint);

@@ -118,6 +118,7 @@ void Checker::operation(ast::Binary const& binary) {
   battery_comparison(binary);
   operands(binary);
   endless_sequence(binary);
+  landed_sequence(binary);
 }
 
 /// `lon -8.64`: a subtraction from something that is not a variable.

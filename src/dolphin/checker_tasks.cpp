@@ -167,6 +167,50 @@ void Checker::endless_sequence(ast::Binary const& binary) {
                       "this is never reached: what stands before >> never ends", "end it: task / { condition }");
 }
 
+/// A mission behind a landing that needs none before it.
+void Checker::landed(ast::Expr const& before, ast::Expr const& after) {
+  auto const* last = tasks_.ending(before);
+  auto const* next = tasks_.beginning(after);
+  auto const ended = last ? tasks_.built(*last) : nullptr;
+  auto const begun = next ? tasks_.built(*next) : nullptr;
+  if (!ended || !begun) return;
+  if (auto const doubt = begun->cannot_follow(*ended))
+    diagnostics_.report(code("implausible-mission"), after.span, doubt->what, doubt->hint);
+}
+
+/// `a >> b`
+void Checker::landed_sequence(ast::Binary const& binary) {
+  if (binary.op == ast::BinaryOp::shift_right) landed(*binary.left, *binary.right);
+}
+
+/// `execute v: a` and, with nothing but missions and messages between, `execute v: b`
+void Checker::landed_executes(ast::Block const& block) {
+  ast::Argument const* before = nullptr;
+  for (auto const& statement : block.statements) {
+    if (auto const* argument = execution_on_one(*statement)) {
+      if (before && before->name->text == argument->name->text) landed(*before->value, *argument->value);
+      before = argument;
+      continue;
+    }
+    auto const* assign = std::get_if<ast::Assign>(&statement->node);
+    auto const* expr = std::get_if<ast::ExprStmt>(&statement->node);
+    auto const* call = expr ? std::get_if<ast::Call>(&expr->expr->node) : nullptr;
+    bool const makes_mission = assign && assign->value && !tasks_.blocks(*assign->value).empty();
+    bool const only_says = call && called_instruction(*call, resolution_) == "message";
+    if (!makes_mission && !only_says) before = nullptr;
+  }
+}
+
+/// The task of an `execute` for a single vehicle that a variable holds; null for anything else.
+ast::Argument const* Checker::execution_on_one(ast::Stmt const& statement) {
+  auto const* expr = std::get_if<ast::ExprStmt>(&statement.node);
+  auto const* call = expr ? std::get_if<ast::Call>(&expr->expr->node) : nullptr;
+  if (!call || called_instruction(*call, resolution_) != "execute" || call->arguments.size() != 1) return nullptr;
+  auto const& argument = call->arguments.front();
+  auto const* value = argument.name ? only_value(resolution_.find(*argument.name)) : nullptr;
+  return value && least_vehicles(*value, 8) == 1 ? &argument : nullptr;
+}
+
 /// Variables that hold tasks and that nothing reads. Says nothing where a misspelt name may have been meant for one,
 /// nor of missions that may be executed by their name.
 void Checker::unused_tasks() {

@@ -79,6 +79,7 @@ inline constexpr auto diagnostic_kinds = std::to_array<base::DiagnosticKind>({
     {"misspelt-type", codes_detail::warning, "A type that no vehicle has, and that is nearly one."},
     {"imc-plan", codes_detail::error, "Plans in the form of IMC are not supported."},
     {"invalid-mission", codes_detail::error, "A mission that cannot be flown, for example a relative move without `home`."},
+    {"implausible-mission", codes_detail::warning, "A mission that hardly makes sense, wherever it is flown; before a flight more is known, and more is said."},
     // ---- flow
     {"misplaced-break", codes_detail::error, "`break` or `continue` outside a loop."},
     {"misplaced-when", codes_detail::error, "`when` outside `oneOf`, `choose` and `allOf`."},

@@ -105,7 +105,7 @@ FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
       log_(std::move(log)),
       all_heard_by_(fleet.loop().now() + listening_time),
       settled_(fleet.loop()) {
-  builders_.push_back(tasks::mission_builder());
+  builders_.push_back(tasks::mission_builder(options_.run.plausibility));
   options_.run.neighbours = [this](Craft const& craft) { return neighbours(craft); };
 }
 

@@ -61,6 +61,8 @@ class MissionBuilder {
   /// `item` counts from 1, home being 0; may lie ahead. `repetitions` -1: for ever.
   base::Result<> jump(int item, int repetitions);
 
+  /// As far as it is built.
+  [[nodiscard]] Mission const& mission() const { return mission_; }
   /// What was built; `default_name` if it has none. Errors when a jump leads nowhere.
   [[nodiscard]] base::Result<Mission> finish(std::string default_name) const;
 

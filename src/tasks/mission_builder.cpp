@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "plan/plausibility/judge.hpp"
 #include "tasks/internal/mission_commands.hpp"
 
 namespace lapwing::tasks {
@@ -35,6 +36,7 @@ namespace {
 /// Shared by the sessions of one spec.
 struct Workshop {
   std::vector<internal::Apply> apply;  ///< by place in the table of commands
+  plan::plausibility::Settings settings;
   int built = 0;
 };
 
@@ -43,25 +45,43 @@ class MissionSession final : public BuilderSession {
   explicit MissionSession(std::shared_ptr<Workshop> workshop) : workshop_(std::move(workshop)) {}
 
   base::Result<> add(std::size_t command, std::size_t overload, std::span<Argument const> arguments) override {
-    return workshop_->apply.at(command)(builder_, overload, arguments);
+    auto added = workshop_->apply.at(command)(builder_, overload, arguments);
+    call_of_item_.resize(builder_.mission().items.size(), calls_);
+    if (builder_.mission().home && !home_call_) home_call_ = calls_;
+    ++calls_;
+    return added;
   }
   base::Result<std::shared_ptr<PlatformTask const>> finish() override {
     auto mission = builder_.finish(fmt::format("MissionPlan_{}", ++workshop_->built));
     if (!mission) return std::unexpected(mission.error());
-    return std::make_shared<MissionTask const>(*std::move(mission));
+    return std::make_shared<MissionTask const>(*std::move(mission), workshop_->settings);
+  }
+  [[nodiscard]] std::vector<Doubt> doubts() const override {
+    std::vector<Doubt> doubts;
+    for (auto const& finding : judge_alone(builder_.mission(), workshop_->settings)) {
+      if (finding.allowed_because) continue;
+      auto const call = finding.item ? std::optional(call_of_item_.at(*finding.item)) : home_call_;
+      doubts.push_back(
+          {.call = call, .what = fmt::format("{} [{}]", finding.what, to_string(finding.rule)), .hint = finding.meant});
+    }
+    return doubts;
   }
 
  private:
   std::shared_ptr<Workshop> workshop_;
   plan::MissionBuilder builder_;
+  std::vector<std::size_t> call_of_item_;  ///< which `add` made it
+  std::optional<std::size_t> home_call_;
+  std::size_t calls_ = 0;
 };
 
 }  // namespace
 
-BuilderSpec mission_builder() {
+BuilderSpec mission_builder(plan::plausibility::Settings settings) {
   auto commands = internal::movement_commands();
   std::ranges::move(internal::other_commands(), std::back_inserter(commands));
   auto const workshop = std::make_shared<Workshop>();
+  workshop->settings = std::move(settings);
   BuilderSpec spec{.name = "mission",
                    .commands = {},
                    .doc = "A mission: commands that one vehicle carries out in order, by itself.",

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "plan/capabilities.hpp"
+#include "plan/plausibility/judge.hpp"
 
 namespace lapwing::tasks {
 
@@ -39,6 +42,16 @@ std::optional<geo::Wgs84> MissionTask::reference_position() const {
     if (plan::has_position(item) && item.command != mavlink::MavCmd::do_set_home && !is_here) return place;
   }
   return std::nullopt;
+}
+
+std::optional<Doubt> MissionTask::cannot_follow(PlatformTask const& before) const {
+  auto const* earlier = dynamic_cast<MissionTask const*>(&before);
+  if (!earlier) return std::nullopt;
+  auto const findings = plan::plausibility::judge_order(earlier->mission_, mission_, settings_);
+  auto const* found = refusal(findings);
+  if (!found) return std::nullopt;
+  return Doubt{
+      .call = std::nullopt, .what = fmt::format("{} [{}]", found->what, to_string(found->rule)), .hint = found->meant};
 }
 
 bool MissionTask::never_ends() const {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plan/mission.hpp"
+#include "plan/plausibility/settings.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::tasks {
@@ -11,7 +12,9 @@ namespace lapwing::tasks {
 /// A mission as a task: what `mission { ... }` builds, for every platform that flies missions.
 class MissionTask final : public PlatformTask {
  public:
-  explicit MissionTask(plan::Mission mission) : mission_(std::move(mission)) {}
+  /// `settings`: by which `cannot_follow` judges.
+  explicit MissionTask(plan::Mission mission, plan::plausibility::Settings settings = {})
+      : mission_(std::move(mission)), settings_(std::move(settings)) {}
   [[nodiscard]] plan::Mission const& mission() const { return mission_; }
 
   [[nodiscard]] std::string name() const override { return mission_.name; }
@@ -24,9 +27,12 @@ class MissionTask final : public PlatformTask {
   [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override;
   /// Its home; without one its first place.
   [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override;
+  /// A mission without take-off behind one that has landed.
+  [[nodiscard]] std::optional<Doubt> cannot_follow(PlatformTask const& before) const override;
 
  private:
   plan::Mission mission_;
+  plan::plausibility::Settings settings_;
 };
 
 }  // namespace lapwing::tasks

@@ -64,6 +64,13 @@ struct CommandSpec {
 
 class PlatformTask;
 
+/// Something in a block, or between two, that hardly makes sense. For warnings: what may be meant all the same runs.
+struct Doubt {
+  std::optional<std::size_t> call;  ///< which `add` of the block, counted from 0; nothing: the block as a whole
+  std::string what;
+  std::string hint = {};
+};
+
 /// Collects the commands of one block. Arguments arrive complete (fallbacks filled in) and of the declared types.
 class BuilderSession {
  public:
@@ -71,6 +78,8 @@ class BuilderSession {
   /// `command` and `overload` index the builder's table.
   virtual base::Result<> add(std::size_t command, std::size_t overload, std::span<Argument const> arguments) = 0;
   virtual base::Result<std::shared_ptr<PlatformTask const>> finish() = 0;
+  /// What of the commands so far hardly makes sense, whatever vehicle carries them out.
+  [[nodiscard]] virtual std::vector<Doubt> doubts() const { return {}; }
 };
 
 /// A block word of the language that a platform adds, e.g. `mission { ... }`.
@@ -112,6 +121,11 @@ class PlatformTask {
   [[nodiscard]] virtual std::size_t bytes() const { return 256; }
   /// Where it begins, so that allocation can prefer the nearest vehicle; nothing: the first suitable one.
   [[nodiscard]] virtual std::optional<geo::Wgs84> reference_position() const = 0;
+  /// Why no vehicle can carry it out that has just done `before`.
+  [[nodiscard]] virtual std::optional<Doubt> cannot_follow(PlatformTask const& before) const {
+    (void)before;
+    return std::nullopt;
+  }
 };
 
 /// One named value of a raw message. A text stands for the number that the protocol gives that name.

@@ -143,6 +143,10 @@ class Checker {
   void vehicle_type(ast::Call const& call);
   void value(ast::Expr const& expr, base::DiagnosticKind const& kind, double least, double most, std::string_view what);
   void endless_sequence(ast::Binary const& binary);
+  void landed_sequence(ast::Binary const& binary);
+  void landed_executes(ast::Block const& block);
+  void landed(ast::Expr const& before, ast::Expr const& after);
+  [[nodiscard]] ast::Argument const* execution_on_one(ast::Stmt const& statement);
   void unused_tasks();
 
   // ---- names (checker_expressions.cpp)

@@ -152,7 +152,14 @@ Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder,
   auto finished = session->finish();
   if (finished) {
     auto const unreached = (*finished)->never_ends() ? first_unreached(commands, builder) : std::nullopt;
-    return {std::nullopt, *std::move(finished), unreached};
+    std::vector<RehearsalDoubt> doubts;
+    if (all_certain) {
+      for (auto& doubt : session->doubts()) {
+        auto const place = doubt.call ? commands.at(*doubt.call).second : base::Span();
+        doubts.push_back({place, std::move(doubt)});
+      }
+    }
+    return {std::nullopt, *std::move(finished), unreached, std::move(doubts)};
   }
   return all_certain ? Rehearsal{RehearsalProblem{{}, finished.error()}, nullptr, {}} : Rehearsal();
 }

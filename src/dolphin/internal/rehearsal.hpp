@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/error.hpp"
 #include "dolphin/ast.hpp"
@@ -14,11 +15,17 @@ struct RehearsalProblem {
   base::Error error;
 };
 
+struct RehearsalDoubt {
+  base::Span place;  ///< as above
+  tasks::Doubt doubt;
+};
+
 /// How it went: a problem, a task, or neither.
 struct Rehearsal {
   std::optional<RehearsalProblem> problem;
   std::shared_ptr<tasks::PlatformTask const> task;  ///< where its numbers are not known before, with others
   std::optional<base::Span> unreached = {};         ///< the first command behind one that never ends
+  std::vector<RehearsalDoubt> doubts = {};          ///< only where every number is known
 };
 
 /// Builds a block whose statements are all commands of the platform, with those arguments that are the same in every

@@ -34,6 +34,12 @@ std::vector<ast::Chain const*> branches(ast::Call const& call) {
   return out;
 }
 
+bool moves_nothing(ast::Expr const& task, Resolution const& resolution) {
+  auto const* call = std::get_if<ast::Call>(&task.node);
+  auto const instruction = call ? called_instruction(*call, resolution) : std::string_view();
+  return instruction == "action" || instruction == "condition" || instruction == "idle";
+}
+
 bool is_choice(std::string_view instruction) {
   return instruction == "oneOf" || instruction == "choose" || instruction == "allOf";
 }
@@ -161,6 +167,27 @@ void TaskShapes::add_blocks(ast::Expr const& task, int depth, std::vector<ast::E
   } else if (auto const* index = std::get_if<ast::Index>(&task.node)) {
     add_blocks(*index->object, depth - 1, out);
   }
+}
+
+ast::Expr const* TaskShapes::edge(ast::Expr const& task, bool is_begin, int depth) {
+  if (depth <= 0) return nullptr;
+  if (builder_of(task)) return &task;
+  if (std::holds_alternative<ast::Name>(task.node)) {
+    auto const* value = only_value(resolution_.find(task));
+    return value ? edge(*value, is_begin, depth - 1) : nullptr;
+  }
+  if (auto const* index = std::get_if<ast::Index>(&task.node)) return edge(*index->object, is_begin, depth - 1);
+  if (auto const* chain = std::get_if<ast::Chain>(&task.node)) {
+    bool const runs_whole = chain->kind == ast::ChainKind::wait_for;
+    return runs_whole ? edge(*chain->body, is_begin, depth - 1) : nullptr;
+  }
+  auto const* binary = std::get_if<ast::Binary>(&task.node);
+  if (!binary) return nullptr;
+  if (binary->op == ast::BinaryOp::divide) return is_begin ? edge(*binary->left, true, depth - 1) : nullptr;
+  if (binary->op != ast::BinaryOp::shift_right) return nullptr;
+  auto const& near = is_begin ? *binary->left : *binary->right;
+  auto const& far = is_begin ? *binary->right : *binary->left;
+  return edge(moves_nothing(near, resolution_) ? far : near, is_begin, depth - 1);
 }
 
 std::shared_ptr<tasks::PlatformTask const> TaskShapes::built(ast::Expr const& block) {

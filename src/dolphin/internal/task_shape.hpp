@@ -32,6 +32,9 @@ class TaskShapes {
   [[nodiscard]] ast::Expr const& taker(ast::Expr const& task, std::size_t others);
   /// The platform's blocks in it (`mission { ... }`), some dozens at most.
   [[nodiscard]] std::vector<ast::Expr const*> blocks(ast::Expr const& task);
+  /// The block with which a task certainly begins, or ends when it has run to its end; null when that is not certain.
+  [[nodiscard]] ast::Expr const* beginning(ast::Expr const& task) { return edge(task, true, max_depth); }
+  [[nodiscard]] ast::Expr const* ending(ast::Expr const& task) { return edge(task, false, max_depth); }
   /// What a block makes when that can be told before it runs; null otherwise.
   [[nodiscard]] std::shared_ptr<tasks::PlatformTask const> built(ast::Expr const& block);
   /// Each block is built once, however often it is asked for.
@@ -46,6 +49,7 @@ class TaskShapes {
   TaskShape of_binary(ast::Binary const& binary, int depth);
   TaskShape of_chain(ast::Chain const& chain, int depth);
   TaskShape of_variable(Variable const& variable, int depth);
+  ast::Expr const* edge(ast::Expr const& task, bool is_begin, int depth);
   [[nodiscard]] tasks::BuilderSpec const* builder_of(ast::Expr const& expr) const;
   void add_blocks(ast::Expr const& task, int depth, std::vector<ast::Expr const*>& out);
 

@@ -97,8 +97,11 @@ void judge_take_off_height(Look const& look, Findings& out) {
   if (found->sea_m && look.ground_m)
     finding.what = fmt::format("the take-off goes to {:.0f} m above sea level, and the ground is at {:.0f} m",
                                *found->sea_m, *look.ground_m);
-  if (stays && found->sea_m && look.ground_m && *found->sea_m > look.limits.low_take_off_m)
-    finding.meant = as_height(*found->sea_m, *look.ground_m);
+  if (stays && found->sea_m && look.ground_m && *found->sea_m > look.limits.low_take_off_m) {
+    bool const is_home_itself = *found->sea_m > *look.ground_m - on_the_ground_m;
+    finding.meant = is_home_itself ? "it climbs to the altitude of its place: give that more than home's"
+                                   : as_height(*found->sea_m, *look.ground_m);
+  }
   out.push_back(std::move(finding));
 }
 
