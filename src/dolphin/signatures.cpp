@@ -179,7 +179,8 @@ std::vector<InstructionSpec> task_instructions() {
        .result = task,
        .doc = "The mission of this script that has the name, or the plan file of `--plans DIR`: north.plan or "
               "north.waypoints for 'north'. On the test platform 'A:3' is a task of 3 s and 'fail:3' one that fails.",
-       .example = "north = mission { name 'north'; home 41.178, -8.598, 90; move 50, 0 }\nv = pick {}\nexecute v: task('north')"},
+       .example = "north = mission { name 'north'; home 41.178, -8.598, 90; move 50, 0 }\nv = pick {}\nexecute v: "
+                  "task('north')"},
       {.name = "imcPlan",
        .signatures = {takes({plain("name", text)})},
        .result = task,
