@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/px4_modes.hpp"
@@ -103,8 +104,10 @@ bool Autopilot::may_enter(FlightMode const& mode) {
   bool const flies_blind = armed_ && mode.needs_position && !navigation_.position_ok;
   if (flies_blind && airframe_.family != Family::plane) return refuse("requires position");
   if (mode.entry == Entry::closed || (mode.entry == Entry::disarmed && armed_)) {
-    if (!mode.lacks.empty()) outbox_.say(MavSeverity::warning, std::string(mode.lacks));
-    return refuse("init failed");
+    bool const is_plane = airframe_.family == Family::plane;
+    if (!mode.lacks.empty()) outbox_.say(is_plane ? MavSeverity::info : MavSeverity::warning, std::string(mode.lacks));
+    // To a plane that is the whole of the refusal.
+    return mode.lacks.empty() || !is_plane ? refuse("init failed") : false;
   }
   bool const has_trail = trail_.usable() && tuning_.trail.most_points > 0;
   if (mode.behaviour == Behaviour::retrace && !has_trail) return refuse("init failed");
@@ -286,6 +289,16 @@ bool Autopilot::set_current_item(int seq) {
   if (!mission_.set_current(seq)) return false;
   outbox_.mission_current_changed = true;
   return true;
+}
+
+MavResult Autopilot::start_landing() {
+  auto const& items = plans_.mission;
+  auto const begin = std::ranges::find(items, mavlink::MavCmd::do_land_start, &mavlink::MissionItem::command);
+  if (begin == items.end() || !set_current_item(static_cast<int>(begin - items.begin()))) {
+    outbox_.say(MavSeverity::warning, "Unable to start landing sequence");
+    return MavResult::failed;
+  }
+  return set_mode(mode_for(kind_, Behaviour::mission).number);
 }
 
 void Autopilot::set_home(geo::Ned place) {

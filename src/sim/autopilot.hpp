@@ -52,6 +52,8 @@ class Autopilot {
   mavlink::MavResult turn_to(double yaw_rad);
   mavlink::MavResult pause(bool paused);
   bool set_current_item(int seq);
+  /// Goes on with the mission at its DO_LAND_START; failed where it has none.
+  mavlink::MavResult start_landing();
   void set_home(geo::Ned place);
   /// DO_FENCE_ENABLE.
   void enable_fence(bool enabled) { fence_.order(enabled); }
@@ -116,6 +118,7 @@ class Autopilot {
 
   Goal fly(FlightContext const& flight);
   Goal fly_mission(FlightContext const& flight);
+  [[nodiscard]] bool has_nothing_to_fly() const;
   void end_mission(FlightContext const& flight);
   Goal hold_on_the_ground(Goal goal, FlightContext const& flight);
   template <class Way>

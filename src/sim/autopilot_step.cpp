@@ -32,6 +32,7 @@ void Autopilot::step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, do
   read_parameters();
   watch_health();
   auto const flight = context(utc_day_s);
+  if (has_nothing_to_fly()) end_mission(flight);
   goal_ = armed_ ? kept_in_the_fence(fly(flight)) : Goal{StandStill{}};
   leave_take_off();
   if (battery_.remaining() <= 0.0) goal_ = StandStill{};
@@ -126,11 +127,17 @@ void Autopilot::end_mission(FlightContext const& flight) {
   }
   if (flight.family() == Family::sub) return;
   if (flight.family() == Family::plane) {
-    outbox_.say(MavSeverity::notice, "Mission complete, changing mode to RTL");
+    outbox_.say(MavSeverity::info, "Mission complete, changing mode to RTL");
     change_mode(mode_for(kind_, Behaviour::return_home).number);
     return;
   }
   outbox_.say(MavSeverity::notice, "Mission Complete");
+}
+
+/// An aeroplane in AUTO without a mission is at its end at once, disarmed, too.
+bool Autopilot::has_nothing_to_fly() const {
+  return airframe_.family == Family::plane && !kind_.is_px4() && mode_->behaviour == Behaviour::mission &&
+         plans_.mission.size() <= 1;
 }
 
 /// A landed copter only leaves it by a take-off, and only when its motors have spooled up.

@@ -42,6 +42,9 @@ MavResult FlightController::perform(CommandInt const& command, Address from) {
       return autopilot_.set_mode(loiter);
     }
     case MavCmd::mission_start: return autopilot_.start_mission();
+    case MavCmd::do_land_start:
+      if (autopilot_.airframe().family != vehicle::Family::plane) return MavResult::unsupported;
+      return autopilot_.start_landing();
     case MavCmd::do_reposition: return reposition(command);
     case MavCmd::do_change_speed: return autopilot_.change_speed(p[1]);
     case MavCmd::condition_yaw: {

@@ -93,20 +93,8 @@ Body thrust(Body body, RotorDemand const& demand, Airframe const& airframe, doub
   return turn_towards(body, demand.yaw_rad.value_or(body.attitude.yaw_rad), airframe.max_turn_rate_rad_s, dt);
 }
 
-/// Pushed along the ground by its tilted rotors, slower than a walk.
-Body drag_along(Body body, RotorDemand const& demand, double dt) {
-  constexpr double fastest_m_s = 1.0;
-  constexpr double grip_m_s2 = 2.0;
-  auto const wanted = limit_horizontal(demand.velocity_m_s, fastest_m_s);
-  body.velocity_m_s = {approach(body.velocity_m_s.north, wanted.north, grip_m_s2 * dt),
-                       approach(body.velocity_m_s.east, wanted.east, grip_m_s2 * dt), 0.0};
-  body.position_m = body.position_m + body.velocity_m_s * dt;
-  return body;
-}
-
 Body step_rotor(Body const& body, RotorDemand const& demand, Airframe const& airframe, geo::Ned wind, double dt) {
-  bool const is_pushed = demand.velocity_m_s.north != 0.0 || demand.velocity_m_s.east != 0.0;
-  if (body.on_ground && demand.velocity_m_s.down >= 0.0) return is_pushed ? drag_along(body, demand, dt) : stand(body);
+  if (body.on_ground && demand.velocity_m_s.down >= 0.0) return stand(body);
   return meet_ground(lean(thrust(body, demand, airframe, dt), wind), false);
 }
 

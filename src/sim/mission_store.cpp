@@ -78,7 +78,8 @@ void MissionStore::on(mavlink::MissionCount const& count, Address from, base::Du
   transfer_.reset();
   if (count.count == 0) {
     clear(count.type);
-    return acknowledge(from, MavMissionResult::accepted, count.type);
+    acknowledge(from, MavMissionResult::accepted, count.type);
+    return say_plan_is_received(count.type);
   }
   // Not atomic: the old mission is cut to the new length at once, then overwritten item by item.
   if (!is_staged(count.type) && plan->size() > count.count) {
@@ -199,11 +200,15 @@ void MissionStore::complete() {
       if (!kind_.is_px4()) ports_.say(MavSeverity::warning, "Fence validation failed");
       return acknowledge(done.peer, MavMissionResult::error, done.type);
     }
-    if (!kind_.is_px4()) ports_.say(MavSeverity::debug, "Fence Indexed OK");
+    say_fence_is_indexed();
   }
   if (is_staged(done.type)) take_over(done);
   acknowledge(done.peer, MavMissionResult::accepted, done.type);
-  if (done.type == MissionType::mission && !kind_.is_px4()) ports_.say(MavSeverity::info, "Flight plan received");
+  say_plan_is_received(done.type);
+}
+
+void MissionStore::say_plan_is_received(MissionType type) {
+  if (type == MissionType::mission && !kind_.is_px4()) ports_.say(MavSeverity::info, "Flight plan received");
 }
 
 void MissionStore::take_over(Transfer done) {
@@ -271,6 +276,12 @@ void MissionStore::on(mavlink::MissionClearAll const& clear_all, Address from) {
 void MissionStore::clear(MissionType type) {
   plan_of(type)->clear();
   if (type == MissionType::mission) ports_.mission_cleared();
+  if (type == MissionType::fence) say_fence_is_indexed();
+}
+
+/// What an ArduPilot in the loop says whenever it has stored a fence, be it an empty one.
+void MissionStore::say_fence_is_indexed() {
+  if (!kind_.is_px4()) ports_.say(MavSeverity::debug, "Fence Indexed OK");
 }
 
 void MissionStore::refuse_item(std::optional<int> seq, MavMissionResult result) {

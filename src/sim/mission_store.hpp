@@ -73,6 +73,8 @@ class MissionStore {
   mavlink::MavMissionResult check(mavlink::MissionItem const& item) const;
   void acknowledge(mavlink::Address to, mavlink::MavMissionResult result, mavlink::MissionType type);
   void clear(mavlink::MissionType type);
+  void say_fence_is_indexed();
+  void say_plan_is_received(mavlink::MissionType type);
   [[nodiscard]] mavlink::MissionItem item_zero() const;
 
   Plans& plans_;

@@ -410,6 +410,15 @@ TEST(FenceUpload, TakesPolygonsAndCircles) {
   EXPECT_TRUE(desk.plans.mission.empty());
 }
 
+TEST(FenceUpload, OfNothingIsTakenAndToldLikeAnyOther) {
+  Desk desk;
+  desk.count(0, MissionType::fence);
+  desk.hear(MissionClearAll{.target = {}, .type = MissionType::fence});
+  desk.count(0, MissionType::mission);
+  EXPECT_EQ(desk.results(), (Results{accepted, accepted, accepted}));
+  EXPECT_EQ(desk.said, (std::vector<std::string>{"Fence Indexed OK", "Fence Indexed OK", "Flight plan received"}));
+}
+
 TEST(FenceUpload, RefusesAPolygonOfTwoAndForeignItems) {
   Desk desk;
   desk.count(2, MissionType::fence);

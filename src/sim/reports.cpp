@@ -133,9 +133,24 @@ VfrHud vfr_hud(ReportView const& view) {
           .climb_m_s = -body.velocity_m_s.down};
 }
 
+/// An ArduRover tells where it steers in its automatic modes only, an ArduPlane in every mode but MANUAL.
+bool steers_itself(Autopilot const& autopilot) {
+  auto const family = autopilot.kind().family;
+  auto const& mode = autopilot.mode();
+  if (autopilot.kind().is_px4()) return true;
+  if (family == vehicle::Family::plane) return mode.name != "MANUAL";
+  bool const stands = mode.behaviour == Behaviour::manual || mode.name == "HOLD";
+  return family != vehicle::Family::rover || !stands;
+}
+
 NavControllerOutput nav_output(Autopilot const& autopilot) {
   auto const& body = autopilot.body();
   NavControllerOutput output{.alt_error_m = 0.0, .airspeed_error_m_s = 0.0, .cross_track_error_m = 0.0};
+  // In hundredths, against the message's definition, as ArduPlane does it.
+  bool const is_arduplane = autopilot.kind().family == vehicle::Family::plane && !autopilot.kind().is_px4();
+  bool const rolls_or_flies = autopilot.armed() && body.airspeed_m_s > 1.0;
+  if (is_arduplane && rolls_or_flies)
+    output.airspeed_error_m_s = 100.0 * (autopilot.pace().speed_m_s - body.airspeed_m_s);
   output.nav_roll_rad = body.attitude.roll_rad;
   output.nav_pitch_rad = body.attitude.pitch_rad;
   output.nav_bearing_rad = body.attitude.yaw_rad;
@@ -295,7 +310,9 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
       if (!autopilot.navigation().position_ok) return std::nullopt;
       return LocalPosition{autopilot.now(), body_of(view).position_m, body_of(view).velocity_m_s};
     case MessageId::vfr_hud: return vfr_hud(view);
-    case MessageId::nav_controller_output: return nav_output(autopilot);
+    case MessageId::nav_controller_output:
+      if (!steers_itself(autopilot)) return std::nullopt;
+      return nav_output(autopilot);
     case MessageId::mission_current: return mission_current(view);
     case MessageId::ekf_status_report:
       if (autopilot.kind().is_px4()) return std::nullopt;

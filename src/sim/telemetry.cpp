@@ -39,17 +39,18 @@ constexpr std::array rows{
     Row{MessageId::ekf_status_report, 12, 0.0, Sender::ardupilot},
     Row{MessageId::rc_channels, 3, 1.0},
     Row{MessageId::gimbal_device_attitude_status, 12, 5.0},
-    Row{MessageId{27}, 1, 0.0, Sender::ardupilot},    // RAW_IMU
-    Row{MessageId{116}, 1, 0.0, Sender::ardupilot},   // SCALED_IMU2
-    Row{MessageId{29}, 1, 0.0, Sender::ardupilot},    // SCALED_PRESSURE
-    Row{MessageId{137}, 1, 0.0, Sender::ardupilot},   // SCALED_PRESSURE2
-    Row{MessageId{125}, 2, 0.0, Sender::ardupilot},   // POWER_STATUS
-    Row{MessageId{152}, 2, 0.0, Sender::ardupilot},   // MEMINFO
-    Row{MessageId{36}, 3, 0.0, Sender::ardupilot},    // SERVO_OUTPUT_RAW
-    Row{MessageId{164}, 10, 0.0, Sender::ardupilot},  // SIMSTATE
-    Row{MessageId{178}, 10, 0.0, Sender::ardupilot},  // AHRS2
-    Row{MessageId{163}, 12, 0.0, Sender::ardupilot},  // AHRS
-    Row{MessageId{241}, 12, 0.0, Sender::ardupilot},  // VIBRATION
+    Row{MessageId{27}, 1, 0.0, Sender::ardupilot},      // RAW_IMU
+    Row{MessageId{116}, 1, 0.0, Sender::ardupilot},     // SCALED_IMU2
+    Row{MessageId{29}, 1, 0.0, Sender::ardupilot},      // SCALED_PRESSURE
+    Row{MessageId{137}, 1, 0.0, Sender::ardupilot},     // SCALED_PRESSURE2
+    Row{MessageId{125}, 2, 0.0, Sender::ardupilot},     // POWER_STATUS
+    Row{MessageId{152}, 2, 0.0, Sender::ardupilot},     // MEMINFO
+    Row{MessageId{36}, 3, 0.0, Sender::ardupilot},      // SERVO_OUTPUT_RAW
+    Row{MessageId{164}, 10, 0.0, Sender::ardupilot},    // SIMSTATE
+    Row{MessageId{178}, 10, 0.0, Sender::ardupilot},    // AHRS2
+    Row{MessageId{163}, 12, 0.0, Sender::ardupilot},    // AHRS
+    Row{MessageId{241}, 12, 0.0, Sender::ardupilot},    // VIBRATION
+    Row{MessageId{11030}, 12, 0.0, Sender::ardupilot},  // ESC_TELEMETRY_1_TO_4
     Row{MessageId::estimator_status, 0, 0.5, Sender::px4},
     Row{MessageId::extended_sys_state, 0, 1.0},
     Row{MessageId::home_position, 0, 0.5},

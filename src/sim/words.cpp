@@ -10,6 +10,13 @@ constexpr Words ardupilot{.arming_refused = "Arm: ",
                           .disarmed_by_command = "Disarming motors",
                           .disarmed_after_landing = "Disarming motors"};
 
+/// Of ArduPlane and ArduRover.
+constexpr Words throttled{.arming_refused = "Arm: ",
+                          .unfit = "PreArm: ",
+                          .armed = "Throttle armed",
+                          .disarmed_by_command = "Throttle disarmed",
+                          .disarmed_after_landing = "Throttle disarmed"};
+
 constexpr Words px4{.arming_refused = "Arming denied: ",
                     .unfit = "Preflight Fail: ",
                     .armed = "Armed by external command",
@@ -19,7 +26,9 @@ constexpr Words px4{.arming_refused = "Arming denied: ",
 }  // namespace
 
 Words const& words_of(Kind const& kind) {
-  return kind.is_px4() ? px4 : ardupilot;
+  using enum vehicle::Family;
+  if (kind.is_px4()) return px4;
+  return kind.family == plane || kind.family == rover ? throttled : ardupilot;
 }
 
 }  // namespace lapwing::sim

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "mavlink/raw_message.hpp"
+#include "sim/streams/speed_controllers.hpp"
 
 namespace lapwing::sim {
 
@@ -89,6 +90,7 @@ class Instruments {
       case 164: return message("SIMSTATE", simulated());
       case 178: return message("AHRS2", second_estimate());
       case 241: return message("VIBRATION", with(timed_us(), vibration()));
+      case 11030: return speed_controllers();
       default: return std::nullopt;
     }
   }
@@ -146,6 +148,24 @@ class Instruments {
     double const shaken = turns ? 0.8 + 0.05 * view_.autopilot.battery().current_a() : 0.01;
     return {{"vibration_x", shaken}, {"vibration_y", shaken}, {"vibration_z", 1.2 * shaken}};
   }
+  /// Of the motors on the first four outputs, a plane's on the third; a rover in the loop has no speed controllers that
+  /// speak.
+  [[nodiscard]] std::optional<mavlink::Frame> speed_controllers() const {
+    auto const family = view_.autopilot.airframe().family;
+    auto const& battery = view_.autopilot.battery();
+    SpeedControllers told{.voltage_v = battery.voltage_v()};
+    if (family == Family::copter || family == Family::sub) {
+      for (std::size_t motor = 0; motor < 4; ++motor) told.throttle[motor] = throttle_of(outputs_[motor]);
+    } else if (family == Family::plane) {
+      told.throttle[2] = throttle_of(outputs_[2]);
+    } else {
+      return std::nullopt;
+    }
+    told.current_a = battery.current_a();
+    told.updates = static_cast<std::uint16_t>(since_boot_ms() / 4);
+    return speed_controller_report(told, {view_.system_id, mavlink::autopilot_component});
+  }
+  [[nodiscard]] static double throttle_of(int pulse_us) { return std::max(0, pulse_us - 1000) * 1e-3; }
   [[nodiscard]] Fields attitude() const {
     return {{"roll", body_.attitude.roll_rad}, {"pitch", body_.attitude.pitch_rad}, {"yaw", body_.attitude.yaw_rad}};
   }

@@ -85,7 +85,7 @@ TEST(ArduPilotsWays, ARoverStaysInAutoAndArmedAfterItsMission) {
   EXPECT_EQ(ground.pilot().mission().state(), MissionState::complete) << "it is in AUTO already";
 }
 
-TEST(ArduPilotsWays, ACopterThatMeetsTheGroundOnItsWayDragsOn) {
+TEST(ArduPilotsWays, ACopterThatMeetsTheGroundOnItsWayStandsThereArmed) {
   TestGround ground("copter");
   auto const make = ground.maker();
   ground.fly({make.waypoint(0, 0, 0), make.take_off(10), make.waypoint(60, 0, -30), make.waypoint(200, 0, -30)});
@@ -94,9 +94,64 @@ TEST(ArduPilotsWays, ACopterThatMeetsTheGroundOnItsWayDragsOn) {
   ground.run_for(20s);
   EXPECT_TRUE(ground.pilot().armed());
   EXPECT_EQ(ground.pilot().mode().name, "AUTO");
-  EXPECT_GT(ground.from_start(), where + 5.0);
+  EXPECT_NEAR(ground.from_start(), where, 0.5);
   EXPECT_EQ(ground.pilot().landed_state(), mavlink::MavLandedState::in_air) << "as far as it knows";
   EXPECT_EQ(ground.command(MavCmd::component_arm_disarm, {0, 0}), MavResult::failed);
+}
+
+TEST(ArduPilotsWays, APlaneInAutoWithoutAMissionIsAtItsEndAtOnce) {
+  TestGround ground("plane");
+  ground.boot();
+  EXPECT_EQ(ground.set_mode(plane_auto), MavResult::accepted);
+  ground.run_for(1s);
+  EXPECT_EQ(ground.pilot().mode().name, "RTL");
+  EXPECT_EQ(ground.said("Mission complete, changing mode to RTL"), 1);
+  EXPECT_EQ(ground.arm(), MavResult::failed);
+}
+
+TEST(ArduPilotsWays, APlaneHasNoModesOfOneThatHovers) {
+  TestGround ground("plane");
+  ground.boot();
+  for (int const mode : {17, 18, 19, 20, 21, 22, 23, 24}) EXPECT_EQ(ground.set_mode(mode), MavResult::failed) << mode;
+  EXPECT_EQ(ground.said("Q_ENABLE 0"), 7);
+  EXPECT_EQ(ground.said("Flight mode change failed"), 1);
+}
+
+TEST(ArduPilotsWays, APlaneStartsItsLandingWhereItsMissionHasOne) {
+  TestGround ground("plane");
+  auto const make = ground.maker();
+  ground.boot();
+  EXPECT_EQ(ground.command(MavCmd::do_land_start), MavResult::failed);
+  EXPECT_EQ(ground.said("Unable to start landing sequence"), 1);
+  auto land_start = make.waypoint(0, 0, 0);
+  land_start.command = MavCmd::do_land_start;
+  ground.upload(
+      {make.waypoint(0, 0, 0), make.take_off(30), make.waypoint(300, 0, 40), land_start, make.waypoint(100, 0, 30)});
+  EXPECT_EQ(ground.command(MavCmd::do_land_start), MavResult::accepted);
+  EXPECT_EQ(ground.pilot().mode().name, "AUTO");
+  EXPECT_EQ(ground.pilot().mission().current(), 3);
+}
+
+TEST(ArduPilotsWays, ASpeedControllerSpeaksWhereAMotorIs) {
+  TestGround copter("copter");
+  TestGround rover("rover");
+  for (auto* ground : {&copter, &rover}) {
+    ground->boot();
+    EXPECT_EQ(ground->command(MavCmd::set_message_interval, {11030, 1e6F}), MavResult::accepted);
+    EXPECT_EQ(ground->command(MavCmd::set_message_interval, {11031, 1e6F}), MavResult::denied);
+  }
+  EXPECT_EQ(copter.command(MavCmd::request_message, {11030}), MavResult::accepted);
+  EXPECT_EQ(rover.command(MavCmd::request_message, {11030}), MavResult::failed);
+}
+
+TEST(ArduPilotsWays, ARoverTellsWhereItSteersInAutomaticModesOnly) {
+  TestGround ground("rover");
+  ground.boot();
+  constexpr int nav_controller_output = 62;
+  EXPECT_EQ(ground.set_mode(4), MavResult::accepted);
+  EXPECT_EQ(ground.command(MavCmd::request_message, {nav_controller_output}), MavResult::failed);
+  EXPECT_EQ(ground.set_mode(15), MavResult::accepted);
+  EXPECT_EQ(ground.command(MavCmd::request_message, {nav_controller_output}), MavResult::accepted);
 }
 
 TEST(ArduPilotsWays, ACopterSentBelowTheGroundInGuidedModeHitsItAndStaysArmed) {
