@@ -97,7 +97,7 @@ NavControllerOutput read(NAV_CONTROLLER_OUTPUT const& w, Intake& in) {
       .target_bearing_rad = in("target_bearing", limit::angle_rad, unless(unknown_signed16, w.target_bearing, degree)),
       .waypoint_distance_m = static_cast<double>(w.wp_dist),
       .alt_error_m = in("alt_error", limit::offset_m, w.alt_error),
-      .airspeed_error_m_s = in("aspd_error", limit::velocity_m_s, w.aspd_error),
+      .airspeed_error_m_s = in("aspd_error", limit::airspeed_error, w.aspd_error),
       .cross_track_error_m = in("xtrack_error", limit::offset_m, w.xtrack_error)};
 }
 

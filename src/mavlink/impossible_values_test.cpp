@@ -105,6 +105,14 @@ TEST(ImpossibleField, LeavesPolesAndTheDateLine) {
   EXPECT_TRUE(left_out.empty());
 }
 
+TEST(ImpossibleField, IsNoAirspeedErrorInTheHundredthsOfAnArduPlane) {
+  std::vector<ImpossibleField> left_out;
+  auto const message = NavControllerOutput{.airspeed_error_m_s = 1021.1};  // it wants to be 10.2 m/s faster
+  auto const told = taken<NavControllerOutput>(encode(message, {7, 1}, 0), left_out);
+  EXPECT_TRUE(told.airspeed_error_m_s);
+  EXPECT_TRUE(left_out.empty());
+}
+
 TEST(ImpossibleField, LeavesSetpointsThatOthersAskFor) {
   // An emergency stop must recognise a setpoint whatever it asks for.
   std::vector<ImpossibleField> left_out;

@@ -26,6 +26,8 @@ inline constexpr Range offset_m{-2.1e7, 2.1e7, "m"};          ///< half around t
 inline constexpr Range accuracy_m{0.0, 1e6, "m"};             ///< worse is none
 inline constexpr Range speed_m_s{0.0, 300.0, "m/s"};          ///< nothing that speaks MAVLink breaks the sound barrier
 inline constexpr Range velocity_m_s{-300.0, 300.0, "m/s"};    ///< one component
+/// ArduPlane sends hundredths of what the message asks for.
+inline constexpr Range airspeed_error{-30'000.0, 30'000.0, "m/s"};
 inline constexpr Range wind_speed_m_s{0.0, 150.0, "m/s"};
 inline constexpr Range wind_m_s{-150.0, 150.0, "m/s"};     ///< beyond any storm
 inline constexpr Range angle_rad{-4 * pi, 4 * pi, "rad"};  ///< some count on beyond a turn
