@@ -178,6 +178,31 @@ TEST_F(RoverAtTheEnd, IsLeftToWhoeverTakesIt) {
   EXPECT_TRUE(rover.is_armed);
 }
 
+TEST_F(MissionStop, DisarmsAPlaneThatHasLandedInItsMode) {
+  auto& plane = world->add({.type = mavlink::MavType::fixed_wing});
+  plane.keeps_armed = true;
+  plane.reports_complete = false;
+  world->run_for(5s);
+  auto const run = world->platform->start(task_of(mission_ending_with(MavCmd::nav_land)), one);
+  ASSERT_TRUE(world->run_until([&] { return run->state() == RunState::done; })) << run->error();
+  EXPECT_TRUE(plane.is_armed);
+  settle();
+  EXPECT_FALSE(plane.is_armed);
+  EXPECT_EQ(plane.mode, plane_mode::automatic);
+  EXPECT_TRUE(world->has_logged("plane 1 parked: AUTO, disarmed"));
+}
+
+TEST_F(MissionStop, LeavesAPlaneInTheAirAtTheEndOfItsMission) {
+  auto& plane = world->add({.type = mavlink::MavType::fixed_wing});
+  world->run_for(5s);
+  auto const run = world->platform->start(task_of(mission_ending_with(MavCmd::nav_waypoint)), one);
+  ASSERT_TRUE(world->comes_to(*run, "item 2/"));
+  plane.is_flying = true;
+  ASSERT_TRUE(world->run_until([&] { return run->state() == RunState::done; })) << run->error();
+  settle();
+  EXPECT_TRUE(plane.is_armed);
+}
+
 TEST_F(MissionStop, LetsAPlaneCircle) {
   auto& plane = world->add({.type = mavlink::MavType::fixed_wing});
   world->run_for(5s);

@@ -137,9 +137,14 @@ void Pilot::be_settled() {
   settled_.notify_all();
 }
 
-/// ArduPilot's rovers stay armed in AUTO behind the end of their mission.
+/// ArduPilot's rovers stay armed in AUTO behind the end of their mission, its planes for a while after they have
+/// landed, and copters that are set up not to disarm by themselves.
 void Pilot::begin_parking() {
-  if (context_.craft.state.family != vehicle::Family::rover || !context_.craft.is_armed) return;
+  using enum vehicle::Family;
+  auto const& craft = context_.craft;
+  bool const flies = craft.state.family == plane || craft.state.family == copter;
+  bool const stands = craft.state.family == rover || (flies && craft.trace.on_ground_since);
+  if (!stands || !craft.is_armed) return;
   is_settling_ = true;
   rest_ = park();
   rest_.start();
@@ -150,7 +155,10 @@ Task<> Pilot::park() {
   auto& craft = context_.craft;
   co_await context_.connection.loop().sleep(next_task_has_begun);
   std::function<void()> const nobody_waits;
-  auto parked = co_await bring_to_rest(context_.connection, craft, OnStop::loiter, nobody_waits);
+  base::Result<> parked;
+  // One that has landed stays in its mode: in another it might take off again.
+  if (craft.state.family == vehicle::Family::rover)
+    parked = co_await bring_to_rest(context_.connection, craft, OnStop::loiter, nobody_waits);
   ActionOptions const at_once{.is_urgent = true};
   if (parked && craft.is_armed) parked = co_await disarm(context_.connection, craft, at_once);
   if (parked) {

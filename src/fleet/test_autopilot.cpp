@@ -469,7 +469,7 @@ void TestAutopilot::finish_item() {
   is_complete_ = true;
   if (lands) {
     is_flying = false;
-    disarm();
+    if (!keeps_armed) disarm();
   }
   if (ends_in_rtl) change_mode(copter_mode::rtl);
 }
