@@ -9,7 +9,8 @@ import time
 import copter
 import flight
 import harness
-from mavlink_peer import Peer, mavlink
+from foreign import Foreign
+from mavlink_peer import mavlink
 
 # 800 m out and back, in legs of a hundred metres.
 SURVEY = """
@@ -31,25 +32,6 @@ execute v: mission {
 message 'said to be done'
 """
 SPEEDUP = 5
-
-
-class Foreign(Peer):
-    """Another ground station, that rides along with the run."""
-
-    def __init__(self):
-        self.port = harness.free_udp_port()
-        super().__init__(self.port, 254, 190, listens=True)
-
-    def upload(self, items):
-        self.say(self.mav.mission_count_encode(1, 1, len(items)))
-        for wanted in range(len(items)):
-            self.hears(lambda m, seq=wanted: m.get_type() in ("MISSION_REQUEST", "MISSION_REQUEST_INT") and m.seq == seq,
-                       what=f"the request for item {wanted}")
-            self.say(items[wanted])
-        self.hears_type("MISSION_ACK")
-
-    def point(self, seq, command, lat, lon, alt):
-        return self.mav.mission_item_int_encode(1, 1, seq, 0, command, 0, 1, 0, 0, 0, 0, round(lat * 1e7), round(lon * 1e7), alt)
 
 
 def flown_with(foreign, acts, at_item):
@@ -88,11 +70,7 @@ def another_station_uploads():
 
 def another_station_skips():
     foreign = Foreign()
-
-    def skips():
-        foreign.say(foreign.mav.command_long_encode(1, 1, mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, 0, 10, 0, 0, 0, 0, 0, 0))
-
-    code, said, modes = flown_with(foreign, skips, 3)
+    code, said, modes = flown_with(foreign, lambda: foreign.skip_to(10), 3)
     assert code == 1 and "without passing items 3 to 9 (7 of 9 places)" in said and "has chosen the item" in said, (code, said)
     foreign.close()
 
