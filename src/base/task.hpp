@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/assert.hpp"
+
 namespace lapwing::base {
 
 template <class T>
@@ -49,7 +51,10 @@ struct Promise : PromiseBase {
   void return_value(U&& result) {
     value.emplace(std::forward<U>(result));
   }
-  T take() { return std::move(*value); }
+  T take() {
+    LAPWING_ASSERT(value.has_value());
+    return std::move(*value);
+  }
 };
 
 template <>
@@ -96,7 +101,7 @@ class [[nodiscard]] Task {
   }
   T await_resume() { return handle_.promise().take(); }
 
-  /// For owners that do not await: run to the first suspension, ask, take the result once.
+  /// For owners that do not await: run to the first suspension, ask, take the result once, when it is done.
   void start() { handle_.resume(); }
   [[nodiscard]] bool done() const { return handle_.done(); }
   T take() { return handle_.promise().take(); }
