@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/notifier.hpp"
+
 namespace lapwing::apps {
 
 using base::ErrorKind;
@@ -65,9 +67,10 @@ Task<Result<std::vector<Craft*>>> find_vehicles(Ground& ground, std::vector<Syst
     auto const crafts = heard(ground);
     return wanted.empty() ? !crafts.empty() : missing(crafts, wanted).empty();
   };
-  auto const deadline = ground.loop.now() + patience;
-  while (!all_there() && ground.loop.now() < deadline) co_await ground.loop.sleep(10ms);
-  if (!all_there()) co_return not_heard(ground, missing(heard(ground), wanted), patience);
+  base::Notifier heard_one(ground.loop);
+  auto const listening = ground.fleet.subscribe([&](auto const&...) { heard_one.notify_all(); });
+  auto finding = heard_one.wait_for(all_there, patience);
+  if (!co_await finding) co_return not_heard(ground, missing(heard(ground), wanted), patience);
   if (wanted.empty()) {
     co_await ground.loop.sleep(others_beat);
     co_return heard(ground);

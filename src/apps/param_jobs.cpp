@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "apps/progress.hpp"
-#include "base/notifier.hpp"
 #include "base/scope.hpp"
 
 namespace lapwing::apps {
@@ -39,9 +38,8 @@ base::Task<base::Result<ParamListing>> list_one(base::Loop& loop, ParamVehicle v
 }
 
 template <class T>
-base::Task<> fill(base::Task<T> task, std::optional<T>& slot, std::size_t& left, base::Notifier& done) {
+base::Task<> fill(base::Task<T> task, std::optional<T>& slot) {
   slot.emplace(co_await task);
-  if (--left == 0) done.notify_all();
 }
 
 /// What is to be set, one value, as `ParamChanges` will have it.
@@ -86,14 +84,12 @@ base::Task<base::Result<std::vector<ParamListing>>> list_parameters(base::Loop& 
                                                                     std::vector<std::string> patterns) {
   using One = base::Result<ParamListing>;
   std::vector<std::optional<One>> slots(vehicles.size());
-  std::size_t left = vehicles.size();
-  base::Notifier done(loop);
   base::Scope scope(loop);
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     auto task = list_one(loop, vehicles[i], wanted, patterns);
-    scope.spawn(fill<One>(std::move(task), slots[i], left, done));
+    scope.spawn(fill<One>(std::move(task), slots[i]));
   }
-  while (left > 0) co_await done.wait();
+  co_await scope.join();
   std::vector<ParamListing> listings;
   for (auto& slot : slots) {
     if (!*slot) co_return std::unexpected(slot->error());

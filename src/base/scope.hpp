@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/loop.hpp"
+#include "base/notifier.hpp"
 #include "base/task.hpp"
 
 namespace lapwing::base {
@@ -15,27 +16,38 @@ namespace lapwing::base {
 /// within one of its own tasks: post that to the loop.
 class Scope {
  public:
-  explicit Scope(Loop& loop) : loop_(loop) {}
+  explicit Scope(Loop& loop) : loop_(loop), emptied_(loop) {}
   Scope(Scope const&) = delete;
   Scope& operator=(Scope const&) = delete;
 
   /// Starts `task` at once, up to its first suspension.
   void spawn(Task<void> task);
-  void clear() { children_->clear(); }
+  /// Cancels what still runs.
+  void clear();
   [[nodiscard]] std::size_t size() const { return children_->size(); }
   [[nodiscard]] bool empty() const { return children_->empty(); }
 
+  /// Waits until every task has ended or was cancelled, also those that are spawned meanwhile. A task of this scope
+  /// would wait for itself.
+  [[nodiscard]] Task<> join();
+  /// The same; false when `deadline` came first. What runs then goes on.
+  [[nodiscard]] Task<bool> join_until(TimePoint deadline);
+
  private:
+  struct Child;
+  using Children = std::list<Child>;
   struct Child {
-    std::weak_ptr<std::list<Child>> family;
-    std::list<Child>::iterator self;
-    Loop& loop;
+    Scope& scope;
+    std::weak_ptr<Children> siblings;
+    Children::iterator self;
     Task<void> task;
   };
   static void bury_later(void* child) noexcept;
 
   Loop& loop_;
-  std::shared_ptr<std::list<Child>> children_ = std::make_shared<std::list<Child>>();
+  Notifier emptied_;
+  // Another list after `clear()`, so that who was to be buried from the old one is not looked for.
+  std::shared_ptr<Children> children_ = std::make_shared<Children>();
 };
 
 }  // namespace lapwing::base

@@ -143,39 +143,6 @@ TEST(Loop, TimersFireInOrderOfDeadlineThenOfCall) {
   EXPECT_EQ(order, (std::vector<std::string>{"first", "second", "late"}));
 }
 
-TEST(Scope, DestroyingItCancelsWhatStillRunsAndRunsDestructors) {
-  Loop loop(unpaced);
-  bool ended = false;
-  bool destroyed = false;
-  struct Guard {
-    bool& flag;
-    ~Guard() { flag = true; }
-  };
-  {
-    Scope scope(loop);
-    auto sleeper = [&]() -> Task<void> {
-      Guard guard{destroyed};
-      co_await loop.sleep(1h);
-      ended = true;
-    };
-    scope.spawn(sleeper());
-    loop.run_until_done(answer_after(loop, 1s));
-    EXPECT_EQ(scope.size(), 1u);
-  }
-  EXPECT_TRUE(destroyed);
-  loop.run_until_done(answer_after(loop, 2h));
-  EXPECT_FALSE(ended);
-}
-
-TEST(Scope, ForgetsTasksThatHaveEnded) {
-  Loop loop(unpaced);
-  Scope scope(loop);
-  auto brief = [&]() -> Task<void> { co_await loop.turn(); };
-  for (int i = 0; i < 100; ++i) scope.spawn(brief());
-  loop.run_until_done(answer_after(loop, 1s));
-  EXPECT_TRUE(scope.empty());
-}
-
 TEST(Task, AwaitingOneThatEndsAtOnceManyTimesDoesNotGrowTheStack) {
   Loop loop(unpaced);
   auto one = []() -> Task<int> { co_return 1; };

@@ -4,12 +4,6 @@
 
 namespace lapwing::fleet {
 
-namespace {
-
-constexpr base::Duration looks_again = std::chrono::milliseconds(10);
-
-}  // namespace
-
 Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log)
     : registry_(registry),
       log_(std::move(log)),
@@ -82,7 +76,7 @@ std::shared_ptr<Fleet::Heard const> Fleet::subscribe(Heard heard) {
 base::Task<> Fleet::give_back_rates() {
   base::Scope all(loop());
   for (auto const& network : networks_) all.spawn(network->give_back_rates());
-  while (!all.empty()) co_await loop().sleep(looks_again);
+  co_await all.join();
 }
 
 }  // namespace lapwing::fleet

@@ -91,7 +91,7 @@ base::Task<> Network::give_back_rates() {
     if (craft->rates && may_be_asked(*craft) && !others_may_depend_on(*craft))
       all.spawn(give_back_rates_of(*craft, deadline));
   }
-  while (!all.empty() && loop().now() < deadline) co_await loop().sleep(10ms);
+  (void)co_await all.join_until(deadline);
 }
 
 base::Task<> Network::give_back_rates_of(Craft& craft, TimePoint deadline) {
