@@ -3,10 +3,14 @@
 #include "base/loop.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
+
+#include "base/assert.hpp"
+#include "base/internal/pool_queue.hpp"
 
 namespace lapwing::base {
 
@@ -34,6 +38,7 @@ struct Loop::Io {
   [[nodiscard]] static TimePoint paced_now(Loop const& loop);
   void hold_time(Loop& loop);
   void serve(Loop const& loop, steady_clock::duration ran);
+  [[nodiscard]] TimePoint horizon(Loop const& loop) const;
 
   asio::io_context context{1};
   // Without it the context would stop for good the first time that no socket waits.
@@ -51,7 +56,7 @@ void Loop::Io::hold_time(Loop& loop) {
   if (!time_waits(loop)) return;
   auto const paced = paced_now(loop);
   auto const time = std::min(paced, time_limit);
-  bool const has_work = !loop.ready_.empty() || !loop.posted_.empty();
+  bool const has_work = !loop.ready_.empty() || !loop.posted_.empty() || loop.jobs_on_pool() > 0;
   auto const& timers = loop.timers_;
   auto const waited_for = has_work ? time : timers.empty() ? TimePoint::max() : timers.begin()->first.first;
   auto const limit = waited_for < TimePoint::max() - moment ? waited_for + moment : TimePoint::max();
@@ -76,13 +81,35 @@ void Loop::Io::serve(Loop const& loop, steady_clock::duration ran) {
   }
 }
 
-Loop::Loop(Pace pace)
+/// How far time goes by itself: where it waits for a job, no further than it has been let go.
+TimePoint Loop::Io::horizon(Loop const& loop) const {
+  if (loop.jobs_on_pool() == 0) return TimePoint::max();
+  return loop.pace_.unpaced ? loop.unpaced_now_ : time_limit;
+}
+
+Loop::Loop(Pace pace, unsigned pool_threads)
     : io_(std::make_unique<Io>()),
       pace_(pace),
       started_(steady_clock::now()),
-      started_utc_(pace.begins_at.value_or(std::chrono::system_clock::now())) {}
+      started_utc_(pace.begins_at.value_or(std::chrono::system_clock::now())),
+      pool_threads_(pool_threads) {}
 
 Loop::~Loop() = default;
+
+unsigned Loop::one_less_than_cores() {
+  return std::max(2U, std::thread::hardware_concurrency()) - 1;
+}
+
+internal::PoolQueue& Loop::pool() {
+  if (!pool_)
+    pool_ = std::make_unique<internal::PoolQueue>(
+        pool_threads_, [this] { post_from_other_thread([] {}); }, [this] { io_->hold_time(*this); });
+  return *pool_;
+}
+
+std::size_t Loop::jobs_on_pool() const {
+  return pool_ ? pool_->size() : 0;
+}
 
 asio::io_context& Loop::io() {
   return io_->context;
@@ -98,6 +125,7 @@ UtcTime Loop::utc_now() const {
 }
 
 void Loop::post(std::function<void()> function) {
+  LAPWING_ASSERT(!internal::is_on_pool());
   posted_.push_back(std::move(function));
 }
 
@@ -116,6 +144,9 @@ void Loop::run() {
 /// Runs what was ready when the turn began; what becomes ready meanwhile waits for the next turn, so nothing starves
 /// sockets.
 bool Loop::run_ready() {
+  // Without a pace results come when nothing else is left to do (`wait_for_something`).
+  while (!pace_.unpaced && pool_ && pool_->deliver_oldest()) {
+  }
   io_->hold_time(*this);
   auto const began = steady_clock::now();
   auto functions = std::exchange(posted_, {});
@@ -146,11 +177,19 @@ bool Loop::fire_timers() {
 
 void Loop::wait_for_something() {
   if (pace_.unpaced && io_->context.poll() > 0) return;
-  if (timers_.empty()) {
+  if (!pool_ || pool_->empty()) return wait_for_events();
+  // One result at a time, and all that follows from it before the next: so it does not matter which were done by now.
+  if (pool_->deliver_oldest() || !pool_->may_sleep()) return;
+  wait_for_events();
+  pool_->has_woken();
+}
+
+void Loop::wait_for_events() {
+  auto const next = timers_.empty() ? TimePoint::max() : timers_.begin()->first.first;
+  if (timers_.empty() || next > io_->horizon(*this)) {
     io_->context.run_one();
     return;
   }
-  auto const next = timers_.begin()->first.first;
   if (pace_.unpaced) {
     // Sockets had their turn and had nothing: no event can come before the next timer.
     unpaced_now_ = next;
@@ -169,6 +208,7 @@ void Waiter::arm(TimePoint deadline) {
 }
 
 void Waiter::wake() {
+  LAPWING_ASSERT(!internal::is_on_pool());
   if (ready_) return;
   withdraw();
   join(loop_.ready_);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <coroutine>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 #include "base/task.hpp"
 #include "base/time.hpp"
@@ -14,6 +16,13 @@ class io_context;
 }
 
 namespace lapwing::base {
+
+template <class F, class... Args>
+class PoolJob;
+namespace internal {
+class PoolQueue;
+class PoolWait;
+}  // namespace internal
 
 /// The event loop: one a process, on one thread, owner of all mutable state's turns.
 ///
@@ -31,7 +40,8 @@ class Loop {
   };
 
   Loop() : Loop(Pace{}) {}
-  explicit Loop(Pace pace);
+  /// `pool_threads` is how many threads there may be beside the loop's for `on_pool`; they are started when needed.
+  explicit Loop(Pace pace, unsigned pool_threads = one_less_than_cores());
   ~Loop();
   Loop(Loop const&) = delete;
   Loop& operator=(Loop const&) = delete;
@@ -45,6 +55,15 @@ class Loop {
   void post(std::function<void()> function);
   /// The same, from any thread.
   void post_from_other_thread(std::function<void()> function);
+
+  /// `co_await loop.on_pool(function, args...)`: what the pure function returns, worked out on another thread.
+  /// base/pool.hpp has it, and says how.
+  template <class F, class... Args>
+  [[nodiscard]] PoolJob<F, std::decay_t<Args>...> on_pool(F function, Args&&... args);
+  /// How many jobs have been submitted whose results have not come.
+  [[nodiscard]] std::size_t jobs_on_pool() const;
+  /// As many threads as the machine has cores beside the one that the loop takes; at least one.
+  [[nodiscard]] static unsigned one_less_than_cores();
 
   /// `co_await loop.sleep(d)`: at least one turn, then not before `d` has passed.
   class Sleep;
@@ -64,10 +83,13 @@ class Loop {
 
  private:
   friend class Waiter;
+  friend class internal::PoolWait;
 
   bool run_ready();
   bool fire_timers();
   void wait_for_something();
+  void wait_for_events();
+  [[nodiscard]] internal::PoolQueue& pool();
 
   struct Io;
   std::unique_ptr<Io> io_;
@@ -80,6 +102,8 @@ class Loop {
   Waiter::Timers timers_;
   unsigned long long timer_sequence_ = 0;
   bool stopped_ = false;
+  unsigned pool_threads_;
+  std::unique_ptr<internal::PoolQueue> pool_;  // from the first job on; its threads post to what stands above
 };
 
 class [[nodiscard]] Loop::Sleep {
