@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -290,6 +290,19 @@ def lossy() -> list:
     return bad_links.measure(EXCHANGERS, simulator, free_udp_port, say)
 
 
+def pool() -> dict:
+    """Microseconds for an empty job beside the loop and back."""
+    done = subprocess.run([BENCH_BIN / "bench_pool", "--benchmark_format=json", "--benchmark_repetitions=5",
+                           "--benchmark_report_aggregates_only=true"], capture_output=True, text=True, check=True)
+    took = {row["run_name"].removesuffix("/real_time"): 1e6 / row["items_per_second"]
+            for row in json.loads(done.stdout)["benchmarks"] if row["aggregate_name"] == "median"}
+    for name, us in took.items():
+        say(f"pool    {name:24} {us:8.2f} us a job")
+    for way in ("one_by_one", "together"):
+        say(f"pool    ours / asio, {way:11} {took[f'ours/{way}'] / took[f'asio/{way}']:8.2f} x")
+    return took
+
+
 def language() -> dict:
     import language as beside_the_original
 
@@ -318,12 +331,12 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router"]
+    wanted = sys.argv[1:] or ["decode", "pool", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
+        results[name] = {"decode": decode, "pool": pool, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
                          "params": params, "router": router, "language": language}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
