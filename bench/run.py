@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -284,6 +284,13 @@ def fleet() -> dict:
     return whole_fleet.measure(say)
 
 
+def page() -> list:
+    with tempfile.TemporaryDirectory() as folder:
+        rows = pathlib.Path(folder, "page.json")
+        subprocess.run(["node", ROOT / "bench/page.mjs", "--json", rows], check=True)
+        return json.loads(rows.read_text())
+
+
 def lossy() -> list:
     import lossy as bad_links
 
@@ -331,13 +338,13 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "pool", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router"]
+    wanted = sys.argv[1:] or ["decode", "pool", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
-                         "params": params, "router": router, "language": language}[name]()
+                         "params": params, "router": router, "language": language, "page": page}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
