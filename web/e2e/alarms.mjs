@@ -7,9 +7,22 @@ const alarms = (page) => page.getByRole('region', { name: 'Alarms' });
 export function addAlarmTests(test, row) {
   /** The rover that the station loses after some seconds stays silent, so that a slow machine is not too late to see it. */
   const staysSilent = (message) => {
-    if (message.type === 'vehicles') return [{ ...message, vehicles: message.vehicles.map((vehicle) => (vehicle.connection === 'lost' ? { ...vehicle, connection: 'ok' } : vehicle)) }];
+    if (message.type === 'vehicles')
+      return [
+        {
+          ...message,
+          vehicles: message.vehicles.map((vehicle) => (vehicle.connection === 'lost' ? { ...vehicle, connection: 'ok' } : vehicle)),
+        },
+      ];
     if (message.type !== 'alarms') return [message];
-    return [{ ...message, alarms: message.alarms.map((alarm) => (alarm.kind === 'lost' ? { ...alarm, kind: 'silent', text: 'rover 5 silent, last known disarmed' } : alarm)) }];
+    return [
+      {
+        ...message,
+        alarms: message.alarms.map((alarm) =>
+          alarm.kind === 'lost' ? { ...alarm, kind: 'silent', text: 'rover 5 silent, last known disarmed' } : alarm,
+        ),
+      },
+    ];
   };
 
   test('tells of a silent vehicle: in a banner, the table, the map, the tab and to screen readers', async ({ open }) => {
@@ -46,7 +59,9 @@ export function addAlarmTests(test, row) {
   test('sounds and speaks by choice alone', async ({ open }) => {
     let isHeld = true;
     const page = await open({
-      station: (message) => [message.type === 'alarms' && isHeld ? { ...message, alarms: message.alarms.filter(({ vehicle }) => vehicle !== '5') } : message],
+      station: (message) => [
+        message.type === 'alarms' && isHeld ? { ...message, alarms: message.alarms.filter(({ vehicle }) => vehicle !== '5') } : message,
+      ],
     });
     await page.evaluate(() => {
       window.heard = [];
@@ -78,7 +93,15 @@ export function addAlarmTests(test, row) {
     const page = await open({
       station: (message) => {
         if (message.type !== 'alarms') return [message];
-        const silent = Array.from({ length: 250 }, (_, i) => ({ number: 1000 + i, kind: 'silent', severity: 'critical', vehicle: String(i + 1), text: `copter ${i + 1} silent`, raised: '', age_s: 3 }));
+        const silent = Array.from({ length: 250 }, (_, i) => ({
+          number: 1000 + i,
+          kind: 'silent',
+          severity: 'critical',
+          vehicle: String(i + 1),
+          text: `copter ${i + 1} silent`,
+          raised: '',
+          age_s: 3,
+        }));
         return [{ ...message, alarms: silent }];
       },
     });
@@ -97,16 +120,61 @@ export function addAlarmTests(test, row) {
       const position = turn % 2 ? { lat_deg: value, lon_deg: 214.7483647, alt_m: -2_147_484 } : value;
       return [
         {
-          type: 'vehicles', time_s: turn, full: false,
-          vehicles: [{ id: '9', name: value, family: value, mode: value, position, home: position, relative_alt_m: value, velocity_m_s: { north: value, east: 1e300, down: 0 },
-            battery: { remaining: turn % 3 ? -1.28 : value }, links: [{ name: value, used: true, alive: true }, value], mission: value, texts: [value], components: [value, value],
-            control: value, heading_rad: value, age_s: { heartbeat: value, position: -3 } }],
+          type: 'vehicles',
+          time_s: turn,
+          full: false,
+          vehicles: [
+            {
+              id: '9',
+              name: value,
+              family: value,
+              mode: value,
+              position,
+              home: position,
+              relative_alt_m: value,
+              velocity_m_s: { north: value, east: 1e300, down: 0 },
+              battery: { remaining: turn % 3 ? -1.28 : value },
+              links: [{ name: value, used: true, alive: true }, value],
+              mission: value,
+              texts: [value],
+              components: [value, value],
+              control: value,
+              heading_rad: value,
+              age_s: { heartbeat: value, position: -3 },
+            },
+          ],
         },
         { type: 'plan', vehicle: '9', path: [position, value, position] },
-        { type: 'pictures', vehicle: '9', full: false, pictures: [{ number: 1, ...(typeof position === 'object' ? position : {}) }, value] },
-        { type: 'tasks', trees: [{ id: 1, kind: 'a', label: 'x', line: 1, state: 'running', children: [1, 1].map((id) => ({ id, kind: value, label: 'b', line: value, state: 'running' })) }] },
+        {
+          type: 'pictures',
+          vehicle: '9',
+          full: false,
+          pictures: [{ number: 1, ...(typeof position === 'object' ? position : {}) }, value],
+        },
+        {
+          type: 'tasks',
+          trees: [
+            {
+              id: 1,
+              kind: 'a',
+              label: 'x',
+              line: 1,
+              state: 'running',
+              children: [1, 1].map((id) => ({ id, kind: value, label: 'b', line: value, state: 'running' })),
+            },
+          ],
+        },
         { type: 'log', lines: [1, 1].map((seq) => ({ seq, time: value, level: value, source: 'a', text: 'b' })) },
-        { type: 'commands', commands: [1, 1].map((number) => ({ number, action: value, by: 'a', asked: 'b', vehicles: [{ vehicle: '1', state: value }, value] })) },
+        {
+          type: 'commands',
+          commands: [1, 1].map((number) => ({
+            number,
+            action: value,
+            by: 'a',
+            asked: 'b',
+            vehicles: [{ vehicle: '1', state: value }, value],
+          })),
+        },
         { type: 'alarms', alarms: [{ number: 1, kind: value, severity: value, vehicle: value, text: value }, value] },
         { type: 'script', name: value, state: value, diagnostics: value },
         { type: 'emergency', latched: value, vehicles: value },

@@ -47,7 +47,10 @@ export function addEmergencyTests(test, row, hold) {
     assert.ok(await name.evaluate((element) => element === document.activeElement), 'the focus is where it was');
   });
 
-  for (const size of [{ width: 1440, height: 900 }, { width: 390, height: 844 }]) {
+  for (const size of [
+    { width: 1440, height: 900 },
+    { width: 390, height: 844 },
+  ]) {
     test(`keeps Motors off away from Release, behind a second step, at ${size.width} px`, async ({ open }) => {
       const page = await open({ size });
       await row(page, 'copter 1').waitFor();
@@ -76,7 +79,10 @@ export function addEmergencyTests(test, row, hold) {
   test('has STOP and E-STOP large and apart enough for a finger on a phone', async ({ open }) => {
     const page = await open({ size: { width: 390, height: 844 } });
     await row(page, 'copter 1').waitFor();
-    const [stop, emergency] = [await page.getByRole('button', { name: 'STOP', exact: true }).boundingBox(), await button(page).boundingBox()];
+    const [stop, emergency] = [
+      await page.getByRole('button', { name: 'STOP', exact: true }).boundingBox(),
+      await button(page).boundingBox(),
+    ];
     for (const { width, height } of [stop, emergency]) assert.ok(width >= 44 && height >= 44, `${width} x ${height}`);
     assert.ok(emergency.x - (stop.x + stop.width) > 6, `${emergency.x - stop.x - stop.width} px between them`);
   });
@@ -91,74 +97,100 @@ export function addEmergencyTests(test, row, hold) {
       const { left, right, top, bottom, width, height } = boxOf(stop);
       const found = [];
       if (left < 0 || right > innerWidth || width < 44 || height < 44) found.push(`at ${left} to ${right}, ${width} x ${height}`);
-      for (const [x, y] of [[left + 12, top + 22], [right - 12, top + 22], [(left + right) / 2, bottom - 6]]) {
+      for (const [x, y] of [
+        [left + 12, top + 22],
+        [right - 12, top + 22],
+        [(left + right) / 2, bottom - 6],
+      ]) {
         if (document.elementFromPoint(x, y) !== stop) found.push(`covered at ${x}, ${y}`);
       }
       const parts = [...document.querySelectorAll('header .phase, header .state, header button')].filter((part) => boxOf(part).width > 0);
-      parts.forEach((a, i) => parts.slice(i + 1).forEach((b) => overlap(boxOf(a), boxOf(b)) && found.push(`${a.className} over ${b.className}`)));
+      parts.forEach((a, i) =>
+        parts.slice(i + 1).forEach((b) => overlap(boxOf(a), boxOf(b)) && found.push(`${a.className} over ${b.className}`)),
+      );
       return found;
     });
     assert.deepEqual(faults, [], when);
   };
 
-  for (const size of [{ width: 1280, height: 800 }, { width: 667, height: 375 }, { width: 375, height: 667 }, { width: 320, height: 568 }]) {
-    test(`has E-STOP in sight and to press in every state at ${size.width} px`, async ({ open, station }) => {
-      const page = await open({ size });
-      await row(page, 'copter 2').waitFor();
-      await assertPressable(page, 'at first');
-      await row(page, 'copter 2').click();
-      for (const tab of size.width < 900 ? ['Command', 'Params', 'Tasks', 'Script', 'Log', 'Vehicles'] : []) {
-        await page.getByRole('button', { name: tab, exact: true }).click();
-        await assertPressable(page, tab);
-      }
-      for (const name of ['Help', 'Settings']) {
-        await page.locator('header').getByRole('button', { name }).click();
-        await page.getByRole('dialog', { name }).waitFor();
-        await assertPressable(page, name);
-        await page.keyboard.press('Escape');
-        await page.getByRole('dialog', { name }).waitFor({ state: 'hidden' });
-        await page.locator('#vehicles tr.selected').waitFor(); // Escape was the dialog's alone
-      }
-      await page.keyboard.press('?');
-      await button(page).click();
-      await page.getByRole('region', { name: 'Emergency stop' }).waitFor();
-      await assertPressable(page, 'latched');
-      await page.getByRole('button', { name: 'STOP', exact: true }).click().catch(() => {});
-      await assertPressable(page, 'stopping');
-      await station().stop();
-      await page.locator('header .phase', { hasText: 'station lost' }).waitFor();
-      await assertPressable(page, 'lost');
-      for (const name of ['Release', 'Motors off…']) assert.ok(await page.getByRole('button', { name }).isDisabled(), name);
-    }, { complaintsAllowed: true });
+  for (const size of [
+    { width: 1280, height: 800 },
+    { width: 667, height: 375 },
+    { width: 375, height: 667 },
+    { width: 320, height: 568 },
+  ]) {
+    test(
+      `has E-STOP in sight and to press in every state at ${size.width} px`,
+      async ({ open, station }) => {
+        const page = await open({ size });
+        await row(page, 'copter 2').waitFor();
+        await assertPressable(page, 'at first');
+        await row(page, 'copter 2').click();
+        for (const tab of size.width < 900 ? ['Command', 'Params', 'Tasks', 'Script', 'Log', 'Vehicles'] : []) {
+          await page.getByRole('button', { name: tab, exact: true }).click();
+          await assertPressable(page, tab);
+        }
+        for (const name of ['Help', 'Settings']) {
+          await page.locator('header').getByRole('button', { name }).click();
+          await page.getByRole('dialog', { name }).waitFor();
+          await assertPressable(page, name);
+          await page.keyboard.press('Escape');
+          await page.getByRole('dialog', { name }).waitFor({ state: 'hidden' });
+          await page.locator('#vehicles tr.selected').waitFor(); // Escape was the dialog's alone
+        }
+        await page.keyboard.press('?');
+        await button(page).click();
+        await page.getByRole('region', { name: 'Emergency stop' }).waitFor();
+        await assertPressable(page, 'latched');
+        await page
+          .getByRole('button', { name: 'STOP', exact: true })
+          .click()
+          .catch(() => {});
+        await assertPressable(page, 'stopping');
+        await station().stop();
+        await page.locator('header .phase', { hasText: 'station lost' }).waitFor();
+        await assertPressable(page, 'lost');
+        for (const name of ['Release', 'Motors off…']) assert.ok(await page.getByRole('button', { name }).isDisabled(), name);
+      },
+      { complaintsAllowed: true },
+    );
   }
 
-  test('says that E-STOP does not reach a lost station', async ({ open, station, restart }) => {
-    const page = await open({ size: { width: 375, height: 667 } });
-    await row(page, 'copter 2').waitFor();
-    await station().stop();
-    await page.getByText('E-STOP does not reach them').waitFor();
-    await page.getByRole('button', { name: 'E-STOP, which does not reach the station now' }).click();
-    const notice = page.getByRole('group', { name: 'E-STOP failed', exact: true });
-    await notice.getByText('The station did not answer.').waitFor();
-    await page.getByRole('alert').getByText('E-STOP failed.').waitFor({ state: 'attached' });
-    await page.getByRole('button', { name: 'STOP', exact: true }).click();
-    await page.getByRole('group', { name: 'STOP failed', exact: true }).waitFor();
-    await button(page).click();
-    await notice.waitFor();
-    await restart();
-    await page.locator('header .phase', { hasText: 'live' }).waitFor();
-    assert.ok(await notice.isVisible(), 'it is said until somebody has read it, or pressed again');
-    await page.getByRole('button', { name: 'E-STOP', exact: true }).click();
-    await page.getByRole('region', { name: 'Emergency stop' }).waitFor();
-    await notice.waitFor({ state: 'detached' });
-  }, { complaintsAllowed: true });
+  test(
+    'says that E-STOP does not reach a lost station',
+    async ({ open, station, restart }) => {
+      const page = await open({ size: { width: 375, height: 667 } });
+      await row(page, 'copter 2').waitFor();
+      await station().stop();
+      await page.getByText('E-STOP does not reach them').waitFor();
+      await page.getByRole('button', { name: 'E-STOP, which does not reach the station now' }).click();
+      const notice = page.getByRole('group', { name: 'E-STOP failed', exact: true });
+      await notice.getByText('The station did not answer.').waitFor();
+      await page.getByRole('alert').getByText('E-STOP failed.').waitFor({ state: 'attached' });
+      await page.getByRole('button', { name: 'STOP', exact: true }).click();
+      await page.getByRole('group', { name: 'STOP failed', exact: true }).waitFor();
+      await button(page).click();
+      await notice.waitFor();
+      await restart();
+      await page.locator('header .phase', { hasText: 'live' }).waitFor();
+      assert.ok(await notice.isVisible(), 'it is said until somebody has read it, or pressed again');
+      await page.getByRole('button', { name: 'E-STOP', exact: true }).click();
+      await page.getByRole('region', { name: 'Emergency stop' }).waitFor();
+      await notice.waitFor({ state: 'detached' });
+    },
+    { complaintsAllowed: true },
+  );
 
-  test('says soon that the station has not answered E-STOP', async ({ open, station }) => {
-    const page = await open();
-    await row(page, 'copter 2').waitFor();
-    station().silence();
-    await button(page).click();
-    await page.getByRole('group', { name: 'Emergency stop not answered' }).getByText('stop the vehicles by remote control').waitFor();
-    await page.getByRole('group', { name: 'E-STOP failed' }).waitFor();
-  }, { complaintsAllowed: true });
+  test(
+    'says soon that the station has not answered E-STOP',
+    async ({ open, station }) => {
+      const page = await open();
+      await row(page, 'copter 2').waitFor();
+      station().silence();
+      await button(page).click();
+      await page.getByRole('group', { name: 'Emergency stop not answered' }).getByText('stop the vehicles by remote control').waitFor();
+      await page.getByRole('group', { name: 'E-STOP failed' }).waitFor();
+    },
+    { complaintsAllowed: true },
+  );
 }

@@ -43,7 +43,9 @@ const script = guide.match(/```(?:dolphin)?\n([\s\S]*?)```/)[1];
 const folder = mkdtempSync(path.join(tmpdir(), 'lapwing-guide-'));
 try {
   await withDemo(root, [], { scheme: 'dark', size: { width: 1440, height: 810 } }, async (page, picture) => {
-    await vehicle(page, 'copter 1').getByText(/item 9/).waitFor({ timeout: 180_000 });
+    await vehicle(page, 'copter 1')
+      .getByText(/item 9/)
+      .waitFor({ timeout: 180_000 });
     await picture('map.png');
 
     await page.setViewportSize({ width: 1440, height: 1200 }); // a third of it is the panel's
@@ -59,7 +61,9 @@ try {
 
   writeFileSync(path.join(folder, 'my.dolphin'), script);
   await withDemo(folder, ['--script', 'my.dolphin'], { scheme: 'light', size }, async (page, picture) => {
-    await vehicle(page, 'copter 1').getByText(/item [45]/).waitFor({ timeout: 60_000 });
+    await vehicle(page, 'copter 1')
+      .getByText(/item [45]/)
+      .waitFor({ timeout: 60_000 });
     await picture('first-mission.png');
 
     await page.locator('#script .chip', { hasText: 'done' }).waitFor({ timeout: 120_000 });

@@ -59,7 +59,11 @@ export function addHoldTests(test, row) {
     const ends = {
       'means another vehicle': { key: '3', then: (page) => page.locator('#command', { hasText: 'plane 3' }) },
       'is gone': { key: 'Escape', then: (page) => page.getByText('Select a vehicle in the table') },
-      'is disabled': { key: 'Control+Shift+S', then: (page) => page.locator('#command button:disabled', { hasText: 'Arm' }), sends: ['emergency_stop'] },
+      'is disabled': {
+        key: 'Control+Shift+S',
+        then: (page) => page.locator('#command button:disabled', { hasText: 'Arm' }),
+        sends: ['emergency_stop'],
+      },
     };
     for (const [what, { key, then, sends = [] }] of Object.entries(ends)) {
       test(`confirms nothing when the button held by ${by} ${what}`, async ({ open }) => {

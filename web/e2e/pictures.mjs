@@ -43,7 +43,8 @@ async function stopAll(page) {
 
 try {
   const pages = [];
-  for (const shot of SHOTS.filter(({ name }) => name.includes(process.argv[3] ?? ''))) pages.push({ ...shot, ...(await browser.open(station.url, shot)) });
+  for (const shot of SHOTS.filter(({ name }) => name.includes(process.argv[3] ?? '')))
+    pages.push({ ...shot, ...(await browser.open(station.url, shot)) });
   await pages[0].page.waitForTimeout(Number(process.env.WAIT_S ?? 20) * 1000); // trails grow
   for (const { name, page, complaints, before } of pages) {
     await page.bringToFront();

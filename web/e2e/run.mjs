@@ -38,16 +38,27 @@ test('shows every vehicle, and they move', async ({ open }) => {
   );
 });
 
-for (const size of [{ width: 1280, height: 800 }, { width: 900, height: 800 }, { width: 390, height: 844 }]) {
+for (const size of [
+  { width: 1280, height: 800 },
+  { width: 900, height: 800 },
+  { width: 390, height: 844 },
+]) {
   test(`tells of the selected vehicle's health at ${size.width} px`, async ({ open }) => {
     const page = await open({ size });
     await row(page, 'copter 1').click();
     const details = page.locator('#vehicles .details');
-    await details.getByText(/about|\d–\d+ min/).first().waitFor();
+    await details
+      .getByText(/about|\d–\d+ min/)
+      .first()
+      .waitFor();
     const text = await details.innerText();
-    for (const part of [/RTK fixed, 14 satellites/, /compass 0\.6/, /Maker M1, standby/, /90° down, towards 046°/, /EKF3 compass variance/]) assert.match(text, part);
+    for (const part of [/RTK fixed, 14 satellites/, /compass 0\.6/, /Maker M1, standby/, /90° down, towards 046°/, /EKF3 compass variance/])
+      assert.match(text, part);
     assert.doesNotMatch(await details.locator('dd', { hasText: 'active' }).first().innerText(), /ago/);
-    await details.locator('dd', { hasText: 'Maker M1' }).getByText(/1\d s ago/).waitFor();
+    await details
+      .locator('dd', { hasText: 'Maker M1' })
+      .getByText(/1\d s ago/)
+      .waitFor();
     const panel = await page.locator('#vehicles').boundingBox();
     const inside = await details.boundingBox();
     assert.ok(inside.x >= panel.x && inside.x + inside.width <= panel.x + panel.width + 1, 'the details fit the panel');
@@ -95,7 +106,9 @@ test('stops the script with the button and starts it again', async ({ open }) =>
   await scriptState(page, 'stopping');
   await scriptState(page, 'stopped');
   await page.locator('#script .outcome', { hasText: 'stopped by operator 1' }).waitFor();
-  const colours = await page.evaluate(() => ['--critical', '--muted'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name)));
+  const colours = await page.evaluate(() =>
+    ['--critical', '--muted'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name)),
+  );
   const chip = await page.locator('#script .chip').evaluate((element) => getComputedStyle(element).getPropertyValue('--chip'));
   assert.ok(chip.trim() !== colours[0].trim() && chip.trim() === colours[1].trim(), `what an operator wanted is no failure: ${chip}`);
   await row(page, 'LOITER').first().waitFor();
@@ -154,7 +167,12 @@ test('takes nobody off without a height', async ({ open }) => {
   await page.locator('#command .headline', { hasText: 'Take off, 20 m: reached' }).waitFor();
 });
 
-for (const size of [{ width: 1440, height: 900 }, { width: 1280, height: 800 }, { width: 1024, height: 768 }, { width: 390, height: 844 }]) {
+for (const size of [
+  { width: 1440, height: 900 },
+  { width: 1280, height: 800 },
+  { width: 1024, height: 768 },
+  { width: 390, height: 844 },
+]) {
   test(`keeps Hold, Land and Return in sight after commands at ${size.width} px`, async ({ open }) => {
     const page = await open({ size });
     await row(page, 'copter 2').waitFor();
@@ -172,8 +190,15 @@ for (const size of [{ width: 1440, height: 900 }, { width: 1280, height: 800 }, 
     await page.locator('#command details').nth(2).waitFor();
     await page.locator('#command .rest').evaluate((element) => element.scrollTo(0, element.scrollHeight));
     for (const name of ['Hold', 'Land', 'Return', 'Disarm']) assert.ok(await isReachable(name), `${name} is in sight`);
-    assert.deepEqual((await places()).map(({ x, height }) => [x, height]), before.map(({ x, height }) => [x, height]));
-    assert.equal(await page.locator('#command .body').evaluate((body) => body.scrollHeight - body.clientHeight), 0, 'nothing scrolls but the rest');
+    assert.deepEqual(
+      (await places()).map(({ x, height }) => [x, height]),
+      before.map(({ x, height }) => [x, height]),
+    );
+    assert.equal(
+      await page.locator('#command .body').evaluate((body) => body.scrollHeight - body.clientHeight),
+      0,
+      'nothing scrolls but the rest',
+    );
   });
 }
 
@@ -187,10 +212,16 @@ test('hands a vehicle over to who asks for it', async ({ open }) => {
   await row(other, 'plane 3').waitFor();
   await other.keyboard.press('3');
   await other.getByRole('button', { name: 'Ask for it' }).press('Enter');
-  await other.locator('#command').getByText(/Asked: yours/).waitFor();
+  await other
+    .locator('#command')
+    .getByText(/Asked: yours/)
+    .waitFor();
   assert.equal(await other.getByRole('button', { name: 'Ask for it' }).count(), 0, 'who has asked sees it');
   await holder.bringToFront();
-  await holder.getByRole('group', { name: /asks for plane 3/ }).getByRole('button', { name: 'Hand over' }).press('Enter');
+  await holder
+    .getByRole('group', { name: /asks for plane 3/ })
+    .getByRole('button', { name: 'Hand over' })
+    .press('Enter');
   await other.bringToFront();
   await other.getByText('You command plane 3').waitFor();
 });
@@ -233,39 +264,57 @@ test('shows what is wrong with a script and leads there', async ({ open }) => {
   await page.locator('#script li', { hasText: 'north = mission' }).waitFor();
 });
 
-test('says that the station is lost, and finds it again', async ({ open, station, restart }) => {
-  const page = await open();
-  await live(page);
-  await station().stop();
-  await page.locator('.banner', { hasText: 'Station lost' }).waitFor();
-  await page.waitForFunction(() => /data [1-9]/.test(document.querySelector('.banner').textContent));
-  await row(page, 'old data').first().waitFor();
-  await restart();
-  await live(page);
-  await row(page, 'in the air').first().waitFor();
-}, { complaintsAllowed: true });
-
-for (const size of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
-  test(`tells of the lost station beside everything else at ${size.width} px`, async ({ open, station }) => {
-    const page = await open({ size });
+test(
+  'says that the station is lost, and finds it again',
+  async ({ open, station, restart }) => {
+    const page = await open();
     await live(page);
     await station().stop();
-    const banner = page.locator('.banner', { hasText: 'Station lost' });
-    await banner.waitFor();
-    await page.locator('header .phase', { hasText: 'station lost' }).waitFor();
-    const box = await banner.boundingBox();
-    assert.ok(box.x >= 0 && box.x + box.width <= size.width);
-    const covered = await page.evaluate(() => {
-      const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-      const within = document.querySelector('.banner').getBoundingClientRect();
-      const panels = [...document.querySelectorAll('.panel:not([hidden]), header')].filter((panel) => overlap(panel.getBoundingClientRect(), within));
-      const icons = [...document.querySelectorAll('header .icon')].map((icon) => icon.getBoundingClientRect()).filter((icon) => icon.width > 0);
-      const words = [...document.querySelectorAll('header .phase, header .state')].map((word) => word.getBoundingClientRect());
-      return [...panels.map((panel) => panel.id), ...words.filter((word) => icons.some((icon) => overlap(icon, word))).map(() => 'header')];
-    });
-    assert.deepEqual(covered, []);
-    assert.equal(await page.evaluate(() => document.querySelector('header').scrollWidth), size.width);
-  }, { complaintsAllowed: true });
+    await page.locator('.banner', { hasText: 'Station lost' }).waitFor();
+    await page.waitForFunction(() => /data [1-9]/.test(document.querySelector('.banner').textContent));
+    await row(page, 'old data').first().waitFor();
+    await restart();
+    await live(page);
+    await row(page, 'in the air').first().waitFor();
+  },
+  { complaintsAllowed: true },
+);
+
+for (const size of [
+  { width: 1280, height: 800 },
+  { width: 390, height: 844 },
+]) {
+  test(
+    `tells of the lost station beside everything else at ${size.width} px`,
+    async ({ open, station }) => {
+      const page = await open({ size });
+      await live(page);
+      await station().stop();
+      const banner = page.locator('.banner', { hasText: 'Station lost' });
+      await banner.waitFor();
+      await page.locator('header .phase', { hasText: 'station lost' }).waitFor();
+      const box = await banner.boundingBox();
+      assert.ok(box.x >= 0 && box.x + box.width <= size.width);
+      const covered = await page.evaluate(() => {
+        const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+        const within = document.querySelector('.banner').getBoundingClientRect();
+        const panels = [...document.querySelectorAll('.panel:not([hidden]), header')].filter((panel) =>
+          overlap(panel.getBoundingClientRect(), within),
+        );
+        const icons = [...document.querySelectorAll('header .icon')]
+          .map((icon) => icon.getBoundingClientRect())
+          .filter((icon) => icon.width > 0);
+        const words = [...document.querySelectorAll('header .phase, header .state')].map((word) => word.getBoundingClientRect());
+        return [
+          ...panels.map((panel) => panel.id),
+          ...words.filter((word) => icons.some((icon) => overlap(icon, word))).map(() => 'header'),
+        ];
+      });
+      assert.deepEqual(covered, []);
+      assert.equal(await page.evaluate(() => document.querySelector('header').scrollWidth), size.width);
+    },
+    { complaintsAllowed: true },
+  );
 }
 
 test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
@@ -274,7 +323,9 @@ test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
   const names = [];
   for (let i = 0; i < 7; ++i) {
     await page.keyboard.press('Tab');
-    names.push(await page.evaluate(() => (document.activeElement.ariaLabel || document.activeElement.textContent).trim().replace(/\s+/g, ' ')));
+    names.push(
+      await page.evaluate(() => (document.activeElement.ariaLabel || document.activeElement.textContent).trim().replace(/\s+/g, ' ')),
+    );
     const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
     assert.notEqual(outline, 'none', `focus is not visible on ${names.at(-1)}`);
   }
@@ -321,7 +372,11 @@ const inSight = (page) =>
     return markers.length === 5 && markers.every(({ x, y }) => x > 0 && y > 0 && x + 44 < innerWidth && !isCovered(x + 22, y + 22));
   });
 
-for (const size of [{ width: 1280, height: 800 }, { width: 1920, height: 1080 }, { width: 390, height: 844 }]) {
+for (const size of [
+  { width: 1280, height: 800 },
+  { width: 1920, height: 1080 },
+  { width: 390, height: 844 },
+]) {
   test(`has every vehicle in sight from the start at ${size.width} px`, async ({ open }) => {
     const page = await open({ size });
     await inSight(page);
@@ -359,7 +414,9 @@ test('shows no label over another', async ({ open }) => {
   while (!(await onOneSpot())) await page.keyboard.press('-'); // a press during a zoom counts from where the zoom is
   await page.waitForFunction(() => {
     const boxes = [...document.querySelectorAll('.vehicle .label')].map((label) => label.getBoundingClientRect());
-    return boxes.every((a, i) => boxes.slice(i + 1).every((b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 0.5 || b.bottom <= a.top + 0.5));
+    return boxes.every((a, i) =>
+      boxes.slice(i + 1).every((b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top + 0.5 || b.bottom <= a.top + 0.5),
+    );
   });
 });
 
@@ -382,22 +439,26 @@ test('keeps some lines of the log in sight, however long the script', async ({ o
   assert.ok(log.height > 80, `only ${log.height} px`);
 });
 
-test('asks for the token, tells a wrong one, and goes on with the right one', async ({ open, station, restart }) => {
-  await station().stop();
-  await restart('0123456789abcdef');
-  const page = await open();
-  const dialog = page.getByRole('dialog', { name: 'This station asks for its token' });
-  await dialog.getByLabel('Token').fill('wrong-wrong-wrong');
-  await dialog.getByRole('button', { name: 'Connect' }).click();
-  await dialog.getByText('The station refused the token').waitFor();
-  await page.keyboard.press('Escape');
-  await dialog.getByLabel('Token').fill('http://127.0.0.1:8080/#token=0123456789abcdef');
-  await page.keyboard.press('Enter');
-  await live(page);
-  await dialog.waitFor({ state: 'hidden' });
-  await row(page, 'copter 1').waitFor();
-  await page.locator('#script option', { hasText: 'survey.dolphin' }).waitFor({ state: 'attached' });
-}, { complaintsAllowed: true });
+test(
+  'asks for the token, tells a wrong one, and goes on with the right one',
+  async ({ open, station, restart }) => {
+    await station().stop();
+    await restart('0123456789abcdef');
+    const page = await open();
+    const dialog = page.getByRole('dialog', { name: 'This station asks for its token' });
+    await dialog.getByLabel('Token').fill('wrong-wrong-wrong');
+    await dialog.getByRole('button', { name: 'Connect' }).click();
+    await dialog.getByText('The station refused the token').waitFor();
+    await page.keyboard.press('Escape');
+    await dialog.getByLabel('Token').fill('http://127.0.0.1:8080/#token=0123456789abcdef');
+    await page.keyboard.press('Enter');
+    await live(page);
+    await dialog.waitFor({ state: 'hidden' });
+    await row(page, 'copter 1').waitFor();
+    await page.locator('#script option', { hasText: 'survey.dolphin' }).waitFor({ state: 'attached' });
+  },
+  { complaintsAllowed: true },
+);
 
 test('takes the token out of the address', async ({ open, station, restart }) => {
   await station().stop();
@@ -428,7 +489,9 @@ for (const scheme of ['dark', 'light']) {
       const luminance = (colour) => {
         canvas.fillStyle = colour;
         canvas.fillRect(0, 0, 1, 1);
-        const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+        const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((c) =>
+          c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4,
+        );
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
       };
       const style = getComputedStyle(document.documentElement);
@@ -471,7 +534,10 @@ test('keeps the colours that were chosen', async ({ open }) => {
 test('asks nobody but the station for anything', async ({ open, station }) => {
   const page = await open();
   const foreign = [];
-  page.on('request', (request) => request.url().startsWith('http') && !request.url().startsWith(station().url) && foreign.push(request.url()));
+  page.on(
+    'request',
+    (request) => request.url().startsWith('http') && !request.url().startsWith(station().url) && foreign.push(request.url()),
+  );
   await page.reload();
   await row(page, 'copter 1').waitFor();
   await page.waitForFunction(() => document.querySelectorAll('.vehicle').length === 5);
@@ -493,7 +559,11 @@ async function runTest(browser, { run, options }) {
         return it.page;
       },
     });
-    if (!options?.complaintsAllowed) assert.deepEqual(opened.flatMap((it) => it.complaints), []);
+    if (!options?.complaintsAllowed)
+      assert.deepEqual(
+        opened.flatMap((it) => it.complaints),
+        [],
+      );
   } finally {
     for (const { page } of opened) {
       await page.evaluate(() => localStorage.clear()).catch(() => {});

@@ -1,5 +1,18 @@
 import { describe, expect, it } from 'vitest';
-import { commandedByOthers, commonModes, destinationsOf, headlineOf, isStop, latestFor, requestOf, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
+import {
+  commandedByOthers,
+  commonModes,
+  destinationsOf,
+  headlineOf,
+  isStop,
+  latestFor,
+  requestOf,
+  requestsTo,
+  stateOf,
+  stopSummary,
+  summaryOf,
+  titleOf,
+} from './commands';
 import type { Vehicle } from './fleet';
 import type { Command, VehicleFields } from './protocol';
 
@@ -34,12 +47,22 @@ describe('commands', () => {
     const climbing = { vehicle: '1', state: 'under_way' as const, reason: 'at 7 of 20 m', left_m: 13 };
     const takeOff = command({ action: 'take_off', height_m: 20, vehicles: [climbing] });
     expect(headlineOf(takeOff)).toMatchObject({ text: 'Take off, 20 m: under way, at 7 of 20 m', level: 'active' });
-    const both = { ...takeOff, vehicles: [climbing, { vehicle: '2', state: 'cut_short' as const, reason: 'emergency stop by anna, at 9 of 20 m' }] };
+    const both = {
+      ...takeOff,
+      vehicles: [climbing, { vehicle: '2', state: 'cut_short' as const, reason: 'emergency stop by anna, at 9 of 20 m' }],
+    };
     expect(headlineOf(both)).toMatchObject({ text: 'Take off, 20 m: 0 of 2 reached, 1 cut short, 1 under way', level: 'warning' });
   });
 
   it('concern those that are selected, whatever others were told since', () => {
-    const land = command({ number: 1, action: 'land', vehicles: [{ vehicle: '1', state: 'under_way' }, { vehicle: '2', state: 'refused' }] });
+    const land = command({
+      number: 1,
+      action: 'land',
+      vehicles: [
+        { vehicle: '1', state: 'under_way' },
+        { vehicle: '2', state: 'refused' },
+      ],
+    });
     const arm = command({ number: 2, vehicles: [{ vehicle: '3', state: 'confirmed' }] });
     expect(latestFor([land, arm], ['1'])).toEqual({ ...land, vehicles: [{ vehicle: '1', state: 'under_way' }] });
     expect(latestFor([land, arm], ['1', '3'])?.number).toBe(2);
@@ -49,8 +72,15 @@ describe('commands', () => {
   it('have a destination until the vehicle is there', () => {
     const place = { lat_deg: 1, lon_deg: 2, alt_m: 0 };
     const other = { ...place, lon_deg: 3 };
-    const goTo = (number: number, at: typeof place, ...vehicles: Command['vehicles']): Command => command({ number, action: 'go_to', place: at, vehicles });
-    const open = goTo(1, place, { vehicle: '1', state: 'under_way', left_m: 312.4 }, { vehicle: '2', state: 'accepted' }, { vehicle: '3', state: 'under_way', left_m: 2345 });
+    const goTo = (number: number, at: typeof place, ...vehicles: Command['vehicles']): Command =>
+      command({ number, action: 'go_to', place: at, vehicles });
+    const open = goTo(
+      1,
+      place,
+      { vehicle: '1', state: 'under_way', left_m: 312.4 },
+      { vehicle: '2', state: 'accepted' },
+      { vehicle: '3', state: 'under_way', left_m: 2345 },
+    );
     expect(destinationsOf([open])).toEqual([
       { vehicle: '1', place, left: '312 m' },
       { vehicle: '2', place, left: 'acknowledged' },

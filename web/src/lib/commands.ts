@@ -84,7 +84,9 @@ export function headlineOf(command: Command): { text: string; symbol: string; le
     return { text: [titleOf(command) + ': ' + word, only.reason].filter(Boolean).join(', '), symbol, level };
   }
   const states = command.vehicles.map(({ state }) => state);
-  const worst = (['refused', 'timed_out', 'expired', 'cut_short', 'waiting', 'accepted', 'under_way'] as const).find((state) => states.includes(state));
+  const worst = (['refused', 'timed_out', 'expired', 'cut_short', 'waiting', 'accepted', 'under_way'] as const).find((state) =>
+    states.includes(state),
+  );
   const { symbol, level } = stateOf(worst ?? 'confirmed', command.action);
   return { text: `${titleOf(command)}: ${summaryOf(command)}`, symbol, level };
 }

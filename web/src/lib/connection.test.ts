@@ -10,7 +10,7 @@ class MemorySocket implements Socket {
   sent: { type: string; id: string }[] = [];
   isClosed = false;
   send(text: string): void {
-    this.sent.push(JSON.parse(text));
+    this.sent.push(JSON.parse(text) as { type: string; id: string });
   }
   close(): void {
     this.isClosed = true;

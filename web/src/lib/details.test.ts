@@ -53,7 +53,10 @@ it('names what the estimator does not believe', () => {
 
 it('shows a fence only when it is breached, and the distance only on a mission', () => {
   expect(rows({ fence: { breached: false, breaches: 1 } })).toEqual([]);
-  expect(rows({ fence: { breached: true, breaches: 1, type: 'boundary' } })[0]).toMatchObject({ value: 'breached: boundary', level: 'critical' });
+  expect(rows({ fence: { breached: true, breaches: 1, type: 'boundary' } })[0]).toMatchObject({
+    value: 'breached: boundary',
+    level: 'critical',
+  });
   expect(rows({ waypoint_distance_m: 50, mission: { current: 1, total: 3, complete: false, state: 'not started' } })).toHaveLength(1);
   expect(rows({ waypoint_distance_m: 50, mission: { current: 1, total: 3, complete: false, state: 'active' } })).toHaveLength(2);
 });
@@ -67,7 +70,15 @@ it('shows the newest texts first, by their severity', () => {
 });
 
 it('names links where there are several, and warns of silent ones', () => {
-  const link = { name: 'udpin://0.0.0.0:14550 from 10.0.0.2:14555', loss: 0.02, messages_per_s: 20, bytes_per_s: 900, round_trip_s: 0.12, alive: true, used: true };
+  const link = {
+    name: 'udpin://0.0.0.0:14550 from 10.0.0.2:14555',
+    loss: 0.02,
+    messages_per_s: 20,
+    bytes_per_s: 900,
+    round_trip_s: 0.12,
+    alive: true,
+    used: true,
+  };
   expect(rows({ links: [link] })).toEqual([{ title: 'Links', label: 'In use', value: '2 % lost, 120 ms, 20 messages/s' }]);
   const radio = { ...link, name: 'serial:///dev/ttyUSB0:57600', alive: false, used: false };
   expect(rows({ links: [link, radio] }).map(({ label, value, level }) => [label, value, level])).toEqual([
@@ -77,7 +88,10 @@ it('names links where there are several, and warns of silent ones', () => {
 });
 
 it('gives every value of a silent vehicle its age: it is the last that is known', () => {
-  const fields: VehicleFields = { gps: { fix: '3D' }, links: [{ name: 'udp', messages_per_s: 0, bytes_per_s: 0, alive: true, used: true }] };
+  const fields: VehicleFields = {
+    gps: { fix: '3D' },
+    links: [{ name: 'udp', messages_per_s: 0, bytes_per_s: 0, alive: true, used: true }],
+  };
   expect(rows(fields, { gps: NOW - 4000 })[0]).not.toHaveProperty('age');
   const [gps, link] = rows({ ...fields, silent: true }, { gps: NOW - 4000 });
   expect(gps).toMatchObject({ value: '3D', age: 4 });

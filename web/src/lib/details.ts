@@ -32,12 +32,20 @@ export function detailsOf(vehicle: Vehicle, now: number, limits: BatteryLimits =
     return [{ label, value, ...(level && { level }), ...(age !== undefined && age >= oldFrom && { age }) }];
   };
   const groups: DetailGroup[] = [
-    { title: 'Cannot arm', rows: (fields.arming_reasons ?? []).flatMap((reason) => row('', 'arming_reasons', withoutPrefix(reason), 'warning')) },
+    {
+      title: 'Cannot arm',
+      rows: (fields.arming_reasons ?? []).flatMap((reason) => row('', 'arming_reasons', withoutPrefix(reason), 'warning')),
+    },
     { title: 'Battery', rows: batteryRows(fields, row, limits) },
     {
       title: 'Position',
       rows: [
-        ...row('GPS', 'gps', gpsText(fields.gps), (fields.gps?.fix ?? '3D') === 'no fix' || fields.gps?.fix === 'no GPS' ? 'warning' : undefined),
+        ...row(
+          'GPS',
+          'gps',
+          gpsText(fields.gps),
+          (fields.gps?.fix ?? '3D') === 'no fix' || fields.gps?.fix === 'no GPS' ? 'warning' : undefined,
+        ),
         ...row('Estimate', 'estimator', estimatorText(fields.estimator), estimatorLevel(fields.estimator)),
         ...row('Sick', 'unhealthy', fields.unhealthy?.length ? fields.unhealthy.join(', ') : undefined, 'warning'),
       ],
@@ -72,7 +80,9 @@ export function detailsOf(vehicle: Vehicle, now: number, limits: BatteryLimits =
       rows: [
         ...row('Gimbal', 'gimbal', gimbalText(fields.gimbal)),
         ...row('Pictures', 'pictures', picturesText(fields.pictures)),
-        ...(fields.components ?? []).flatMap((part) => row(capital(part.kind), `component_${part.id}`, componentText(part), componentLevel(part))),
+        ...(fields.components ?? []).flatMap((part) =>
+          row(capital(part.kind), `component_${part.id}`, componentText(part), componentLevel(part)),
+        ),
       ],
     },
     {
@@ -94,12 +104,22 @@ type Row = (label: string, key: string, value: string | undefined, level?: Detai
 
 /** Where there is but one, its name says nothing that matters here. */
 function linkRows(links: LinkQuality[]): Detail[] {
-  const text = (link: LinkQuality) => (links.length > 1 ? `${link.name.split(' from ')[0]}: ${linkText(link)}` : linkText(link));
-  return links.map((link) => ({ label: link.used ? 'In use' : 'Spare', value: text(link), ...(!link.alive && { level: 'warning' as const }) }));
+  const text = (link: LinkQuality): string => (links.length > 1 ? `${link.name.split(' from ')[0]}: ${linkText(link)}` : linkText(link));
+  return links.map((link) => ({
+    label: link.used ? 'In use' : 'Spare',
+    value: text(link),
+    ...(!link.alive && { level: 'warning' as const }),
+  }));
 }
 
 function batteryRows({ battery, further_batteries }: VehicleFields, row: Row, limits: BatteryLimits): Detail[] {
-  const rows = battery ? [...row('Left', 'battery', timeLeft(battery)), ...row('In flight', 'battery', inFlight(battery)), ...row('Power', 'battery', powerText(battery))] : [];
+  const rows = battery
+    ? [
+        ...row('Left', 'battery', timeLeft(battery)),
+        ...row('In flight', 'battery', inFlight(battery)),
+        ...row('Power', 'battery', powerText(battery)),
+      ]
+    : [];
   for (const other of further_batteries ?? []) {
     const text = [percent(other.remaining), timeLeft(other), powerText(other)].filter(Boolean).join(', ');
     const level = batteryLevel(other.remaining, limits);
@@ -131,7 +151,11 @@ function powerText({ voltage_v, current_a, consumed_ah }: Battery): string | und
 
 function gpsText(gps: VehicleFields['gps']): string | undefined {
   if (!gps) return undefined;
-  const parts = [gps.fix, gps.satellites !== undefined ? `${gps.satellites} satellites` : '', gps.hdop !== undefined ? `HDOP ${gps.hdop.toFixed(1)}` : ''];
+  const parts = [
+    gps.fix,
+    gps.satellites !== undefined ? `${gps.satellites} satellites` : '',
+    gps.hdop !== undefined ? `HDOP ${gps.hdop.toFixed(1)}` : '',
+  ];
   return parts.filter(Boolean).join(', ');
 }
 

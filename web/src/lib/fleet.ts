@@ -11,7 +11,7 @@ export type Fleet = Map<string, Vehicle>;
 
 /** Puts an update into the fleet, replacing the vehicle it changes; a full message also forgets vehicles it does not name. */
 export function mergeUpdates(fleet: Fleet, updates: VehicleUpdate[], full: boolean, now: number): Fleet {
-  const merged: Fleet = full ? new Map() : new Map(fleet);
+  const merged = new Map<string, Vehicle>(full ? [] : fleet);
   for (const { id, age_s, ...fields } of updates) {
     const before = full ? undefined : fleet.get(id);
     const heardAt = { ...before?.heardAt };

@@ -17,7 +17,15 @@ describe('boundsOf', () => {
 });
 
 describe('niceStep', () => {
-  it.each([[0.9, 1], [1, 1], [1.1, 2], [3, 5], [5.1, 10], [0.03, 0.05], [700, 1000]])('%d -> %d', (value, step) => {
+  it.each([
+    [0.9, 1],
+    [1, 1],
+    [1.1, 2],
+    [3, 5],
+    [5.1, 10],
+    [0.03, 0.05],
+    [700, 1000],
+  ])('%d -> %d', (value, step) => {
     expect(niceStep(value)).toBeCloseTo(step, 10);
   });
 });
@@ -75,7 +83,7 @@ describe('placeText', () => {
     expect(placeText({ lat_deg: origin.lat_deg + 0.001, lon_deg: origin.lon_deg }, copter)).toBe('111 m at 000° from copter 1');
     expect(placeText({ lat_deg: origin.lat_deg, lon_deg: origin.lon_deg - 0.001 }, copter)).toBe('91 m at 270° from copter 1');
   });
-  it('says when it is the vehicle\'s own', () => expect(placeText(origin, copter)).toBe('at copter 1'));
+  it("says when it is the vehicle's own", () => expect(placeText(origin, copter)).toBe('at copter 1'));
   it('tells degrees without a vehicle', () => expect(placeText(origin)).toBe('35.36326° S, 149.16524° E'));
 });
 

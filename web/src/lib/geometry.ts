@@ -27,7 +27,12 @@ export function boundsOf(positions: Position[], leastSpan: number): Bounds | und
 
 /** The smallest bounds round both. */
 export function cover(a: Bounds, b: Bounds): Bounds {
-  return { west: Math.min(a.west, b.west), south: Math.min(a.south, b.south), east: Math.max(a.east, b.east), north: Math.max(a.north, b.north) };
+  return {
+    west: Math.min(a.west, b.west),
+    south: Math.min(a.south, b.south),
+    east: Math.max(a.east, b.east),
+    north: Math.max(a.north, b.north),
+  };
 }
 
 export function contains(outer: Bounds, inner: Bounds): boolean {
@@ -48,7 +53,7 @@ export function rowsWithoutOverlap(boxes: Box[]): number[] {
   const order = boxes.map((_, index) => index).sort((a, b) => boxes[a]!.top - boxes[b]!.top || a - b);
   for (const index of order) {
     const box = { ...boxes[index]! };
-    for (let blocked = true; blocked && rows[index]! <= boxes.length; ) {
+    for (let blocked = true; blocked && rows[index]! <= boxes.length;) {
       blocked = placed.some((other) => overlap(box, other));
       if (!blocked) continue;
       rows[index] = rows[index]! + 1;

@@ -35,7 +35,8 @@ describe('parseValue', () => {
     expect(parseValue('-128', 'int8')).toEqual({ value: -128 });
   });
   it('refuses what is no number', () => {
-    for (const text of ['', ' ', 'NaN', 'Infinity', '1,000,5', 'seven', '1e999']) expect(parseValue(text, 'real32'), text).toHaveProperty('problem');
+    for (const text of ['', ' ', 'NaN', 'Infinity', '1,000,5', 'seven', '1e999'])
+      expect(parseValue(text, 'real32'), text).toHaveProperty('problem');
   });
   it('refuses what the type cannot hold', () => {
     expect(parseValue('0.5', 'int32')).toEqual({ problem: 'This parameter is an integer.' });
@@ -54,7 +55,9 @@ describe('texts', () => {
     expect(progressText({ fetching: true, done: 0, total: 0 })).toBe('');
   });
   it('say why a request was refused', () => {
-    expect(problemText(409, { detail: 'copter 1 is commanded by anna', hint: 'ask for it' })).toBe('Copter 1 is commanded by anna. Ask for it.');
+    expect(problemText(409, { detail: 'copter 1 is commanded by anna', hint: 'ask for it' })).toBe(
+      'Copter 1 is commanded by anna. Ask for it.',
+    );
     expect(problemText(undefined, undefined)).toBe('The station did not answer.');
     expect(problemText(500, 'text')).toBe('The station answered with 500.');
   });

@@ -62,7 +62,9 @@ export function valueText({ value }: { value: number | null }): string {
 /** "RTL_ALT is 2000 now, was 1500." */
 export function outcomeText(set: Parameter & { before: number | null }): string {
   const before = valueText({ value: set.before });
-  return before === valueText(set) ? `${set.name} is ${valueText(set)}, as it was.` : `${set.name} is ${valueText(set)} now, was ${before}.`;
+  return before === valueText(set)
+    ? `${set.name} is ${valueText(set)}, as it was.`
+    : `${set.name} is ${valueText(set)} now, was ${before}.`;
 }
 
 /** "312 of 1004", nothing while the total is not known. */

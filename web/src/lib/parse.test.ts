@@ -27,7 +27,17 @@ describe('what the station sends', () => {
     ]);
   });
   it('loses what is no number, too large, or not there', () => {
-    const bad = ['{"remaining":1e999}', '{"remaining":-1.28}', '{"remaining":"0.5"}', '{"remaining":null}', '{}', '[]', 'null', '"full"', '7'];
+    const bad = [
+      '{"remaining":1e999}',
+      '{"remaining":-1.28}',
+      '{"remaining":"0.5"}',
+      '{"remaining":null}',
+      '{}',
+      '[]',
+      'null',
+      '"full"',
+      '7',
+    ];
     for (const battery of bad) {
       const message = parseMessage(`{"type":"vehicles","time_s":1,"full":true,"vehicles":[{"id":"1","battery":${battery}}]}`);
       expect(message, battery).toMatchObject({ vehicles: [{ id: '1' }] });
@@ -35,7 +45,9 @@ describe('what the station sends', () => {
     }
   });
   it('has no vehicle without an id, and none twice', () => {
-    expect(vehicles({ mode: 'AUTO' }, { id: '' }, { id: 3 }, null, [], { id: '1', mode: 'A' }, { id: '1', mode: 'B' })).toEqual([{ id: '1', mode: 'A' }]);
+    expect(vehicles({ mode: 'AUTO' }, { id: '' }, { id: 3 }, null, [], { id: '1', mode: 'A' }, { id: '1', mode: 'B' })).toEqual([
+      { id: '1', mode: 'A' },
+    ]);
   });
   it('has no two entries of one key, which a list on the page could not show', () => {
     const message = parse({
@@ -46,19 +58,26 @@ describe('what the station sends', () => {
   });
   it('cannot reach into objects of the page', () => {
     for (const type of ['constructor', '__proto__', 'toString', 'hasOwnProperty']) expect(parse({ type })).toBeUndefined();
-    const message = parseMessage('{"type":"vehicles","time_s":1,"full":true,"vehicles":[{"id":"1","__proto__":{"armed":true},"age_s":{"__proto__":1}}]}');
+    const message = parseMessage(
+      '{"type":"vehicles","time_s":1,"full":true,"vehicles":[{"id":"1","__proto__":{"armed":true},"age_s":{"__proto__":1}}]}',
+    );
     expect(message).toMatchObject({ vehicles: [{ id: '1' }] });
     expect(message?.type === 'vehicles' && message.vehicles[0]?.armed).toBeUndefined();
   });
   it('may be nested deeply without an end of the page', () => {
-    const deep = (inner: string, depth: number): string => '{"id":1,"kind":"a","label":"","line":1,"state":"running","children":['.repeat(depth) + inner + ']}'.repeat(depth);
+    const deep = (inner: string, depth: number): string =>
+      '{"id":1,"kind":"a","label":"","line":1,"state":"running","children":['.repeat(depth) + inner + ']}'.repeat(depth);
     const message = parseMessage(`{"type":"tasks","trees":[${deep('', 3000)}]}`);
     expect(message?.type).toBe('tasks');
     if (message?.type === 'tasks') expect(runningLines(message.trees)).toEqual(new Set([1]));
-    expect(() => parseMessage(`{"type":"vehicles","time_s":1,"full":true,"vehicles":[{"id":"1","new_key":${'['.repeat(9000)}${']'.repeat(9000)}}]}`)).not.toThrow();
+    expect(() =>
+      parseMessage(`{"type":"vehicles","time_s":1,"full":true,"vehicles":[{"id":"1","new_key":${'['.repeat(9000)}${']'.repeat(9000)}}]}`),
+    ).not.toThrow();
   });
   it('may have keys that this app does not know', () => {
-    expect(vehicles({ id: '1', mood: { good: true, left: 3, note: 'x' } })).toEqual([{ id: '1', mood: { good: true, left: 3, note: 'x' } }]);
+    expect(vehicles({ id: '1', mood: { good: true, left: 3, note: 'x' } })).toEqual([
+      { id: '1', mood: { good: true, left: 3, note: 'x' } },
+    ]);
   });
 });
 
@@ -72,10 +91,57 @@ function lottery(seed: number): () => number {
   };
 }
 
-const ODD = [0, -0, -1, 1, 0.5, 90, 91, -91, 180, 181, 214.7483647, -214.7483648, 2_147_483_647, -2_147_483_648, 4_294_967_295, 1e21, -1e21, 1.7e308, Number.MIN_VALUE, 65_535, 1e-7];
-const WORDS = ['', '1', '2', 'copter', 'AUTO', 'lost', 'ok', 'conflict', 'constructor', '__proto__', 'running', 'confirmed', 'critical', 'x'.repeat(3000), '\u0000\u202e<img src=x>', 'NaN', '2026-13-99'];
+const ODD = [
+  0,
+  -0,
+  -1,
+  1,
+  0.5,
+  90,
+  91,
+  -91,
+  180,
+  181,
+  214.7483647,
+  -214.7483648,
+  2_147_483_647,
+  -2_147_483_648,
+  4_294_967_295,
+  1e21,
+  -1e21,
+  1.7e308,
+  Number.MIN_VALUE,
+  65_535,
+  1e-7,
+];
+const WORDS = [
+  '',
+  '1',
+  '2',
+  'copter',
+  'AUTO',
+  'lost',
+  'ok',
+  'conflict',
+  'constructor',
+  '__proto__',
+  'running',
+  'confirmed',
+  'critical',
+  'x'.repeat(3000),
+  '\u0000\u202e<img src=x>',
+  'NaN',
+  '2026-13-99',
+];
 const SAMPLES: Record<string, unknown>[] = [
-  { type: 'hello', operator: 'operator 1', protocol: 1, version: '1', server_time: '', site: { name: 'a', origin: { lat_deg: 1, lon_deg: 2, alt_m: 3 }, tiles: '' } },
+  {
+    type: 'hello',
+    operator: 'operator 1',
+    protocol: 1,
+    version: '1',
+    server_time: '',
+    site: { name: 'a', origin: { lat_deg: 1, lon_deg: 2, alt_m: 3 }, tiles: '' },
+  },
   {
     type: 'vehicles',
     time_s: 5,
@@ -120,14 +186,58 @@ const SAMPLES: Record<string, unknown>[] = [
       age_s: { heartbeat: 0.1, position: 0.1, component_100: 3 },
     })),
   },
-  { type: 'plan', vehicle: '1', path: [{ lat_deg: 41, lon_deg: -8, alt_m: 1 }, { lat_deg: 42, lon_deg: -8, alt_m: 1 }] },
+  {
+    type: 'plan',
+    vehicle: '1',
+    path: [
+      { lat_deg: 41, lon_deg: -8, alt_m: 1 },
+      { lat_deg: 42, lon_deg: -8, alt_m: 1 },
+    ],
+  },
   { type: 'pictures', vehicle: '1', full: false, pictures: [{ number: 1, lat_deg: 41, lon_deg: -8, alt_m: 1, relative_alt_m: 2 }] },
-  { type: 'tasks', trees: [{ id: 1, kind: 'a', label: 'b', line: 1, state: 'running', children: [{ id: 2, kind: 'c', label: 'd', line: 2, state: 'done' }] }] },
-  { type: 'script', name: 'a', state: 'running', message: '', source: 'x', diagnostics: [{ severity: 'error', file: 'a', line: 1, column: 1, end_line: 1, end_column: 2, message: 'm' }] },
+  {
+    type: 'tasks',
+    trees: [
+      { id: 1, kind: 'a', label: 'b', line: 1, state: 'running', children: [{ id: 2, kind: 'c', label: 'd', line: 2, state: 'done' }] },
+    ],
+  },
+  {
+    type: 'script',
+    name: 'a',
+    state: 'running',
+    message: '',
+    source: 'x',
+    diagnostics: [{ severity: 'error', file: 'a', line: 1, column: 1, end_line: 1, end_column: 2, message: 'm' }],
+  },
   { type: 'log', lines: [{ seq: 1, time: '2026-01-01T00:00:00Z', level: 'info', source: 'a', text: 'b' }] },
-  { type: 'emergency', latched: true, action: 'hold', by: 'x', since: '', vehicles: [{ vehicle: '1', acknowledged: true, confirmed: false, tries: 1, detail: '' }] },
-  { type: 'commands', commands: [{ number: 1, action: 'go_to', by: 'x', asked: '', height_m: 10, place: { lat_deg: 1, lon_deg: 1, alt_m: 1 }, mode: '', vehicles: [{ vehicle: '1', state: 'waiting', reason: '' }] }] },
-  { type: 'alarms', battery: { low: 0.3, critical: 0.1 }, alarms: [{ number: 1, kind: 'silent', severity: 'critical', vehicle: '1', text: 'x', raised: '', age_s: 3 }] },
+  {
+    type: 'emergency',
+    latched: true,
+    action: 'hold',
+    by: 'x',
+    since: '',
+    vehicles: [{ vehicle: '1', acknowledged: true, confirmed: false, tries: 1, detail: '' }],
+  },
+  {
+    type: 'commands',
+    commands: [
+      {
+        number: 1,
+        action: 'go_to',
+        by: 'x',
+        asked: '',
+        height_m: 10,
+        place: { lat_deg: 1, lon_deg: 1, alt_m: 1 },
+        mode: '',
+        vehicles: [{ vehicle: '1', state: 'waiting', reason: '' }],
+      },
+    ],
+  },
+  {
+    type: 'alarms',
+    battery: { low: 0.3, critical: 0.1 },
+    alarms: [{ number: 1, kind: 'silent', severity: 'critical', vehicle: '1', text: 'x', raised: '', age_s: 3 }],
+  },
   { type: 'reply', id: '1', ok: false, error: { message: 'a', hint: 'b' }, diagnostics: [] },
 ];
 
@@ -139,11 +249,24 @@ function spoilt(value: unknown, draw: () => number, share: number): unknown {
     return draw() < share * 2 ? [...entries, ...entries, odd(draw)] : entries;
   }
   if (typeof value !== 'object' || value === null) return value;
-  return Object.fromEntries(Object.entries(value).flatMap(([key, one]) => (draw() < share / 2 ? [] : [[key, key === 'type' ? one : spoilt(one, draw, share)]])));
+  return Object.fromEntries(
+    Object.entries(value).flatMap(([key, one]) => (draw() < share / 2 ? [] : [[key, key === 'type' ? one : spoilt(one, draw, share)]])),
+  );
 }
 function odd(draw: () => number): unknown {
   const from = <T>(choices: T[]): T => choices[Math.floor(draw() * choices.length)]!;
-  return from<() => unknown>([() => from(ODD), () => from(ODD), () => from(WORDS), () => null, () => true, () => [], () => ({}), () => [from(ODD), from(WORDS)], () => ({ lat_deg: from(ODD), lon_deg: from(ODD) }), () => from(SAMPLES)])();
+  return from<() => unknown>([
+    () => from(ODD),
+    () => from(ODD),
+    () => from(WORDS),
+    () => null,
+    () => true,
+    () => [],
+    () => ({}),
+    () => [from(ODD), from(WORDS)],
+    () => ({ lat_deg: from(ODD), lon_deg: from(ODD) }),
+    () => from(SAMPLES),
+  ])();
 }
 
 /** Everything that the page computes from what it knows; throws where the page would. */
@@ -157,7 +280,8 @@ class Page {
     switch (message.type) {
       case 'vehicles':
         this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, 1000);
-        for (const { id, fields } of this.fleet.values()) if (fields.position) this.trails.set(id, extendTrail(this.trails.get(id) ?? [], fields.position));
+        for (const { id, fields } of this.fleet.values())
+          if (fields.position) this.trails.set(id, extendTrail(this.trails.get(id) ?? [], fields.position));
         break;
       case 'plan':
         this.plans.set(message.vehicle, message.path);
@@ -176,7 +300,8 @@ class Page {
         stopSummary(message);
         break;
       case 'commands':
-        for (const command of message.commands) [titleOf(command), summaryOf(command), command.vehicles.map(({ state }) => stateOf(state, command.action).word)];
+        for (const command of message.commands)
+          void [titleOf(command), summaryOf(command), command.vehicles.map(({ state }) => stateOf(state, command.action).word)];
         break;
       case 'alarms':
         groupAlarms(knownAlarms(message.alarms, 1000), (id) => id);
@@ -200,7 +325,11 @@ class Page {
     commandedByOthers(all, 'operator 1');
     requestsTo(all, 'operator 1');
     commonModes(all);
-    const features = [pathFeatures(this.plans, () => 'red'), pathFeatures(this.trails, () => 'red'), pointFeatures(this.pictures, () => 'red')];
+    const features = [
+      pathFeatures(this.plans, () => 'red'),
+      pathFeatures(this.trails, () => 'red'),
+      pointFeatures(this.pictures, () => 'red'),
+    ];
     const places = all.flatMap(({ fields }) => fields.position ?? []);
     const bounds = boundsOf(places, 60);
     if (bounds) shown.push(...Object.values(bounds).map(String), String(gridLines(bounds, places[0], 12).length));
@@ -230,7 +359,10 @@ it('never breaks the page, nor shows what is no number, whatever the station sen
     const told = () => `turn ${turn}: ${data.slice(0, 2000)}`;
     try {
       page.receive(message);
-      if (turn % 10 === 0) for (const text of page.show()) if (/NaN|Infinity|undefined|\[object/.test(text.replace('x'.repeat(3000), '')) && !WORDS.includes(text)) throw new Error(`shows ${text.slice(0, 300)}`);
+      if (turn % 10 === 0)
+        for (const text of page.show())
+          if (/NaN|Infinity|undefined|\[object/.test(text.replace('x'.repeat(3000), '')) && !WORDS.includes(text))
+            throw new Error(`shows ${text.slice(0, 300)}`);
     } catch (error) {
       throw new Error(`${String(error)} at ${told()}`, { cause: error });
     }

@@ -38,11 +38,13 @@ const DEEPEST = 60;
 const flag: Parse<boolean> = (value) => (typeof value === 'boolean' ? value : undefined);
 const textUpTo =
   (limit: number): Parse<string> =>
-  (value) => (typeof value === 'string' ? value.slice(0, limit) : undefined);
+  (value) =>
+    typeof value === 'string' ? value.slice(0, limit) : undefined;
 const text = textUpTo(LONGEST_TEXT);
 const number =
   (low: number, high: number): Parse<number> =>
-  (value) => (typeof value === 'number' && value >= low && value <= high ? value : undefined);
+  (value) =>
+    typeof value === 'number' && value >= low && value <= high ? value : undefined;
 const count = number(0, Number.MAX_SAFE_INTEGER);
 const share = number(0, 1);
 const seconds = number(0, 1e9);
@@ -80,7 +82,11 @@ function plain(value: unknown, depth = 0): unknown {
   if (typeof value === 'number') return Number.isFinite(value) ? value : undefined;
   if (typeof value === 'boolean') return value;
   if (depth >= DEEPEST) return undefined;
-  if (Array.isArray(value)) return value.slice(0, LONGEST_LIST).map((one) => plain(one, depth + 1)).filter((one) => one !== undefined);
+  if (Array.isArray(value))
+    return value
+      .slice(0, LONGEST_LIST)
+      .map((one) => plain(one, depth + 1))
+      .filter((one) => one !== undefined);
   if (!isObject(value)) return undefined;
   const entries = Object.entries(value).map(([key, one]): [string, unknown] => [key, plain(one, depth + 1)]);
   return Object.fromEntries(entries.filter(([key, one]) => key !== '__proto__' && one !== undefined));
@@ -157,10 +163,11 @@ const FIELDS: Shape<VehicleFields> = {
   unhealthy: list(text, (name) => name),
   arming_reasons: list(text, (reason) => reason),
   remote_control: object({ lost: flag, channels: count, rssi: share, pulses_us: list(number(0, 65_535)) }, ['lost', 'channels']),
-  radio: object(
-    { rssi: ratio, remote_rssi: ratio, noise: ratio, remote_noise: ratio, buffer_free: share, receive_errors: count },
-    ['noise', 'remote_noise', 'buffer_free'],
-  ),
+  radio: object({ rssi: ratio, remote_rssi: ratio, noise: ratio, remote_noise: ratio, buffer_free: share, receive_errors: count }, [
+    'noise',
+    'remote_noise',
+    'buffer_free',
+  ]),
   hud: object({ airspeed_m_s: speed, climb_m_s: speed, throttle: number(-1, 2) }, ['airspeed_m_s', 'climb_m_s', 'throttle']),
   wind: object({ from_rad: angle, speed_m_s: number(0, 1000) }, ['from_rad', 'speed_m_s']),
   fence: object({ breached: flag, breaches: count, type: text }, ['breached']),
@@ -168,7 +175,11 @@ const FIELDS: Shape<VehicleFields> = {
   home: position,
   mission: object({ current: count, total: count, complete: flag, state: text }, ['current', 'total', 'complete']),
   waypoint_distance_m: number(0, 1e8),
-  gimbal: object({ roll_rad: angle, pitch_rad: angle, yaw_rad: angle, yaw_is_from_north: flag }, ['pitch_rad', 'yaw_rad', 'yaw_is_from_north']),
+  gimbal: object({ roll_rad: angle, pitch_rad: angle, yaw_rad: angle, yaw_is_from_north: flag }, [
+    'pitch_rad',
+    'yaw_rad',
+    'yaw_is_from_north',
+  ]),
   components: list(component, ({ id }) => id),
   pictures: object({ taken: count, lost: count }, ['taken', 'lost']),
   texts: list(said),
@@ -212,7 +223,13 @@ function task(value: unknown, depth = 0): Task | undefined {
       state: word(['waiting', 'running', 'done', 'failed', 'stopped'], 'waiting'),
       vehicle: text,
       detail: text,
-      children: depth < DEEPEST ? list((child) => task(child, depth + 1), ({ id }) => id) : () => undefined,
+      children:
+        depth < DEEPEST
+          ? list(
+              (child) => task(child, depth + 1),
+              ({ id }) => id,
+            )
+          : () => undefined,
     },
     ['id', 'kind', 'state'],
   );
@@ -240,12 +257,18 @@ function diagnostic(value: unknown, depth = 0): Diagnostic | undefined {
 }
 const diagnostics = list((one) => diagnostic(one));
 
-const logLine = object<LogLine>(
-  { seq: count, time: text, level: word(['debug', 'info', 'warn', 'error'], 'info'), source: text, text },
-  ['seq', 'time', 'level', 'source', 'text'],
-);
+const logLine = object<LogLine>({ seq: count, time: text, level: word(['debug', 'info', 'warn', 'error'], 'info'), source: text, text }, [
+  'seq',
+  'time',
+  'level',
+  'source',
+  'text',
+]);
 
-const outcome = object<Command['vehicles'][number]>({ vehicle: text, state: text as Parse<never>, reason: text, left_m: metres }, ['vehicle', 'state']);
+const outcome = object<Command['vehicles'][number]>({ vehicle: text, state: text as Parse<never>, reason: text, left_m: metres }, [
+  'vehicle',
+  'state',
+]);
 const command = object<Command>(
   {
     number: count,
@@ -266,10 +289,13 @@ const EMERGENCY: Shape<Emergency> = {
   by: text,
   since: text,
   vehicles: list(
-    object<Emergency['vehicles'][number]>(
-      { vehicle: text, acknowledged: flag, confirmed: flag, tries: count, detail: text },
-      ['vehicle', 'acknowledged', 'confirmed', 'tries', 'detail'],
-    ),
+    object<Emergency['vehicles'][number]>({ vehicle: text, acknowledged: flag, confirmed: flag, tries: count, detail: text }, [
+      'vehicle',
+      'acknowledged',
+      'confirmed',
+      'tries',
+      'detail',
+    ]),
     ({ vehicle }) => vehicle,
   ),
 };
@@ -311,7 +337,7 @@ const REPLY: Shape<Reply> = {
   type: word(['reply']),
   id: text,
   ok: flag,
-  error: object({ message: text, hint: text }, []) as Parse<{ message: string; hint: string }>,
+  error: object({ message: text, hint: text }, []),
   diagnostics,
 };
 
@@ -324,15 +350,18 @@ export function parseScripts(body: unknown): string[] {
 
 type Typed<T extends ServerMessage['type']> = Extract<ServerMessage, { type: T }>;
 /** By `type`; an object without a prototype, so that no word of the station finds anything else. */
-const MESSAGES: { [T in ServerMessage['type']]: Parse<Typed<T>> } = Object.assign(Object.create(null), {
+const MESSAGES: { [T in ServerMessage['type']]: Parse<Typed<T>> } = Object.assign(Object.create(null) as object, {
   hello: object<Typed<'hello'>>(HELLO, []),
-  vehicles: object<Typed<'vehicles'>>({ type: word(['vehicles']), time_s: seconds, full: flag, vehicles: list(vehicleUpdate, ({ id }) => id) }, [
-    'time_s',
-    'full',
-    'vehicles',
-  ]),
+  vehicles: object<Typed<'vehicles'>>(
+    { type: word(['vehicles']), time_s: seconds, full: flag, vehicles: list(vehicleUpdate, ({ id }) => id) },
+    ['time_s', 'full', 'vehicles'],
+  ),
   plan: object<Typed<'plan'>>({ type: word(['plan']), vehicle: text, path: positions }, ['vehicle', 'path']),
-  pictures: object<Typed<'pictures'>>({ type: word(['pictures']), vehicle: text, full: flag, pictures: list(picture) }, ['vehicle', 'full', 'pictures']),
+  pictures: object<Typed<'pictures'>>({ type: word(['pictures']), vehicle: text, full: flag, pictures: list(picture) }, [
+    'vehicle',
+    'full',
+    'pictures',
+  ]),
   tasks: object<Typed<'tasks'>>({ type: word(['tasks']), trees: list((tree) => task(tree)) }, ['trees']),
   script: object<Typed<'script'>>({ type: word(['script']), ...SCRIPT }, ['name', 'state', 'message', 'source', 'diagnostics']),
   log: object<Typed<'log'>>({ type: word(['log']), lines: list(logLine, ({ seq }) => seq) }, ['lines']),

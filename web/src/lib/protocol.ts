@@ -151,17 +151,7 @@ export interface LogLine {
 }
 
 export type Action =
-  | 'arm'
-  | 'disarm'
-  | 'take_off'
-  | 'land'
-  | 'rtl'
-  | 'hold'
-  | 'go_to'
-  | 'set_mode'
-  | 'start_mission'
-  | 'pause_mission'
-  | 'resume_mission';
+  'arm' | 'disarm' | 'take_off' | 'land' | 'rtl' | 'hold' | 'go_to' | 'set_mode' | 'start_mission' | 'pause_mission' | 'resume_mission';
 
 /** What a command needs beside its action and its vehicles. */
 export interface CommandDetails {
@@ -171,7 +161,8 @@ export interface CommandDetails {
   mode?: string;
 }
 
-export type CommandState = 'waiting' | 'accepted' | 'under_way' | 'confirmed' | 'refused' | 'timed_out' | 'expired' | 'superseded' | 'cut_short';
+export type CommandState =
+  'waiting' | 'accepted' | 'under_way' | 'confirmed' | 'refused' | 'timed_out' | 'expired' | 'superseded' | 'cut_short';
 
 export interface Command {
   number: number;

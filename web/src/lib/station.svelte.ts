@@ -89,7 +89,8 @@ class Station {
     });
     setInterval(() => this.tick(), CLOCK_MS);
     if (settings.sound) this.wakeSound();
-    for (const event of ['pointerdown', 'keydown']) addEventListener(event, () => settings.sound && this.wakeSound(), { capture: true, passive: true });
+    for (const event of ['pointerdown', 'keydown'])
+      addEventListener(event, () => settings.sound && this.wakeSound(), { capture: true, passive: true });
     this.connection.connect();
   }
 
@@ -200,7 +201,11 @@ class Station {
   async open(name: string): Promise<string | undefined> {
     const answer = await this.ask(`/api/v1/scripts/text?name=${encodeURIComponent(name)}`);
     if (answer?.ok) return ((await answer.json()) as { source: string }).source;
-    this.refusal = { message: `${name} cannot be opened.`, hint: answer ? 'It may have been removed.' : 'The station did not answer.', diagnostics: [] };
+    this.refusal = {
+      message: `${name} cannot be opened.`,
+      hint: answer ? 'It may have been removed.' : 'The station did not answer.',
+      diagnostics: [],
+    };
     this.alert = this.refusal.message;
     return undefined;
   }

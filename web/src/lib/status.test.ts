@@ -31,6 +31,12 @@ it('trusts nothing when the station is lost', () => {
 });
 
 it('has a symbol of its own for each level', () => {
-  const levels = [status({}), status({ armed: true }), status({ battery: { remaining: 0.2 } }), status({ connection: 'conflict' }), status({}, true)];
+  const levels = [
+    status({}),
+    status({ armed: true }),
+    status({ battery: { remaining: 0.2 } }),
+    status({ connection: 'conflict' }),
+    status({}, true),
+  ];
   expect(new Set(levels.map((s) => s.symbol)).size).toBe(5);
 });

@@ -2,7 +2,14 @@ import { expect, it } from 'vitest';
 import type { Task, TaskState } from './protocol';
 import { progressOf, runningLines } from './tasks';
 
-const task = (state: TaskState, line: number, children: Task[] = []): Task => ({ id: line, kind: 'mission', label: '', line, state, children });
+const task = (state: TaskState, line: number, children: Task[] = []): Task => ({
+  id: line,
+  kind: 'mission',
+  label: '',
+  line,
+  state,
+  children,
+});
 
 it('finds the lines of the deepest running tasks', () => {
   const tree = task('running', 1, [task('running', 2, [task('done', 3), task('running', 4)]), task('running', 5), task('waiting', 6)]);

@@ -1,7 +1,12 @@
 import { describe, expect, it } from 'vitest';
 import { VehicleParameters } from './parameters.svelte';
 
-const LIST = { vehicle: '1', confirmed: 'vehicle', taken: '2026-05-01T12:00:00Z', parameters: [{ name: 'RTL_ALT', value: 1500, type: 'int32' }] };
+const LIST = {
+  vehicle: '1',
+  confirmed: 'vehicle',
+  taken: '2026-05-01T12:00:00Z',
+  parameters: [{ name: 'RTL_ALT', value: 1500, type: 'int32' }],
+};
 
 /** A station that answers each request when it is told to. */
 function slowStation(): { asked: string[]; answer: (response: Response | undefined) => Promise<void>; parameters: VehicleParameters } {

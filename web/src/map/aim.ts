@@ -33,7 +33,10 @@ export function aimMarker(map: MapLibreMap, start: LonLat, events: AimEvents): M
   element.tabIndex = 0;
   // Screen readers are to pass the arrow keys on.
   element.setAttribute('role', 'application');
-  element.setAttribute('aria-label', 'The place to go to. Arrow keys move it, with Shift further; plus and minus zoom; Enter chooses it, Escape leaves.');
+  element.setAttribute(
+    'aria-label',
+    'The place to go to. Arrow keys move it, with Shift further; plus and minus zoom; Enter chooses it, Escape leaves.',
+  );
   const label = document.createElement('span');
   label.className = 'label';
   label.setAttribute('role', 'status');
@@ -67,6 +70,9 @@ function bringIntoSight(map: MapLibreMap, place: LngLat, covered: Sides): void {
   const { x, y } = map.project(place);
   const { clientWidth, clientHeight } = map.getContainer();
   const beyond = (at: number, low: number, high: number): number => Math.min(0, at - low - MARGIN_PX) + Math.max(0, at - high + MARGIN_PX);
-  const by: [number, number] = [beyond(x, covered.left, clientWidth - covered.right), beyond(y, covered.top, clientHeight - covered.bottom)];
+  const by: [number, number] = [
+    beyond(x, covered.left, clientWidth - covered.right),
+    beyond(y, covered.top, clientHeight - covered.bottom),
+  ];
   if (by[0] !== 0 || by[1] !== 0) map.panBy(by, { animate: false });
 }

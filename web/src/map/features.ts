@@ -21,7 +21,11 @@ export function pathFeatures(paths: Map<string, Position[]>, colourOf: (id: stri
 /** One dot a place, coloured as its vehicle is. */
 export function pointFeatures(places: Map<string, Position[]>, colourOf: (id: string) => string): FeatureCollection {
   const features = [...places].flatMap(([id, points]) =>
-    points.map((point): Feature => ({ type: 'Feature', properties: { colour: colourOf(id) }, geometry: { type: 'Point', coordinates: lonLat(point) } })),
+    points.map((point): Feature => ({
+      type: 'Feature',
+      properties: { colour: colourOf(id) },
+      geometry: { type: 'Point', coordinates: lonLat(point) },
+    })),
   );
   return { type: 'FeatureCollection', features };
 }
