@@ -2,5 +2,6 @@ import 'maplibre-gl/dist/maplibre-gl.css';
 import './app.css';
 import { mount } from 'svelte';
 import App from './App.svelte';
+import { browserStores, contextOf } from './stores/stores';
 
-mount(App, { target: document.getElementById('app')! });
+mount(App, { target: document.getElementById('app')!, context: contextOf(browserStores()) });

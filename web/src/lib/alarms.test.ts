@@ -57,7 +57,12 @@ describe('alarms', () => {
 describe('the announcer', () => {
   const heard = (sound: boolean, voice: boolean) => {
     const sounds: string[] = [];
-    const voices = { beep: (severity: Severity) => sounds.push(severity), speak: (text: string) => sounds.push(text) };
+    const voices = {
+      beep: (severity: Severity) => sounds.push(severity),
+      speak: (text: string) => sounds.push(text),
+      wake: () => {},
+      isMuted: false,
+    };
     return { sounds, announcer: new Announcer(voices, () => ({ sound, voice })) };
   };
   it('says nothing unless it is asked to', () => {

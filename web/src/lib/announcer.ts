@@ -4,6 +4,10 @@ import type { Severity } from './protocol';
 export interface Voices {
   beep(severity: Severity): void;
   speak(text: string): void;
+  /** Makes ready to sound; from within a click or a key it takes effect. */
+  wake(): void;
+  /** Whether a sound would not be heard now. */
+  readonly isMuted: boolean;
 }
 
 /** How often what is critical sounds again until somebody has acknowledged it. */
@@ -53,7 +57,6 @@ export class BrowserVoices implements Voices {
     return this.context?.state === 'suspended';
   }
 
-  /** Makes ready to sound; from within a click or a key it takes effect. */
   wake(): void {
     if (typeof AudioContext === 'undefined') return;
     this.context ??= new AudioContext();

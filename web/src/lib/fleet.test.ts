@@ -1,8 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { addPictures, ageOf, compareIds, extendTrail, groundSpeed, mergeUpdates, TRAIL_LIMIT, type Vehicle } from './fleet';
-import type { Position } from './protocol';
-
-const at = (lat_deg: number, lon_deg: number): Position => ({ lat_deg, lon_deg, alt_m: 0 });
+import { addPictures, ageOf, compareIds, groundSpeed, mergeUpdates, type Vehicle } from './fleet';
 
 describe('mergeUpdates', () => {
   const first = mergeUpdates(new Map(), [{ id: '1', mode: 'AUTO', armed: true, age_s: { mode: 0.5, armed: 0 } }], true, 10_000);
@@ -51,23 +48,6 @@ describe('groundSpeed', () => {
     expect(groundSpeed({ id: '1', fields: { velocity_m_s: { north: 3, east: 4, down: 9 } }, heardAt: {} })).toBe(5);
   });
   it('is unknown without a velocity', () => expect(groundSpeed({ id: '1', fields: {}, heardAt: {} })).toBeUndefined());
-});
-
-describe('extendTrail', () => {
-  it('adds a point a step away', () => {
-    const trail = extendTrail([at(0, 0)], at(0, 0.0001));
-    expect(trail).toHaveLength(2);
-  });
-  it('skips a point that is too near', () => {
-    const trail = [at(60, 0)];
-    expect(extendTrail(trail, at(60, 0.00001))).toBe(trail);
-  });
-  it('drops the oldest points', () => {
-    let trail: Position[] = [];
-    for (let i = 0; i < TRAIL_LIMIT + 5; ++i) trail = extendTrail(trail, at(i * 0.001, 0));
-    expect(trail).toHaveLength(TRAIL_LIMIT);
-    expect(trail[0]?.lat_deg).toBeCloseTo(0.005);
-  });
 });
 
 it('adds pictures behind those that it has, each once', () => {

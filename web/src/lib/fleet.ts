@@ -1,4 +1,4 @@
-import type { Picture, Position, VehicleFields, VehicleUpdate } from './protocol';
+import type { Picture, VehicleFields, VehicleUpdate } from './protocol';
 
 /** One vehicle as this browser knows it. `heardAt` is in ms of this browser's own clock, so ages need no common one. */
 export interface Vehicle {
@@ -18,7 +18,9 @@ export function mergeUpdates(fleet: Fleet, updates: VehicleUpdate[], full: boole
     for (const [key, age] of Object.entries(age_s ?? {})) heardAt[key] = now - age * 1000;
     merged.set(id, { id, fields: { ...before?.fields, ...fields }, heardAt });
   }
-  return new Map([...merged].sort(([a], [b]) => compareIds(a, b)));
+  // Once in order, a fleet to which nobody is added stays so.
+  const isInOrder = !full && merged.size === fleet.size;
+  return isInOrder ? merged : new Map([...merged].sort(([a], [b]) => compareIds(a, b)));
 }
 
 /** Numbers before and among each other as numbers, then text. */
@@ -42,17 +44,6 @@ export function groundSpeed(vehicle: Vehicle): number | undefined {
   return velocity && Math.hypot(velocity.north, velocity.east);
 }
 
-export const TRAIL_LIMIT = 1500;
-const TRAIL_STEP_M = 0.7;
-const METRES_PER_DEGREE = 111_320;
-
-/** The trail with `position` at its end when that is a step away from the last point. The oldest points go first. */
-export function extendTrail(trail: Position[], position: Position): Position[] {
-  const last = trail.at(-1);
-  if (last && roughDistance(last, position) < TRAIL_STEP_M) return trail;
-  return [...trail.slice(Math.max(0, trail.length + 1 - TRAIL_LIMIT)), position];
-}
-
 export const PICTURE_LIMIT = 2000;
 
 /** The pictures with those of a message behind them, the oldest going first; a full message forgets those before. */
@@ -61,10 +52,4 @@ export function addPictures(known: Map<string, Picture[]>, vehicle: string, fres
   const newest = before.at(-1)?.number ?? 0;
   const all = [...before, ...fresh.filter(({ number }) => number > newest)];
   return new Map(known).set(vehicle, all.slice(-PICTURE_LIMIT));
-}
-
-function roughDistance(a: Position, b: Position): number {
-  const north = (b.lat_deg - a.lat_deg) * METRES_PER_DEGREE;
-  const east = (b.lon_deg - a.lon_deg) * METRES_PER_DEGREE * Math.cos((a.lat_deg * Math.PI) / 180);
-  return Math.hypot(north, east);
 }

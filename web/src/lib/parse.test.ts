@@ -1,9 +1,10 @@
 import { describe, expect, it } from 'vitest';
-import { pathFeatures, pointFeatures } from '../map/features';
+import { TrailPieces } from '../layers/trail_pieces';
+import { featuresOf, lonLat, pathFeatures } from '../layers/features';
 import { groupAlarms, knownAlarms } from './alarms';
 import { commandedByOthers, commonModes, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
 import { detailsOf } from './details';
-import { addPictures, ageOf, extendTrail, groundSpeed, mergeUpdates, type Fleet } from './fleet';
+import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from './fleet';
 import { clock, linkSummary, linkTitle, metres } from './format';
 import { boundsOf, gridLines } from './geometry';
 import { appendLines, atLeast } from './log';
@@ -11,6 +12,7 @@ import { parseMessage, parseScripts } from './parse';
 import type { Position, ServerMessage } from './protocol';
 import { statusOf } from './status';
 import { progressOf, runningLines } from './tasks';
+import { Trails } from './trails';
 
 const parse = (value: unknown): ServerMessage | undefined => parseMessage(JSON.stringify(value));
 const vehicles = (...updates: unknown[]) => {
@@ -272,7 +274,7 @@ function odd(draw: () => number): unknown {
 /** Everything that the page computes from what it knows; throws where the page would. */
 class Page {
   fleet: Fleet = new Map();
-  trails = new Map<string, Position[]>();
+  trails = new Trails();
   plans = new Map<string, Position[]>();
   pictures: ReturnType<typeof addPictures> = new Map();
 
@@ -280,8 +282,7 @@ class Page {
     switch (message.type) {
       case 'vehicles':
         this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, 1000);
-        for (const { id, fields } of this.fleet.values())
-          if (fields.position) this.trails.set(id, extendTrail(this.trails.get(id) ?? [], fields.position));
+        this.trails.grow(this.fleet.values());
         break;
       case 'plan':
         this.plans.set(message.vehicle, message.path);
@@ -327,8 +328,8 @@ class Page {
     commonModes(all);
     const features = [
       pathFeatures(this.plans, () => 'red'),
-      pathFeatures(this.trails, () => 'red'),
-      pointFeatures(this.pictures, () => 'red'),
+      new TrailPieces().settle([...this.trails.entries()], () => 'red', true),
+      featuresOf([...this.pictures.values()].flat().map((place) => ({ properties: {}, point: lonLat(place) }))),
     ];
     const places = all.flatMap(({ fields }) => fields.position ?? []);
     const bounds = boundsOf(places, 60);

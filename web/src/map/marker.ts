@@ -29,6 +29,11 @@ export class VehicleMarker {
   private readonly detail = document.createElement('span');
   private readonly labelName = document.createElement('span');
   private family: Family | undefined;
+  /** What it was last told to look like. */
+  private look = '';
+  private isSelected = false;
+  private size: { width: number; height: number; window: number } | undefined;
+  private margin = '';
   private from: LonLat | undefined;
   private to: LonLat | undefined;
   private glideStart = 0;
@@ -58,16 +63,28 @@ export class VehicleMarker {
   }
 
   show(state: MarkerState, glides: boolean): void {
+    const look = JSON.stringify({ ...state, at: undefined });
+    // To write the same again would cost the page a new layout.
+    if (look !== this.look) this.dress(state);
+    this.look = look;
+    this.moveTo(state.at, glides);
+  }
+
+  private dress(state: MarkerState): void {
     this.button.className = `vehicle ${state.status.level} ${state.isSelected ? 'selected' : ''} maplibregl-marker`;
     this.button.setAttribute('aria-label', `${state.name}, ${FAMILY_WORDS[state.family]}, ${state.status.word}`);
     this.button.setAttribute('aria-pressed', String(state.isSelected));
     this.button.style.setProperty('--identity', state.colour);
     if (this.family !== state.family) this.shape.setAttribute('d', SHAPES[(this.family = state.family)]);
     this.svg.style.transform = `rotate(${state.headingRad ?? 0}rad)`;
-    this.badge.textContent = state.status.level === 'active' || state.status.level === 'ready' ? '' : state.status.symbol;
+    const badge = state.status.level === 'active' || state.status.level === 'ready' ? '' : state.status.symbol;
+    if (this.badge.textContent !== badge) this.badge.textContent = badge;
+    const hasNewWords = this.labelName.textContent !== state.name || this.detail.textContent !== state.detail;
+    if (!hasNewWords && this.isSelected === state.isSelected) return;
+    this.isSelected = state.isSelected; // on a phone it has a longer label
     this.labelName.textContent = state.name;
     this.detail.textContent = state.detail;
-    this.moveTo(state.at, glides);
+    this.size = undefined;
   }
 
   /** Where it stands, or glides to; nothing before it was shown. */
@@ -77,12 +94,15 @@ export class VehicleMarker {
 
   /** Size of the label on the screen in px. */
   labelSize(): { width: number; height: number } {
-    return { width: this.label.offsetWidth, height: this.label.offsetHeight };
+    const window = this.map.getCanvas().width; // a narrow one has shorter labels
+    if (this.size?.window !== window) this.size = { width: this.label.offsetWidth, height: this.label.offsetHeight, window };
+    return this.size;
   }
 
   /** Moves the label down by so many of its heights, where another vehicle's would cover it. */
   lowerLabel(rows: number): void {
-    this.label.style.marginTop = rows > 0 ? `${rows * this.label.offsetHeight}px` : '';
+    const margin = rows > 0 ? `${rows * this.labelSize().height}px` : '';
+    if (margin !== this.margin) this.label.style.marginTop = this.margin = margin;
   }
 
   remove(): void {

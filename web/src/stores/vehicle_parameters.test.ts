@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { VehicleParameters } from './parameters.svelte';
+import { VehicleParameters } from './vehicle_parameters.svelte';
 
 const LIST = {
   vehicle: '1',

@@ -1,4 +1,4 @@
-import { outcomeText, problemText, type Parameter, type ParameterList, type Progress } from './parameters';
+import { outcomeText, problemText, type Parameter, type ParameterList, type Progress } from '../lib/parameters';
 
 const POLL_MS = 400;
 

@@ -6,7 +6,7 @@ const SOUND = 'lapwing.sound';
 const VOICE = 'lapwing.voice';
 
 /** What this browser's user prefers, kept in it. */
-class Settings {
+export class Settings {
   theme = $state<Theme>(read(THEME) === 'light' ? 'light' : read(THEME) === 'dark' ? 'dark' : 'system');
   /** An XYZ tile address with {z}, {x} and {y}; empty: the plain grid alone. */
   tiles = $state(read(TILES));
@@ -61,5 +61,3 @@ function write(key: string, value: string): void {
     // the setting lasts as long as the page
   }
 }
-
-export const settings = new Settings();

@@ -1,0 +1,29 @@
+import { pathFeatures } from './features';
+import { COLOUR, EMPTY, type MakeLayer } from './layer';
+
+/** Where each vehicle is to go by its mission. */
+export const plans: MakeLayer = ({ layers: content }) => ({
+  id: 'plans',
+  legend: [{ sign: 'dashes', text: 'the path that a mission plans' }],
+  sources: { plans: EMPTY },
+  layers: () => [
+    {
+      id: 'plans',
+      type: 'line',
+      source: 'plans',
+      filter: ['==', ['geometry-type'], 'LineString'],
+      layout: { 'line-join': 'round' },
+      paint: { 'line-color': COLOUR, 'line-width': 1.6, 'line-dasharray': [3, 2.5], 'line-opacity': 0.75 },
+    },
+    {
+      id: 'plan-points',
+      type: 'circle',
+      source: 'plans',
+      minzoom: 15,
+      paint: { 'circle-radius': 2.4, 'circle-color': COLOUR, 'circle-opacity': 0.85 },
+    },
+  ],
+  update({ generation, colourOf, source }) {
+    if (generation > 0) source('plans')?.setData(pathFeatures(content.plans, colourOf));
+  },
+});

@@ -1,0 +1,70 @@
+import { getContext } from 'svelte';
+import type { Socket } from '../lib/connection';
+import { BrowserVoices, type Voices } from '../lib/announcer';
+import { rememberToken, socketUrl, takeToken } from '../lib/token';
+import { AlarmsStore } from './alarms.svelte';
+import { ControlStore } from './control.svelte';
+import { FleetStore } from './fleet.svelte';
+import { LayersStore } from './layers.svelte';
+import { LogStore } from './log.svelte';
+import { ScriptsStore } from './scripts.svelte';
+import { Session, type Network } from './session.svelte';
+import { Settings } from './settings.svelte';
+
+/** The station as the app sees it, each part of it in a store that alone writes it. */
+export interface Stores {
+  session: Session;
+  fleet: FleetStore;
+  layers: LayersStore;
+  scripts: ScriptsStore;
+  control: ControlStore;
+  log: LogStore;
+  alarms: AlarmsStore;
+  settings: Settings;
+}
+
+/** As components have them: to read, and to ask for something by calling a method. */
+export type StoresToRead = { readonly [Name in keyof Stores]: Readonly<Stores[Name]> };
+
+const KEY = 'stores';
+
+export function createStores(network: Network, voices: Voices): Stores {
+  const settings = new Settings();
+  const session = new Session(network);
+  const fleet = new FleetStore(session);
+  const layers = new LayersStore(session, fleet);
+  const control = new ControlStore(session);
+  const scripts = new ScriptsStore(session, control);
+  const log = new LogStore(session);
+  const alarms = new AlarmsStore(session, fleet, settings, voices);
+  // Who reads another store hears after it.
+  session.begin([fleet, layers, control, scripts, log, alarms]);
+  return { session, fleet, layers, scripts, control, log, alarms, settings };
+}
+
+/** The stores of this page, over its own station. */
+export function browserStores(): Stores {
+  const stores = createStores(browserNetwork(), new BrowserVoices());
+  // A browser sounds only once somebody has touched the page.
+  for (const event of ['pointerdown', 'keydown'])
+    addEventListener(event, () => stores.alarms.wakeSound(), { capture: true, passive: true });
+  return stores;
+}
+
+function browserNetwork(): Network {
+  return {
+    open: (token) => new WebSocket(socketUrl(location, token)) as Socket,
+    fetch: (address, init) => fetch(address, init),
+    token: takeToken(location, sessionStorage, history),
+    keepToken: (token) => rememberToken(token, sessionStorage),
+  };
+}
+
+/** For `mount`, and for `render` of tests. */
+export function contextOf(stores: Stores): Map<string, Stores> {
+  return new Map([[KEY, stores]]);
+}
+
+export function useStores(): StoresToRead {
+  return getContext<StoresToRead>(KEY);
+}
