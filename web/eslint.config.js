@@ -52,12 +52,12 @@ export default typescript.config(
   },
   {
     files: ['**/*.test.ts', 'e2e/**'],
-    rules: { 'max-lines': 'off', 'max-lines-per-function': 'off', '@typescript-eslint/explicit-function-return-type': 'off' },
+    rules: { 'max-lines-per-function': 'off', '@typescript-eslint/explicit-function-return-type': 'off' },
   },
   {
     files: ['e2e/**', '*.config.*'],
     languageOptions: { globals: { ...globals.node, ...globals.browser } },
-    rules: { 'no-console': 'off' },
+    rules: { 'no-console': 'off', 'no-empty-pattern': ['error', { allowObjectPatternsAsParameters: true }] },
   },
   prettier,
   svelte.configs.prettier,

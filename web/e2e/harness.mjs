@@ -1,10 +1,9 @@
-// Starts a station to test against and a browser to test with.
+// Starts a station to test against and a browser to look at it with.
 import { spawn } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { chromium } from 'playwright-core';
+import { chromium } from '@playwright/test';
+import config from '../playwright.config.js';
 
 const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
@@ -31,46 +30,34 @@ export async function startStation(port = 0, token = '') {
   };
 }
 
-export async function startBrowser() {
-  const profile = mkdtempSync(path.join(tmpdir(), 'lapwing-e2e-'));
-  const browser = await chromium.launchPersistentContext(profile, {
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    viewport: { width: 1440, height: 900 },
-    args: [
-      '--no-sandbox',
-      '--disable-gpu',
-      '--enable-unsafe-swiftshader',
-      '--disable-quic',
-      '--no-first-run',
-      '--disable-background-networking',
-      '--disable-component-update',
-      '--disable-sync',
-    ],
+/**
+ * Makes ready a page, and notes what goes wrong in it: errors, refused resources, violations of the content policy. `options.station`
+ * is given each message of the station and tells what the page hears instead of it.
+ */
+export async function preparePage(page, options, complaints) {
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  if (options.size) await page.setViewportSize(options.size);
+  await page.emulateMedia({ colorScheme: options.scheme ?? 'dark', reducedMotion: options.reducedMotion ?? 'no-preference' });
+  if (options.isCoarse) await page.addInitScript(() => Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.25 }));
+  if (!options.station) return;
+  await page.routeWebSocket(/\/api\/v1\/ws/, (socket) => {
+    const server = socket.connectToServer();
+    server.onMessage((data) => options.station(JSON.parse(data)).forEach((message) => socket.send(JSON.stringify(message))));
   });
+}
+
+/** For programs that are no tests. */
+export async function startBrowser() {
+  const browser = await chromium.launch(config.use.launchOptions);
   return {
-    /**
-     * A page with a list of what went wrong in it: errors, refused resources, violations of the content policy. `options.station`
-     * is given each message of the station and tells what the page hears instead of it.
-     */
     open: async (url, options = {}) => {
-      const page = await browser.newPage();
+      const page = await browser.newPage({ viewport: config.use.viewport });
       const complaints = [];
-      page.on('pageerror', (error) => complaints.push(String(error)));
-      page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
-      if (options.size) await page.setViewportSize(options.size);
-      await page.emulateMedia({ colorScheme: options.scheme ?? 'dark', reducedMotion: options.reducedMotion ?? 'no-preference' });
-      if (options.station) {
-        await page.routeWebSocket(/\/api\/v1\/ws/, (socket) => {
-          const server = socket.connectToServer();
-          server.onMessage((data) => options.station(JSON.parse(data)).forEach((message) => socket.send(JSON.stringify(message))));
-        });
-      }
+      await preparePage(page, options, complaints);
       await page.goto(url);
       return { page, complaints };
     },
-    stop: async () => {
-      await browser.close();
-      rmSync(profile, { recursive: true, force: true });
-    },
+    stop: () => browser.close(),
   };
 }

@@ -9,16 +9,17 @@ page.setDefaultTimeout(30_000);
 await page.locator('#vehicles tbody tr', { hasText: name }).waitFor();
 const marker = page.locator(`.vehicle[aria-label^="${name}"]`);
 await marker.waitFor();
-await page.waitForTimeout(3000); // until the view has come to rest
-const seen = await page.evaluate((label) => {
+const look = (label) => {
   const box = document.querySelector(`.vehicle[aria-label^="${label}"]`).getBoundingClientRect();
   const view = document.querySelector('.maplibregl-map').getBoundingClientRect();
   const [x, y] = [box.left + box.width / 2, box.top + box.height / 2];
-  return {
-    isInView: x > view.left && x < view.right && y > view.top && y < view.bottom,
-    rows: document.querySelectorAll('#vehicles tbody tr').length,
-  };
-}, name);
+  return { isInView: x > view.left && x < view.right && y > view.top && y < view.bottom };
+};
+// The view has come to rest when what is looked at is in it, at the latest after ten seconds.
+const inView = await page
+  .waitForFunction(`(${look})(${JSON.stringify(name)}).isInView`, undefined, { timeout: 10_000 })
+  .catch(() => undefined);
+const seen = { isInView: inView !== undefined, rows: await page.locator('#vehicles tbody tr').count() };
 if (picture) await page.screenshot({ path: picture });
 await browser.stop();
 console.log(JSON.stringify({ ...seen, complaints }));

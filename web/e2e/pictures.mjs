@@ -23,9 +23,10 @@ async function command(page) {
   for (const name of ['plane 3', 'rover 5']) await row(name).click({ modifiers: ['Shift'] });
   await page.locator('#command').getByRole('button', { name: 'Arm', exact: true }).hover();
   await page.mouse.down();
-  await page.waitForTimeout(1000);
+  await page.locator('.button.held').waitFor();
+  await page.locator('.button.held').waitFor({ state: 'detached' });
   await page.mouse.up();
-  await page.waitForTimeout(2500);
+  await page.locator('#command details tr', { hasText: 'plane 3' }).getByText('refused').waitFor();
 }
 /** Fetched, filtered, and one about to be changed. */
 async function parameters(page) {
@@ -38,7 +39,10 @@ async function parameters(page) {
 }
 async function stopAll(page) {
   await page.getByRole('button', { name: 'E-STOP' }).click();
-  await page.waitForTimeout(1500);
+  await page
+    .getByRole('region', { name: 'Emergency stop' })
+    .getByText(/4 of \d stopped/)
+    .waitFor();
 }
 
 try {
