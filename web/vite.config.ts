@@ -1,4 +1,5 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
+import { svelteTesting } from '@testing-library/svelte/vite';
 import { defineConfig } from 'vitest/config';
 
 // `npm run dev` beside a running station: its API is reached through Vite, without the page's origin, which it would refuse.
@@ -20,5 +21,17 @@ export default defineConfig({
       },
     },
   },
-  test: { include: ['src/**/*.test.ts'], environment: 'node' },
+  test: {
+    projects: [
+      {
+        extends: true,
+        test: { name: 'logic', include: ['src/**/*.test.ts'], exclude: ['src/**/*.svelte.test.ts'], environment: 'node' },
+      },
+      {
+        extends: true,
+        plugins: [svelteTesting()],
+        test: { name: 'components', include: ['src/**/*.svelte.test.ts'], environment: 'jsdom', setupFiles: 'src/testing/set_up.ts' },
+      },
+    ],
+  },
 });
