@@ -10,6 +10,7 @@
 #include "apps/crew.hpp"
 #include "apps/signals.hpp"
 #include "apps/simulation.hpp"
+#include "base/assert.hpp"
 
 namespace lapwing::apps {
 
@@ -172,6 +173,7 @@ std::vector<dryrun::Sample> DryRun::look() const {
 }
 
 dryrun::FlightRecord DryRun::record() const {
+  LAPWING_ASSERT(host_.outcome().has_value());
   auto record = recorder_.finish(ended_.time_since_epoch());
   auto const& outcome = *host_.outcome();
   for (auto& vehicle : record.vehicles) {

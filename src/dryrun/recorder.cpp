@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.hpp"
+
 namespace lapwing::dryrun {
 
 using base::Duration;
@@ -40,6 +42,8 @@ Recorder::Recorder(std::vector<VehicleRecord> vehicles, Options options)
     : options_(options), period_(options.period), vehicles_(std::move(vehicles)) {}
 
 void Recorder::sample(Duration now, std::span<Sample const> samples) {
+  LAPWING_ASSERT(samples.size() == vehicles_.size(), samples.size(), vehicles_.size());
+  LAPWING_ASSERT(last_.empty() || vehicles_.empty() || now > vehicles_.front().track.back().time, now);
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     auto& vehicle = vehicles_[i];
     auto const& sample = samples[i];

@@ -2,6 +2,8 @@
 
 #include <cerrno>
 
+#include "base/assert.hpp"
+
 namespace lapwing::link::internal {
 
 namespace {
@@ -57,6 +59,7 @@ DatagramWriter::DatagramWriter() {
 }
 
 void DatagramWriter::add(Peer to, Bytes bytes) {
+  LAPWING_ASSERT(!is_full(), count_);
   receivers_[count_] = address_of(to);
   sizes_[count_] = bytes.size();
   room_.insert(room_.end(), bytes.begin(), bytes.end());

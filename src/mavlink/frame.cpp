@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/assert.hpp"
+
 namespace lapwing::mavlink {
 
 namespace {
@@ -61,6 +63,8 @@ FrameBytes serialize_as_received(Frame const& frame) {
 }
 
 void FrameBytes::write(Frame const& frame, std::size_t payload_size) {
+  LAPWING_ASSERT(frame.version == 2 || frame.message_id < 256, frame.version, frame.message_id);
+  LAPWING_ASSERT(payload_size <= frame.payload.size(), payload_size);
   auto const size = static_cast<std::uint8_t>(payload_size);
   auto* p = data_.data();
   auto const* traits = find_traits(frame.message_id);

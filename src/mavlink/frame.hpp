@@ -69,8 +69,8 @@ struct FrameView {
 /// CRC-16/MCRF4XX ("X.25" in MAVLink's words) of `bytes`, going on from `crc`.
 [[nodiscard]] std::uint16_t crc_accumulate(std::span<std::uint8_t const> bytes, std::uint16_t crc = 0xFFFF);
 
-/// The packet's bytes; checksum and trimming are worked out anew. Precondition: the id is known, and below 256 in
-/// version 1.
+/// The packet's bytes; trimming is worked out anew, and so is the checksum where the id is known. Precondition: the id
+/// is below 256 in version 1.
 class FrameBytes {
  public:
   [[nodiscard]] std::span<std::uint8_t const> bytes() const { return {data_.data(), size_}; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
+
 namespace lapwing::plan {
 
 using base::Duration;
@@ -87,6 +89,7 @@ double greatest_height_m(TrackPart track) {
 }
 
 Ned place_at(TrackPart track, Duration time) {
+  LAPWING_ASSERT(!track.empty());
   auto const after = std::ranges::lower_bound(track, time, {}, &TrackPoint::time);
   if (after == track.end()) return track.back().place_m;
   if (after == track.begin()) return after->place_m;

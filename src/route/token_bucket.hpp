@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.hpp"
 #include "base/time.hpp"
 
 namespace lapwing::route {
@@ -12,7 +13,9 @@ namespace lapwing::route {
 class TokenBucket {
  public:
   /// `rate_per_s` > 0; infinity: no limit. `burst`: how much may come at once after a pause.
-  TokenBucket(double rate_per_s, double burst) : rate_per_s_(rate_per_s), burst_(burst), tokens_(burst) {}
+  TokenBucket(double rate_per_s, double burst) : rate_per_s_(rate_per_s), burst_(burst), tokens_(burst) {
+    LAPWING_ASSERT(rate_per_s > 0.0, rate_per_s);
+  }
 
   /// When `amount` may be taken: `now` or later. More than a burst is as good as a burst.
   [[nodiscard]] base::TimePoint ready(double amount, base::TimePoint now) const {
