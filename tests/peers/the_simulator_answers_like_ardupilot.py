@@ -10,6 +10,7 @@ asks the rows whose name holds TEXT. The rows are in tests/support/ardupilot.
 """
 
 import argparse
+import concurrent.futures
 
 import harness
 from ardupilot import copter_rows, in_the_loop, plane_rows, rover_rows, shared_rows
@@ -69,7 +70,8 @@ def main():
         results = [against_ardupilot(family, options.only) for family in in_the_loop.families()]
     else:
         print("no ArduPilot named (--against, LAPWING_SITL): the simulator alone")
-        results = [against_the_simulator(family, options.only) for family in TABLE]
+        with concurrent.futures.ThreadPoolExecutor(len(TABLE)) as families:
+            results = list(families.map(lambda family: against_the_simulator(family, options.only), TABLE))
     wrong = [name for _, names in results for name in names]
     assert not wrong, f"{len(wrong)} answers differ: {wrong}"
     print(f"{sum(count for count, _ in results)} answers as ArduPilot's")
