@@ -196,6 +196,7 @@ base::Task<> Control::watch(Craft& craft, std::uint64_t number, Goal& goal) {
           show(number, craft.id(), CommandState::timed_out, fmt::format("accepted, but {}{}", standing.text, age));
         break;
       case Kind::under_way:
+        running_[craft.id()].stands = standing.text;
         if (state == CommandState::under_way && now - told < look_at_least) break;
         told = now;
         show(number, craft.id(), CommandState::under_way, standing.text + age, standing.left_m);
@@ -227,6 +228,7 @@ bool Control::supersede(VehicleId const& id, std::string const& reason) {
   if (found == running_.end()) return false;
   auto const number = found->second.number;
   bool const was_being_sent = !found->second.task.done() && !found->second.is_sent;
+  auto const stands = std::move(found->second.stands);
   running_.erase(found);  // from here on nothing of it is sent
   auto const* const outcome = outcome_of(number, id);
   if (!outcome) return was_being_sent;
@@ -235,7 +237,7 @@ bool Control::supersede(VehicleId const& id, std::string const& reason) {
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
   if (was_being_sent && may_arm(record->command.action)) expect_late_arming(*fleet_.find(id));
   if (state == CommandState::under_way) {
-    show(number, id, CommandState::cut_short, fmt::format("{}, {}", reason, outcome->reason));
+    show(number, id, CommandState::cut_short, fmt::format("{}, {}", reason, stands));
   } else {
     show(number, id, CommandState::superseded, reason);
   }

@@ -57,6 +57,7 @@ class Control final : public vehicle::VehicleControl {
     std::uint64_t number = 0;
     bool made_commander = false;  ///< nobody had the vehicle before
     bool is_sent = false;         ///< nothing of it is sent any more; what comes of it is watched
+    std::string stands;           ///< how far it has got, told or not
     base::Task<> task;
   };
 

@@ -111,6 +111,20 @@ TEST(Control, SaysThatAnEmergencyStopCutATakeOffShort) {
       << world.outcome(number).reason;
 }
 
+TEST(Control, SaysWhereItIsWhenItIsCutShortAndNotWhereItWasWhenThatWasLastTold) {
+  ControlWorld world;
+  world.add_ready();
+  auto const number = world.give({.action = Action::take_off, .height_m = 100.0});
+  EXPECT_TRUE(world.comes_to(number, CommandState::under_way));
+  auto const told = world.outcome(number).reason;
+  EXPECT_TRUE(world.run_until([&] { return world.outcome(number).reason != told; }, 20s));
+  world.run_for(900ms);
+  EXPECT_TRUE(world.stops_all());
+  auto const cut = world.outcome(number).reason;
+  double const said_m = std::stod(cut.substr(cut.find(", at ") + 5));
+  EXPECT_NEAR(said_m, world.state().relative_alt_m.value.value_or(0.0), 2.0) << cut;
+}
+
 TEST(Control, SaysThatALaterCommandCutAnEarlierOneShort) {
   ControlWorld world;
   world.add_ready();

@@ -198,7 +198,7 @@ def a_take_off_that_is_cut_short_is_corrected():
         station.ask("emergency-stop", {"operator": "tester"})
         cut = station.comes_to(number, "cut_short")
         assert cut["reason"].startswith("emergency stop by tester, "), cut
-        print(f"    {cut['reason']}")
+        assert int(cut["reason"].split(", at ")[1].split()[0]) >= 4, cut
         harness.wait_until(lambda: station.stopped("1")["confirmed"], 10, "it has confirmed its stop")
 
 
