@@ -6,7 +6,8 @@ import { defineConfig } from '@playwright/test';
  */
 export default defineConfig({
   testDir: 'e2e',
-  outputDir: 'test-results',
+  // Not in this folder: whatever lies here makes the app be built again.
+  outputDir: '../build/e2e-results',
   fullyParallel: true,
   workers: Number(process.env.WORKERS ?? 2),
   timeout: 120_000,
