@@ -117,16 +117,16 @@ async function overSomeTime(page, session, system, tick) {
   const timer = setInterval(tick, TICK_MS);
   await new Promise((rested) => setTimeout(rested, 5000)); // until the view has come to rest, and what waited is done
   const [before, timesBefore, begun] = [await mainThread(session), await processTimes(system), performance.now()];
-  await page.evaluate(() => (window.frames_.length = 0));
+  await page.evaluate(() => (window.frames_.length = window.taken_ = 0));
   await new Promise((over) => setTimeout(over, Number(values.seconds) * 1000));
-  const frames = await page.evaluate(() => window.frames_);
+  const [frames, ticks] = await page.evaluate(() => [window.frames_, window.taken_]);
   const [after, timesAfter, seconds] = [await mainThread(session), await processTimes(system), (performance.now() - begun) / 1000];
   clearInterval(timer);
-  const ticks = (seconds * 1000) / TICK_MS;
   const perTick = (name) => ((after[name] - before[name]) * 1000) / ticks;
   const share = (type) => ((timesAfter[type] - timesBefore[type]) / seconds) * 100;
   const pauses = frames.slice(1).map((now, index) => now - frames[index]);
   return {
+    ticks_a_second: ticks / seconds,
     main_thread_ms_a_tick: perTick('TaskDuration'),
     script_ms_a_tick: perTick('ScriptDuration'),
     style_and_layout_ms_a_tick: perTick('RecalcStyleDuration') + perTick('LayoutDuration'),
@@ -144,6 +144,16 @@ async function measure(browser, count, points, tell) {
   const station = await startStation(count);
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, colorScheme: 'dark' });
   try {
+    // A page that is too slow falls behind: what counts is what it has taken, not what was sent.
+    await page.addInitScript(() => {
+      window.taken_ = 0;
+      window.WebSocket = class extends WebSocket {
+        constructor(...address) {
+          super(...address);
+          this.addEventListener('message', () => (window.taken_ += 1));
+        }
+      };
+    });
     await page.goto(station.url);
     await page.locator('#vehicles tbody tr').nth(count - 1).waitFor({ timeout: 60_000 });
     for (let i = 0; i < points; ++i) {
@@ -177,7 +187,7 @@ function tell(row) {
   const figure = (key, digits = 1) => row[key].toFixed(digits);
   console.log(
     `page    ${String(row.vehicles).padStart(3)} vehicles ${row.moves ? 'flying ' : 'resting'}, trails of ${row.trail_points}: main thread ${figure('main_thread_ms_a_tick')} ms a tick ` +
-      `(script ${figure('script_ms_a_tick')}, style and layout ${figure('style_and_layout_ms_a_tick')}), ${figure('frames_a_second')} frames/s, ` +
+      `at ${figure('ticks_a_second')} ticks/s (script ${figure('script_ms_a_tick')}, style and layout ${figure('style_and_layout_ms_a_tick')}), ${figure('frames_a_second')} frames/s, ` +
       `longest ${figure('longest_frame_ms', 0)} ms; page ${figure('page_process_percent', 0)} %, drawing ${figure('drawing_process_percent', 0)} % of a core`,
   );
 }
