@@ -7,7 +7,7 @@
 
 #include "base/loop.hpp"
 #include "dolphin/engine.hpp"
-#include "tasks/harness_platform.hpp"
+#include "missions/mission_harness.hpp"
 
 /// Runs a script that leaves a task in `t`, executes it on the test platform in virtual time, and prints the seconds
 /// from load to end. usage: bench_language SCRIPT
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   text << file.rdbuf() << "\nexecute t\n";
 
   base::Loop loop({.unpaced = true});
-  tasks::HarnessPlatform platform(loop);
+  missions::MissionHarness platform(loop);
   auto const source = std::make_shared<base::SourceFile const>(argv[1], text.str());
   base::Diagnostics diagnostics(*source);
   auto const began = std::chrono::steady_clock::now();

@@ -8,14 +8,14 @@
 
 #include "lsp/message_reader.hpp"
 #include "lsp/server.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace {
 
 using namespace lapwing;
 
 std::vector<tasks::BuilderSpec> const& builders() {
-  static std::vector<tasks::BuilderSpec> const specs = {tasks::mission_builder()};
+  static std::vector<tasks::BuilderSpec> const specs = missions::vocabulary();
   return specs;
 }
 

@@ -5,9 +5,9 @@
 
 #include "base/scope.hpp"
 #include "dolphin/engine.hpp"
+#include "missions/mission_harness.hpp"
 #include "scripts.hpp"
 #include "tasks/event_json.hpp"
-#include "tasks/harness_platform.hpp"
 
 using namespace lapwing;
 
@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   auto const text = fuzz::text_of(data, size);
   auto const source = std::make_shared<base::SourceFile const>("fuzz", text);
   base::Loop loop({.unpaced = true});
-  tasks::HarnessPlatform platform(loop);
+  missions::MissionHarness platform(loop);
   base::Diagnostics diagnostics(*source);
   auto const program = dolphin::load(source, platform.builders(), diagnostics);
   fuzz::require((program != nullptr) != diagnostics.has_errors());

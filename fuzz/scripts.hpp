@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "missions/vocabulary.hpp"
 #include "require.hpp"
-#include "tasks/mission_builder.hpp"
 
 /// What the targets that read scripts share.
 namespace lapwing::fuzz {
@@ -17,7 +17,7 @@ inline std::string text_of(std::uint8_t const* data, std::size_t size) {
 }
 
 inline std::vector<tasks::BuilderSpec> const& builders() {
-  static std::vector<tasks::BuilderSpec> const specs = {tasks::mission_builder()};
+  static std::vector<tasks::BuilderSpec> const specs = missions::vocabulary();
   return specs;
 }
 

@@ -1,4 +1,3 @@
-#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -11,7 +10,7 @@
 #include "apps/verb.hpp"
 #include "base/diagnostic.hpp"
 #include "dolphin/engine.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::apps {
 
@@ -48,7 +47,7 @@ std::size_t check_plans(CheckOptions const& options, nlohmann::json& records) {
 int check(CheckOptions const& options) {
   auto plausibility = plausibility_of(options.plausibility);
   if (!plausibility) return refuse(plausibility.error());
-  std::array const builders{tasks::mission_builder(*std::move(plausibility))};
+  auto const builders = missions::vocabulary(*std::move(plausibility));
   auto all = nlohmann::json::array();
   std::size_t errors = check_plans(options, all);
   std::size_t warnings = 0;

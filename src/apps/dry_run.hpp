@@ -24,7 +24,7 @@ class DryRun {
     sim::WorldOptions world;
     base::Duration timeout = std::chrono::hours(2);  ///< simulated: a script that still runs then is cut off
     std::vector<std::string> answers;                ///< to the script's questions, in order
-    tasks::PlanLibrary plans;                        ///< what scripts name by `task('...')`
+    missions::PlanLibrary plans;                     ///< what scripts name by `task('...')`
     plan::plausibility::Settings plausibility = {};
     std::vector<std::string> payload;  ///< what every vehicle carries, by the names that scripts use
   };

@@ -12,9 +12,9 @@ base::Result<EventFile> EventFile::open(std::string const& path) {
   return events;
 }
 
-void EventFile::write(tasks::TaskEvent const& event, tasks::Carrier const& carrier) const {
+void EventFile::write(tasks::TaskEvent const& event, missions::Carrier const& carrier) const {
   if (!file_) return;
-  fmt::print(file_.get(), "{}\n", tasks::to_json_line(event, carrier));
+  fmt::print(file_.get(), "{}\n", tasks::to_json_line(event, missions::items_json(event, carrier)));
   std::fflush(file_.get());
 }
 

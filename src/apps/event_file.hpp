@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "missions/items_json.hpp"
 #include "tasks/event_json.hpp"
 
 namespace lapwing::apps {
@@ -16,7 +17,7 @@ class EventFile {
   [[nodiscard]] static base::Result<EventFile> open(std::string const& path);
 
   /// At once, for who follows a flight.
-  void write(tasks::TaskEvent const& event, tasks::Carrier const& carrier) const;
+  void write(tasks::TaskEvent const& event, missions::Carrier const& carrier) const;
 
  private:
   struct Close {

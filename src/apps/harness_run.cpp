@@ -10,7 +10,7 @@
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
 #include "base/scope.hpp"
-#include "tasks/harness_platform.hpp"
+#include "missions/mission_harness.hpp"
 
 namespace lapwing::apps {
 
@@ -64,7 +64,7 @@ class HarnessRun {
   base::Loop loop_;
   base::LogHub hub_;
   base::Logger log_;
-  tasks::HarnessPlatform platform_;
+  missions::MissionHarness platform_;
   std::unique_ptr<dolphin::Output> console_;
   ScriptHost host_;
 };

@@ -15,7 +15,7 @@
 #include "base/loop.hpp"
 #include "lsp/message_reader.hpp"
 #include "lsp/server.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::apps {
 
@@ -60,7 +60,7 @@ bool write_all(std::vector<std::string> const& messages) {
 
 /// What has arrived is taken in before each step, so that a cancellation overtakes the request that it is about.
 int serve() {
-  std::vector const builders{tasks::mission_builder()};
+  auto const builders = missions::vocabulary();
   lsp::Server server(builders, LAPWING_VERSION);
   lsp::MessageReader reader;
   base::Loop const clock;

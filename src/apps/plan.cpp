@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <memory>
 #include <sstream>
@@ -19,8 +18,8 @@
 #include "dryrun/json.hpp"
 #include "dryrun/svg.hpp"
 #include "dryrun/text.hpp"
+#include "missions/vocabulary.hpp"
 #include "plan/plan_file.hpp"
-#include "tasks/mission_builder.hpp"
 
 namespace lapwing::apps {
 
@@ -47,7 +46,7 @@ base::Result<dolphin::Needs> read_needs(std::string const& name, std::string con
                                         plan::plausibility::Settings const& settings) {
   auto const source = std::make_shared<base::SourceFile const>(name, text);
   base::Diagnostics diagnostics(*source);
-  std::array const builders{tasks::mission_builder(settings)};
+  auto const builders = missions::vocabulary(settings);
   auto const program = dolphin::load(source, builders, diagnostics);
   fmt::print(stderr, "{}", base::render(diagnostics));
   if (!program) return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not check", name));

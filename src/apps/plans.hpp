@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tasks/plan_library.hpp"
+#include "missions/plan_library.hpp"
 
 namespace lapwing::apps {
 
@@ -11,7 +11,7 @@ inline constexpr auto plans_help =
     "Directory of .plan and .waypoints files; a script names them without the ending: task('north')";
 
 struct LoadedPlans {
-  tasks::PlanLibrary library;
+  missions::PlanLibrary library;
   std::vector<std::string> notes;     ///< what of the files is not flown
   std::vector<base::Error> mistakes;  ///< of files that cannot be read
 };

@@ -33,7 +33,7 @@ TEST_F(Plans, AreTheFilesThatEndSo) {
   write("notes.txt", "not read");
   auto const plans = load();
   ASSERT_TRUE(plans) << plans.error().message;
-  EXPECT_EQ(tasks::names_of(plans->library), std::vector<std::string>{"north"});
+  EXPECT_EQ(missions::names_of(plans->library), std::vector<std::string>{"north"});
   EXPECT_TRUE(plans->mistakes.empty());
 }
 
@@ -43,7 +43,7 @@ TEST_F(Plans, ThatAreWrongAreKeptAsTheirErrors) {
   ASSERT_TRUE(plans);
   ASSERT_EQ(plans->mistakes.size(), 1u);
   EXPECT_NE(plans->mistakes[0].message.find("bad.plan:1:2: this is no JSON"), std::string::npos);
-  EXPECT_FALSE(tasks::find_plan(plans->library, "bad"));
+  EXPECT_FALSE(missions::find_plan(plans->library, "bad"));
 }
 
 TEST_F(Plans, NoteWhatIsNotFlown) {

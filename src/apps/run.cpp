@@ -14,8 +14,8 @@
 #include "apps/simulation.hpp"
 #include "apps/verb.hpp"
 #include "base/diagnostic.hpp"
+#include "missions/vocabulary.hpp"
 #include "sim/vehicle_spec.hpp"
-#include "tasks/mission_builder.hpp"
 
 namespace lapwing::apps {
 
@@ -146,7 +146,7 @@ int run_on_vehicles(RunOptions const& options, std::vector<ScriptText> const& sc
 
 /// Before the first script moves anything, those after it are looked at too. Prints what is wrong with them.
 bool rest_checks(std::vector<ScriptText> const& scripts) {
-  std::array const builders{tasks::mission_builder()};
+  auto const builders = missions::vocabulary();
   bool is_good = true;
   for (std::size_t i = 1; i < scripts.size(); ++i) {
     auto const source = std::make_shared<base::SourceFile const>(scripts[i].name, scripts[i].text);

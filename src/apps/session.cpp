@@ -216,7 +216,7 @@ base::Task<> Session::tell_while_interrupted() {
 
 void Session::note(tasks::TaskEvent const& event) {
   log.named("task").info(to_log_text(event));
-  tasks::Carrier carrier;
+  missions::Carrier carrier;
   if (auto const* vehicle = event.vehicle ? ground.registry.find(*event.vehicle) : nullptr)
     carrier = {.home = vehicle->home.value, .autopilot = vehicle->autopilot, .family = vehicle->family};
   if (events_) events_->write(event, carrier);

@@ -14,7 +14,7 @@
 
 #include "dolphin/checker.hpp"
 #include "dolphin/parser.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::dolphin {
 namespace {
@@ -34,7 +34,7 @@ std::string text_of(fs::path const& path) {
 std::string complaints(fs::path const& script) {
   base::SourceFile const source(script.filename().string(), text_of(script));
   base::Diagnostics diagnostics(source);
-  std::vector<tasks::BuilderSpec> const builders = {tasks::mission_builder()};
+  std::vector<tasks::BuilderSpec> const builders = missions::vocabulary();
   auto const program = parse(diagnostics);
   check(program, builders, diagnostics);
   return render(diagnostics);

@@ -17,7 +17,7 @@
 #include <fmt/format.h>
 
 #include "dolphin/engine.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::dolphin {
 namespace {
@@ -49,7 +49,7 @@ struct Complaints {
 Complaints complaints(fs::path const& script) {
   auto const source = std::make_shared<base::SourceFile const>(script.filename().string(), text_of(script));
   base::Diagnostics diagnostics(*source);
-  std::array const builders{tasks::mission_builder()};
+  auto const builders = missions::vocabulary();
   (void)load(source, builders, diagnostics);
   Complaints out{render(diagnostics), {}};
   for (auto const& one : diagnostics.sorted()) out.codes.insert(one.code);
@@ -103,7 +103,7 @@ struct Checked {
 Checked checked(std::string const& script) {
   auto const source = std::make_shared<base::SourceFile const>("test.dolphin", script);
   base::Diagnostics diagnostics(*source);
-  std::array const builders{tasks::mission_builder()};
+  auto const builders = missions::vocabulary();
   (void)load(source, builders, diagnostics);
   return {diagnostics.sorted(), render(diagnostics)};
 }

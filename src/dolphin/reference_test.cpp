@@ -24,7 +24,7 @@
 #include "dolphin/services/describe.hpp"
 #include "dolphin/services/vocabulary.hpp"
 #include "dolphin/testing.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::dolphin {
 namespace {
@@ -231,7 +231,7 @@ void expect_to_check(InstructionSpec const& spec) {
   auto const source =
       std::make_shared<base::SourceFile const>(std::string(spec.name), std::string(spec.example) + "\n");
   base::Diagnostics diagnostics(*source);
-  std::array const builders{tasks::mission_builder()};
+  auto const builders = missions::vocabulary();
   (void)load(source, builders, diagnostics);
   EXPECT_EQ(render(diagnostics), "") << spec.name;
 }
@@ -385,7 +385,7 @@ std::string limits() {
 }
 
 std::string reference_text() {
-  std::array const builders{tasks::mission_builder()};
+  auto const builders = missions::vocabulary();
   Vocabulary const vocabulary(builders);
   return by_hand("introduction") + "\n## Operators\n\n" + by_hand("precedence") + "\n" + precedence() + "\n" +
          by_hand("operators") + "\n" + operator_table() + unit_table() + all_instructions(vocabulary) + chains() +

@@ -8,8 +8,9 @@
 
 #include "base/scope.hpp"
 #include "dolphin/engine.hpp"
+#include "missions/items_json.hpp"
+#include "missions/mission_harness.hpp"
 #include "tasks/event_json.hpp"
-#include "tasks/harness_platform.hpp"
 
 /// What the tests of the language need: a script run on the harness platform in virtual time, and everything it did as
 /// one text.
@@ -35,7 +36,7 @@ class Transcript final : public Output {
 class Bench {
  public:
   base::Loop loop{{.unpaced = true}};
-  tasks::HarnessPlatform platform{loop};
+  missions::MissionHarness platform{loop};
   Transcript transcript;
   EngineOptions options;
 
@@ -48,7 +49,7 @@ class Bench {
     options.on_event = [this](tasks::TaskEvent const& event) {
       auto const vehicle = event.vehicle ? platform.find(*event.vehicle) : std::nullopt;
       auto const home = vehicle ? vehicle->position : std::nullopt;
-      transcript.text += tasks::to_json_line(event, {.home = home}) + "\n";
+      transcript.text += tasks::to_json_line(event, missions::items_json(event, {.home = home})) + "\n";
     };
     Engine engine(loop, platform, transcript, {}, options);
     base::Scope scope(loop);

@@ -7,7 +7,7 @@
 #include "dryrun/recorder.hpp"
 #include "dryrun/text.hpp"
 #include "dryrun/words.hpp"
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
 namespace lapwing::dryrun {
 namespace {
@@ -195,7 +195,7 @@ TEST(Missions, ReadHeightsInTheFrameOfEachItem) {
   record.home = geo::Wgs84::from_degrees(41.0, -8.0, 90.0);
   TaskSpan span;
   span.name = "m";
-  span.task = std::make_shared<tasks::MissionTask const>(mission);
+  span.task = std::make_shared<missions::MissionTask const>(mission);
   record.vehicles.emplace_back().tasks.push_back(span);
   auto const tables = missions_of(record);
   ASSERT_EQ(tables.size(), 1U);

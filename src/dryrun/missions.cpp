@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
 namespace lapwing::dryrun {
 
@@ -84,7 +84,7 @@ std::vector<MissionTable> missions_of(FlightRecord const& record) {
   std::ranges::stable_sort(spans, {}, &TaskSpan::begin);
   std::vector<MissionTable> tables;
   for (auto const* span : spans) {
-    auto const* flown = dynamic_cast<tasks::MissionTask const*>(span->task.get());
+    auto const* flown = dynamic_cast<missions::MissionTask const*>(span->task.get());
     if (!flown || std::ranges::count(tables, span->name, &MissionTable::name) > 0) continue;
     tables.push_back({.name = span->name,
                       .allocation = allocation_of(span->name, record),

@@ -11,7 +11,7 @@
 #include "dryrun/internal/canvas.hpp"
 #include "dryrun/internal/labels.hpp"
 #include "dryrun/recorder.hpp"
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
 namespace lapwing::dryrun {
 namespace {
@@ -116,7 +116,7 @@ FlightRecord sample_record() {
                        .moves = true};
     recorder.sample(i * 200ms, std::vector{copter, rover});
   }
-  auto const task = std::make_shared<tasks::MissionTask const>(std::move(mission));
+  auto const task = std::make_shared<missions::MissionTask const>(std::move(mission));
   auto const note = [&](base::Duration time, tasks::TaskEvent::Kind kind, char const* name, char const* id) {
     recorder.note({.time = base::TimePoint(time),
                    .kind = kind,

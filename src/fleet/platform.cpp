@@ -7,8 +7,8 @@
 
 #include "fleet/operator_actions.hpp"
 #include "mavlink/raw_message.hpp"
-#include "tasks/mission_builder.hpp"
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::fleet {
 
@@ -105,12 +105,12 @@ FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
       log_(std::move(log)),
       all_heard_by_(fleet.loop().now() + listening_time),
       settled_(fleet.loop()) {
-  builders_.push_back(tasks::mission_builder(options_.run.plausibility));
+  builders_ = missions::vocabulary(options_.run.plausibility);
   options_.run.neighbours = [this](Craft const& craft) { return neighbours(craft); };
 }
 
 Result<std::shared_ptr<tasks::PlatformTask const>> FleetPlatform::named_task(std::string_view name) const {
-  return tasks::find_plan(options_.plan_library, name);
+  return missions::find_plan(options_.plan_library, name);
 }
 
 std::vector<VehicleInfo> FleetPlatform::vehicles() const {
@@ -136,7 +136,7 @@ std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::Plat
                                                      VehicleId const& id) {
   auto* const craft = fleet_.find(id);
   if (!craft) return std::make_unique<FailedRun>(fmt::format("no vehicle {}", id.text));
-  auto const* mission = dynamic_cast<tasks::MissionTask const*>(task.get());
+  auto const* mission = dynamic_cast<missions::MissionTask const*>(task.get());
   if (!mission)
     return std::make_unique<FailedRun>(
         fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));

@@ -9,7 +9,7 @@
 #include "base/log.hpp"
 #include "fleet/fleet.hpp"
 #include "fleet/pilot.hpp"
-#include "tasks/plan_library.hpp"
+#include "missions/plan_library.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::fleet {
@@ -32,7 +32,7 @@ class FleetPlatform final : public tasks::Platform {
  public:
   struct Options {
     RunOptions run = {};
-    tasks::PlanLibrary plan_library = {};  ///< what `task('survey1')` finds
+    missions::PlanLibrary plan_library = {};  ///< what `task('survey1')` finds
   };
 
   /// `fleet` outlives the platform.
@@ -41,7 +41,9 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::span<tasks::BuilderSpec const> builders() const override { return builders_; }
   [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
       std::string_view name) const override;
-  [[nodiscard]] std::vector<std::string> plan_names() const override { return tasks::names_of(options_.plan_library); }
+  [[nodiscard]] std::vector<std::string> plan_names() const override {
+    return missions::names_of(options_.plan_library);
+  }
   [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
   [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
   [[nodiscard]] base::Notifier& vehicles_changed() override { return fleet_.registry().membership_changed(); }

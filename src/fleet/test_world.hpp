@@ -11,7 +11,7 @@
 #include "link/impaired_link.hpp"
 #include "link/pipe_link.hpp"
 #include "mavlink/stalling_link_test.hpp"
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
 namespace lapwing::fleet {
 
@@ -93,8 +93,8 @@ struct TestWorld {
   return mission;
 }
 
-[[nodiscard]] inline std::shared_ptr<tasks::MissionTask const> task_of(plan::Mission mission) {
-  return std::make_shared<tasks::MissionTask const>(std::move(mission));
+[[nodiscard]] inline std::shared_ptr<missions::MissionTask const> task_of(plan::Mission mission) {
+  return std::make_shared<missions::MissionTask const>(std::move(mission));
 }
 
 }  // namespace lapwing::fleet

@@ -18,7 +18,7 @@
 
 #include "dolphin/lexer.hpp"
 #include "dolphin/services/vocabulary.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::lsp {
 namespace {
@@ -61,7 +61,7 @@ struct List {
 };
 
 std::vector<List> lists() {
-  std::vector<tasks::BuilderSpec> const builders{tasks::mission_builder()};
+  std::vector<tasks::BuilderSpec> const builders = missions::vocabulary();
   dolphin::Vocabulary const vocabulary(builders);
   auto const is_block = [](auto const& one) { return one.block != BlockKind::none && one.name != "move"; };
   auto const is_plain = [&](auto const& one) { return !is_block(one); };

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 namespace lapwing::lsp {
 namespace {
@@ -73,7 +73,7 @@ class Talk {
     return {{"textDocument", {{"uri", uri}}}, {"position", {{"line", line}, {"character", character}}}};
   }
 
-  std::vector<tasks::BuilderSpec> builders{tasks::mission_builder()};
+  std::vector<tasks::BuilderSpec> builders = missions::vocabulary();
   Server server{builders, "1.2.3"};
   base::TimePoint now{};
   int id = 0;
@@ -81,7 +81,7 @@ class Talk {
 };
 
 TEST(Server, TellsWhatItCanDo) {
-  std::vector<tasks::BuilderSpec> const builders{tasks::mission_builder()};
+  std::vector<tasks::BuilderSpec> const builders = missions::vocabulary();
   Server server(builders, "1.2.3");
   server.receive(R"({"jsonrpc":"2.0","id":"a","method":"initialize","params":{}})");
   auto const out = Json::parse(server.work({}).at(0));

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "tasks/mission_task.hpp"
-#include "tasks/test_script.hpp"
+#include "tasks/testing/script.hpp"
 
 namespace lapwing::tasks {
 namespace {
@@ -34,8 +33,9 @@ class AllocationTest : public ::testing::Test {
 /// A task with needs and a place, which those of the harness do not have.
 class Survey final : public PlatformTask {
  public:
-  Survey(std::string payload, std::optional<geo::Wgs84> where) : payload_(std::move(payload)), where_(where) {}
-  [[nodiscard]] std::string name() const override { return "survey"; }
+  Survey(std::string payload, std::optional<geo::Wgs84> where, std::string name = "survey")
+      : payload_(std::move(payload)), where_(where), name_(std::move(name)) {}
+  [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override {
     if (payload_.empty() || std::ranges::find(vehicle.payload, payload_) != vehicle.payload.end()) return std::nullopt;
     return "no payload " + payload_;
@@ -45,6 +45,7 @@ class Survey final : public PlatformTask {
  private:
   std::string payload_;
   std::optional<geo::Wgs84> where_;
+  std::string name_;
 };
 
 TEST_F(AllocationTest, SequenceSharesTheFirstVehicle) {
@@ -111,11 +112,10 @@ TEST_F(AllocationTest, VehicleOfUnknownPositionIsTheLastResortOfAPlacedTask) {
   EXPECT_EQ(allocated(placed, {"a1"}), "survey#0@a1");
 }
 
-TEST_F(AllocationTest, GivesEachMissionTheVehicleOnItsPadWhateverTheOrder) {
+TEST_F(AllocationTest, GivesEachTaskTheVehicleAtItsPlaceWhateverTheOrder) {
   auto const to = [](double lat) {
-    plan::Mission mission{
-        .name = fmt::format("to {:.2f}", lat), .home = geo::Wgs84::from_degrees(lat, -8.0), .items = {}};
-    return performed(std::make_shared<MissionTask const>(std::move(mission)));
+    return performed(
+        std::make_shared<Survey const>("", geo::Wgs84::from_degrees(lat, -8.0), fmt::format("to {:.2f}", lat)));
   };
   EXPECT_EQ(allocated(concurrent(to(41.01), to(41.0)), {"a1", "a2"}), "to 41.01#0@a2 to 41.00#1@a1");
   EXPECT_EQ(allocated(concurrent(to(41.0), to(41.01)), {"a1", "a2"}), "to 41.00#0@a1 to 41.01#1@a2");

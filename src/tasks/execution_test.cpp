@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tasks/test_script.hpp"
+#include "tasks/testing/script.hpp"
 
 namespace lapwing::tasks {
 namespace {

@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "plan/estimate.hpp"
-#include "tasks/mission_builder.hpp"
-
 namespace lapwing::tasks {
 namespace {
 
@@ -75,15 +72,10 @@ std::vector<VehicleInfo> conformance_vehicles() {
 
 }  // namespace
 
-HarnessPlatform::HarnessPlatform(base::Loop& loop, PlanLibrary plans)
-    : loop_(loop),
-      plans_(std::move(plans)),
-      changed_(loop),
-      vehicles_(conformance_vehicles()),
-      builders_{mission_builder()} {}
+HarnessPlatform::HarnessPlatform(base::Loop& loop, std::vector<BuilderSpec> builders)
+    : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()), builders_(std::move(builders)) {}
 
 base::Result<std::shared_ptr<PlatformTask const>> HarnessPlatform::named_task(std::string_view name) const {
-  if (plans_.contains(name)) return find_plan(plans_, name);
   auto const colon = name.rfind(':');
   double seconds = -1.0;
   if (colon != std::string_view::npos) {
@@ -115,17 +107,17 @@ std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask con
   if (!vehicle || !vehicle->connected) {
     return std::make_unique<TimedRun>(loop_, Duration::zero(), fmt::format("vehicle {} is lost", id.text), true);
   }
-  if (auto const* const timed = dynamic_cast<TimedTask const*>(task.get())) {
-    return std::make_unique<TimedRun>(loop_, timed->length(), timed->fails() ? "boom" : "");
-  }
-  if (auto const* const flown = dynamic_cast<MissionTask const*>(task.get())) {
-    auto const& mission = flown->mission();
-    auto const estimate = plan::estimate(mission, mission.home ? mission.home : vehicle->position);
-    auto const length = estimate.is_endless ? std::nullopt : std::optional(estimate.duration);
-    return std::make_unique<TimedRun>(loop_, length, "");
-  }
-  auto why = fmt::format("{} is a task of another platform", task->name());
-  return std::make_unique<TimedRun>(loop_, Duration::zero(), std::move(why));
+  auto const* const timed = dynamic_cast<TimedTask const*>(task.get());
+  if (timed && timed->fails()) return std::make_unique<TimedRun>(loop_, timed->length(), "boom");
+  auto const length = length_of(*task, *vehicle);
+  if (!length) return std::make_unique<TimedRun>(loop_, Duration::zero(), length.error().message);
+  return std::make_unique<TimedRun>(loop_, *length, "");
+}
+
+base::Result<std::optional<Duration>> HarnessPlatform::length_of(PlatformTask const& task,
+                                                                 VehicleInfo const& /*vehicle*/) const {
+  if (auto const* const timed = dynamic_cast<TimedTask const*>(&task)) return timed->length();
+  return fail(ErrorKind::refused, fmt::format("{} is a task of another platform", task.name()));
 }
 
 base::Task<void> HarnessPlatform::settle() {

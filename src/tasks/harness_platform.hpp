@@ -7,7 +7,6 @@
 
 #include "base/loop.hpp"
 #include "base/notifier.hpp"
-#include "tasks/plan_library.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::tasks {
@@ -22,17 +21,15 @@ namespace lapwing::tasks {
 /// | u1 | UUV | Sidescan, Multibeam | 41 N, 8 W |
 /// | u2 | UUV | | 42 N, 8 W |
 ///
-/// The named task `X:d` is done after d seconds, `fail:d` fails with "boom" after d seconds. A mission takes as long as
-/// it is estimated to, from its home or, without one, from where the vehicle is. Any number of tasks may run on one
-/// vehicle; keeping them apart is what allocation is tested for.
-class HarnessPlatform final : public Platform {
+/// The named task `X:d` is done after d seconds, `fail:d` fails with "boom" after d seconds. Any number of tasks may
+/// run on one vehicle; keeping them apart is what allocation is tested for. Tasks of other kinds come by deriving from
+/// it.
+class HarnessPlatform : public Platform {
  public:
-  /// `plans`: what named tasks are looked up in first.
-  explicit HarnessPlatform(base::Loop& loop, PlanLibrary plans = {});
+  explicit HarnessPlatform(base::Loop& loop, std::vector<BuilderSpec> builders = {});
 
   [[nodiscard]] std::span<BuilderSpec const> builders() const override { return builders_; }
   [[nodiscard]] base::Result<std::shared_ptr<PlatformTask const>> named_task(std::string_view name) const override;
-  [[nodiscard]] std::vector<std::string> plan_names() const override { return names_of(plans_); }
   [[nodiscard]] std::vector<VehicleInfo> vehicles() const override { return vehicles_; }
   [[nodiscard]] std::optional<VehicleInfo> find(VehicleId const& id) const override;
   [[nodiscard]] base::Notifier& vehicles_changed() override { return changed_; }
@@ -43,9 +40,13 @@ class HarnessPlatform final : public Platform {
   /// Replaces the vehicle of the same id, or adds it: what happens to vehicles while a script runs.
   void set_vehicle(VehicleInfo vehicle);
 
+ protected:
+  /// How long the task takes on the vehicle; nothing: until it is stopped. Error: why it cannot run there.
+  [[nodiscard]] virtual base::Result<std::optional<base::Duration>> length_of(PlatformTask const& task,
+                                                                              VehicleInfo const& vehicle) const;
+
  private:
   base::Loop& loop_;
-  PlanLibrary plans_;
   base::Notifier changed_;
   std::vector<VehicleInfo> vehicles_;
   std::vector<BuilderSpec> builders_;

@@ -1,6 +1,6 @@
 #include "tasks/harness_platform.hpp"
 
-#include "tasks/test_script.hpp"
+#include "tasks/testing/script.hpp"
 
 namespace lapwing::tasks {
 namespace {

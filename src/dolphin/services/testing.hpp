@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dolphin/services/document.hpp"
-#include "tasks/mission_builder.hpp"
+#include "missions/vocabulary.hpp"
 
 /// What the tests of the language services need: a script with a place marked by `|`.
 namespace lapwing::dolphin::testing {
@@ -28,7 +28,7 @@ class Marked {
     return out;
   }
 
-  std::vector<tasks::BuilderSpec> builders{tasks::mission_builder()};
+  std::vector<tasks::BuilderSpec> builders = missions::vocabulary();
   Vocabulary vocabulary{builders};
   std::unique_ptr<Document> document;
   std::uint32_t offset = 0;

@@ -6,14 +6,14 @@
 #include "plan/mission_builder.hpp"
 #include "tasks/platform.hpp"
 
-namespace lapwing::tasks::internal {
+namespace lapwing::missions::internal {
 
 /// What a command does with its complete arguments; `overload` as in its spec.
 using Apply = base::Result<> (*)(plan::MissionBuilder& builder, std::size_t overload,
-                                 std::span<Argument const> arguments);
+                                 std::span<tasks::Argument const> arguments);
 
 struct MissionCommand {
-  CommandSpec spec;
+  tasks::CommandSpec spec;
   Apply apply;
 };
 
@@ -23,9 +23,9 @@ struct MissionCommand {
 [[nodiscard]] std::vector<MissionCommand> other_commands();
 
 // Readers of arguments that the language has checked against the parameters.
-[[nodiscard]] double number(Argument const& argument);
-[[nodiscard]] int integer(Argument const& argument);
-[[nodiscard]] std::string const& text(Argument const& argument);
-[[nodiscard]] geo::Wgs84 position(Argument const& argument);
+[[nodiscard]] double number(tasks::Argument const& argument);
+[[nodiscard]] int integer(tasks::Argument const& argument);
+[[nodiscard]] std::string const& text(tasks::Argument const& argument);
+[[nodiscard]] geo::Wgs84 position(tasks::Argument const& argument);
 
-}  // namespace lapwing::tasks::internal
+}  // namespace lapwing::missions::internal

@@ -1,7 +1,12 @@
-#include "tasks/internal/mission_commands.hpp"
+#include "missions/internal/mission_commands.hpp"
 
-namespace lapwing::tasks::internal {
+namespace lapwing::missions::internal {
 namespace {
+
+using tasks::Argument;
+using tasks::Dimension;
+using tasks::Parameter;
+using tasks::Type;
 
 using base::Result;
 using plan::MissionBuilder;
@@ -88,4 +93,4 @@ std::vector<MissionCommand> other_commands() {
   };
 }
 
-}  // namespace lapwing::tasks::internal
+}  // namespace lapwing::missions::internal

@@ -7,10 +7,10 @@
 #include "plan/plausibility/settings.hpp"
 #include "tasks/platform.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 
 /// A mission as a task: what `mission { ... }` builds, for every platform that flies missions.
-class MissionTask final : public PlatformTask {
+class MissionTask final : public tasks::PlatformTask {
  public:
   /// `settings`: by which `cannot_follow` judges.
   explicit MissionTask(plan::Mission mission, plan::plausibility::Settings settings = {})
@@ -24,15 +24,15 @@ class MissionTask final : public PlatformTask {
   [[nodiscard]] bool never_ends() const override;
   /// A vehicle of a type that cannot carry out one of the items is unsuited (`plan::objection`). Photos need a vehicle
   /// with the payload "Camera"; one of which no payload at all is known gets the benefit of the doubt.
-  [[nodiscard]] std::optional<std::string> unsuited(VehicleInfo const& vehicle) const override;
+  [[nodiscard]] std::optional<std::string> unsuited(tasks::VehicleInfo const& vehicle) const override;
   /// Its home; without one its first place.
   [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override;
   /// A mission without take-off behind one that has landed.
-  [[nodiscard]] std::optional<Doubt> cannot_follow(PlatformTask const& before) const override;
+  [[nodiscard]] std::optional<tasks::Doubt> cannot_follow(tasks::PlatformTask const& before) const override;
 
  private:
   plan::Mission mission_;
   plan::plausibility::Settings settings_;
 };
 
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions

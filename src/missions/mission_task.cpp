@@ -1,4 +1,4 @@
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "plan/capabilities.hpp"
 #include "plan/plausibility/judge.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 
 namespace {
 
@@ -27,7 +27,7 @@ std::optional<std::string> unsuited_type(plan::Mission const& mission, std::stri
 
 }  // namespace
 
-std::optional<std::string> MissionTask::unsuited(VehicleInfo const& vehicle) const {
+std::optional<std::string> MissionTask::unsuited(tasks::VehicleInfo const& vehicle) const {
   if (auto why = unsuited_type(mission_, vehicle.type)) return why;
   if (vehicle.payload.empty() || !plan::takes_photos(mission_)) return std::nullopt;
   if (std::ranges::find(vehicle.payload, "Camera") != vehicle.payload.end()) return std::nullopt;
@@ -44,13 +44,13 @@ std::optional<geo::Wgs84> MissionTask::reference_position() const {
   return std::nullopt;
 }
 
-std::optional<Doubt> MissionTask::cannot_follow(PlatformTask const& before) const {
+std::optional<tasks::Doubt> MissionTask::cannot_follow(tasks::PlatformTask const& before) const {
   auto const* earlier = dynamic_cast<MissionTask const*>(&before);
   if (!earlier) return std::nullopt;
   auto const findings = plan::plausibility::judge_order(earlier->mission_, mission_, settings_);
   auto const* found = refusal(findings);
   if (!found) return std::nullopt;
-  return Doubt{
+  return tasks::Doubt{
       .call = std::nullopt, .what = fmt::format("{} [{}]", found->what, to_string(found->rule)), .hint = found->meant};
 }
 
@@ -59,4 +59,4 @@ bool MissionTask::never_ends() const {
          mission_.items.end();
 }
 
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions

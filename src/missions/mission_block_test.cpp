@@ -1,4 +1,4 @@
-#include "tasks/mission_builder.hpp"
+#include "missions/mission_block.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,36 +6,40 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tasks/test_script.hpp"
+#include "missions/mission_harness.hpp"
+#include "missions/mission_task.hpp"
+#include "tasks/testing/script.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 namespace {
 
 using geo::Wgs84;
 using vehicle::Autopilot;
+using Stage = tasks::testing::BasicStage<MissionHarness>;
 
 /// One command of a mission block: `{"move", {100, 200}}`. Arguments left out are filled in as the language does it.
 struct Command {
   std::string name;
-  std::vector<Argument> arguments = {};
+  std::vector<tasks::Argument> arguments = {};
 };
 
 /// Whole numbers are written as the script would write them.
-Argument n(std::int64_t value) {
+tasks::Argument n(std::int64_t value) {
   return value;
 }
 
-bool fits(Argument const& argument, Parameter const& parameter) {
+bool fits(tasks::Argument const& argument, tasks::Parameter const& parameter) {
   switch (parameter.type) {
-    case Type::number: return argument.index() == 2 || argument.index() == 3;
-    case Type::integer: return argument.index() == 2;
-    case Type::text: return argument.index() == 4;
-    case Type::position: return argument.index() == 5;
+    case tasks::Type::number: return argument.index() == 2 || argument.index() == 3;
+    case tasks::Type::integer: return argument.index() == 2;
+    case tasks::Type::text: return argument.index() == 4;
+    case tasks::Type::position: return argument.index() == 5;
     default: return false;
   }
 }
 
-std::optional<std::vector<Argument>> completed(Overload const& overload, std::vector<Argument> arguments) {
+std::optional<std::vector<tasks::Argument>> completed(tasks::Overload const& overload,
+                                                      std::vector<tasks::Argument> arguments) {
   auto const& parameters = overload.parameters;
   if (arguments.size() > parameters.size()) return std::nullopt;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -48,8 +52,8 @@ std::optional<std::vector<Argument>> completed(Overload const& overload, std::ve
   return arguments;
 }
 
-base::Result<> add(BuilderSpec const& spec, BuilderSession& session, Command const& command) {
-  auto const found = std::ranges::find(spec.commands, command.name, &CommandSpec::name);
+base::Result<> add(tasks::BuilderSpec const& spec, tasks::BuilderSession& session, Command const& command) {
+  auto const found = std::ranges::find(spec.commands, command.name, &tasks::CommandSpec::name);
   if (found == spec.commands.end()) return base::fail(base::ErrorKind::not_found, "no command " + command.name);
   for (std::size_t i = 0; i < found->overloads.size(); ++i) {
     auto const arguments = completed(found->overloads[i], command.arguments);
@@ -60,7 +64,7 @@ base::Result<> add(BuilderSpec const& spec, BuilderSession& session, Command con
 }
 
 base::Result<plan::Mission> build(std::vector<Command> const& commands) {
-  auto const spec = mission_builder();
+  auto const spec = mission_block();
   auto const session = spec.begin();
   for (auto const& command : commands) {
     if (auto added = add(spec, *session, command); !added) return std::unexpected(added.error());
@@ -146,8 +150,8 @@ TEST(Mission, SurveyOfListingThreeStartsAtTheTakeOff) {  // case 71
 TEST(Mission, UnknownSurveyDirectionIsRefusedAndTheTableListsTheFour) {  // case 72
   EXPECT_EQ(dump({{"surveyArea", {p, n(1000), n(1000), n(50), "SOUTH"}}}),
             (Lines{"there is no survey direction 'SOUTH'"}));
-  auto const spec = mission_builder();
-  auto const survey = std::ranges::find(spec.commands, "surveyArea", &CommandSpec::name);
+  auto const spec = mission_block();
+  auto const survey = std::ranges::find(spec.commands, "surveyArea", &tasks::CommandSpec::name);
   EXPECT_EQ(survey->overloads[0].parameters[3].choices,
             (std::vector<std::string_view>{"NORTH_WEST", "NORTH_EAST", "SOUTH_WEST", "SOUTH_EAST"}));
 }
@@ -197,8 +201,8 @@ TEST_P(EveryCommand, BecomesItsItem) {
 
 /// Editors show it.
 TEST_P(EveryCommand, SaysInItsDocWhichItemItBecomes) {
-  auto const spec = mission_builder();
-  auto const found = std::ranges::find(spec.commands, GetParam().command.name, &CommandSpec::name);
+  auto const spec = mission_block();
+  auto const found = std::ranges::find(spec.commands, GetParam().command.name, &tasks::CommandSpec::name);
   ASSERT_NE(found, spec.commands.end());
   auto const number = GetParam().item.substr(0, GetParam().item.find(' '));
   EXPECT_NE(found->doc.find(fmt::format("({})", number)), std::string_view::npos) << found->doc;
@@ -272,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(
                       CommandCase{{"jumpToItem", {n(2), n(-1)}}, "177 p=(2 -1 0 0)" + nowhere}));
 
 TEST(Mission, TableHasEveryCommandOnceWithItsDocumentation) {
-  auto const spec = mission_builder();
+  auto const spec = mission_block();
   std::vector<std::string_view> names;
   for (auto const& command : spec.commands) {
     names.push_back(command.name);
@@ -343,13 +347,13 @@ MissionTask task_of(std::vector<Command> const& commands) {
 
 TEST(MissionTask, TakesItsNameFromTheLastNameOrACount) {
   EXPECT_EQ(task_of({{"name", {"a"}}, {"name", {"b"}}}).name(), "b");
-  auto const spec = mission_builder();
+  auto const spec = mission_block();
   EXPECT_EQ((*spec.begin()->finish())->name(), "MissionPlan_1");
   EXPECT_EQ((*spec.begin()->finish())->name(), "MissionPlan_2");
 }
 
 TEST(MissionTask, WithPhotosNeedsACameraWherePayloadIsKnown) {
-  testing::Stage stage;
+  Stage stage;
   auto const photos = task_of({{"capturePhoto"}});
   EXPECT_EQ(photos.unsuited(*stage.platform.find({"a1"})), std::nullopt);
   EXPECT_EQ(photos.unsuited(*stage.platform.find({"u1"})), "no payload Camera");
@@ -357,8 +361,8 @@ TEST(MissionTask, WithPhotosNeedsACameraWherePayloadIsKnown) {
   EXPECT_EQ(task_of({{"goPos", {p}}}).unsuited(*stage.platform.find({"u1"})), std::nullopt);
 }
 
-VehicleInfo vehicle_of(std::string type) {
-  VehicleInfo info;
+tasks::VehicleInfo vehicle_of(std::string type) {
+  tasks::VehicleInfo info;
   info.id = {"7"};
   info.type = std::move(type);
   return info;
@@ -377,29 +381,29 @@ TEST(MissionTask, AgreesWithTheTableOnVehicleTypes) {
                            {"returnHomeAndLand"}, {"altitude", {n(150)}},        {"goPos", {n(1), n(2)}},
                            {"loiterTurns", {p}},  {"surveyArea", {n(9), n(9)}},  {"capturePhoto"},
                            {"delay", {n(5)}},     {"returnHomeAndLoiter"},       {"speed", {n(5)}}};
-  auto const spec = mission_builder();
+  auto const spec = mission_block();
   for (auto const& form : forms) {
     auto const task = task_of({{"home", {p}}, form});
-    auto const command = std::ranges::find(spec.commands, form.name, &CommandSpec::name);
+    auto const command = std::ranges::find(spec.commands, form.name, &tasks::CommandSpec::name);
     for (auto const* type : {"UAV", "UGV", "USV", "UUV"})
       EXPECT_EQ(!task.unsuited(vehicle_of(type)), command->suits(type)) << form.name << " " << type;
   }
 }
 
 TEST(MissionTask, TakesItsEstimatedTimeOnTheHarness) {
-  testing::Stage stage;
+  Stage stage;
   auto const task = std::make_shared<MissionTask>(
       task_of({{"name", {"m"}}, {"home", {p}}, {"move", {n(100), n(0)}}, {"delay", {n(5)}}}));
-  EXPECT_TRUE(stage.execute(performed(task), {"a1"}).is_done());
-  EXPECT_EQ(stage.trace, (testing::Trace{"0.0 START m@a1", "15.0 DONE m@a1"}));
+  EXPECT_TRUE(stage.execute(tasks::performed(task), {"a1"}).is_done());
+  EXPECT_EQ(stage.trace, (tasks::testing::Trace{"0.0 START m@a1", "15.0 DONE m@a1"}));
 }
 
 TEST(MissionTask, ThatEndsInALoiterRunsUntilItIsStopped) {
-  testing::Stage stage;
+  Stage stage;
   auto const task = std::make_shared<MissionTask>(task_of({{"name", {"m"}}, {"loiterPos", {p}}}));
-  EXPECT_TRUE(stage.execute(during(performed(task), testing::seconds(7200)), {"a1"}).is_done());
+  EXPECT_TRUE(stage.execute(during(tasks::performed(task), tasks::testing::seconds(7200)), {"a1"}).is_done());
   EXPECT_EQ(stage.trace.back(), "7200.0 STOP m@a1");
 }
 
 }  // namespace
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions

@@ -1,11 +1,10 @@
-#include "tasks/plan_library.hpp"
+#include "missions/plan_library.hpp"
 
 #include <gtest/gtest.h>
 
-#include "tasks/harness_platform.hpp"
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 namespace {
 
 PlanLibrary library() {
@@ -34,15 +33,5 @@ TEST(PlanLibrary, DoesNotKnowOthers) {
   EXPECT_EQ(missing.error().hint, "name a mission of this script, or give plan files with --plans DIR");
 }
 
-TEST(PlanLibrary, ComesBeforeTheTimedTasksOfTheTestPlatform) {
-  base::Loop loop({.unpaced = true});
-  HarnessPlatform const platform(loop, library());
-  EXPECT_EQ((*platform.named_task("north"))->kind(), "mission");
-  EXPECT_EQ((*platform.named_task("A:0.3"))->kind(), "task");
-  EXPECT_EQ(platform.named_task("broken").error().kind, base::ErrorKind::invalid_input);
-  EXPECT_EQ(platform.named_task("south").error().kind, base::ErrorKind::not_found);
-  EXPECT_EQ(platform.plan_names().size(), 2u);
-}
-
 }  // namespace
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions

@@ -1,12 +1,12 @@
-#include "tasks/plan_library.hpp"
+#include "missions/plan_library.hpp"
 
 #include <fmt/format.h>
 
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 
-base::Result<std::shared_ptr<PlatformTask const>> find_plan(PlanLibrary const& library, std::string_view name) {
+base::Result<std::shared_ptr<tasks::PlatformTask const>> find_plan(PlanLibrary const& library, std::string_view name) {
   auto const found = library.find(name);
   if (found == library.end()) {
     auto const hint = library.empty() ? "name a mission of this script, or give plan files with --plans DIR" : "";
@@ -22,4 +22,4 @@ std::vector<std::string> names_of(PlanLibrary const& library) {
   return names;
 }
 
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions

@@ -108,9 +108,10 @@ inline base::Duration seconds(double value) {
 }
 
 /// One loop, one conformance platform, and what happened there.
-struct Stage {
+template <class Harness = HarnessPlatform>
+struct BasicStage {
   base::Loop loop{{.speedup = 1.0, .unpaced = true}};
-  HarnessPlatform platform{loop};
+  Harness platform{loop};
   std::vector<std::string> trace;  ///< "0.3 START A@a1"
 
   /// `task('A:0.3')`
@@ -142,6 +143,7 @@ struct Stage {
   double now_s() const { return base::to_seconds(loop.now().time_since_epoch()); }
 };
 
+using Stage = BasicStage<>;
 using Trace = std::vector<std::string>;
 
 }  // namespace lapwing::tasks::testing

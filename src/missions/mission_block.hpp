@@ -1,12 +1,12 @@
 #pragma once
 
-#include "tasks/mission_task.hpp"
+#include "missions/mission_task.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 
 /// The block word `mission { ... }` with all its commands (language spec, 5.5). Builds `MissionTask`s; one without a
 /// `name` is called MissionPlan_N, N counting the missions that this spec has built.
 /// `settings`: by which its doubts are judged.
-[[nodiscard]] BuilderSpec mission_builder(plan::plausibility::Settings settings = {});
+[[nodiscard]] tasks::BuilderSpec mission_block(plan::plausibility::Settings settings = {});
 
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions

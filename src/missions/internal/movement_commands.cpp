@@ -1,12 +1,18 @@
-#include "tasks/internal/mission_commands.hpp"
+#include "missions/internal/mission_commands.hpp"
 
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
 #include <utility>
 
-namespace lapwing::tasks::internal {
+namespace lapwing::missions::internal {
 namespace {
+
+using tasks::Argument;
+using tasks::Dimension;
+using tasks::Overload;
+using tasks::Parameter;
+using tasks::Type;
 
 using base::Result;
 using plan::Loiter;
@@ -285,4 +291,4 @@ std::vector<MissionCommand> movement_commands() {
   return commands;
 }
 
-}  // namespace lapwing::tasks::internal
+}  // namespace lapwing::missions::internal

@@ -1,4 +1,4 @@
-#include "tasks/mission_builder.hpp"
+#include "missions/mission_block.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,26 +6,26 @@
 
 #include <fmt/format.h>
 
+#include "missions/internal/mission_commands.hpp"
 #include "plan/plausibility/judge.hpp"
-#include "tasks/internal/mission_commands.hpp"
 
-namespace lapwing::tasks {
+namespace lapwing::missions {
 
 namespace internal {
 
-double number(Argument const& argument) {
+double number(tasks::Argument const& argument) {
   if (auto const* const whole = std::get_if<std::int64_t>(&argument)) return static_cast<double>(*whole);
   return std::get<double>(argument);
 }
-int integer(Argument const& argument) {
+int integer(tasks::Argument const& argument) {
   using Limits = std::numeric_limits<int>;
   auto const value = std::get<std::int64_t>(argument);
   return static_cast<int>(std::clamp<std::int64_t>(value, Limits::min(), Limits::max()));
 }
-std::string const& text(Argument const& argument) {
+std::string const& text(tasks::Argument const& argument) {
   return std::get<std::string>(argument);
 }
-geo::Wgs84 position(Argument const& argument) {
+geo::Wgs84 position(tasks::Argument const& argument) {
   return std::get<geo::Wgs84>(argument);
 }
 
@@ -40,24 +40,24 @@ struct Workshop {
   int built = 0;
 };
 
-class MissionSession final : public BuilderSession {
+class MissionSession final : public tasks::BuilderSession {
  public:
   explicit MissionSession(std::shared_ptr<Workshop> workshop) : workshop_(std::move(workshop)) {}
 
-  base::Result<> add(std::size_t command, std::size_t overload, std::span<Argument const> arguments) override {
+  base::Result<> add(std::size_t command, std::size_t overload, std::span<tasks::Argument const> arguments) override {
     auto added = workshop_->apply.at(command)(builder_, overload, arguments);
     call_of_item_.resize(builder_.mission().items.size(), calls_);
     if (builder_.mission().home && !home_call_) home_call_ = calls_;
     ++calls_;
     return added;
   }
-  base::Result<std::shared_ptr<PlatformTask const>> finish() override {
+  base::Result<std::shared_ptr<tasks::PlatformTask const>> finish() override {
     auto mission = builder_.finish(fmt::format("MissionPlan_{}", ++workshop_->built));
     if (!mission) return std::unexpected(mission.error());
     return std::make_shared<MissionTask const>(*std::move(mission), workshop_->settings);
   }
-  [[nodiscard]] std::vector<Doubt> doubts() const override {
-    std::vector<Doubt> doubts;
+  [[nodiscard]] std::vector<tasks::Doubt> doubts() const override {
+    std::vector<tasks::Doubt> doubts;
     for (auto const& finding : judge_alone(builder_.mission(), workshop_->settings)) {
       if (finding.allowed_because) continue;
       auto const call = finding.item ? std::optional(call_of_item_.at(*finding.item)) : home_call_;
@@ -77,15 +77,15 @@ class MissionSession final : public BuilderSession {
 
 }  // namespace
 
-BuilderSpec mission_builder(plan::plausibility::Settings settings) {
+tasks::BuilderSpec mission_block(plan::plausibility::Settings settings) {
   auto commands = internal::movement_commands();
   std::ranges::move(internal::other_commands(), std::back_inserter(commands));
   auto const workshop = std::make_shared<Workshop>();
   workshop->settings = std::move(settings);
-  BuilderSpec spec{.name = "mission",
-                   .commands = {},
-                   .doc = "A mission: commands that one vehicle carries out in order, by itself.",
-                   .begin = [workshop] { return std::make_unique<MissionSession>(workshop); }};
+  tasks::BuilderSpec spec{.name = "mission",
+                          .commands = {},
+                          .doc = "A mission: commands that one vehicle carries out in order, by itself.",
+                          .begin = [workshop] { return std::make_unique<MissionSession>(workshop); }};
   for (auto& command : commands) {
     workshop->apply.push_back(command.apply);
     spec.commands.push_back(std::move(command.spec));
@@ -93,4 +93,4 @@ BuilderSpec mission_builder(plan::plausibility::Settings settings) {
   return spec;
 }
 
-}  // namespace lapwing::tasks
+}  // namespace lapwing::missions
