@@ -1,0 +1,155 @@
+"""Check that every #include between rooms is allowed by rooms.toml. usage: check_rooms.py REPO [--write]
+
+--write puts the allow list into docs/architecture.md; without it the table there must be the same.
+"""
+
+import dataclasses
+import functools
+import pathlib
+import re
+import sys
+import tomllib
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"(?P<own>[^"]+)"|<(?P<system>[^>]+)>)', re.MULTILINE)
+MARKS = ("<!-- made from tests/house/rooms.toml -->\n", "<!-- end -->\n")
+
+
+def is_test(path: pathlib.PurePath) -> bool:
+    return "testing" in path.parts or path.stem.endswith("_test") or path.name.startswith("test_") or path.name == "testing.hpp"
+
+
+@dataclasses.dataclass(frozen=True)
+class Edge:
+    """One #include of a header of the house."""
+    place: str  # path:line
+    header: str
+
+
+class House:
+    def __init__(self, repo: pathlib.Path):
+        self.repo = repo
+        self.rules = tomllib.loads((pathlib.Path(__file__).parent / "rooms.toml").read_text())
+        self.rooms: dict[str, list[str]] = self.rules["rooms"]
+        self.files = [path for folder in ("src", "bench", "fuzz") for path in sorted((repo / folder).rglob("*.[ch]pp"))]
+
+    def room(self, path: pathlib.Path) -> str:
+        parts = path.relative_to(self.repo).parts
+        return parts[1] if parts[0] == "src" else parts[0]
+
+    @functools.cache
+    def edges(self, path: pathlib.Path) -> tuple[list[Edge], list[tuple[str, str]]]:
+        """What the file includes: headers of the house, and those of others as (place, header)."""
+        own, system = [], []
+        text = path.read_text()
+        for match in INCLUDE.finditer(text):
+            place = f"{path.relative_to(self.repo)}:{text.count(chr(10), 0, match.start(0)) + 1}"
+            if match["system"]:
+                system.append((place, match["system"]))
+            elif match["own"].split("/")[0] in self.rooms or (self.repo / "src" / match["own"]).exists():
+                own.append(Edge(place, match["own"]))
+        return own, system
+
+    @functools.cache
+    def reached(self, path: pathlib.Path) -> dict[str, str]:
+        """Every header of the house that the file includes, over others too, with the first of its own includes that leads there."""
+        found: dict[str, str] = {}
+        for edge in self.edges(path)[0]:
+            waiting = [edge.header]
+            while waiting:
+                header = waiting.pop()
+                if header in found:
+                    continue
+                found[header] = edge.place
+                target = self.repo / "src" / header
+                if target.exists():
+                    waiting += [further.header for further in self.edges(target)[0]]
+        return found
+
+    def allowed(self, room: str, path: pathlib.Path) -> set[str]:
+        rooms = {room, *self.rooms[room]}
+        return rooms | set(self.rules["tests"].get(room, [])) if is_test(path) else rooms
+
+    def complaints(self) -> list[str]:
+        wrong = []
+        for path in self.files:
+            room = self.room(path)
+            if room not in self.rooms:
+                wrong.append(f"{path.relative_to(self.repo)}: the room {room!r} is not in tests/house/rooms.toml")
+                continue
+            wrong += self.direct(room, path) + self.transitive(room, path) + self.impure(room, path)
+        return wrong
+
+    def direct(self, room: str, path: pathlib.Path) -> list[str]:
+        wrong = []
+        allowed = self.allowed(room, path)
+        for edge in self.edges(path)[0]:
+            other, *inner = edge.header.split("/")
+            if other == room:
+                continue
+            if "*" not in allowed and other not in allowed:
+                wrong.append(f"{edge.place}: {room} must not include {edge.header}")
+            elif "internal" in inner and room in self.rooms and room != "fuzz":
+                wrong.append(f"{edge.place}: {edge.header} is private to {other}")
+        return wrong
+
+    def transitive(self, room: str, path: pathlib.Path) -> list[str]:
+        forbidden = set(self.rules["kept_from"].get(room, [])) - self.allowed(room, path)
+        if is_test(path):  # what a test may include brings along what that includes
+            forbidden -= {far for near in self.rules["tests"].get(room, []) for far in self.closure(near)}
+        return [f"{place}: {room} is kept from {header.split('/')[0]}, and this leads to {header}"
+                for header, place in self.reached(path).items() if header.split("/")[0] in forbidden]
+
+    def closure(self, room: str) -> set[str]:
+        found, waiting = set(), [room]
+        while waiting:
+            one = waiting.pop()
+            if one not in found:
+                found.add(one)
+                waiting += self.rooms[one]
+        return found
+
+    def impure(self, room: str, path: pathlib.Path) -> list[str]:
+        rules = self.rules["pure"]
+        if room not in rules["rooms"] or is_test(path):
+            return []
+        wrong = [f"{place}: {room} is pure, and this leads to {header}" for header, place in self.reached(path).items() if header in rules["headers"]]
+        own = {f"{path.relative_to(self.repo / 'src')}"} | {header for header in self.reached(path) if header.split("/")[0] == room}
+        for header in sorted(own):
+            target = self.repo / "src" / header
+            system = self.edges(target)[1] if target.exists() else []
+            wrong += [f"{place}: {room} is pure and must not include <{name}>" for place, name in system if name.startswith(tuple(rules["system"]))]
+        return wrong
+
+    def table(self) -> str:
+        lines = ["| room | may include |", "|---|---|"]
+        for room, others in self.rooms.items():
+            words = {"[]": "(nothing)", "['*']": "everything"}.get(str(others), " ".join(others))
+            lines.append(f"| {room} | {words} |")
+        return "\n".join(lines) + "\n"
+
+
+def written(house: House, write: bool) -> list[str]:
+    """The table in docs/architecture.md, put there or compared."""
+    page = house.repo / "docs/architecture.md"
+    text = page.read_text()
+    before, _, rest = text.partition(MARKS[0])
+    old, _, after = rest.partition(MARKS[1])
+    if not rest or not after:
+        return [f"{page.relative_to(house.repo)}: the marks round the allow list are gone: {MARKS[0].strip()} ... {MARKS[1].strip()}"]
+    if old == house.table():
+        return []
+    if not write:
+        return [f"{page.relative_to(house.repo)}: its allow list is old; write it with tests/house/check_rooms.py . --write"]
+    page.write_text(before + MARKS[0] + house.table() + MARKS[1] + after)
+    return []
+
+
+def main() -> int:
+    house = House(pathlib.Path(sys.argv[1]).resolve())
+    wrong = house.complaints() + written(house, "--write" in sys.argv[2:])
+    print("\n".join(wrong) if wrong else f"every include of {len(house.files)} files is allowed")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
