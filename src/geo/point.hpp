@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+
+/// Places and shifts in a named frame of metres. A frame is an empty struct (`struct MapFrame {};`) that whoever has
+/// the frame declares; numbers of different frames do not mix, which the compiler holds.
+namespace lapwing::geo {
+
+/// A shift, or any other arrow, along the axes of a frame; metres unless its name says something else.
+template <class Frame, int Dim = 2>
+struct Vector {
+  using Numbers = Eigen::Matrix<double, Dim, 1>;
+  Numbers v = Numbers::Zero();
+
+  Vector() = default;
+  explicit Vector(Numbers const& numbers) : v(numbers) {}
+  Vector(double x, double y)
+    requires(Dim == 2)
+      : v(x, y) {}
+  Vector(double x, double y, double z)
+    requires(Dim == 3)
+      : v(x, y, z) {}
+
+  [[nodiscard]] double x() const { return v.x(); }
+  [[nodiscard]] double y() const { return v.y(); }
+  [[nodiscard]] double z() const
+    requires(Dim == 3)
+  {
+    return v.z();
+  }
+  [[nodiscard]] double length() const { return v.norm(); }
+  [[nodiscard]] double dot(Vector const& other) const { return v.dot(other.v); }
+  /// Positive when `other` lies counterclockwise of this.
+  [[nodiscard]] double cross(Vector const& other) const
+    requires(Dim == 2)
+  {
+    return v.x() * other.v.y() - v.y() * other.v.x();
+  }
+
+  friend Vector operator+(Vector const& a, Vector const& b) { return Vector(Numbers(a.v + b.v)); }
+  friend Vector operator-(Vector const& a, Vector const& b) { return Vector(Numbers(a.v - b.v)); }
+  friend Vector operator-(Vector const& a) { return Vector(Numbers(-a.v)); }
+  friend Vector operator*(Vector const& a, double factor) { return Vector(Numbers(a.v * factor)); }
+  friend Vector operator*(double factor, Vector const& a) { return a * factor; }
+  friend bool operator==(Vector const& a, Vector const& b) { return a.v == b.v; }
+};
+
+/// A place in a frame, in metres from its origin.
+template <class Frame, int Dim = 2>
+struct Point {
+  using Numbers = typename Vector<Frame, Dim>::Numbers;
+  Numbers v = Numbers::Zero();
+
+  Point() = default;
+  explicit Point(Numbers const& numbers) : v(numbers) {}
+  Point(double x, double y)
+    requires(Dim == 2)
+      : v(x, y) {}
+  Point(double x, double y, double z)
+    requires(Dim == 3)
+      : v(x, y, z) {}
+
+  [[nodiscard]] double x() const { return v.x(); }
+  [[nodiscard]] double y() const { return v.y(); }
+  [[nodiscard]] double z() const
+    requires(Dim == 3)
+  {
+    return v.z();
+  }
+  [[nodiscard]] bool is_finite() const { return v.allFinite(); }
+
+  friend Vector<Frame, Dim> operator-(Point const& to, Point const& from) {
+    return Vector<Frame, Dim>(Numbers(to.v - from.v));
+  }
+  friend Point operator+(Point const& place, Vector<Frame, Dim> const& shift) {
+    return Point(Numbers(place.v + shift.v));
+  }
+  friend Point operator-(Point const& place, Vector<Frame, Dim> const& shift) {
+    return Point(Numbers(place.v - shift.v));
+  }
+  friend bool operator==(Point const& a, Point const& b) { return a.v == b.v; }
+};
+
+template <class Frame>
+using Point3 = Point<Frame, 3>;
+template <class Frame>
+using Vector3 = Vector<Frame, 3>;
+
+/// In metres.
+template <class Frame, int Dim>
+[[nodiscard]] double distance_m(Point<Frame, Dim> const& a, Point<Frame, Dim> const& b) {
+  return (a - b).length();
+}
+
+}  // namespace lapwing::geo
