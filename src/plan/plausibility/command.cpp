@@ -62,19 +62,41 @@ void judge_distance(GoTo const& command, Situation const& situation, Limits cons
                            is_reached ? " and home" : "", (is_reached ? back_s : way_s) / 60.0, lasts_s / 60.0)});
 }
 
-void judge_fence(GoTo const& command, Situation const& situation, Limits const& limits, Findings& out) {
-  if (!situation.fence) return;
-  Mission way;
+/// A command as a mission of one item, for the rules that look at ways.
+Mission as_mission(mavlink::MavCmd command, geo::Wgs84 place, double height_m) {
   mavlink::MissionItem item;
-  item.command = mavlink::MavCmd::nav_waypoint;
+  item.command = command;
   item.frame = mavlink::MavFrame::global_relative_alt;
-  item.place = {
-      .lat_rad = command.place.lat_rad, .lon_rad = command.place.lon_rad, .z_m = command.height_m.value_or(0.0)};
-  way.items = {item};
-  internal::Look const look(way, situation, limits, false);
-  internal::judge_fence(look, out);
-  for (auto& finding : out)
-    if (finding.rule == Rule::outside_fence) finding.item.reset();
+  item.place = {.lat_rad = place.lat_rad, .lon_rad = place.lon_rad, .z_m = height_m};
+  return {.name = {}, .home = std::nullopt, .items = {item}};
+}
+
+void judge_fences(internal::Look const& look, Findings& out) {
+  Findings found;
+  internal::judge_fence(look, found);
+  internal::judge_own_fence(look, found);
+  for (auto& finding : found) {
+    finding.item.reset();
+    out.push_back(std::move(finding));
+  }
+}
+
+void judge_fences(GoTo const& command, Situation const& situation, Limits const& limits, Findings& out) {
+  auto const way = as_mission(mavlink::MavCmd::nav_waypoint, command.place, command.height_m.value_or(0.0));
+  internal::Look look(way, situation, limits, false);
+  look.by_hand = "the place";
+  if (look.stops.empty()) return;
+  if (!command.height_m) look.stops.front().up_m.reset();
+  judge_fences(look, out);
+}
+
+void judge_fences_of_take_off(double height_m, Situation const& situation, Limits const& limits, Findings& out) {
+  auto const at = situation.position ? situation.position : situation.home;
+  if (!at) return;
+  auto const way = as_mission(mavlink::MavCmd::nav_takeoff, *at, height_m);
+  internal::Look look(way, situation, limits, false);
+  look.by_hand = "the take-off";
+  judge_fences(look, out);
 }
 
 }  // namespace
@@ -89,7 +111,7 @@ Findings judge(GoTo const& command, Situation const& situation, Settings const& 
     judge_distance(command, situation, settings.limits, findings);
   }
   if (command.height_m) judge_height(*command.height_m, situation, settings.limits, findings);
-  judge_fence(command, situation, settings.limits, findings);
+  judge_fences(command, situation, settings.limits, findings);
   return marked(std::move(findings), settings);
 }
 
@@ -101,6 +123,7 @@ Findings judge_take_off(double height_m, Situation const& situation, Settings co
                         .severity = height_m < 1.0 ? Severity::refuse : Severity::warn,
                         .what = fmt::format("a take-off to {:.1f} m hardly leaves the ground", height_m)});
   if (height_m > settings.limits.ceiling_m) judge_height(height_m, situation, settings.limits, findings);
+  judge_fences_of_take_off(height_m, situation, settings.limits, findings);
   return marked(std::move(findings), settings);
 }
 

@@ -14,7 +14,7 @@ enum class Rule {
   home_moved,        ///< the vehicle's home would go far from where it stands
   too_far,           ///< a place is far from the vehicle, or from the place before it
   zero_coordinates,  ///< latitude 0, longitude 0: off Africa, and what a forgotten value looks like
-  outside_fence,     ///< a place or the way there is outside the vehicle's own fence
+  outside_fence,     ///< a place or the way there is outside a fence: the vehicle's own, or the plan's
   battery,           ///< it takes longer than the battery lasts
   home_height,       ///< the mission's home is far above or below the ground on which the vehicle stands
   below_ground,      ///< a place at or below the ground of home

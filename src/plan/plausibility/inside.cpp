@@ -4,7 +4,7 @@
 
 #include "plan/plausibility/internal/look.hpp"
 
-/// Inside: places and ways against the vehicle's own fence.
+/// Inside: places and ways against the fence of the plan that is uploaded along.
 namespace lapwing::plan::plausibility::internal {
 
 void judge_fence(Look const& look, Findings& out) {
@@ -38,7 +38,7 @@ void judge_fence(Look const& look, Findings& out) {
   auto const point = std::min(static_cast<std::size_t>(base::to_seconds(worst.worst.time) + 0.999), items.size() - 1);
   out.push_back({.rule = Rule::outside_fence,
                  .item = items[point],
-                 .what = fmt::format("{} or the way there is {} {} the fence ({})", item_text(items[point]),
+                 .what = fmt::format("{} or the way there is {} {} the fence ({})", look.text_of(items[point]),
                                      distance_text(worst.depth_m),
                                      worst.kind == Zone::Kind::inclusion ? "outside" : "inside what is shut out by",
                                      worst.by_height ? "by height" : worst.zone),

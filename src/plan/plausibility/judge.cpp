@@ -22,6 +22,7 @@ Findings judge(Mission const& mission, Situation const& situation, Settings cons
   internal::judge_height(look, findings);
   internal::judge_sequence(look, findings);
   internal::judge_fence(look, findings);
+  internal::judge_own_fence(look, findings);
   internal::judge_battery(look, findings);
   internal::judge_pads(look, findings);
   return sorted(std::move(findings), settings);

@@ -7,6 +7,7 @@
 #include "base/time.hpp"
 #include "geo/position.hpp"
 #include "plan/plan.hpp"
+#include "plan/plausibility/vehicle_fence.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::plan::plausibility {
@@ -26,8 +27,9 @@ struct Situation {
   std::optional<geo::Wgs84> position = std::nullopt;
   std::optional<geo::Wgs84> home = std::nullopt;  ///< its own, as it is before the mission moves it
   std::optional<bool> on_ground = std::nullopt;
-  std::optional<int> items_held = std::nullopt;  ///< of a mission, without home
-  std::optional<GeoFence> fence = std::nullopt;
+  std::optional<int> items_held = std::nullopt;            ///< of a mission, without home
+  std::optional<GeoFence> fence = std::nullopt;            ///< of the plan that is uploaded along
+  std::optional<VehicleFence> own_fence = std::nullopt;    ///< while it is switched on
   std::optional<base::Duration> endurance = std::nullopt;  ///< what is left of the battery
   std::vector<Neighbour> neighbours = {};
 };

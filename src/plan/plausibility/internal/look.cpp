@@ -130,6 +130,10 @@ double Look::farthest_m() const {
   return limits.distance_m ? std::max(*limits.distance_m, farthest_alone_m) : farthest_alone_m;
 }
 
+std::string Look::text_of(std::size_t item) const {
+  return by_hand.empty() ? item_text(item) : by_hand;
+}
+
 double mission_distance_m(Limits const& limits, Family family) {
   if (limits.distance_m) return *limits.distance_m;
   switch (family) {

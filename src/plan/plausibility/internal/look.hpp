@@ -38,8 +38,11 @@ struct Look {
   std::optional<geo::Wgs84> start;  ///< where the vehicle is; alone: the mission's home, or its first place
   bool flies = false;
   std::vector<Stop> stops;
+  std::string by_hand;  ///< what a person calls the one place of a command; empty for a mission
 
   [[nodiscard]] double farthest_m() const;
+  /// "item 3", or what it is by hand
+  [[nodiscard]] std::string text_of(std::size_t item) const;
 };
 
 /// How far from a vehicle of that family the places of a mission may be, and of a command by hand.
@@ -51,6 +54,7 @@ void judge_height(Look const& look, Findings& out);
 void judge_sequence(Look const& look, Findings& out);
 void judge_pads(Look const& look, Findings& out);
 void judge_fence(Look const& look, Findings& out);
+void judge_own_fence(Look const& look, Findings& out);
 void judge_battery(Look const& look, Findings& out);
 
 /// Latitude and longitude 0 are not meant; alone in the world, or with everything else far away from there.
