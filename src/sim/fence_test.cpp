@@ -115,6 +115,7 @@ TEST(Fence, KeepsACopterInThePolygonThatWasUploaded) {
   ground.boot();
   auto const items = square(ground, MavCmd::nav_fence_polygon_vertex_inclusion, 0, 0, 50);
   ASSERT_EQ(upload_fence(ground, items), MavMissionResult::accepted);
+  EXPECT_EQ(ground.vehicle().parameters().value("FENCE_TOTAL"), 4.0);
   ground.hover(10);
   fly(ground, {0, 8, 0}, 12s);
   EXPECT_EQ(ground.pilot().mode().name, "RTL");

@@ -89,6 +89,11 @@ MissionStore::Ports FlightController::mission_ports() {
             keep_count();
             autopilot_.plan_cleared();
           },
+      .zones_changed =
+          [this] {
+            memory_.parameters.set("FENCE_TOTAL", static_cast<float>(memory_.plans.fence.size()));
+            memory_.parameters.set("RALLY_TOTAL", static_cast<float>(memory_.plans.rally.size()));
+          },
       .go_to = [this](MissionItem const& item) { return go_to_item(item); },
       .home = [this]() -> std::optional<geo::Wgs84> {
         auto const home = autopilot_.home();

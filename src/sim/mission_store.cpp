@@ -214,7 +214,7 @@ void MissionStore::say_plan_is_received(MissionType type) {
 void MissionStore::take_over(Transfer done) {
   if (done.type == MissionType::mission) done.staged.insert(done.staged.begin(), item_zero());
   *plan_of(done.type) = std::move(done.staged);
-  if (done.type != MissionType::mission) return;
+  if (done.type != MissionType::mission) return ports_.zones_changed();
   ports_.mission_cleared();  // PX4 begins a new mission at its begin
   ports_.mission_changed();
 }
@@ -275,7 +275,7 @@ void MissionStore::on(mavlink::MissionClearAll const& clear_all, Address from) {
 
 void MissionStore::clear(MissionType type) {
   plan_of(type)->clear();
-  if (type == MissionType::mission) ports_.mission_cleared();
+  type == MissionType::mission ? ports_.mission_cleared() : ports_.zones_changed();
   if (type == MissionType::fence) say_fence_is_indexed();
 }
 

@@ -24,6 +24,8 @@ class MissionStore {
     /// The mission's item was replaced by a different one, or the mission got longer or shorter.
     std::function<void()> mission_changed;
     std::function<void()> mission_cleared;
+    /// The fence or the rally points are others.
+    std::function<void()> zones_changed;
     /// A legacy item with current = 2: "go there now".
     std::function<mavlink::MavMissionResult(mavlink::MissionItem const&)> go_to;
     /// Home as item 0; nothing before it is known.

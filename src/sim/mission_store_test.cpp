@@ -27,6 +27,7 @@ struct Desk {
   std::vector<std::string> said;
   int changes = 0;
   int clears = 0;
+  int zone_changes = 0;
   std::optional<geo::Wgs84> home;
   std::vector<MissionItem> went_to;
   base::Duration now{};
@@ -36,6 +37,7 @@ struct Desk {
                       .say = [this](MavSeverity, std::string text) { said.push_back(std::move(text)); },
                       .mission_changed = [this] { ++changes; },
                       .mission_cleared = [this] { ++clears; },
+                      .zones_changed = [this] { ++zone_changes; },
                       .go_to =
                           [this](MissionItem const& item) {
                             went_to.push_back(item);
@@ -406,6 +408,7 @@ TEST(FenceUpload, TakesPolygonsAndCircles) {
   EXPECT_EQ(desk.results(), Results{accepted});
   EXPECT_EQ(desk.said, std::vector<std::string>{"Fence Indexed OK"});
   EXPECT_EQ(desk.plans.fence.size(), 4u);
+  EXPECT_EQ(desk.zone_changes, 1);
   EXPECT_FALSE(desk.plans.fence[0].autocontinue);
   EXPECT_TRUE(desk.plans.mission.empty());
 }
