@@ -147,18 +147,18 @@ Task<Result<>> arm_anew(mavlink::Connection& connection, Craft& craft, ActionOpt
   co_return asked;
 }
 
+}  // namespace
+
 bool flies_the_plan(Craft const& craft, vehicle::VehicleCommand const& command) {
   if (command.action == Action::start_mission || command.action == Action::resume_mission) return true;
+  if (command.action == Action::arm) return in_mission_mode(craft);
   if (command.action != Action::set_mode) return false;
   auto const mode = mavlink::mode_number(craft.state.autopilot, craft.state.family, command.mode);
   return mode && mode == mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::mission);
 }
 
-}  // namespace
-
 Task<Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle::VehicleCommand command,
                          ActionOptions how) {
-  constexpr double usual_height_m = 10.0;
   if (craft.holds_parts && flies_the_plan(craft, command))
     co_return fail(
         ErrorKind::refused,
@@ -167,7 +167,7 @@ Task<Result<>> carry_out(mavlink::Connection& connection, Craft& craft, vehicle:
     case Action::arm: co_return co_await arm_anew(connection, craft, how);
     case Action::disarm: co_return co_await disarm(connection, craft, how);
     case Action::take_off:
-      co_return co_await take_off(connection, craft, command.height_m.value_or(usual_height_m), how);
+      co_return co_await take_off(connection, craft, command.height_m.value_or(usual_take_off_height_m), how);
     case Action::land: co_return co_await go_into_role(connection, craft, ModeRole::land, "cannot land by itself", how);
     case Action::return_home:
       co_return co_await go_into_role(connection, craft, ModeRole::rtl, "has no mode to return in", how);

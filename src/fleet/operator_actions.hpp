@@ -9,6 +9,13 @@ namespace lapwing::fleet {
 /// PX4. Nothing for those that are told the height.
 [[nodiscard]] std::optional<std::uint32_t> take_off_mode(Craft const& craft);
 
+/// Of a take-off for which nobody said one.
+inline constexpr double usual_take_off_height_m = 10.0;
+
+/// Whether the vehicle flies what it holds after the command: a vehicle that stands in its mission mode does so as soon
+/// as it is armed, if it has wheels.
+[[nodiscard]] bool flies_the_plan(Craft const& craft, vehicle::VehicleCommand const& command);
+
 /// Sends what an operator commands until the vehicle has acknowledged it and shows the mode for it; what it makes of it
 /// then is for `Goal` to see. Errors: invalid_input (the vehicle cannot do that), refused (with the vehicle's own
 /// reason), timed_out, those of Connection::send.

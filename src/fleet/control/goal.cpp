@@ -215,10 +215,9 @@ Standing Goal::holding(Craft const& craft) const {
 
 Standing Goal::take_off(Craft const& craft, TimePoint now) const {
   constexpr Duration is_there = 3s;
-  constexpr double usual_height_m = 10.0;
   auto const height = height_m(craft);
   bool const is_own_height = take_off_mode(craft).has_value();
-  double const wanted_m = height_wanted_m_.value_or(usual_height_m);
+  double const wanted_m = height_wanted_m_.value_or(usual_take_off_height_m);
   auto const at = !height         ? std::string("height not told")
                   : is_own_height ? fmt::format("at {:.0f} m, to the height of its own setting", *height)
                                   : fmt::format("at {:.0f} of {:.0f} m", *height, wanted_m);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "fleet/operator_actions.hpp"
 #include "fleet/plausibility/doubts.hpp"
 #include "mavlink/mission_transfer.hpp"
 #include "plan/plausibility/judge.hpp"
@@ -30,25 +31,25 @@ Task<std::optional<plan::Mission>> held_mission(Craft& craft) {
   co_return plan::mission_from(held->items, craft.state.autopilot);
 }
 
+/// Of a vehicle that is not armed, a mode may be chosen at leisure, and resuming is refused anyway.
+bool flies_the_plan_now(Craft const& craft, vehicle::VehicleCommand const& command) {
+  bool const arms = command.action == Action::start_mission || command.action == Action::arm;
+  return flies_the_plan(craft, command) && (arms || craft.is_armed);
+}
+
 Task<plausibility::Findings> findings_of(Craft& craft, vehicle::VehicleCommand command, plausibility::Settings settings,
                                          Neighbours neighbours) {
-  // What it holds is no plan, and is refused as that.
-  if (craft.holds_parts) co_return plausibility::Findings{};
+  bool const goes_somewhere = command.action == Action::go_to && command.place;
+  bool const takes_off = command.action == Action::take_off;
+  bool const flies_plan = flies_the_plan_now(craft, command);
+  // What stops a vehicle waits for nothing. A mixture of plans is no plan, and is refused as that.
+  if (!(goes_somewhere || takes_off || flies_plan) || craft.holds_parts) co_return plausibility::Findings{};
   std::optional<plan::Mission> held;
-  if (command.action == Action::start_mission) held = co_await held_mission(craft);
+  if (flies_plan) held = co_await held_mission(craft);
   auto const situation = situation_of(craft, neighbours);
-  switch (command.action) {
-    case Action::go_to:
-      if (!command.place) break;
-      co_return judge(plausibility::GoTo{*command.place, command.height_m}, situation, settings);
-    case Action::take_off:
-      if (!command.height_m) break;
-      co_return judge_take_off(*command.height_m, situation, settings);
-    case Action::start_mission:
-    case Action::resume_mission: co_return judge_start(held, situation, settings);
-    default: break;
-  }
-  co_return plausibility::Findings{};
+  if (goes_somewhere) co_return judge(plausibility::GoTo{*command.place, command.height_m}, situation, settings);
+  if (takes_off) co_return judge_take_off(command.height_m.value_or(usual_take_off_height_m), situation, settings);
+  co_return judge_start(held, situation, settings);
 }
 
 }  // namespace

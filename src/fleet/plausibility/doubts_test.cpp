@@ -144,16 +144,50 @@ TEST(OperatorsCommand, StartsNoMissionThatTheVehicleDoesNotHold) {
   EXPECT_EQ(copter.commands_heard(MavCmd::component_arm_disarm), 0);
 }
 
+std::vector<mavlink::MissionItem> mission_of_another_place() {
+  auto mission = mission_ending_with(MavCmd::nav_land);
+  for (auto& item : mission.items) item.place.lat_rad += 0.05;
+  return plan::for_autopilot(mission, vehicle::Autopilot::ardupilot, TestAutopilot::home);
+}
+
 TEST(OperatorsCommand, StartsNoMissionOfAnotherPlace) {
   ControlWorld world;
   auto& copter = world.add_ready();
-  auto mission = mission_ending_with(MavCmd::nav_land);
-  for (auto& item : mission.items) item.place.lat_rad += 0.05;
-  copter.mission = plan::for_autopilot(mission, vehicle::Autopilot::ardupilot, TestAutopilot::home);
+  copter.mission = mission_of_another_place();
   auto const number = world.give({.action = Action::start_mission});
   EXPECT_EQ(world.end_of(number), CommandState::refused);
   EXPECT_NE(world.outcome(number).reason.find("[too_far]"), std::string::npos) << world.outcome(number).reason;
   EXPECT_EQ(copter.commands_heard(MavCmd::component_arm_disarm), 0);
+}
+
+TEST(OperatorsCommand, GetsNoVehicleToFlyAMissionOfAnotherPlaceByOtherWords) {
+  ControlWorld world;
+  auto& copter = world.add_flying();
+  copter.mission = mission_of_another_place();
+  auto const modes = copter.modes_commanded().size();
+  auto const is_refused = [&](vehicle::VehicleCommand command, std::string const& id = "1") {
+    auto const number = world.give(std::move(command), {id});
+    return world.end_of(number) == CommandState::refused &&
+           world.outcome(number).reason.find("[too_far]") != std::string::npos;
+  };
+  EXPECT_TRUE(is_refused({.action = Action::resume_mission}));
+  EXPECT_TRUE(is_refused({.action = Action::set_mode, .mode = "AUTO"}));
+  EXPECT_EQ(copter.modes_commanded().size(), modes);
+
+  auto& rover = world.add_ready(a_rover(2));
+  rover.mission = mission_of_another_place();
+  rover.change_mode(rover_mode::automatic);
+  world.run_for(2s);
+  EXPECT_TRUE(is_refused({.action = Action::arm}, "2")) << "it would set off at once";
+  EXPECT_EQ(rover.commands_heard(MavCmd::component_arm_disarm), 0);
+}
+
+TEST(OperatorsCommand, LetsAModeBeChosenAtLeisureOnTheGround) {
+  ControlWorld world;
+  auto& rover = world.add_ready(a_rover(2));
+  rover.mission = mission_of_another_place();
+  auto const number = world.give({.action = Action::set_mode, .mode = "AUTO"}, {"2"});
+  EXPECT_EQ(world.end_of(number), CommandState::confirmed) << world.outcome(number).reason;
 }
 
 TEST(OperatorsCommand, TakesOffToNoHeightAboveTheCeiling) {
