@@ -17,6 +17,7 @@
 #include "apps/simulation.hpp"
 #include "apps/vehicle_plans.hpp"
 #include "apps/verb.hpp"
+#include "fleet/plausibility/own_fence.hpp"
 #include "fleet/plausibility/situation.hpp"
 #include "mavlink/command.hpp"
 #include "plan/plausibility/judge.hpp"
@@ -189,15 +190,22 @@ Task<bool> learn_place(fleet::Craft& craft) {
 /// Whether the mission makes sense where the vehicle is. Its ground and home are waited for, since a plan of another
 /// place is known by nothing else; a vehicle that knows no place is given the benefit of the doubt.
 Task<Result<>> heed_upload(Exchange& exchange, std::vector<mavlink::MissionType> const& types) {
-  bool const has_mission =
-      std::ranges::find(types, mavlink::MissionType::mission) != types.end() && !exchange.plan.mission.items.empty();
-  if (!has_mission) co_return Result<>{};
+  auto const is_uploaded = [&types](mavlink::MissionType type) {
+    return std::ranges::find(types, type) != types.end();
+  };
+  if (!is_uploaded(mavlink::MissionType::mission) || exchange.plan.mission.items.empty()) co_return Result<>{};
   auto& craft = *exchange.session.ground.fleet.find(exchange.craft->id());
   if (!co_await learn_place(craft))
     say(fmt::format("{} has not told where it is: nobody knows whether this plan is for here", craft.state.name));
+  if (auto const learned = co_await fleet::learn_fence(craft, fleet::thorough); !learned)
+    say(fmt::format("{} has not told its own fence ({}): nobody knows whether this plan leaves it", craft.state.name,
+                    learned.error().message));
   auto situation = fleet::situation_of(craft, {});
   situation.position = craft.state.position.value;  // good enough for a plan, before it is for a flight
-  situation.fence = exchange.plan.fence.empty() ? std::nullopt : std::optional(exchange.plan.fence);
+  if (is_uploaded(mavlink::MissionType::fence) && !exchange.plan.fence.empty()) {
+    situation.fence = exchange.plan.fence;
+    if (situation.own_fence) situation.own_fence->areas = {};  // those that it holds are replaced
+  }
   auto const findings = judge(exchange.plan.mission, situation, exchange.plausibility);
   for (auto const& finding : findings) {
     if (finding.allowed_because)

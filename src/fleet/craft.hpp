@@ -12,6 +12,7 @@
 #include "fleet/message_rates.hpp"
 #include "fleet/mode_list.hpp"
 #include "fleet/pictures.hpp"
+#include "fleet/plausibility/fence_memory.hpp"
 #include "fleet/questions.hpp"
 #include "fleet/status_text.hpp"
 #include "fleet/thrift.hpp"
@@ -87,6 +88,7 @@ struct Craft {
   std::optional<bool> prearm_ok;                      ///< by the last SYS_STATUS
   std::uint32_t sick_sensors = 0;                     ///< bits of mavlink::sensor_flag
   StatusTexts texts;
+  FenceMemory fence;  ///< of its own
 
   // What it carries, and what it is asked once.
   PictureTrace pictures;

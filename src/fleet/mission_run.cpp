@@ -7,6 +7,7 @@
 #include "fleet/flight_plan.hpp"
 #include "fleet/mission/flight_watch.hpp"
 #include "fleet/plausibility/doubts.hpp"
+#include "fleet/plausibility/own_fence.hpp"
 #include "mavlink/command.hpp"
 #include "mavlink/plan_replacement.hpp"
 #include "plan/capabilities.hpp"
@@ -197,6 +198,8 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   record.progress = "waiting until the vehicle is ready";
   auto ready = co_await wait_until_ready(craft, context.connection.loop(), context.options.ready_timeout);
   if (!ready) co_return ready;
+  record.progress = "asking for its own fence";
+  co_await learn_fence(craft, thorough, context.log.named("plausibility"));
   if (auto heeded = heed(context, mission, doubts); !heeded) co_return heeded;
 
   record.progress = "stopping what it does";

@@ -229,6 +229,7 @@ void Network::note_restart(Craft& craft, TimePoint now) {
   craft.state.arming_reasons.clear();
   craft.prearm_ok.reset();
   craft.pictures.restart();
+  craft.fence.forget();
   craft.modes.clear();
   craft.has_asked_for_modes = false;
   craft.questions.clear();
@@ -255,6 +256,7 @@ void Network::take_from_autopilot(Craft& craft, mavlink::Received const& receive
   if (auto const* ack = std::get_if<mavlink::MissionAck>(&received.message);
       ack && ack->result == mavlink::MavMissionResult::accepted && ack->type == mavlink::MissionType::mission)
     craft.holds_parts = false;
+  craft.fence.note(received.message, craft.state.autopilot, received.at);
   if (!take_telemetry(craft, received.message, received.at))
     (void)take_payload(craft, received.source.component, received.message, received.at);
   registry_.touch(craft.id());

@@ -32,6 +32,7 @@ constexpr base::Duration disarm_delay = 10s;
 
 TestAutopilot::TestAutopilot(base::Loop& loop, std::unique_ptr<link::ByteLink> link, Options options)
     : loop_(loop), options_(options), booted_(loop.now()), next_beat_(loop.now()), scope_(loop) {
+  if (options_.autopilot == mavlink::MavAutopilot::px4) parameters = {{"GF_ACTION", 0.0F}};
   attach(std::move(link));
   scope_.spawn(live());
 }
@@ -178,6 +179,8 @@ void TestAutopilot::take(mavlink::Frame const& frame) {
     send_message(MessageId::mission_current);
   }
   serve_upload(*message, frame.source);
+  serve_parameter(*message);
+  serve_parameter(*message);
   serve_download(*message, frame.source);
 }
 
@@ -319,16 +322,31 @@ void TestAutopilot::request_item() {
 }
 
 void TestAutopilot::serve_download(mavlink::Message const& message, mavlink::Address from) {
-  if (std::holds_alternative<mavlink::MissionRequestList>(message))
-    send(mavlink::MissionCount{.target = from, .count = static_cast<std::uint16_t>(mission.size())});
-  auto const answer = [&](std::uint16_t seq) {
-    if (seq >= mission.size()) return;
-    auto item = mission[seq];
+  auto const plan_of = [this](mavlink::MissionType type) -> auto const& {
+    return type == mavlink::MissionType::fence ? fence : mission;
+  };
+  if (auto const* list = std::get_if<mavlink::MissionRequestList>(&message)) {
+    auto const count = static_cast<std::uint16_t>(plan_of(list->type).size());
+    send(mavlink::MissionCount{.target = from, .count = count, .type = list->type});
+  }
+  auto const answer = [&](std::uint16_t seq, mavlink::MissionType type) {
+    auto const& plan = plan_of(type);
+    if (seq >= plan.size()) return;
+    auto item = plan[seq];
     item.target = from;
+    item.seq = seq;
+    item.type = type;
     send(item);
   };
-  if (auto const* request = std::get_if<mavlink::MissionRequestInt>(&message)) answer(request->seq);
-  if (auto const* request = std::get_if<mavlink::MissionRequest>(&message)) answer(request->seq);
+  if (auto const* request = std::get_if<mavlink::MissionRequestInt>(&message)) answer(request->seq, request->type);
+  if (auto const* request = std::get_if<mavlink::MissionRequest>(&message)) answer(request->seq, request->type);
+}
+
+void TestAutopilot::serve_parameter(mavlink::Message const& message) {
+  auto const* read = std::get_if<mavlink::ParamRequestRead>(&message);
+  auto const found = read ? parameters.find(read->name) : parameters.end();
+  if (found == parameters.end()) return;  // as ArduPilot: silent about what it does not have
+  send(mavlink::ParamValue{.name = found->first, .value = found->second});
 }
 
 // ---- what it does by itself

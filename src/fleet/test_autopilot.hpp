@@ -72,7 +72,9 @@ class TestAutopilot {
   bool is_stuck = false;                     ///< carries its item out for ever and moves no more
   bool keeps_armed = false;                  ///< on the ground, too
   std::optional<geo::Wgs84> false_position;  ///< which it tells instead of its own
-  int times_busy = 0;                        ///< so many commands are answered "temporarily rejected"
+  std::map<std::string, float> parameters{{"FENCE_ENABLE", 0.0F}, {"FENCE_AUTOENABLE", 0.0F}};
+  std::vector<mavlink::MissionItem> fence;
+  int times_busy = 0;  ///< so many commands are answered "temporarily rejected"
 
   bool climbs = true;         ///< when told to take off; else its height stays where it is
   bool moves = true;          ///< when told to go to a place
@@ -137,6 +139,7 @@ class TestAutopilot {
   mavlink::MavResult arm();
   void serve_upload(mavlink::Message const& message, mavlink::Address from);
   void serve_download(mavlink::Message const& message, mavlink::Address from);
+  void serve_parameter(mavlink::Message const& message);
   void take_item(mavlink::MissionItem item);
   void request_item();
   void beat();

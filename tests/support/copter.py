@@ -187,10 +187,14 @@ class Copter:
             self.mission_message(kind, message, now)
 
     def tells_who_it_is(self, kind: str, message, now: float) -> bool:
-        """Answers what the ground asks to know links and vehicles apart."""
+        """Answers what the ground asks to know links, vehicles and their fences."""
         if kind == "TIMESYNC":
             if message.tc1 == 0:
                 self.mav.timesync_send(round((now - self.booted) * 1e9) + 1, message.ts1)
+            return True
+        if kind == "PARAM_REQUEST_READ":
+            if message.param_id in ("FENCE_ENABLE", "FENCE_AUTOENABLE"):
+                self.mav.param_value_send(message.param_id.encode(), 0, mavlink.MAV_PARAM_TYPE_INT8, 900, 65535)
             return True
         if kind != "COMMAND_LONG" or message.command != mavlink.MAV_CMD_REQUEST_MESSAGE:
             return False

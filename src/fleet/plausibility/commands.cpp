@@ -4,6 +4,7 @@
 
 #include "fleet/operator_actions.hpp"
 #include "fleet/plausibility/doubts.hpp"
+#include "fleet/plausibility/own_fence.hpp"
 #include "mavlink/mission_transfer.hpp"
 #include "plan/plausibility/judge.hpp"
 #include "plan/vehicle_plan.hpp"
@@ -38,12 +39,13 @@ bool flies_the_plan_now(Craft const& craft, vehicle::VehicleCommand const& comma
 }
 
 Task<plausibility::Findings> findings_of(Craft& craft, vehicle::VehicleCommand command, plausibility::Settings settings,
-                                         Neighbours neighbours) {
+                                         Neighbours neighbours, base::Logger log) {
   bool const goes_somewhere = command.action == Action::go_to && command.place;
   bool const takes_off = command.action == Action::take_off;
   bool const flies_plan = flies_the_plan_now(craft, command);
   // What stops a vehicle waits for nothing. A mixture of plans is no plan, and is refused as that.
   if (!(goes_somewhere || takes_off || flies_plan) || craft.holds_parts) co_return plausibility::Findings{};
+  co_await learn_fence(craft, hasty, std::move(log));
   std::optional<plan::Mission> held;
   if (flies_plan) held = co_await held_mission(craft);
   auto const situation = situation_of(craft, neighbours);
@@ -68,7 +70,7 @@ Result<plausibility::Settings> settings_for(vehicle::VehicleCommand const& comma
 Task<Result<>> heed_command(Craft& craft, vehicle::VehicleCommand const& command, plausibility::Settings settings,
                             Neighbours const& neighbours, base::Logger const& log) {
   auto const action = command.action;
-  auto const findings = co_await findings_of(craft, command, std::move(settings), neighbours);
+  auto const findings = co_await findings_of(craft, command, std::move(settings), neighbours, log);
   Doubts doubts;
   co_return doubts.heed(findings, fmt::format("{} of {}", to_string(action), craft.state.name), log);
 }

@@ -31,7 +31,8 @@ plan::plausibility::Situation situation_of(Craft const& craft, Neighbours const&
                                           .autopilot = state.autopilot,
                                           .home = state.home.value,
                                           .on_ground = stands_on_ground(craft),
-                                          .items_held = items_held(state)};
+                                          .items_held = items_held(state),
+                                          .own_fence = craft.fence.known(state.autopilot, state.family)};
   if (knows_its_place(state)) situation.position = state.position.value;
   // What standing on the ground uses says nothing about a flight.
   bool const is_under_way = situation.on_ground == false;
