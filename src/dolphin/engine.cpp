@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/assert.hpp"
 #include "base/scope.hpp"
 #include "dolphin/checker.hpp"
 #include "dolphin/compiler.hpp"
@@ -79,6 +80,7 @@ Engine::Engine(base::Loop& loop, tasks::Platform& platform, Output& output, base
 Engine::~Engine() = default;
 
 base::Task<Outcome> Engine::run(std::shared_ptr<Program const> program) {
+  LAPWING_ASSERT(!is_running());
   is_stopping_ = false;
   runtime_.reset(new Runtime{.loop = loop_,
                              .platform = platform_,

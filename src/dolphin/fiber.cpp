@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "base/assert.hpp"
 #include "dolphin/equality.hpp"
 #include "dolphin/runtime.hpp"
 #include "dolphin/text.hpp"
@@ -26,11 +27,13 @@ std::string wrong_count(Function const& function, int passed) {
 }  // namespace
 
 void Fiber::begin(Function const& function) {
+  LAPWING_ASSERT(frames_.empty(), frames_.size());
   state_ = State::ready;
   enter(function, {}, 0);
 }
 
 void Fiber::begin(Ref<Closure> const& closure, std::vector<Value> arguments) {
+  LAPWING_ASSERT(frames_.empty(), frames_.size());
   state_ = State::ready;
   busy_steps_ = 0;
   ignores_failure = false;

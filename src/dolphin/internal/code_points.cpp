@@ -6,6 +6,7 @@
 
 #include <locale.h>
 
+#include "base/assert.hpp"
 #include "dolphin/internal/characters.hpp"
 
 namespace lapwing::dolphin {
@@ -40,6 +41,7 @@ std::size_t count_code_points(std::string_view text) {
 }
 
 std::size_t first_code_point_size(std::string_view text) {
+  LAPWING_ASSERT(!text.empty());
   return std::max<std::size_t>(decode_utf8(text).size, 1);
 }
 
