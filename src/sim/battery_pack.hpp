@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/assert.hpp"
 #include "sim/dynamics.hpp"
 
 namespace lapwing::sim {
@@ -9,7 +10,9 @@ class BatteryPack {
  public:
   /// Precondition: capacity_mah > 0, 0 <= remaining <= 1.
   explicit BatteryPack(double capacity_mah, double remaining = 1.0)
-      : capacity_mah_(capacity_mah), used_mah_(capacity_mah * (1.0 - remaining)) {}
+      : capacity_mah_(capacity_mah), used_mah_(capacity_mah * (1.0 - remaining)) {
+    LAPWING_ASSERT(capacity_mah > 0.0 && remaining >= 0.0 && remaining <= 1.0, capacity_mah, remaining);
+  }
 
   /// Draws `current_a` for `dt_s`.
   void drain(double current_a, double dt_s);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.hpp"
+
 namespace lapwing::sim {
 
 namespace {
@@ -225,10 +227,12 @@ Airframe airframe_of(vehicle::Family family) {
             .max_vertical_accel_m_s2 = 0.4,
             .max_turn_rate_rad_s = 0.8};
   }
+  LAPWING_ASSERT(family == copter, family);
   return {};
 }
 
 Body step(Body const& body, Demand const& demand, Airframe const& airframe, geo::Ned wind_m_s, double dt_s) {
+  LAPWING_ASSERT(dt_s > 0.0 && dt_s <= 0.1, dt_s);
   Body start = body;
   start.touch_down_m_s.reset();
   if (airframe.family == vehicle::Family::sub) {

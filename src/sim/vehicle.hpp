@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/assert.hpp"
 #include "base/error.hpp"
 #include "base/notifier.hpp"
 #include "base/scope.hpp"
@@ -63,7 +64,10 @@ class Vehicle {
   [[nodiscard]] Options const& options() const { return options_; }
   [[nodiscard]] bool running() const { return controller_ != nullptr; }
   /// Precondition: running().
-  [[nodiscard]] Autopilot const& autopilot() const { return controller_->autopilot(); }
+  [[nodiscard]] Autopilot const& autopilot() const {
+    LAPWING_ASSERT(running());
+    return controller_->autopilot();
+  }
   [[nodiscard]] Gimbal const& gimbal() const { return controller_->gimbal(); }
   [[nodiscard]] Parameters& parameters() { return memory_.parameters; }
   [[nodiscard]] MissionPlan const& mission() const { return memory_.plans.mission; }
