@@ -11,7 +11,7 @@ base = location(41.1780, -8.5980, 90)
 west = mission {
   name 'West half'
   home base
-  takeOff base, 20
+  takeOff location(41.1780, -8.5980, 110), 20
   surveyArea 80, 60, 20, 'NORTH_WEST'
 }
 scout = pick { type 'UAV'; timeout 60.seconds }
@@ -103,7 +103,7 @@ editor.diagnostics()
 about = {"textDocument": {"uri": URI}, "range": whole}
 assert {"startLine": 2, "endLine": 6} in editor.ask("textDocument/foldingRange", about)
 hints = [hint["label"] for hint in editor.ask("textDocument/inlayHint", about)]
-assert "len:" in hints and " m" in hints and " 0 m above home" in hints, hints
+assert "len:" in hints and " m" in hints and " 20 m above home" in hints, hints
 (chosen,) = editor.ask("textDocument/selectionRange", {"textDocument": {"uri": URI}, "positions": [{"line": 5, "character": 4}]})
 assert chosen["parent"]["range"]["start"] == {"line": 5, "character": 2}, chosen
 assert [one["name"] for one in editor.ask("workspace/symbol", {"query": "SCT"})] == ["scout"]
