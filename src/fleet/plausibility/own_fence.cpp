@@ -77,26 +77,21 @@ Task<Result<>> read_values(Craft& craft, TimePoint deadline) {
   co_return Result<>{};
 }
 
-struct Fetched {
-  explicit Fetched(base::Loop& loop) : ended(loop) {}
-  std::optional<Result<mavlink::HeldPlan>> plan;
-  base::Notifier ended;
-};
+using Held = std::optional<Result<mavlink::HeldPlan>>;
 
-Task<> fetch_areas(Craft& craft, Fetched& into) {
+Task<> fetch_areas(Craft& craft, Held& into) {
   constexpr mavlink::TransferOptions quickly{.silence_limit = 2s, .restarts = 0};
-  into.plan = co_await mavlink::download_mission(craft.connection, craft.address, mavlink::MissionType::fence, quickly);
-  into.ended.notify_all();
+  into = co_await mavlink::download_mission(craft.connection, craft.address, mavlink::MissionType::fence, quickly);
 }
 
 Task<Result<>> read_areas(Craft& craft, TimePoint deadline) {
   auto& loop = craft.connection.loop();
-  Fetched fetched(loop);
+  Held held;
   base::Scope scope(loop);
-  scope.spawn(fetch_areas(craft, fetched));
-  while (!fetched.plan && loop.now() < deadline) co_await fetched.ended.wait_until(deadline);
-  if (!fetched.plan || !*fetched.plan) co_return fail(ErrorKind::timed_out, "its stored areas");
-  auto areas = plan::fence_from((*fetched.plan)->items);
+  scope.spawn(fetch_areas(craft, held));
+  (void)co_await scope.join_until(deadline);
+  if (!held || !*held) co_return fail(ErrorKind::timed_out, "its stored areas");
+  auto areas = plan::fence_from((*held)->items);
   if (!areas) co_return fail(ErrorKind::timed_out, "stored areas that make sense: " + areas.error().message);
   craft.fence.set_areas(*std::move(areas), loop.now());
   co_return Result<>{};
