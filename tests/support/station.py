@@ -13,10 +13,10 @@ class Station:
     def __init__(self, port: int):
         self.base = f"http://127.0.0.1:{port}/api/v1/"
 
-    def ask(self, path: str, body=None):
+    def ask(self, path: str, body=None, method: str | None = None):
         """(status, answer)"""
         request = urllib.request.Request(self.base + path, None if body is None else json.dumps(body).encode(),
-                                         {"Content-Type": "application/json"})
+                                         {"Content-Type": "application/json"}, method=method)
         try:
             with urllib.request.urlopen(request, timeout=10) as answer:
                 return answer.status, json.load(answer)
@@ -45,6 +45,10 @@ class Station:
         status, record = self.ask("commands", {"action": action, "vehicles": vehicles, "operator": "tester", **details})
         assert status == 202, record
         return record["number"]
+
+    def set_parameter(self, vehicle: str, name: str, value: float):
+        status, answer = self.ask(f"parameters/value?vehicle={vehicle}&name={name}", {"value": value, "operator": "tester"}, "PUT")
+        assert status == 200, answer
 
     def outcomes(self, number: int):
         return next(c for c in self.ask("commands")[1]["commands"] if c["number"] == number)["vehicles"]

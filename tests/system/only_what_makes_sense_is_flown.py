@@ -1,12 +1,12 @@
 """What no pilot would fly is refused, or warned of, before the vehicle is armed; what people fly is not remarked on. Through the
 whole program, on simulated copters, planes, rovers, boats, submarines and PX4."""
 
-import concurrent.futures
 import json
 import pathlib
 import re
 import tempfile
 
+import cases
 import harness
 from pymavlink import mavutil
 
@@ -198,15 +198,8 @@ def not_remarked(case):
 
 
 assert len(IMPLAUSIBLE) >= 40 and len(PLAUSIBLE) >= 40
-with concurrent.futures.ThreadPoolExecutor(3) as several:
-    failures = []
-    for judge, cases in ((refused_or_warned, IMPLAUSIBLE), (not_remarked, PLAUSIBLE)):
-        for case, flown in [(case, several.submit(judge, case)) for case in cases]:
-            try:
-                flown.result()
-            except AssertionError as failure:
-                failures.append(str(failure))
-    assert not failures, f"{len(failures)} of {len(IMPLAUSIBLE) + len(PLAUSIBLE)}:\n" + "\n".join(failures)
+bad = cases.failures(refused_or_warned, IMPLAUSIBLE) + cases.failures(not_remarked, PLAUSIBLE)
+assert not bad, f"{len(bad)} of {len(IMPLAUSIBLE) + len(PLAUSIBLE)}:\n" + "\n".join(bad)
 
 # ---- no false alarm over what is shipped
 
