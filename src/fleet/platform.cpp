@@ -104,7 +104,10 @@ FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
       options_(std::move(options)),
       log_(std::move(log)),
       all_heard_by_(fleet.loop().now() + listening_time),
-      settled_(fleet.loop()) {
+      settled_(fleet.loop()),
+      vehicles_changed_(fleet.loop()),
+      scope_(fleet.loop()) {
+  scope_.spawn(tell_of_vehicles());
   builders_ = missions::vocabulary(options_.run.plausibility);
   options_.run.neighbours = [this](Craft const& craft) { return neighbours(craft); };
 }
@@ -120,6 +123,19 @@ std::vector<VehicleInfo> FleetPlatform::vehicles() const {
   for (auto const* craft : crafts)
     if (now >= counted_at(*craft, crafts)) infos.push_back(info_of(*craft));
   return infos;
+}
+
+/// Also when a vehicle that was heard a while ago comes to count.
+base::Task<void> FleetPlatform::tell_of_vehicles() {
+  for (;;) {
+    auto const crafts = fleet_.all();
+    auto const now = fleet_.loop().now();
+    auto next = base::TimePoint::max();
+    for (auto const* craft : crafts)
+      if (auto const at = counted_at(*craft, crafts); at > now) next = std::min(next, at);
+    co_await fleet_.registry().membership_changed().wait_until(next);
+    vehicles_changed_.notify_all();
+  }
 }
 
 std::optional<VehicleInfo> FleetPlatform::find(VehicleId const& id) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/log.hpp"
+#include "base/scope.hpp"
 #include "fleet/fleet.hpp"
 #include "fleet/pilot.hpp"
 #include "missions/plan_library.hpp"
@@ -46,7 +47,7 @@ class FleetPlatform final : public tasks::Platform {
   }
   [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
   [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
-  [[nodiscard]] base::Notifier& vehicles_changed() override { return fleet_.registry().membership_changed(); }
+  [[nodiscard]] base::Notifier& vehicles_changed() override { return vehicles_changed_; }
   [[nodiscard]] base::TimePoint all_heard_by() const override { return all_heard_by_; }
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
@@ -70,6 +71,7 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
 
  private:
+  base::Task<void> tell_of_vehicles();
   Pilot& pilot(Craft& craft);
   [[nodiscard]] std::vector<plan::plausibility::Neighbour> neighbours(Craft const& craft) const;
 
@@ -79,7 +81,9 @@ class FleetPlatform final : public tasks::Platform {
   base::TimePoint all_heard_by_;
   std::vector<tasks::BuilderSpec> builders_;
   base::Notifier settled_;
+  base::Notifier vehicles_changed_;
   std::map<vehicle::VehicleId, std::unique_ptr<Pilot>> pilots_;  // pointers: pilots do not move
+  base::Scope scope_;
 };
 
 }  // namespace lapwing::fleet

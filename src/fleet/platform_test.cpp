@@ -67,6 +67,14 @@ TEST(FleetPlatform, ListsVehiclesBySystemIdWithWhatPickNeeds) {
   EXPECT_NEAR(vehicles[1].battery.value_or(0.0), 0.8, 0.01);
 }
 
+TEST(FleetPlatform, TellsWhenAVehicleComesToCount) {
+  TestWorld world;
+  world.add();
+  auto counts = world.platform->vehicles_changed().wait_for([&] { return !world.platform->vehicles().empty(); }, 10s);
+  EXPECT_TRUE(world.loop.run_until_done(std::move(counts)));
+  EXPECT_LE(world.loop.now() - world.fleet->find(VehicleId{"1"})->discovered, 1300ms);
+}
+
 TEST(FleetPlatform, KnowsNothingOfAVehicleThatWasNeverHeard) {
   TestWorld world;
   EXPECT_FALSE(world.platform->find(VehicleId{"1"}));
