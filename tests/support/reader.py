@@ -98,7 +98,9 @@ class Reader:
             self.start(f"lapwing sim --vehicles {step.words['vehicles']} --out udpout://127.0.0.1:14550", "Ctrl-C ends")
         beside = step.words.get("beside")
         if beside and not any(name == beside for name, _, _ in self.going_on):
-            self.start(f"lapwing {beside} --link udpin://127.0.0.1:14550", "map  ")
+            # Whoever types the next line has seen by then that the vehicles are there.
+            sees = " found at " if any(name == "sim" for name, _, _ in self.going_on) else "map  "
+            self.start(f"lapwing {beside} --link udpin://127.0.0.1:14550", sees)
         said = ""
         for line in step.lines:
             said += self.start(line, step.words.get("until", "")) if "background" in step.words else self.type(line, step)

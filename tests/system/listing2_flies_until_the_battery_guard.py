@@ -20,7 +20,7 @@ def is_mission(items, expected):
 def battery_at_uploads(seen):
     """What the vehicle last said of its battery before each upload, in percent."""
     levels, level = [], None
-    for one in seen.of(1, "SYS_STATUS", "MISSION_COUNT"):
+    for one in seen.of(1, "SYS_STATUS", "BATTERY_STATUS", "MISSION_COUNT"):
         if one.to_vehicle:
             levels.append(level)
         else:
