@@ -148,7 +148,9 @@ bool Loop::run_ready() {
   while (!pace_.unpaced && pool_ && pool_->deliver_oldest()) {
   }
   io_->hold_time(*this);
-  auto const began = steady_clock::now();
+  // Without a pace nobody asks how long it took, and the clock is a quarter of what such a turn costs.
+  auto const wall = [this] { return pace_.unpaced ? steady_clock::time_point() : steady_clock::now(); };
+  auto const began = wall();
   auto functions = std::exchange(posted_, {});
   auto coroutines = ready_.size();
   bool const any = !functions.empty() || coroutines > 0;
@@ -159,7 +161,7 @@ bool Loop::run_ready() {
     waiter->withdraw();
     waiter->handle_.resume();
   }
-  if (any) io_->serve(*this, steady_clock::now() - began);
+  if (any) io_->serve(*this, wall() - began);
   return any;
 }
 
