@@ -27,9 +27,8 @@
 /// - Full: a job waits for a thread, in the same order, and with it the coroutine that awaits it. So nothing is refused
 ///   or lost, and no more jobs wait than coroutines do. Who makes a job of everything that comes in faster than it can
 ///   be worked off puts a `Mailbox` before one coroutine, and says there what to drop.
-/// - Cancelling: destroying the awaiting task. A job that has not begun is dropped; one that has is asked to stop by
-/// its
-///   token, and what it returns is thrown away.
+/// - Cancelling: destroying the awaiting task. A job that has not begun is dropped; one that has is asked to stop
+///   through its token, and what it returns is thrown away.
 /// - Ends: the loop's destructor waits for what still runs. What may take long takes a token and looks at it.
 ///
 /// The reasons: docs/adr/0010-work-beside-the-loop.md.
