@@ -8,16 +8,11 @@
 
 #include "lsp/message_reader.hpp"
 #include "lsp/server.hpp"
-#include "missions/vocabulary.hpp"
+#include "scripts.hpp"
 
 namespace {
 
 using namespace lapwing;
-
-std::vector<tasks::BuilderSpec> const& builders() {
-  static std::vector<tasks::BuilderSpec> const specs = missions::vocabulary();
-  return specs;
-}
 
 /// A session with an open script, so that questions of the input reach the language services.
 constexpr std::string_view openings[] = {
@@ -33,7 +28,7 @@ void work(lsp::Server& server, base::TimePoint& now) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
-  lsp::Server server(builders(), "fuzz");
+  lsp::Server server(fuzz::builders(), "fuzz");
   for (auto const opening : openings) server.receive(opening);
   base::TimePoint now{};
   work(server, now);
