@@ -6,18 +6,20 @@
 /// the frame declares; numbers of different frames do not mix, which the compiler holds.
 namespace lapwing::geo {
 
-/// A shift, or any other arrow, along the axes of a frame; metres unless its name says something else.
-template <class Frame, int Dim = 2>
-struct Vector {
+namespace detail {
+
+/// What points and vectors have in common: the numbers along the axes.
+template <int Dim>
+struct Coordinates {
   using Numbers = Eigen::Matrix<double, Dim, 1>;
   Numbers v = Numbers::Zero();
 
-  Vector() = default;
-  explicit Vector(Numbers const& numbers) : v(numbers) {}
-  Vector(double x, double y)
+  Coordinates() = default;
+  explicit Coordinates(Numbers const& numbers) : v(numbers) {}
+  Coordinates(double x, double y)
     requires(Dim == 2)
       : v(x, y) {}
-  Vector(double x, double y, double z)
+  Coordinates(double x, double y, double z)
     requires(Dim == 3)
       : v(x, y, z) {}
 
@@ -28,13 +30,24 @@ struct Vector {
   {
     return v.z();
   }
-  [[nodiscard]] double length() const { return v.norm(); }
-  [[nodiscard]] double dot(Vector const& other) const { return v.dot(other.v); }
+  [[nodiscard]] bool is_finite() const { return v.allFinite(); }
+};
+
+}  // namespace detail
+
+/// A shift, or any other arrow, along the axes of a frame; metres unless its name says something else.
+template <class Frame, int Dim = 2>
+struct Vector : detail::Coordinates<Dim> {
+  using Numbers = typename detail::Coordinates<Dim>::Numbers;
+  using detail::Coordinates<Dim>::Coordinates;
+
+  [[nodiscard]] double length() const { return this->v.norm(); }
+  [[nodiscard]] double dot(Vector const& other) const { return this->v.dot(other.v); }
   /// Positive when `other` lies counterclockwise of this.
   [[nodiscard]] double cross(Vector const& other) const
     requires(Dim == 2)
   {
-    return v.x() * other.v.y() - v.y() * other.v.x();
+    return this->x() * other.y() - this->y() * other.x();
   }
 
   friend Vector operator+(Vector const& a, Vector const& b) { return Vector(Numbers(a.v + b.v)); }
@@ -47,27 +60,9 @@ struct Vector {
 
 /// A place in a frame, in metres from its origin.
 template <class Frame, int Dim = 2>
-struct Point {
-  using Numbers = typename Vector<Frame, Dim>::Numbers;
-  Numbers v = Numbers::Zero();
-
-  Point() = default;
-  explicit Point(Numbers const& numbers) : v(numbers) {}
-  Point(double x, double y)
-    requires(Dim == 2)
-      : v(x, y) {}
-  Point(double x, double y, double z)
-    requires(Dim == 3)
-      : v(x, y, z) {}
-
-  [[nodiscard]] double x() const { return v.x(); }
-  [[nodiscard]] double y() const { return v.y(); }
-  [[nodiscard]] double z() const
-    requires(Dim == 3)
-  {
-    return v.z();
-  }
-  [[nodiscard]] bool is_finite() const { return v.allFinite(); }
+struct Point : detail::Coordinates<Dim> {
+  using Numbers = typename detail::Coordinates<Dim>::Numbers;
+  using detail::Coordinates<Dim>::Coordinates;
 
   friend Vector<Frame, Dim> operator-(Point const& to, Point const& from) {
     return Vector<Frame, Dim>(Numbers(to.v - from.v));
