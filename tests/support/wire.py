@@ -13,7 +13,7 @@ import harness
 
 # Of the vehicles' many messages only these are read: the others are passed on unseen.
 READ_FROM_VEHICLES = {mavlink.MAVLINK_MSG_ID_HEARTBEAT, mavlink.MAVLINK_MSG_ID_SYS_STATUS,
-                      mavlink.MAVLINK_MSG_ID_MISSION_ACK}
+                      mavlink.MAVLINK_MSG_ID_BATTERY_STATUS, mavlink.MAVLINK_MSG_ID_MISSION_ACK}
 
 
 def frames(datagram: bytes):
