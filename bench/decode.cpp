@@ -8,8 +8,8 @@
 #include <benchmark/benchmark.h>
 
 #include "decode_c_library.hpp"
-#include "mavlink/codec.hpp"
-#include "mavlink/frame.hpp"
+#include "mavlink/codec/codec.hpp"
+#include "mavlink/wire/frame.hpp"
 
 namespace lapwing::bench {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "link/byte_link.hpp"
 #include "link/url.hpp"
-#include "mavlink/command.hpp"
-#include "mavlink/mission_transfer.hpp"
-#include "mavlink/param.hpp"
-#include "mavlink/param_list.hpp"
+#include "mavlink/exchange/command.hpp"
+#include "mavlink/exchange/mission_transfer.hpp"
+#include "mavlink/exchange/param.hpp"
+#include "mavlink/exchange/param_list.hpp"
 
 namespace lapwing::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <string>
 
-#include "base/loop.hpp"
-#include "dolphin/engine.hpp"
+#include "base/async/loop.hpp"
+#include "dolphin/machine/engine.hpp"
 #include "missions/mission_harness.hpp"
 
 /// Runs a script that leaves a task in `t`, executes it on the test platform in virtual time, and prints the seconds

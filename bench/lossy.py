@@ -1,5 +1,5 @@
 """Exchanges over bad links beside pymavlink and MAVSDK, in real time. For run.py. The whole matrix of badness is a unit test in
-virtual time (src/sim/exchange_matrix_test.cpp); these are a few of its cells with figures."""
+virtual time (src/sim/mavlink/exchange_matrix_test.cpp); these are a few of its cells with figures."""
 
 import concurrent.futures
 import statistics

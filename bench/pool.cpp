@@ -11,8 +11,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/thread_pool.hpp>
 
-#include "base/pool.hpp"
-#include "base/scope.hpp"
+#include "base/async/pool.hpp"
+#include "base/async/scope.hpp"
 
 namespace {
 

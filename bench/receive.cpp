@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/loop.hpp"
-#include "mavlink/connection.hpp"
+#include "base/async/loop.hpp"
+#include "mavlink/connection/connection.hpp"
 
 namespace lapwing::bench {
 namespace {

@@ -23,7 +23,7 @@
 #include <thread>
 #include <vector>
 
-#include "mavlink/frame.hpp"
+#include "mavlink/wire/frame.hpp"
 
 namespace lapwing::bench {
 namespace {

@@ -2,8 +2,8 @@
 
 usage: generate_message_tables.py DIALECT OUT_DIR
 
-Writes OUT_DIR/dialect_messages.inc, dialect_fields.inc and dialect_names.inc, which src/mavlink/dialect_names.cpp includes.
-Rows are sorted by name, fields by message and place on the wire. Also dialect_instances.inc for src/mavlink/message_table.cpp: of
+Writes OUT_DIR/dialect_messages.inc, dialect_fields.inc and dialect_names.inc, which src/mavlink/wire/dialect_names.cpp includes.
+Rows are sorted by name, fields by message and place on the wire. Also dialect_instances.inc for src/mavlink/wire/message_table.cpp: of
 messages about one of several things, the place of the field that says which.
 """
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "mavlink/tlog.hpp"
+#include "mavlink/wire/tlog.hpp"
 #include "messages.hpp"
 
 using namespace lapwing;

@@ -1,6 +1,6 @@
 // Any bytes as a mission script: the checker with the commands of missions, on trees with and without mistakes.
-#include "dolphin/checker.hpp"
-#include "dolphin/parser.hpp"
+#include "dolphin/check/checker.hpp"
+#include "dolphin/syntax/parser.hpp"
 #include "scripts.hpp"
 
 using namespace lapwing;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "require.hpp"
-#include "station/messages.hpp"
+#include "station/messages/messages.hpp"
 
 using namespace lapwing;
 

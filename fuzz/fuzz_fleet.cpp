@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "fleet/fleet.hpp"
+#include "fleet/network/fleet.hpp"
 #include "link/pipe_link.hpp"
 #include "messages.hpp"
 #include "vehicle/registry.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "plan/plan_file.hpp"
+#include "plan/files/plan_file.hpp"
 #include "require.hpp"
 
 namespace {

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "require.hpp"
-#include "station/access.hpp"
-#include "station/http.hpp"
-#include "station/static_files.hpp"
+#include "station/http/access.hpp"
+#include "station/http/http.hpp"
+#include "station/http/static_files.hpp"
 
 using namespace lapwing;
 namespace fs = std::filesystem;

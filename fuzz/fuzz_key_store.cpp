@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "mavlink/key_store.hpp"
+#include "mavlink/signing/key_store.hpp"
 #include "require.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {

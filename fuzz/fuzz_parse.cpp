@@ -1,7 +1,7 @@
 // Any bytes as a mission script: the lexer, the parser, the printed tree, and what they complain about.
-#include "dolphin/ast_printer.hpp"
-#include "dolphin/lexer.hpp"
-#include "dolphin/parser.hpp"
+#include "dolphin/syntax/ast_printer.hpp"
+#include "dolphin/syntax/lexer.hpp"
+#include "dolphin/syntax/parser.hpp"
 #include "scripts.hpp"
 
 using namespace lapwing;

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "base/loop.hpp"
+#include "base/async/loop.hpp"
 #include "link/pipe_link.hpp"
 #include "require.hpp"
 #include "route/config.hpp"

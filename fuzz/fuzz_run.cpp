@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/scope.hpp"
-#include "dolphin/engine.hpp"
+#include "base/async/scope.hpp"
+#include "dolphin/machine/engine.hpp"
 #include "missions/mission_harness.hpp"
 #include "scripts.hpp"
 #include "tasks/event_json.hpp"

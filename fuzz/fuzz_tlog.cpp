@@ -3,7 +3,7 @@
 #include <sstream>
 #include <string>
 
-#include "mavlink/tlog.hpp"
+#include "mavlink/wire/tlog.hpp"
 #include "require.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "mavlink/codec.hpp"
+#include "mavlink/codec/codec.hpp"
 #include "require.hpp"
 
 /// What the targets that read MAVLink share.

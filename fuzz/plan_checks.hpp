@@ -6,8 +6,8 @@
 
 #include "plan/capabilities.hpp"
 #include "plan/estimate.hpp"
-#include "plan/plan_file.hpp"
-#include "plan/vehicle_plan.hpp"
+#include "plan/files/plan_file.hpp"
+#include "plan/files/vehicle_plan.hpp"
 #include "require.hpp"
 
 /// What must hold for any bytes taken as a plan: refused with a reason, or a plan that can be made ready for every

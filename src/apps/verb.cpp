@@ -1,18 +1,49 @@
 #include "apps/verb.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+
+#include "apps/verb_table.hpp"
+#include "base/assert.hpp"
 
 namespace lapwing::apps {
+namespace {
 
-void print_error(base::Error const& error) {
-  fmt::print(stderr, "lapwing: {}\n", error.message);
-  if (!error.hint.empty()) fmt::print(stderr, "         {}\n", error.hint);
+constexpr std::string_view vehicles = "lapwing-vehicles";
+
+/// In the order in which help shows them.
+constexpr std::array table{
+    Verb{"run", "Run a script on vehicles", vehicles},
+    Verb{"demo", "Simulated vehicles fly a script while you watch on the map", vehicles},
+    Verb{"plan", "Fly a script on simulated vehicles and show what it would do", vehicles},
+    Verb{"mission", "Missions, fences and rally points: to and from vehicles and files", vehicles},
+    Verb{"check", "Show every mistake in scripts, without vehicles", front_program},
+    Verb{"fmt", "Put scripts into the common layout, without changing what they mean", front_program},
+    Verb{"lsp", "Serve an editor (Language Server Protocol on standard input and output)", front_program},
+    Verb{"sim", "Simulated vehicles that speak MAVLink, for any ground station", vehicles},
+    Verb{"replay", "Play a recording of vehicles into the map", vehicles},
+    Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
+    Verb{"param", "Parameters of vehicles: list, get, set, save, load, compare, copy", vehicles},
+    Verb{"signing", "Keys that sign MAVLink: new, setup, rotate, off, drop, show", vehicles},
+    Verb{"route", "Pass MAVLink on between links, with filters, rate limits and metrics", vehicles},
+    Verb{"doctor", "What is installed, which links answer, what is wrong and how to mend it", vehicles},
+};
+
+}  // namespace
+
+std::span<Verb const> all_verbs() {
+  return table;
 }
 
-int refuse(base::Error const& error) {
-  print_error(error);
-  bool const is_usage = error.kind == base::ErrorKind::invalid_input || error.kind == base::ErrorKind::not_found;
-  return is_usage ? exit_usage : exit_halted;
+Verb const* find_verb(std::string_view name) {
+  auto const found = std::ranges::find(table, name, &Verb::name);
+  return found == table.end() ? nullptr : &*found;
+}
+
+CLI::App* begin_verb(CLI::App& program, std::string_view name) {
+  auto const* verb = find_verb(name);
+  LAPWING_ASSERT(verb != nullptr, name);
+  return program.add_subcommand(std::string(verb->name), std::string(verb->about));
 }
 
 }  // namespace lapwing::apps

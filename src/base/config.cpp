@@ -18,7 +18,7 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 
 namespace lapwing::base {
 

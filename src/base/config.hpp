@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/diagnostic.hpp"
-#include "base/source.hpp"
+#include "base/text/diagnostic.hpp"
+#include "base/text/source.hpp"
 
 /// Configuration files: TOML as a plain tree with places, and a reader that lets no mistake pass. Everything wrong goes
 /// to `Diagnostics` with its place, so that one run shows all of it.

@@ -7,7 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "base/flood_gate.hpp"
-#include "base/printable.hpp"
+#include "base/text/printable.hpp"
 
 namespace lapwing::base {
 

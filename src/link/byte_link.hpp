@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/async/loop.hpp"
 #include "base/error.hpp"
-#include "base/loop.hpp"
 #include "link/url.hpp"
 
 namespace lapwing::link {

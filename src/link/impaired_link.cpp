@@ -3,7 +3,7 @@
 #include <random>
 #include <utility>
 
-#include "base/scope.hpp"
+#include "base/async/scope.hpp"
 
 namespace lapwing::link {
 

@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/notifier.hpp"
-#include "base/scope.hpp"
+#include "base/async/notifier.hpp"
+#include "base/async/scope.hpp"
 #include "link/internal/links.hpp"
 #include "link/internal/stream.hpp"
 

@@ -12,8 +12,8 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
-#include "base/notifier.hpp"
-#include "base/scope.hpp"
+#include "base/async/notifier.hpp"
+#include "base/async/scope.hpp"
 #include "link/internal/links.hpp"
 #include "link/internal/stream.hpp"
 

@@ -9,8 +9,8 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/udp.hpp>
 
-#include "base/notifier.hpp"
-#include "base/scope.hpp"
+#include "base/async/notifier.hpp"
+#include "base/async/scope.hpp"
 #include "link/internal/datagrams.hpp"
 #include "link/internal/links.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "base/source.hpp"
+#include "base/text/source.hpp"
 
 namespace lapwing::lsp {
 namespace {

@@ -16,8 +16,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "dolphin/lexer.hpp"
 #include "dolphin/services/vocabulary.hpp"
+#include "dolphin/syntax/lexer.hpp"
 #include "missions/vocabulary.hpp"
 
 namespace lapwing::lsp {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "base/source.hpp"
+#include "base/text/source.hpp"
 
 namespace lapwing::lsp {
 

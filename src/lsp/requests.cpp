@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "dolphin/services/formatting.hpp"
+#include "dolphin/services/format/formatting.hpp"
 #include "dolphin/services/rename.hpp"
 #include "lsp/server.hpp"
 #include "lsp/translate.hpp"

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/diagnostic.hpp"
 #include "base/error.hpp"
+#include "base/text/diagnostic.hpp"
 #include "base/time.hpp"
 #include "dolphin/services/document.hpp"
 #include "lsp/edited_text.hpp"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.hpp"
 #include "base/error.hpp"
+#include "base/text/diagnostic.hpp"
 #include "dolphin/services/completion.hpp"
 #include "dolphin/services/hover.hpp"
 #include "dolphin/services/navigation.hpp"

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/time.hpp"
-#include "mavlink/param.hpp"
+#include "mavlink/exchange/param.hpp"
 
 namespace lapwing::parameters {
 

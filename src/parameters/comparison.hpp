@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mavlink/param.hpp"
+#include "mavlink/exchange/param.hpp"
 
 namespace lapwing::parameters {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mavlink/param.hpp"
+#include "mavlink/exchange/param.hpp"
 
 /// Parameter files of other ground stations.
 namespace lapwing::parameters {

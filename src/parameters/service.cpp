@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "mavlink/command.hpp"
-#include "mavlink/inbox.hpp"
-#include "mavlink/modes.hpp"
+#include "mavlink/connection/inbox.hpp"
+#include "mavlink/exchange/command.hpp"
+#include "mavlink/wire/modes.hpp"
 
 namespace lapwing::parameters {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/async/notifier.hpp"
 #include "base/log.hpp"
-#include "base/notifier.hpp"
-#include "mavlink/connection.hpp"
-#include "mavlink/param_list.hpp"
+#include "mavlink/connection/connection.hpp"
+#include "mavlink/exchange/param_list.hpp"
 #include "parameters/cache.hpp"
 #include "vehicle/parameters.hpp"
 

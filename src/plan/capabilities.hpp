@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "mavlink/messages.hpp"
+#include "mavlink/codec/messages.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 /// What each autopilot makes of a mission item: the one place where that is known.

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "geo/position.hpp"
-#include "mavlink/messages.hpp"
+#include "mavlink/codec/messages.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::plan {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "base/spelling.hpp"
-#include "mavlink/dialect_names.hpp"
+#include "base/text/spelling.hpp"
+#include "mavlink/wire/dialect_names.hpp"
 
 namespace lapwing::route {
 

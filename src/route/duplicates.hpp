@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "base/time.hpp"
-#include "mavlink/frame.hpp"
+#include "mavlink/wire/frame.hpp"
 
 namespace lapwing::route {
 

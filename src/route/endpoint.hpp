@@ -6,7 +6,7 @@
 
 #include "link/byte_link.hpp"
 #include "link/url.hpp"
-#include "mavlink/frame.hpp"
+#include "mavlink/wire/frame.hpp"
 #include "route/filter.hpp"
 #include "route/shaper.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "mavlink/frame.hpp"
+#include "mavlink/wire/frame.hpp"
 
 namespace lapwing::route {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/time.hpp"
-#include "mavlink/frame.hpp"
+#include "mavlink/wire/frame.hpp"
 
 namespace lapwing::route {
 

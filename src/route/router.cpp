@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "mavlink/signing.hpp"
+#include "mavlink/signing/signing.hpp"
 #include "route/internal/channel.hpp"
 
 namespace lapwing::route {

@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
+#include "base/async/loop.hpp"
+#include "base/async/notifier.hpp"
+#include "base/async/scope.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "base/loop.hpp"
-#include "base/notifier.hpp"
-#include "base/scope.hpp"
 #include "route/duplicates.hpp"
 #include "route/endpoint.hpp"
 #include "route/routing_table.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/time.hpp"
-#include "mavlink/enums.hpp"
+#include "mavlink/codec/enums.hpp"
 
 namespace lapwing::route {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/time.hpp"
-#include "mavlink/frame.hpp"
+#include "mavlink/wire/frame.hpp"
 #include "route/message_class.hpp"
 #include "route/token_bucket.hpp"
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mavlink/frame.hpp"
-#include "mavlink/raw_message.hpp"
+#include "mavlink/wire/frame.hpp"
+#include "mavlink/wire/raw_message.hpp"
 
 /// Packets for the tests of this room.
 namespace lapwing::route {

@@ -9,10 +9,10 @@
 
 #include "base/flood_gate.hpp"
 #include "base/open_metrics.hpp"
-#include "station/control_routes.hpp"
-#include "station/openapi.hpp"
-#include "station/parameter_routes.hpp"
-#include "station/script_folder.hpp"
+#include "station/http/openapi.hpp"
+#include "station/operator/control_routes.hpp"
+#include "station/operator/parameter_routes.hpp"
+#include "station/operator/script_folder.hpp"
 
 namespace lapwing::station {
 namespace {

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "base/async/loop.hpp"
+#include "base/async/task.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "base/loop.hpp"
-#include "base/task.hpp"
-#include "station/http_server.hpp"
-#include "station/log_history.hpp"
-#include "station/messages.hpp"
-#include "station/script_control.hpp"
-#include "station/vehicle_feed.hpp"
+#include "station/http/http_server.hpp"
+#include "station/messages/log_history.hpp"
+#include "station/messages/messages.hpp"
+#include "station/messages/vehicle_feed.hpp"
+#include "station/operator/script_control.hpp"
 #include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
 #include "vehicle/parameters.hpp"

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "station/openapi.hpp"
+#include "station/http/openapi.hpp"
 #include "station/testing/fake_alarms.hpp"
 #include "station/testing/fake_control.hpp"
 #include "station/testing/fake_parameters.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "base/loop.hpp"
-#include "base/task.hpp"
+#include "base/async/loop.hpp"
+#include "base/async/task.hpp"
 #include "tasks/allocation.hpp"
 #include "tasks/task_view.hpp"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/loop.hpp"
-#include "base/notifier.hpp"
+#include "base/async/loop.hpp"
+#include "base/async/notifier.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::tasks {

@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include "base/async/notifier.hpp"
+#include "base/async/task.hpp"
 #include "base/error.hpp"
-#include "base/notifier.hpp"
-#include "base/task.hpp"
 #include "base/time.hpp"
 #include "geo/position.hpp"
 #include "vehicle/vehicle_id.hpp"

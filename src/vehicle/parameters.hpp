@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/async/task.hpp"
 #include "base/error.hpp"
-#include "base/task.hpp"
 #include "base/time.hpp"
 #include "vehicle/control.hpp"
 #include "vehicle/vehicle_id.hpp"

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "base/notifier.hpp"
+#include "base/async/notifier.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::vehicle {

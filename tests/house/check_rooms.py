@@ -1,4 +1,4 @@
-"""Check that every #include between rooms is allowed by rooms.toml. usage: check_rooms.py REPO [--write]
+"""Check that every #include is allowed by rooms.toml and no folder is crowded. usage: check_rooms.py REPO [--write]
 
 --write puts the allow list into docs/architecture.md; without it the table there must be the same.
 """
@@ -11,6 +11,9 @@ import sys
 import tomllib
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"(?P<own>[^"]+)"|<(?P<system>[^>]+)>)', re.MULTILINE)
+# More files than that in one folder, and nobody finds the one he looks for. Folders of cases and golden files are read by programs.
+MOST_FILES = 30
+WATCHED_FOR_CROWDS = ("src", "bench", "fuzz", "web/src", "tests/house", "tests/support", "tests/system", "tests/peers")
 MARKS = ("<!-- made from tests/house/rooms.toml -->\n", "<!-- end -->\n")
 
 
@@ -83,14 +86,22 @@ class House:
         wrong = []
         allowed = self.allowed(room, path)
         for edge in self.edges(path)[0]:
-            other, *inner = edge.header.split("/")
-            if other == room:
-                continue
-            if "*" not in allowed and other not in allowed:
+            other = edge.header.split("/")[0]
+            if other != room and "*" not in allowed and other not in allowed:
                 wrong.append(f"{edge.place}: {room} must not include {edge.header}")
-            elif "internal" in inner and room != "fuzz":
-                wrong.append(f"{edge.place}: {edge.header} is private to {other}")
+                continue
+            owner, is_internal, _ = edge.header.rpartition("/internal/")
+            if is_internal and room != "fuzz" and (self.repo / "src" / owner) not in path.parents:
+                wrong.append(f"{edge.place}: {edge.header} is private to {owner}")
         return wrong
+
+    def crowded(self) -> list[str]:
+        """Folders in which one looks for a file too long."""
+        folders = [folder for top in WATCHED_FOR_CROWDS for folder in [self.repo / top, *(self.repo / top).rglob("*")] if folder.is_dir()]
+        counts = {folder: sum(path.is_file() for path in folder.iterdir()) for folder in folders
+                  if not {"node_modules", "__pycache__"} & set(folder.parts)}
+        return [f"{folder.relative_to(self.repo)}: {count} files; more than {MOST_FILES} want folders"
+                for folder, count in counts.items() if count > MOST_FILES]
 
     def transitive(self, room: str, path: pathlib.Path) -> list[str]:
         forbidden = set(self.rules["kept_from"].get(room, [])) - self.allowed(room, path)
@@ -146,7 +157,7 @@ def written(house: House, write: bool) -> list[str]:
 
 def main() -> int:
     house = House(pathlib.Path(sys.argv[1]).resolve())
-    wrong = house.complaints() + written(house, "--write" in sys.argv[2:])
+    wrong = house.complaints() + house.crowded() + written(house, "--write" in sys.argv[2:])
     print("\n".join(wrong) if wrong else f"every include of {len(house.files)} files is allowed")
     return 1 if wrong else 0
 

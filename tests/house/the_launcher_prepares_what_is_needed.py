@@ -73,11 +73,15 @@ with tempfile.TemporaryDirectory() as folder:
     first = here.run("check", "my.dolphin")
     assert first[-1] == "lapwing check my.dolphin", first
     assert called(first, "cmake --preset release") and not called(first, "npm") and not called(first, "node"), first
+    assert not any(call.startswith("cmake --build") and "programs" in call for call in first), first
     for word in ("fmt", "lsp", "plan", "sim", "route", "mission", "param", "signing", "help"):
         calls = here.run(word)
         assert calls[-1] == f"lapwing {word}" and not called(calls, "npm"), calls
         assert not called(calls, "ninja"), calls  # another ninja on the PATH would throw the build log away
         assert not called(calls, "apt-get"), calls  # nor is the network needed after the set-up
+    (here.root / "built").unlink()
+    calls = here.run("plan")
+    assert any(call.startswith("cmake --build") and "--target programs" in call for call in calls), calls
     page = here.run("station")
     assert called(page, "npm --prefix") and page[-1] == "lapwing station", page
     for word in ("demo", "run", "replay", "doctor"):

@@ -8,10 +8,10 @@
 #include <optional>
 #include <set>
 
+#include "dolphin/names/vehicle_types.hpp"
 #include "dolphin/services/cursor.hpp"
 #include "dolphin/services/describe.hpp"
 #include "dolphin/services/values.hpp"
-#include "dolphin/vehicle_types.hpp"
 
 namespace lapwing::dolphin {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "dolphin/checker.hpp"
-#include "dolphin/parser.hpp"
+#include "dolphin/check/checker.hpp"
 #include "dolphin/services/occurrences.hpp"
+#include "dolphin/syntax/parser.hpp"
 
 namespace lapwing::dolphin {
 

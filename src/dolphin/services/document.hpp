@@ -7,12 +7,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/diagnostic.hpp"
-#include "dolphin/ast.hpp"
-#include "dolphin/inference.hpp"
-#include "dolphin/lexer.hpp"
-#include "dolphin/resolver.hpp"
+#include "base/text/diagnostic.hpp"
+#include "dolphin/check/inference.hpp"
+#include "dolphin/names/resolver.hpp"
 #include "dolphin/services/vocabulary.hpp"
+#include "dolphin/syntax/ast.hpp"
+#include "dolphin/syntax/lexer.hpp"
 
 namespace lapwing::dolphin {
 

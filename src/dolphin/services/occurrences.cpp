@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "dolphin/ast_walk.hpp"
+#include "dolphin/syntax/ast_walk.hpp"
 
 namespace lapwing::dolphin {
 

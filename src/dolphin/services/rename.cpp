@@ -6,8 +6,8 @@
 #include <string>
 #include <unordered_map>
 
-#include "dolphin/internal/characters.hpp"
 #include "dolphin/services/navigation.hpp"
+#include "dolphin/syntax/characters.hpp"
 
 namespace lapwing::dolphin {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "dolphin/inference.hpp"
+#include "dolphin/check/inference.hpp"
 
 namespace lapwing::dolphin {
 

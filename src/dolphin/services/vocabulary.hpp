@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dolphin/ast.hpp"
-#include "dolphin/signatures.hpp"
+#include "dolphin/names/signatures.hpp"
+#include "dolphin/syntax/ast.hpp"
 #include "tasks/platform.hpp"
 
 namespace lapwing::dolphin {

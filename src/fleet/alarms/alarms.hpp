@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/async/task.hpp"
 #include "base/log.hpp"
-#include "base/task.hpp"
 #include "fleet/alarms/conditions.hpp"
 #include "fleet/alarms/roll_call.hpp"
 #include "vehicle/alarm.hpp"

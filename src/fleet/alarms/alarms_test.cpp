@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/test_control.hpp"
+#include "fleet/testing/control.hpp"
 
 namespace lapwing::fleet {
 namespace {

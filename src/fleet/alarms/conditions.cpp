@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "fleet/failsafe_reason.hpp"
+#include "fleet/state/failsafe_reason.hpp"
 
 namespace lapwing::fleet {
 

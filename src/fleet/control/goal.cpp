@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "fleet/failsafe_reason.hpp"
-#include "fleet/operator_actions.hpp"
-#include "fleet/vehicle_actions.hpp"
-#include "mavlink/modes.hpp"
+#include "fleet/actions/operator_actions.hpp"
+#include "fleet/actions/vehicle_actions.hpp"
+#include "fleet/state/failsafe_reason.hpp"
+#include "mavlink/wire/modes.hpp"
 #include "plan/performance.hpp"
 
 namespace lapwing::fleet {
@@ -42,7 +42,7 @@ double arrival_m(Family family) {
   return family == Family::copter ? 3.0 : 5.0;
 }
 
-std::optional<std::uint32_t> mode_of(Craft const& craft, vehicle::VehicleCommand const& command) {
+std::optional<std::uint32_t> mode_of(MavlinkVehicle const& craft, vehicle::VehicleCommand const& command) {
   auto const role = [&](ModeRole wanted) {
     return mavlink::mode_for(craft.state.autopilot, craft.state.family, wanted);
   };
@@ -67,18 +67,18 @@ std::string metres(double value_m) {
   return fmt::format("{:.0f} m", value_m);
 }
 
-std::string in_mode(Craft const& craft) {
+std::string in_mode(MavlinkVehicle const& craft) {
   return fmt::format("it is in {}", mode_name(craft, craft.custom_mode));
 }
 
-std::optional<double> speed_m_s(Craft const& craft) {
+std::optional<double> speed_m_s(MavlinkVehicle const& craft) {
   auto const& velocity = craft.state.velocity_m_s.value;
   if (!velocity) return std::nullopt;
   return std::hypot(velocity->north, velocity->east);
 }
 
 /// Who or what put the vehicle into the mode that it shows now.
-std::string change_of_mode(Craft const& craft, TimePoint now) {
+std::string change_of_mode(MavlinkVehicle const& craft, TimePoint now) {
   constexpr Duration goes_before = 2s;
   auto const what = fmt::format("mode changed to {}", mode_name(craft, craft.custom_mode));
   if (auto const failsafe = recent_failsafe(craft.state, now); !failsafe.empty())
@@ -90,7 +90,7 @@ std::string change_of_mode(Craft const& craft, TimePoint now) {
 
 }  // namespace
 
-Goal::Goal(Craft const& craft, vehicle::VehicleCommand command, TimePoint given)
+Goal::Goal(MavlinkVehicle const& craft, vehicle::VehicleCommand command, TimePoint given)
     : command_(std::move(command)),
       since_(given),
       mode_(mode_of(craft, command_)),
@@ -116,7 +116,7 @@ Duration Goal::patience() const {
   return command_.action == Action::take_off ? 20s : 10s;  // motors spool up, planes are thrown
 }
 
-Standing Goal::look(Craft const& craft, TimePoint now) {
+Standing Goal::look(MavlinkVehicle const& craft, TimePoint now) {
   note(craft, now);
   switch (command_.action) {
     case Action::arm:
@@ -136,7 +136,7 @@ Standing Goal::look(Craft const& craft, TimePoint now) {
 
 // ---- what was heard
 
-void Goal::note(Craft const& craft, TimePoint now) {
+void Goal::note(MavlinkVehicle const& craft, TimePoint now) {
   auto const& state = craft.state;
   if (is_news(state.heartbeat_heard)) {
     has_been_in_mode_ = has_been_in_mode_ || is_in_mode(craft);
@@ -151,34 +151,34 @@ void Goal::note(Craft const& craft, TimePoint now) {
   if (is_at_rest && !at_rest_since_) at_rest_since_ = now;
 }
 
-bool Goal::is_in_mode(Craft const& craft) const {
+bool Goal::is_in_mode(MavlinkVehicle const& craft) const {
   return is_news(craft.state.heartbeat_heard) &&
          (!mode_ || craft.custom_mode == *mode_ || craft.custom_mode == mode_after_);
 }
 
-std::string Goal::ended_by(Craft const& craft, TimePoint now) const {
+std::string Goal::ended_by(MavlinkVehicle const& craft, TimePoint now) const {
   if (!is_news(craft.state.heartbeat_heard)) return {};
   if (has_been_armed_ && !craft.is_armed) return "disarmed";
   if (!has_been_in_mode_ || is_in_mode(craft) || now - craft.mode_changed < reason_wait) return {};
   return change_of_mode(craft, now);
 }
 
-std::optional<double> Goal::height_m(Craft const& craft) const {
+std::optional<double> Goal::height_m(MavlinkVehicle const& craft) const {
   auto const& height = craft.state.relative_alt_m;
   return is_news(height.heard) ? height.value : std::nullopt;
 }
 
-std::optional<double> Goal::distance_m(Craft const& craft, geo::Wgs84 const& place) const {
+std::optional<double> Goal::distance_m(MavlinkVehicle const& craft, geo::Wgs84 const& place) const {
   auto const& position = craft.state.position;
   if (!position.value || !is_news(position.heard)) return std::nullopt;
   return geo::surface_distance_m(*position.value, place);
 }
 
-bool Goal::has_come_to_rest(Craft const& craft, TimePoint now, Duration time) const {
+bool Goal::has_come_to_rest(MavlinkVehicle const& craft, TimePoint now, Duration time) const {
   return craft.state.velocity_m_s.known() && at_rest_since_ && now - *at_rest_since_ >= time;
 }
 
-bool Goal::is_down(Craft const& craft) const {
+bool Goal::is_down(MavlinkVehicle const& craft) const {
   auto const& landed = craft.state.landed;
   bool const stands = !landed.value || (*landed.value && is_news(landed.heard));
   return is_news(craft.state.heartbeat_heard) && !craft.is_armed && stands;
@@ -186,20 +186,20 @@ bool Goal::is_down(Craft const& craft) const {
 
 // ---- by what is wanted
 
-Standing Goal::arming(Craft const& craft) const {
+Standing Goal::arming(MavlinkVehicle const& craft) const {
   bool const wanted = command_.action == Action::arm;
   bool const shows = is_news(craft.state.heartbeat_heard) && craft.is_armed == wanted;
   if (shows) return {Kind::reached, mode_name(craft, craft.custom_mode)};
   return {Kind::unseen, wanted ? "it does not report armed" : "it still reports armed"};
 }
 
-Standing Goal::mode(Craft const& craft) const {
+Standing Goal::mode(MavlinkVehicle const& craft) const {
   bool const moves = command_.action != Action::set_mode;
   if (is_in_mode(craft) && (craft.is_armed || !moves)) return {Kind::reached, mode_name(craft, craft.custom_mode)};
   return {Kind::unseen, in_mode(craft)};
 }
 
-Standing Goal::holding(Craft const& craft) const {
+Standing Goal::holding(MavlinkVehicle const& craft) const {
   constexpr double drifts_m_s = 1.5;
   if (!is_in_mode(craft)) return {Kind::unseen, in_mode(craft)};
   auto const name = mode_name(craft, craft.custom_mode);
@@ -213,7 +213,7 @@ Standing Goal::holding(Craft const& craft) const {
   return {Kind::under_way, fmt::format("{}, still {:.1f} m/s", name, *speed)};
 }
 
-Standing Goal::take_off(Craft const& craft, TimePoint now) const {
+Standing Goal::take_off(MavlinkVehicle const& craft, TimePoint now) const {
   constexpr Duration is_there = 3s;
   auto const height = height_m(craft);
   bool const is_own_height = take_off_mode(craft).has_value();
@@ -238,7 +238,7 @@ Standing Goal::take_off(Craft const& craft, TimePoint now) const {
   return {Kind::under_way, at, std::max(0.0, left_m)};
 }
 
-Standing Goal::landing(Craft const& craft, TimePoint now) const {
+Standing Goal::landing(MavlinkVehicle const& craft, TimePoint now) const {
   if (is_down(craft)) return {Kind::reached, "on the ground, motors off"};
   bool const stands = craft.state.landed.value == true && is_news(craft.state.landed.heard);
   bool const has_left = has_been_in_mode_ && !is_in_mode(craft) && now - craft.mode_changed >= reason_wait;
@@ -250,7 +250,7 @@ Standing Goal::landing(Craft const& craft, TimePoint now) const {
   return {Kind::under_way, fmt::format("at {:.0f} m", *height), std::max(0.0, *height)};
 }
 
-Standing Goal::return_home(Craft const& craft, TimePoint now) const {
+Standing Goal::return_home(MavlinkVehicle const& craft, TimePoint now) const {
   constexpr Duration stays = 15s;  // ArduPilot waits 5 s above home before it sinks
   constexpr double near_home_m = 10.0;
   auto const& state = craft.state;
@@ -274,7 +274,7 @@ Standing Goal::return_home(Craft const& craft, TimePoint now) const {
   return {Kind::under_way, (left_m ? metres(*left_m) + " from home" : "on its way") + at, left_m};
 }
 
-Standing Goal::go_to(Craft const& craft, TimePoint now) {
+Standing Goal::go_to(MavlinkVehicle const& craft, TimePoint now) {
   constexpr Duration stuck = 20s;
   constexpr double widest_circle_m = 500.0;
   auto const& state = craft.state;

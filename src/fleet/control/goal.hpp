@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "fleet/craft.hpp"
+#include "fleet/state/mavlink_vehicle.hpp"
 #include "vehicle/control.hpp"
 
 namespace lapwing::fleet {
@@ -28,11 +28,11 @@ struct Standing {
 /// that it is guided does not say where to. Remembers what it was shown: to be asked after every message.
 class Goal {
  public:
-  Goal(Craft const& craft, vehicle::VehicleCommand command, base::TimePoint given);
+  Goal(MavlinkVehicle const& craft, vehicle::VehicleCommand command, base::TimePoint given);
 
   /// From now on only what is newer counts.
   void acknowledge(base::TimePoint now);
-  [[nodiscard]] Standing look(Craft const& craft, base::TimePoint now);
+  [[nodiscard]] Standing look(MavlinkVehicle const& craft, base::TimePoint now);
   /// For how long an acknowledged command may show nothing.
   [[nodiscard]] base::Duration patience() const;
 
@@ -45,22 +45,22 @@ class Goal {
   };
 
   [[nodiscard]] bool is_news(base::TimePoint heard) const { return heard >= since_; }
-  void note(Craft const& craft, base::TimePoint now);
-  [[nodiscard]] bool is_in_mode(Craft const& craft) const;
+  void note(MavlinkVehicle const& craft, base::TimePoint now);
+  [[nodiscard]] bool is_in_mode(MavlinkVehicle const& craft) const;
   /// Why it does not obey any more; empty while it does, or while it has not begun to.
-  [[nodiscard]] std::string ended_by(Craft const& craft, base::TimePoint now) const;
-  [[nodiscard]] std::optional<double> height_m(Craft const& craft) const;
-  [[nodiscard]] std::optional<double> distance_m(Craft const& craft, geo::Wgs84 const& place) const;
-  [[nodiscard]] bool has_come_to_rest(Craft const& craft, base::TimePoint now, base::Duration time) const;
-  [[nodiscard]] bool is_down(Craft const& craft) const;
+  [[nodiscard]] std::string ended_by(MavlinkVehicle const& craft, base::TimePoint now) const;
+  [[nodiscard]] std::optional<double> height_m(MavlinkVehicle const& craft) const;
+  [[nodiscard]] std::optional<double> distance_m(MavlinkVehicle const& craft, geo::Wgs84 const& place) const;
+  [[nodiscard]] bool has_come_to_rest(MavlinkVehicle const& craft, base::TimePoint now, base::Duration time) const;
+  [[nodiscard]] bool is_down(MavlinkVehicle const& craft) const;
 
-  [[nodiscard]] Standing arming(Craft const& craft) const;
-  [[nodiscard]] Standing mode(Craft const& craft) const;
-  [[nodiscard]] Standing holding(Craft const& craft) const;
-  [[nodiscard]] Standing take_off(Craft const& craft, base::TimePoint now) const;
-  [[nodiscard]] Standing landing(Craft const& craft, base::TimePoint now) const;
-  [[nodiscard]] Standing return_home(Craft const& craft, base::TimePoint now) const;
-  [[nodiscard]] Standing go_to(Craft const& craft, base::TimePoint now);
+  [[nodiscard]] Standing arming(MavlinkVehicle const& craft) const;
+  [[nodiscard]] Standing mode(MavlinkVehicle const& craft) const;
+  [[nodiscard]] Standing holding(MavlinkVehicle const& craft) const;
+  [[nodiscard]] Standing take_off(MavlinkVehicle const& craft, base::TimePoint now) const;
+  [[nodiscard]] Standing landing(MavlinkVehicle const& craft, base::TimePoint now) const;
+  [[nodiscard]] Standing return_home(MavlinkVehicle const& craft, base::TimePoint now) const;
+  [[nodiscard]] Standing go_to(MavlinkVehicle const& craft, base::TimePoint now);
 
   vehicle::VehicleCommand command_;
   base::TimePoint since_{};

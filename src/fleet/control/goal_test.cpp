@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/test_autopilot.hpp"
-#include "mavlink/modes.hpp"
+#include "fleet/testing/autopilot.hpp"
+#include "mavlink/wire/modes.hpp"
 
 namespace lapwing::fleet {
 namespace {
@@ -54,7 +54,7 @@ struct GoalTest : testing::Test {
   base::Loop loop{{.unpaced = true}};
   mavlink::Connection connection{loop, {}, base::Logger()};
   vehicle::VehicleState state;
-  Craft craft{connection, state};
+  MavlinkVehicle craft{connection, state};
   base::TimePoint now{1min};
 };
 

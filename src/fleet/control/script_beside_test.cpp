@@ -1,8 +1,8 @@
-#include "fleet/control.hpp"
+#include "fleet/control/control.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fleet/test_control.hpp"
+#include "fleet/testing/control.hpp"
 
 // An operator beside a script: who commands a vehicle, and what is left on it when that changes.
 namespace lapwing::fleet {

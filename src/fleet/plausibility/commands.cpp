@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "fleet/operator_actions.hpp"
+#include "fleet/actions/operator_actions.hpp"
 #include "fleet/plausibility/doubts.hpp"
 #include "fleet/plausibility/own_fence.hpp"
-#include "mavlink/mission_transfer.hpp"
+#include "mavlink/exchange/mission_transfer.hpp"
+#include "plan/files/vehicle_plan.hpp"
 #include "plan/plausibility/judge.hpp"
-#include "plan/vehicle_plan.hpp"
 
 namespace lapwing::fleet {
 
@@ -22,7 +22,7 @@ namespace {
 constexpr int most_items_fetched = 100;
 
 /// The mission that the vehicle holds, as far as it tells within the moment that there is.
-Task<std::optional<plan::Mission>> held_mission(Craft& craft) {
+Task<std::optional<plan::Mission>> held_mission(MavlinkVehicle& craft) {
   auto const& known = craft.state.mission.value;
   if (known && known->total > most_items_fetched) co_return std::nullopt;
   constexpr mavlink::TransferOptions quickly{.tries = 3, .silence_limit = std::chrono::seconds(2), .restarts = 0};
@@ -33,13 +33,13 @@ Task<std::optional<plan::Mission>> held_mission(Craft& craft) {
 }
 
 /// Of a vehicle that is not armed, a mode may be chosen at leisure, and resuming is refused anyway.
-bool flies_the_plan_now(Craft const& craft, vehicle::VehicleCommand const& command) {
+bool flies_the_plan_now(MavlinkVehicle const& craft, vehicle::VehicleCommand const& command) {
   bool const arms = command.action == Action::start_mission || command.action == Action::arm;
   return flies_the_plan(craft, command) && (arms || craft.is_armed);
 }
 
-Task<plausibility::Findings> findings_of(Craft& craft, vehicle::VehicleCommand command, plausibility::Settings settings,
-                                         Neighbours neighbours, base::Logger log) {
+Task<plausibility::Findings> findings_of(MavlinkVehicle& craft, vehicle::VehicleCommand command,
+                                         plausibility::Settings settings, Neighbours neighbours, base::Logger log) {
   bool const goes_somewhere = command.action == Action::go_to && command.place;
   bool const takes_off = command.action == Action::take_off;
   bool const flies_plan = flies_the_plan_now(craft, command);
@@ -67,8 +67,8 @@ Result<plausibility::Settings> settings_for(vehicle::VehicleCommand const& comma
   return mine;
 }
 
-Task<Result<>> heed_command(Craft& craft, vehicle::VehicleCommand const& command, plausibility::Settings settings,
-                            Neighbours const& neighbours, base::Logger const& log) {
+Task<Result<>> heed_command(MavlinkVehicle& craft, vehicle::VehicleCommand const& command,
+                            plausibility::Settings settings, Neighbours const& neighbours, base::Logger const& log) {
   auto const action = command.action;
   auto const findings = co_await findings_of(craft, command, std::move(settings), neighbours, log);
   Doubts doubts;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/async/task.hpp"
 #include "base/log.hpp"
-#include "base/task.hpp"
 #include "fleet/plausibility/situation.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "vehicle/control.hpp"
@@ -15,7 +15,7 @@ namespace lapwing::fleet {
 /// Whether what an operator commands makes sense for the vehicle as it is. Sends nothing that changes anything; before
 /// a start it fetches the mission that the vehicle holds, if that is short. Logs what it warns of. Error: invalid_input
 /// with what is wrong.
-base::Task<base::Result<>> heed_command(Craft& craft, vehicle::VehicleCommand const& command,
+base::Task<base::Result<>> heed_command(MavlinkVehicle& craft, vehicle::VehicleCommand const& command,
                                         plan::plausibility::Settings settings, Neighbours const& neighbours,
                                         base::Logger const& log);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "mavlink/param.hpp"
+#include "mavlink/exchange/param.hpp"
 #include "plan/performance.hpp"
 
 namespace lapwing::fleet {

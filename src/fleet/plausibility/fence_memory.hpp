@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/time.hpp"
-#include "mavlink/messages.hpp"
+#include "mavlink/codec/messages.hpp"
 #include "plan/plausibility/vehicle_fence.hpp"
 #include "vehicle/vehicle_state.hpp"
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "base/scope.hpp"
-#include "mavlink/mission_transfer.hpp"
-#include "plan/vehicle_plan.hpp"
+#include "base/async/scope.hpp"
+#include "mavlink/exchange/mission_transfer.hpp"
+#include "plan/files/vehicle_plan.hpp"
 
 namespace lapwing::fleet {
 
@@ -30,7 +30,7 @@ constexpr int rounds_for_optional = 2;
 /// Ends a reading also when who wanted it is stopped in the middle.
 class Reading {
  public:
-  explicit Reading(Craft& craft) : craft_(craft) { craft_.fence.is_being_read = true; }
+  explicit Reading(MavlinkVehicle& craft) : craft_(craft) { craft_.fence.is_being_read = true; }
   Reading(Reading const&) = delete;
   Reading& operator=(Reading const&) = delete;
   ~Reading() {
@@ -39,7 +39,7 @@ class Reading {
   }
 
  private:
-  Craft& craft_;
+  MavlinkVehicle& craft_;
 };
 
 std::vector<std::string_view> missing(FenceMemory const& memory, std::span<std::string_view const> names,
@@ -51,7 +51,7 @@ std::vector<std::string_view> missing(FenceMemory const& memory, std::span<std::
 }
 
 /// All at once: a link's round trip is waited for once, not ten times.
-Task<Result<>> read_values(Craft& craft, TimePoint deadline) {
+Task<Result<>> read_values(MavlinkVehicle& craft, TimePoint deadline) {
   auto& loop = craft.connection.loop();
   auto const names = fence_names(craft.state.autopilot, craft.state.family);
   auto const begun = loop.now();
@@ -79,12 +79,12 @@ Task<Result<>> read_values(Craft& craft, TimePoint deadline) {
 
 using Held = std::optional<Result<mavlink::HeldPlan>>;
 
-Task<> fetch_areas(Craft& craft, Held& into) {
+Task<> fetch_areas(MavlinkVehicle& craft, Held& into) {
   constexpr mavlink::TransferOptions quickly{.silence_limit = 2s, .restarts = 0};
   into = co_await mavlink::download_mission(craft.connection, craft.address, mavlink::MissionType::fence, quickly);
 }
 
-Task<Result<>> read_areas(Craft& craft, TimePoint deadline) {
+Task<Result<>> read_areas(MavlinkVehicle& craft, TimePoint deadline) {
   auto& loop = craft.connection.loop();
   Held held;
   base::Scope scope(loop);
@@ -97,7 +97,7 @@ Task<Result<>> read_areas(Craft& craft, TimePoint deadline) {
   co_return Result<>{};
 }
 
-Task<Result<>> read_all(Craft& craft, base::Duration patience) {
+Task<Result<>> read_all(MavlinkVehicle& craft, base::Duration patience) {
   auto const now = craft.connection.loop().now();
   auto& memory = craft.fence;
   bool const is_fresh = memory.read && now - *memory.read < values_keep;
@@ -115,7 +115,7 @@ Task<Result<>> read_all(Craft& craft, base::Duration patience) {
 
 }  // namespace
 
-Task<Result<>> learn_fence(Craft& craft, base::Duration patience) {
+Task<Result<>> learn_fence(MavlinkVehicle& craft, base::Duration patience) {
   if (fence_names(craft.state.autopilot, craft.state.family).needed.empty()) co_return Result<>{};
   auto const deadline = craft.connection.loop().now() + patience;
   while (craft.fence.is_being_read) {
@@ -126,7 +126,7 @@ Task<Result<>> learn_fence(Craft& craft, base::Duration patience) {
   co_return co_await read_all(craft, patience);
 }
 
-Task<> learn_fence(Craft& craft, base::Duration patience, base::Logger log) {
+Task<> learn_fence(MavlinkVehicle& craft, base::Duration patience, base::Logger log) {
   auto const learned = co_await learn_fence(craft, patience);
   if (!learned)
     log.warn(fmt::format("{} has not told its own fence ({}): nobody knows whether this leaves it", craft.state.name,

@@ -19,12 +19,12 @@ std::optional<int> items_held(vehicle::VehicleState const& state) {
 
 }  // namespace
 
-std::optional<bool> stands_on_ground(Craft const& craft) {
+std::optional<bool> stands_on_ground(MavlinkVehicle const& craft) {
   if (!craft.is_armed) return true;
   return craft.state.landed.value;
 }
 
-plan::plausibility::Situation situation_of(Craft const& craft, Neighbours const& neighbours) {
+plan::plausibility::Situation situation_of(MavlinkVehicle const& craft, Neighbours const& neighbours) {
   auto const& state = craft.state;
   plan::plausibility::Situation situation{.vehicle = state.name,
                                           .family = state.family,

@@ -4,18 +4,18 @@
 #include <optional>
 #include <vector>
 
-#include "fleet/craft.hpp"
+#include "fleet/state/mavlink_vehicle.hpp"
 #include "plan/plausibility/situation.hpp"
 
 namespace lapwing::fleet {
 
 /// What the other vehicles of the fleet mean to one of them on the ground.
-using Neighbours = std::function<std::vector<plan::plausibility::Neighbour>(Craft const&)>;
+using Neighbours = std::function<std::vector<plan::plausibility::Neighbour>(MavlinkVehicle const&)>;
 
 /// Whether it stands on the ground, so far as it has told.
-[[nodiscard]] std::optional<bool> stands_on_ground(Craft const& craft);
+[[nodiscard]] std::optional<bool> stands_on_ground(MavlinkVehicle const& craft);
 
 /// What is known of the vehicle now. A position that its estimator does not stand by counts as none.
-[[nodiscard]] plan::plausibility::Situation situation_of(Craft const& craft, Neighbours const& neighbours);
+[[nodiscard]] plan::plausibility::Situation situation_of(MavlinkVehicle const& craft, Neighbours const& neighbours);
 
 }  // namespace lapwing::fleet

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/scope.hpp"
+#include "base/async/scope.hpp"
 #include "link/byte_link.hpp"
 #include "link/internal/send_queue.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/notifier.hpp"
+#include "base/async/notifier.hpp"
 #include "link/byte_link.hpp"
 
 /// What the tests of the links share.

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/spelling.hpp"
+#include "base/text/spelling.hpp"
 
 namespace lapwing::plan::plausibility {
 

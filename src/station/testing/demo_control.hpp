@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/loop.hpp"
+#include "base/async/loop.hpp"
 #include "vehicle/control.hpp"
 #include "vehicle/registry.hpp"
 

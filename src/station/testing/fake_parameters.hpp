@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/loop.hpp"
+#include "base/async/loop.hpp"
 #include "vehicle/parameters.hpp"
 
 namespace lapwing::station::testing {

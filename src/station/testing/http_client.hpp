@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/loop.hpp"
-#include "station/http.hpp"
+#include "base/async/loop.hpp"
+#include "station/http/http.hpp"
 
 /// A small HTTP and WebSocket client for tests, on the same loop as the server under test. Every call runs the loop
 /// until the answer is there, or five seconds of wall time have passed.

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/scope.hpp"
+#include "base/async/scope.hpp"
 #include "geo/position.hpp"
 #include "station/station.hpp"
 #include "station/testing/demo_control.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "dolphin/ast_walk.hpp"
+#include "dolphin/syntax/ast_walk.hpp"
 
 namespace lapwing::dolphin {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dolphin/ast_walk.hpp"
+#include "dolphin/syntax/ast_walk.hpp"
 
 namespace lapwing::dolphin {
 

@@ -1,0 +1,103 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "apps/verb.hpp"
+#include "host/files/files.hpp"
+#include "host/session/session.hpp"
+#include "host/session/signals.hpp"
+#include "host/simulation/simulated_fleet.hpp"
+#include "sim/model/vehicle_spec.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+struct DemoOptions {
+  bool headless = false;
+  std::string script;
+  std::string report;
+  std::vector<std::string> forward;
+  std::string record;
+  std::string vehicles = "copter:2,rover:1";
+  std::string on_stop = "loiter";
+  host::WebArguments web;
+  std::optional<double> speedup;
+};
+
+/// The map stays open after the script has ended, until Ctrl-C.
+void keep_map(host::Session& session) {
+  fmt::print(stderr, "the map stays open at {}; Ctrl-C ends\n", session.map->url());
+  host::StopSignals const signals(session.loop, [&session] {
+    session.host.stop("an interrupt");
+    session.loop.stop();
+  });
+  session.loop.run();
+  session.run_to_end(std::nullopt);
+}
+
+int demo(DemoOptions const& options) {
+  constexpr auto example = "examples/survey.dolphin";
+  auto const script = options.script.empty() ? std::string(example) : options.script;
+  auto const source = host::read_script(options.script.empty() ? (host::home_directory() / example).string() : script);
+  if (!source) return host::refuse(source.error());
+  auto const on_stop = host::parse_on_stop(options.on_stop);
+  if (!on_stop) return host::refuse(on_stop.error());
+  auto const vehicles = sim::parse_vehicles(options.vehicles);
+  if (!vehicles) return host::refuse(vehicles.error());
+
+  auto const needs = host::needs_of_text(script, *source);
+  sim::WorldOptions world;
+  world.vehicles = *vehicles;
+  world.home = needs.home.value_or(world.home);
+
+  // Fast enough not to bore, slow enough to follow.
+  constexpr double watchable = 4.0;
+  host::Session session({.speedup = options.speedup.value_or(options.headless ? 0.0 : watchable),
+                         .on_stop = *on_stop,
+                         .payload = host::equipped(world, host::payload_for(needs))});
+  if (!options.record.empty()) {
+    if (auto begun = session.record(options.record); !begun) return host::refuse(begun.error());
+  }
+  auto programs = host::forward_to(options.forward);
+  if (!programs) return host::refuse(programs.error());
+  if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return host::refuse(forwarded.error());
+  if (!options.headless) {
+    host::WebAccess access;
+    host::apply(options.web, access);
+    auto const opened = session.open_map(access, {.home = world.home, .scripts = host::home_directory() / "examples"});
+    if (!opened) return host::refuse(opened.error());
+  }
+  if (auto simulated = session.simulate(std::move(world)); !simulated) return host::refuse(simulated.error());
+  auto const started = session.host.start(script, *source);
+  fmt::print(stderr, "{}", session.host.rendered_diagnostics());
+  if (!started) return host::exit_usage;
+  session.run_to_end(std::nullopt);
+  auto const outcome = *session.host.outcome();
+  if (!options.report.empty()) {
+    if (auto written = host::write_file(options.report, host::to_json(session.report())); !written)
+      return host::refuse(written.error());
+  }
+  if (session.map && outcome.kind != dolphin::Outcome::Kind::stopped) keep_map(session);
+  return dolphin::exit_code(outcome);
+}
+
+}  // namespace
+
+void add_demo(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<DemoOptions>();
+  auto* verb = begin_verb(program, "demo");
+  verb->add_flag("--headless", options->headless, "No map: run to the end as fast as the machine computes, then exit");
+  verb->add_option("--script", options->script, "Another script than examples/survey.dolphin");
+  verb->add_option("--vehicles", options->vehicles, "What and how many")->capture_default_str();
+  verb->add_option("--report", options->report, "Write what happened to this file as JSON");
+  verb->add_option("--forward", options->forward, host::forward_help);
+  verb->add_option("--record", options->record, host::record_help);
+  host::add_web_options(*verb, options->web);
+  verb->add_option("--speedup", options->speedup, "1 real time; default 4 with the map, as fast as possible without")
+      ->check(CLI::Range(0.0, 1000.0));
+  verb->add_option("--on-stop", options->on_stop, "What a vehicle does when its task is stopped: loiter, rtl or land");
+  verb->callback([options, &exit_code] { exit_code = demo(*options); });
+}
+
+}  // namespace lapwing::apps

@@ -1,0 +1,354 @@
+#include "dolphin/builtin/members.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "dolphin/builtin/method_lists.hpp"
+#include "dolphin/machine/fiber.hpp"
+#include "dolphin/machine/runtime.hpp"
+#include "dolphin/syntax/limits.hpp"
+#include "dolphin/value/equality.hpp"
+#include "dolphin/value/operators.hpp"
+#include "dolphin/value/text.hpp"
+
+namespace lapwing::dolphin {
+namespace {
+
+std::unexpected<Fault> no_member(Value const& object, std::string_view name) {
+  return fault(fmt::format("{} has no property {}", kind_name(object), name), "MissingPropertyException");
+}
+
+Checked<Value> position_member(Heap& /*heap*/, geo::Wgs84 const& place, Value const& object, std::string_view name) {
+  if (name == "lat") return Value::real(place.lat_deg());
+  if (name == "lon") return Value::real(place.lon_deg());
+  if (name == "hae" || name == "height") return Value::real(place.alt_m);
+  return no_member(object, name);
+}
+
+Checked<Value> displacement_member(geo::Ned const& offset, Value const& object, std::string_view name) {
+  if (name == "north") return Value::real(offset.north);
+  if (name == "east") return Value::real(offset.east);
+  if (name == "down") return Value::real(offset.down);
+  return no_member(object, name);
+}
+
+Checked<Value> area_member(Heap& heap, geo::Disc const& disc, Value const& object, std::string_view name) {
+  if (name == "center") return Value(heap.make<Position>(disc.center));
+  if (name == "radius") return Value::real(disc.radius_m);
+  return no_member(object, name);
+}
+
+Checked<Value> vehicle_member(Runtime& runtime, tasks::VehicleId const& id, Value const& object,
+                              std::string_view name) {
+  auto& heap = runtime.heap;
+  auto const info = runtime.platform.find(id);
+  if (name == "id" || name == "name") return Value(heap.make<Text>(id.text));
+  if (!info) return fault(fmt::format("vehicle {} is not known any more", id.text), "IllegalStateException");
+  if (name == "type") return Value(heap.make<Text>(info->type));
+  if (name == "connected") return Value::boolean(info->connected);
+  if (name == "connectionTimeout") return Value::real(base::to_seconds(info->connection_timeout));
+  if (name == "battery") return Value::real(info->battery.value_or(std::numeric_limits<double>::quiet_NaN()));
+  if (name == "position") return info->position ? Value(heap.make<Position>(*info->position)) : Value();
+  if (name == "payload") {
+    auto names = heap.make<List>();
+    for (auto const& payload : info->payload) names->push(heap.make<Text>(payload));
+    return Value(names);
+  }
+  return no_member(object, name);
+}
+
+Checked<Value> error_member(Heap& heap, ErrorData const& error, Value const& object, std::string_view name) {
+  if (name == "message") return Value(heap.make<Text>(error.message));
+  if (name == "type" || name == "simpleName") return Value(heap.make<Text>(error.type));
+  if (name == "line") return Value::integer(error.line);
+  if (name == "class") return Value(heap.make<TypeValue>(TypeName{error.type}));
+  return no_member(object, name);
+}
+
+Checked<Value> outcome_member(Heap& heap, OutcomeData const& outcome, Value const& object, std::string_view name) {
+  if (name == "done") return Value::boolean(outcome.done);
+  if (name == "error") return outcome.error.empty() ? Value() : Value(heap.make<Text>(outcome.error));
+  if (name == "vehicles") return Value(heap.make<Vehicles>(outcome.vehicles));
+  return no_member(object, name);
+}
+
+/// Constants of types: Float.NaN, Math.PI, PRECISION_LAND_MODE.PRECISION_LAND_MODE_REQUIRED (MAVLink common.xml).
+Checked<Value> type_member(Heap& heap, TypeName const& type, Value const& object, std::string_view name) {
+  if (name == "simpleName" || name == "name") return Value(heap.make<Text>(type.name));
+  if (name == "class") return object;
+  bool const is_real = type.name == "Float" || type.name == "Double";
+  if (is_real && name == "NaN") return Value::real(std::numeric_limits<double>::quiet_NaN());
+  if (is_real && name == "MAX_VALUE") return Value::real(std::numeric_limits<double>::max());
+  if (is_real && name == "POSITIVE_INFINITY") return Value::real(std::numeric_limits<double>::infinity());
+  if (is_real && name == "NEGATIVE_INFINITY") return Value::real(-std::numeric_limits<double>::infinity());
+  if (type.name == "Long" && name == "MAX_VALUE") return Value::integer(std::numeric_limits<std::int64_t>::max());
+  if (type.name == "Long" && name == "MIN_VALUE") return Value::integer(std::numeric_limits<std::int64_t>::min());
+  if (type.name == "Integer" && name == "MAX_VALUE") return Value::integer(std::numeric_limits<std::int32_t>::max());
+  if (type.name == "Integer" && name == "MIN_VALUE") return Value::integer(std::numeric_limits<std::int32_t>::min());
+  if (type.name == "Math" && name == "PI") return Value::real(std::numbers::pi);
+  if (type.name == "Math" && name == "E") return Value::real(std::numbers::e);
+  if (type.name == "PRECISION_LAND_MODE") {
+    if (name == "PRECISION_LAND_MODE_DISABLED") return Value::integer(0);
+    if (name == "PRECISION_LAND_MODE_OPPORTUNISTIC") return Value::integer(1);
+    if (name == "PRECISION_LAND_MODE_REQUIRED") return Value::integer(2);
+  }
+  return fault(fmt::format("{} has no constant {}", type.name, name), "MissingPropertyException");
+}
+
+/// `list.name` is the list of that member of all; lists may nest, and may hold themselves.
+class Spread {
+ public:
+  Spread(Runtime& runtime, std::string_view name) : runtime_(runtime), name_(name) {}
+
+  Checked<Value> of(List const& list, int depth = 0) {
+    if (depth > max_printed_depth) return fault(fmt::format("lists are nested too deep to read {}", name_));
+    auto result = runtime_.heap.make<List>();
+    for (auto const& item : list.items) {
+      if (++looked_at_ > max_spread_values)
+        return fault(fmt::format("the lists are too long to read {}", name_), "OutOfMemoryError");
+      auto const* inner = item.as<List>();
+      auto value = inner ? of(*inner, depth + 1) : member(runtime_, item, name_);
+      if (!value) return value;
+      result->push(std::move(*value));
+    }
+    return Value(result);
+  }
+
+ private:
+  Runtime& runtime_;
+  std::string_view name_;
+  std::size_t looked_at_ = 0;
+};
+
+std::string_view type_name(Value const& value) {
+  switch (value.kind()) {
+    case ValueKind::null: return "Null";
+    case ValueKind::boolean: return "Boolean";
+    case ValueKind::integer: return "Integer";
+    case ValueKind::real: return "Double";
+    case ValueKind::text: return "String";
+    case ValueKind::list: return "List";
+    case ValueKind::map: return "Map";
+    case ValueKind::entry: return "Entry";
+    case ValueKind::range: return "Range";
+    case ValueKind::closure: return "Closure";
+    case ValueKind::vehicles: return "VehicleSet";
+    case ValueKind::vehicle: return "Vehicle";
+    case ValueKind::position: return "Position";
+    case ValueKind::displacement: return "Displacement";
+    case ValueKind::area: return "Area";
+    case ValueKind::task: return "Task";
+    case ValueKind::error: return value.as<Error>()->value.type;
+    case ValueKind::pattern: return "Pattern";
+    default: return "Object";
+  }
+}
+
+/// The next more general class of a Java exception; RuntimeException for what has no entry.
+std::string_view parent_of(std::string_view type) {
+  static constexpr std::pair<std::string_view, std::string_view> parents[] = {
+      {"NumberFormatException", "IllegalArgumentException"},
+      {"ArrayIndexOutOfBoundsException", "IndexOutOfBoundsException"},
+      {"StringIndexOutOfBoundsException", "IndexOutOfBoundsException"},
+      {"FileNotFoundException", "IOException"},
+      {"IOException", "Exception"},
+      {"TimeoutException", "Exception"},
+      {"InterruptedException", "Exception"},
+      {"RuntimeException", "Exception"},
+      {"StackOverflowError", "Error"},
+      {"OutOfMemoryError", "Error"},
+      {"AssertionError", "Error"},
+      {"Error", "Exception"},  // `catch (Exception e)` is how scripts say "whatever it is"
+      {"Exception", "Throwable"},
+      {"Throwable", "Object"},
+      {"Object", ""}};
+  auto const found = std::ranges::find(parents, type, &std::pair<std::string_view, std::string_view>::first);
+  if (found != std::end(parents)) return found->second;
+  return type.ends_with("Error") ? "Exception" : "RuntimeException";
+}
+
+bool is_kind_of_error(std::string_view type, std::string_view general) {
+  for (; !type.empty(); type = parent_of(type)) {
+    if (type == general) return true;
+  }
+  return false;
+}
+
+bool is_error_type(std::string_view type) {
+  auto const ends = [&](std::string_view end) { return type.ends_with(end); };
+  return ends("Exception") || ends("Error") || type == "Throwable";
+}
+
+}  // namespace
+
+Value type_of(Heap& heap, Value const& value) {
+  if (value.is(ValueKind::type)) return value;
+  return Value(heap.make<TypeValue>(TypeName{std::string(type_name(value))}));
+}
+
+Checked<Value> member(Runtime& runtime, Value const& object, std::string_view name) {
+  auto& heap = runtime.heap;
+  if (object.is_number()) {
+    if (auto result = with_unit(object, name)) return *result;
+  }
+  if (name == "class" && !object.is(ValueKind::map) && !object.is(ValueKind::error) && !object.is(ValueKind::type)) {
+    return type_of(heap, object);
+  }
+  switch (object.kind()) {
+    case ValueKind::null: return fault(fmt::format("cannot read {} of null", name), "NullPointerException");
+    case ValueKind::map: return object.as<Map>()->at(Value(heap.make<Text>(std::string(name))));
+    case ValueKind::entry:
+      if (name == "key") return object.as<Entry>()->key;
+      if (name == "value") return object.as<Entry>()->value;
+      return no_member(object, name);
+    case ValueKind::list: return Spread(runtime, name).of(*object.as<List>());
+    case ValueKind::range:
+      if (name == "from") return Value::integer(object.as<Range>()->first);
+      if (name == "to") return Value::integer(object.as<Range>()->last);
+      return no_member(object, name);
+    case ValueKind::vehicles: {
+      auto members = heap.make<List>();
+      for (auto const& id : object.as<Vehicles>()->ids) members->push(heap.make<Vehicle>(id));
+      return Spread(runtime, name).of(*members);
+    }
+    case ValueKind::vehicle: return vehicle_member(runtime, object.as<Vehicle>()->value, object, name);
+    case ValueKind::position: return position_member(heap, object.as<Position>()->value, object, name);
+    case ValueKind::displacement: return displacement_member(object.as<Displacement>()->value, object, name);
+    case ValueKind::area: return area_member(heap, object.as<Area>()->value, object, name);
+    case ValueKind::task:
+      if (name == "id" || name == "name") return Value(heap.make<Text>(tasks::name(object.as<TaskValue>()->value)));
+      return no_member(object, name);
+    case ValueKind::error: return error_member(heap, object.as<Error>()->value, object, name);
+    case ValueKind::outcome: return outcome_member(heap, object.as<ExecuteOutcome>()->value, object, name);
+    case ValueKind::type: return type_member(heap, object.as<TypeValue>()->value, object, name);
+    default: return no_member(object, name);
+  }
+}
+
+Checked<void> set_member(Runtime& runtime, Value const& object, std::string_view name, Value value) {
+  auto* map = object.as<Map>();
+  if (!map)
+    return fault(fmt::format("properties of {} cannot be assigned to", kind_name(object)), "IllegalArgumentException");
+  map->set(Value(runtime.heap.make<Text>(std::string(name))), std::move(value));
+  return {};
+}
+
+Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name, Native::Arguments arguments) {
+  auto const point = name.find('.');
+  auto const type = name.substr(0, point);
+  auto const method = name.substr(point + 1);
+  if (type == "System" && method == "currentTimeMillis") {
+    auto const since = runtime.loop.utc_now().time_since_epoch();
+    return Value::integer(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
+  }
+  if (type == "Position" && method == "fromDegrees") {
+    return natives()[static_cast<std::size_t>(find_native("location").value())].call(runtime, fiber, arguments);
+  }
+  if (type == "Math" && method == "random" && arguments.empty()) {
+    return Value::real(static_cast<double>(runtime.random() >> 11U) * 0x1p-53);  // 53 bits: [0, 1)
+  }
+  if (type == "System" && method == "nanoTime" && arguments.empty()) {
+    return Value::integer(std::chrono::nanoseconds(runtime.loop.now().time_since_epoch()).count());
+  }
+  if (type == "String" && method == "format" && !arguments.empty()) {
+    auto text = internal::formatted(to_text(arguments.front()), arguments.subspan(1));
+    if (!text) return std::unexpected(text.error());
+    return make_text(runtime.heap, std::move(*text));
+  }
+  if (type == "Math") {
+    auto const index = find_native(method);
+    if (index && natives()[static_cast<std::size_t>(*index)].is_pure) {
+      auto const& native = natives()[static_cast<std::size_t>(*index)];
+      auto const count = static_cast<int>(arguments.size());
+      if (count >= native.least && count <= native.most) return native.call(runtime, fiber, arguments);
+    }
+  }
+  if ((type == "Integer" || type == "Long" || type == "Double" || type == "Float") && method.starts_with("parse") &&
+      arguments.size() == 1) {
+    return cast(runtime, arguments.front(), type);
+  }
+  if (type == "String" && method == "valueOf" && arguments.size() == 1)
+    return cast(runtime, arguments.front(), "String");
+  return fault(fmt::format("{} has no function {} with {} arguments", type, method, arguments.size()),
+               "MissingMethodException");
+}
+
+Checked<Value> construct(Runtime& runtime, std::string_view type, Native::Arguments arguments, int line) {
+  auto& heap = runtime.heap;
+  if (is_error_type(type)) {
+    std::string message = arguments.empty() ? "null" : to_text(arguments.front());
+    return Value(heap.make<Error>(ErrorData{std::string(type), std::move(message), line}));
+  }
+  if (type == "Position" && (arguments.size() == 2 || arguments.size() == 3)) {
+    if (!std::ranges::all_of(arguments, &Value::is_number))
+      return fault("new Position takes numbers", "IllegalArgumentException");
+    runtime.log.warn(fmt::format("line {}: new Position takes radians; location(lat, lon) takes degrees", line));
+    double const height = arguments.size() == 3 ? arguments[2].number() : 0.0;
+    return Value(heap.make<Position>(geo::Wgs84{arguments[0].number(), arguments[1].number(), height}));
+  }
+  if ((type == "ArrayList" || type == "LinkedList") && arguments.empty()) return Value(heap.make<List>());
+  if ((type == "HashMap" || type == "LinkedHashMap" || type == "TreeMap") && arguments.empty())
+    return Value(heap.make<Map>());
+  return fault(fmt::format("there is no type {} to make with {} arguments", type, arguments.size()),
+               "IllegalArgumentException");
+}
+
+Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type) {
+  auto& heap = runtime.heap;
+  static constexpr std::string_view integers[] = {"int",  "long",  "short", "byte",      "Integer",
+                                                  "Long", "Short", "Byte",  "BigInteger"};
+  bool const to_integer = std::ranges::find(integers, type) != std::end(integers);
+  bool const to_real =
+      type == "double" || type == "float" || type == "Double" || type == "Float" || type == "BigDecimal";
+  if (type == "boolean" || type == "Boolean") return Value::boolean(is_true(value));
+  if (value.is_null()) return value;
+  if (type == "String") return Value(heap.make<Text>(to_text(value)));
+  if (type == "List" && value.is(ValueKind::list)) return value;
+  if (type == "List" || type == "Set") {
+    auto const items = call_method(runtime, value, "toList", {});
+    if (items && *items) return type == "Set" ? *call_method(runtime, **items, "unique", {}) : *items;
+  }
+  if (to_integer || to_real) {
+    Value number = value;
+    if (auto const* text = value.as<Text>()) {
+      char* end = nullptr;
+      double const parsed = std::strtod(text->text.c_str(), &end);
+      if (text->text.empty() || *end != '\0')
+        return fault(fmt::format("'{}' is no number", text->text), "NumberFormatException");
+      number = Value::real(parsed);
+    }
+    if (!number.is_number()) return fault(fmt::format("{} is no number", kind_name(value)), "ClassCastException");
+    if (to_real) return Value::real(number.number());
+    if (number.is(ValueKind::integer)) return number;
+    if (!(std::fabs(number.real()) < 9.2e18))
+      return fault(fmt::format("{} is no integer", to_text(number)), "ArithmeticException");
+    return Value::integer(static_cast<std::int64_t>(number.real()));
+  }
+  if (is_instance(value, type)) return value;
+  return fault(fmt::format("{} cannot be cast to {}", kind_name(value), type), "ClassCastException");
+}
+
+bool is_instance(Value const& value, std::string_view type) {
+  if (value.is_null()) return false;
+  if (auto const* error = value.as<Error>()) {
+    return is_kind_of_error(error->value.type, type);
+  }
+  auto const own = type_name(value);
+  if (type == own || type == "Object" || type == "def") return true;
+  if (type == "Number") return value.is_number();
+  if (value.is(ValueKind::integer)) return type == "int" || type == "long" || type == "Long";
+  if (value.is(ValueKind::real)) return type == "double" || type == "float" || type == "Float" || type == "BigDecimal";
+  if (value.is(ValueKind::text)) return type == "CharSequence" || type == "GString";
+  if (value.is(ValueKind::list)) return type == "Collection" || type == "ArrayList";
+  if (value.is(ValueKind::vehicles)) return type == "VSet" || type == "NodeSet" || type == "Collection";
+  if (value.is(ValueKind::boolean)) return type == "boolean";
+  return false;
+}
+
+}  // namespace lapwing::dolphin

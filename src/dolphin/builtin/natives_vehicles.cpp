@@ -1,0 +1,344 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "dolphin/builtin/internal/native_lists.hpp"
+#include "dolphin/builtin/internal/pick_filter.hpp"
+#include "dolphin/machine/fiber.hpp"
+#include "dolphin/machine/runtime.hpp"
+#include "dolphin/names/foreign_words.hpp"
+#include "dolphin/value/text.hpp"
+
+/// Vehicles and geometry (language spec, 3.1 and 3.2).
+namespace lapwing::dolphin::internal {
+namespace {
+
+using Arguments = Native::Arguments;
+using tasks::VehicleId;
+using tasks::VehicleInfo;
+
+// ---- pick
+
+std::string as_log_text(PickFilter const& filter) {
+  std::string payload;
+  for (auto const& name : filter.payload) payload += (payload.empty() ? "" : "+") + name;
+  return fmt::format("id={},type={},payload={},area={}", filter.id.value_or("<null>"), filter.type.value_or("<null>"),
+                     payload.empty() ? "<null>" : payload, filter.region ? to_text(*filter.region) : "<null>");
+}
+
+void log_available(Runtime const& runtime) {
+  std::vector<VehicleInfo> available;
+  for (auto& info : runtime.platform.vehicles()) {
+    bool const is_free = std::ranges::find(runtime.picked, info.id) == runtime.picked.end();
+    if (is_free && info.connected) available.push_back(std::move(info));
+  }
+  runtime.log.info(fmt::format("Available nodes: {}", available.size()));
+  for (auto const& info : available) runtime.log.info(fmt::format("  id={} type={}", info.id.text, info.type));
+}
+
+/// With what the script's author may have meant by a type that no vehicle has.
+std::string unmet(PickFilter const& filter) {
+  auto const meant = filter.type ? vehicle_type_meant(*filter.type) : std::string_view();
+  return fmt::format("Could not find required vehicles!{}",
+                     meant.empty() ? "" : fmt::format(" Perhaps type '{}' was meant.", meant));
+}
+
+/// The first `count` free vehicles that match, in the platform's order; nothing when there are fewer.
+std::optional<std::vector<VehicleId>> chosen(Runtime const& runtime, PickFilter const& filter) {
+  std::vector<VehicleId> ids;
+  for (auto const& info : runtime.platform.vehicles()) {
+    bool const is_free = std::ranges::find(runtime.picked, info.id) == runtime.picked.end();
+    if (ids.size() < filter.count && is_free && info.connected && objections(filter, info).empty())
+      ids.push_back(info.id);
+  }
+  if (ids.size() < filter.count) return std::nullopt;
+  return ids;
+}
+
+std::vector<std::string> why_not(Runtime const& runtime, PickFilter const& filter) {
+  return why_not_picked(filter, runtime.platform.vehicles(), runtime.picked);
+}
+
+/// Says what `pick` waits for: after three seconds, and then every ten.
+class PickWords {
+ public:
+  PickWords(Runtime const& runtime, PickFilter const& filter, base::TimePoint deadline)
+      : runtime_(runtime), filter_(filter), begun_(runtime.loop.now()), deadline_(deadline) {}
+
+  [[nodiscard]] base::TimePoint due() const { return next_; }
+
+  void tell_if_due() {
+    auto const now = runtime_.loop.now();
+    if (now < next_) return;
+    next_ += std::chrono::seconds(10);
+    runtime_.log.info(fmt::format("pick waits for {}, {:.0f} of {:.0f} s: {}", pick_text(filter_),
+                                  base::to_seconds(now - begun_), base::to_seconds(deadline_ - begun_),
+                                  fmt::join(why_not(runtime_, filter_), "; ")));
+  }
+
+ private:
+  Runtime const& runtime_;
+  PickFilter const& filter_;
+  base::TimePoint begun_;
+  base::TimePoint deadline_;
+  base::TimePoint next_ = begun_ + std::chrono::seconds(3);
+};
+
+base::Task<Checked<Value>> pick(Runtime& runtime, Fiber& /*fiber*/, std::vector<Value> arguments) {
+  // Arrivals wake us; a vehicle that flies into a region, or learns its position, is seen within this time.
+  constexpr base::Duration look_again = std::chrono::seconds(1);
+  auto const* fields = arguments[0].as<Map>();
+  if (!fields) co_return fault("pick takes a block: pick { type 'UAV' }", "IllegalArgumentException");
+  auto const filter = pick_filter(*fields);
+  auto const deadline = std::max(runtime.loop.now() + filter.timeout, runtime.platform.all_heard_by());
+  log_available(runtime);
+  runtime.log.info(fmt::format("Matching requirement: {} count={}", as_log_text(filter), filter.count));
+  PickWords words(runtime, filter, deadline);
+  auto ids = chosen(runtime, filter);
+  while (!ids && runtime.loop.now() < deadline) {
+    auto const next = std::min({deadline, runtime.loop.now() + look_again, words.due()});
+    co_await runtime.platform.vehicles_changed().wait_until(next);
+    ids = chosen(runtime, filter);
+    if (!ids) words.tell_if_due();
+  }
+  if (!ids) {
+    runtime.log.info("Requirements were not met!");
+    for (auto const& line : why_not(runtime, filter)) runtime.log.info("  " + line);
+    co_return halting(unmet(filter), "VehicleError");
+  }
+  for (auto const& id : *ids) {
+    runtime.log.info("Requirement met by node " + id.text);
+    runtime.picked.push_back(id);
+    runtime.platform.set_connection_timeout(id, runtime.connection_timeout);
+  }
+  Value const set(runtime.heap.make<Vehicles>(std::move(*ids)));
+  runtime.log.info("Selected nodes: " + to_text(set));
+  co_return set;
+}
+
+// ---- other instructions for vehicles
+
+std::optional<std::vector<VehicleId>> members(Value const& value) {
+  if (auto const* set = value.as<Vehicles>()) return set->ids;
+  if (auto const* one = value.as<Vehicle>()) return std::vector{one->value};
+  return std::nullopt;
+}
+
+std::unexpected<Fault> no_vehicles(std::string_view what, Value const& given) {
+  return fault(fmt::format("{} takes a vehicle set, not {}", what, kind_name(given)), "IllegalArgumentException");
+}
+
+Checked<Value> release(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const ids = members(arguments[0]);
+  if (!ids) return no_vehicles("release", arguments[0]);
+  for (auto const& id : *ids) {
+    if (runtime.execution) runtime.execution->withdraw(id);
+    if (std::erase(runtime.picked, id) == 0)
+      runtime.log.warn(fmt::format("release: vehicle {} was not picked", id.text));
+  }
+  runtime.platform.vehicles_changed().notify_all();  // another fiber may be waiting to pick these
+  return Value();
+}
+
+Checked<VehicleInfo> single_vehicle(Runtime& runtime, Value const& value, std::string_view what) {
+  auto const ids = members(value);
+  if (!ids) return no_vehicles(what, value);
+  if (ids->size() != 1) return halting("Set must represent a single vehicle!");
+  auto info = runtime.platform.find(ids->front());
+  if (!info) return fault(fmt::format("vehicle {} is not known any more", ids->front().text), "IllegalStateException");
+  return *info;
+}
+
+/// At once, which is what guards get: an unknown place is near no other and in no area.
+Checked<Value> position(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "position");
+  if (!info) return std::unexpected(info.error());
+  constexpr auto unknown = std::numeric_limits<double>::quiet_NaN();
+  return Value(runtime.heap.make<Position>(info->position.value_or(geo::Wgs84{unknown, unknown, unknown})));
+}
+
+/// The same once the vehicle has had its connection timeout to report where it is.
+base::Task<Checked<Value>> position_when_reported(Runtime& runtime, Fiber& fiber, std::vector<Value> arguments) {
+  auto info = single_vehicle(runtime, arguments[0], "position");
+  if (!info) co_return std::unexpected(info.error());
+  auto const deadline = runtime.loop.now() + info->connection_timeout;
+  while (info && !info->position && runtime.loop.now() < deadline) {
+    co_await runtime.loop.sleep(runtime.tick);
+    info = single_vehicle(runtime, arguments[0], "position");
+  }
+  if (info && !info->position)
+    co_return fault(fmt::format("the position of vehicle {} is not known", info->id.text), "IllegalStateException");
+  co_return position(runtime, fiber, arguments);
+}
+
+/// Not known is NaN, with which every comparison is false (REC-21). At once: what guards get.
+Checked<Value> battery(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "battery");
+  if (!info) return std::unexpected(info.error());
+  if (info->battery) return Value::real(*info->battery);
+  if (runtime.batteries_warned_of.insert(info->id).second) {
+    runtime.log.warn(
+        fmt::format("the battery of vehicle {} is not known: comparisons with it are false", info->id.text));
+  }
+  return Value::real(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The same once the vehicle has had its connection timeout, one time, to report for the first time.
+base::Task<Checked<Value>> battery_when_reported(Runtime& runtime, Fiber& fiber, std::vector<Value> arguments) {
+  auto info = single_vehicle(runtime, arguments[0], "battery");
+  if (info && runtime.batteries_waited_for.insert(info->id).second) {
+    auto const deadline = runtime.loop.now() + info->connection_timeout;
+    while (info && info->battery_is_awaited && runtime.loop.now() < deadline) {
+      co_await runtime.loop.sleep(runtime.tick);
+      info = single_vehicle(runtime, arguments[0], "battery");
+    }
+  }
+  co_return battery(runtime, fiber, arguments);
+}
+
+/// Above the vehicle's home, not above the ground below it (REC-45).
+Checked<Value> relative_height(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "relativeHeight");
+  if (!info) return std::unexpected(info.error());
+  return Value::real(info->relative_alt_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+Checked<Value> mode(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "mode");
+  if (!info) return std::unexpected(info.error());
+  return Value(runtime.heap.make<Text>(info->mode));
+}
+
+Checked<Value> connected(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "connected");
+  if (!info) return std::unexpected(info.error());
+  return Value::boolean(info->connected);
+}
+
+Checked<base::Duration> valid_timeout(Value const& value) {
+  bool const is_valid = value.is_number() && value.number() >= 5.0 && value.number() <= 3600.0;
+  if (!is_valid)
+    return fault(fmt::format("Invalid timeout value {}: 5 to 3600 seconds", to_text(value)),
+                 "IllegalArgumentException");
+  return base::from_seconds(value.number());
+}
+
+/// For vehicles picked from now on and those picked already (REC-5).
+Checked<Value> set_connection_timeout(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const timeout = valid_timeout(arguments[0]);
+  if (!timeout) return std::unexpected(timeout.error());
+  runtime.connection_timeout = *timeout;
+  for (auto const& id : runtime.picked) runtime.platform.set_connection_timeout(id, *timeout);
+  return Value();
+}
+
+Checked<Value> set_connection_timeouts(Runtime& runtime, Fiber& /*fiber*/, Arguments parts) {
+  for (std::size_t i = 0; i < parts.size(); i += 3) {
+    auto const timeout = valid_timeout(parts[i + 2]);
+    if (!timeout) return std::unexpected(timeout.error());
+    auto const ids = members(parts[i + 1]);
+    if (!ids) return halting(fmt::format("'{}' does not identify a vehicle set", to_text(parts[i])));
+    for (auto const& id : *ids) runtime.platform.set_connection_timeout(id, *timeout);
+  }
+  return Value();
+}
+
+std::optional<tasks::Argument> message_value(Value const& value) {
+  if (auto const* text = value.as<Text>()) return tasks::Argument{text->text};
+  if (value.kind() == ValueKind::integer) return tasks::Argument{value.integer()};
+  if (value.is_number()) return tasks::Argument{value.number()};
+  if (value.kind() == ValueKind::boolean) return tasks::Argument{value.boolean()};
+  return std::nullopt;
+}
+
+/// `sendMessage v, 'COMMAND_LONG', command: 400`; the fields, being named, come first.
+Checked<Value> send_message(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const* named = arguments[0].as<Map>();
+  if (named) arguments = arguments.subspan(1);
+  auto const ids = arguments.size() == 2 ? members(arguments[0]) : std::nullopt;
+  auto const* message = ids ? arguments[1].as<Text>() : nullptr;
+  if (!message)
+    return fault(
+        "sendMessage takes vehicles, the name of a message and its fields: sendMessage v, 'COMMAND_LONG', command: 400",
+        "IllegalArgumentException");
+  std::vector<tasks::MessageField> fields;
+  if (named) {
+    for (auto const& [name, value] : named->items()) {
+      auto converted = message_value(value);
+      if (!converted)
+        return fault(fmt::format("sendMessage: {} takes a number or a text, not {}", to_text(name), kind_name(value)),
+                     "IllegalArgumentException");
+      fields.push_back({to_text(name), *std::move(converted)});
+    }
+  }
+  for (auto const& id : *ids) {
+    if (std::ranges::find(runtime.picked, id) == runtime.picked.end())
+      return fault(fmt::format("sendMessage: vehicle {} is not picked", id.text), "IllegalStateException");
+  }
+  for (auto const& id : *ids) {
+    auto const sent = runtime.platform.send_message(id, to_text(arguments[1]), fields);
+    if (sent) continue;
+    auto const& [kind, text, hint] = sent.error();
+    return fault(fmt::format("sendMessage to {}: {}{}{}", id.text, text, hint.empty() ? "" : ": ", hint),
+                 "IllegalArgumentException");
+  }
+  return Value();
+}
+
+// ---- geometry
+
+Checked<Value> location(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  if (arguments.size() < 2 || arguments.size() > 3 || !std::ranges::all_of(arguments, &Value::is_number)) {
+    return fault("location takes latitude and longitude in degrees, and a height in metres",
+                 "IllegalArgumentException");
+  }
+  double const lat = arguments[0].number();
+  double const lon = arguments[1].number();
+  if (!(lat >= -90 && lat <= 90 && lon >= -180 && lon <= 360)) {
+    return fault(fmt::format("({}, {}) is no latitude and longitude in degrees", lat, lon), "IllegalArgumentException");
+  }
+  double const height = arguments.size() == 3 ? arguments[2].number() : 0.0;
+  return Value(runtime.heap.make<Position>(geo::Wgs84::from_degrees(lat, lon, height)));
+}
+
+Checked<Value> area(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const* center = arguments[0].as<Position>();
+  if (!center || !arguments[1].is_number() || !(arguments[1].number() >= 0)) {
+    return fault("area takes a position and a radius", "IllegalArgumentException");
+  }
+  return Value(runtime.heap.make<Area>(geo::Disc{center->value, arguments[1].number()}));
+}
+
+Checked<Value> move(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const* from = arguments[0].as<Position>();
+  auto const* by = arguments[1].as<Displacement>();
+  if (!from || !by)
+    return fault("move takes a position and a displacement: move(p, { north 10 })", "IllegalArgumentException");
+  return Value(runtime.heap.make<Position>(geo::displaced(from->value, by->value)));
+}
+
+}  // namespace
+
+std::span<Native const> vehicle_natives() {
+  static std::array const table = {
+      Native{.name = "pick", .least = 1, .most = 1, .start = pick},
+      Native{.name = "release", .least = 1, .most = 1, .call = release},
+      Native{.name = "position", .least = 1, .most = 1, .call = position, .start = position_when_reported},
+      Native{.name = "battery", .least = 1, .most = 1, .call = battery, .start = battery_when_reported},
+      Native{.name = "relativeHeight", .least = 1, .most = 1, .call = relative_height},
+      Native{.name = "mode", .least = 1, .most = 1, .call = mode},
+      Native{.name = "connected", .least = 1, .most = 1, .call = connected},
+      Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
+      Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},
+      Native{.name = "sendMessage", .least = 2, .most = 3, .call = send_message},
+      Native{.name = "location", .least = 2, .most = 3, .call = location, .is_pure = true},
+      Native{.name = "area", .least = 2, .most = 2, .call = area, .is_pure = true},
+      Native{.name = "move", .least = 2, .most = 2, .call = move},
+  };
+  return table;
+}
+
+}  // namespace lapwing::dolphin::internal

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <unordered_set>
+
+#include "base/text/diagnostic.hpp"
+#include "dolphin/code/bytecode.hpp"
+#include "dolphin/syntax/ast.hpp"
+#include "tasks/platform.hpp"
+
+namespace lapwing::dolphin {
+
+/// Turns a checked tree into a program. Reports what it cannot compile (`break` outside a loop); nothing then.
+[[nodiscard]] std::shared_ptr<Program const> compile(ast::Program const& tree,
+                                                     std::shared_ptr<base::SourceFile const> source,
+                                                     std::span<tasks::BuilderSpec const> builders,
+                                                     base::Diagnostics& diagnostics);
+
+/// What was typed at `ask`, if it is an expression of literals, the program's global variables and pure functions;
+/// nothing when it is not, so that it is a plain text.
+[[nodiscard]] std::shared_ptr<Function const> compile_answer(std::string const& text, Program const& program);
+
+}  // namespace lapwing::dolphin

@@ -1,0 +1,71 @@
+#include "host/session/report.hpp"
+
+#include <fmt/chrono.h>
+#include <nlohmann/json.hpp>
+
+namespace lapwing::host {
+
+using nlohmann::json;
+
+std::string to_iso8601(base::UtcTime time) {
+  auto const millis = std::chrono::floor<std::chrono::milliseconds>(time);
+  auto const seconds = std::chrono::floor<std::chrono::seconds>(millis);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
+                     (millis - seconds).count());
+}
+
+namespace {
+
+json to_json_value(tasks::TaskView const& view) {
+  json value{{"id", view.id},
+             {"kind", view.kind},
+             {"label", view.label},
+             {"line", view.line},
+             {"state", to_string(view.state)},
+             {"detail", view.detail},
+             {"vehicle", view.vehicle ? json(view.vehicle->text) : json(nullptr)}};
+  auto& children = value["children"] = json::array();
+  for (auto const& child : view.children) children.push_back(to_json_value(child));
+  return value;
+}
+
+json to_json_value(VehicleReport const& vehicle) {
+  auto missions = json::array();
+  for (auto const& mission : vehicle.missions) {
+    json value{{"name", mission.name},
+               {"items", mission.items},
+               {"upload_s", mission.upload_s},
+               {"outcome", mission.outcome},
+               {"error", mission.error}};
+    if (mission.flown) {
+      value["estimate_s"] = base::to_seconds(mission.flown->estimate.duration);
+      value["actual_s"] = base::to_seconds(mission.flown->duration);
+      value["estimate_m"] = mission.flown->estimate.path_m;
+      value["actual_m"] = mission.flown->path_m;
+      value["estimate_is_endless"] = mission.flown->estimate.is_endless;
+    }
+    missions.push_back(std::move(value));
+  }
+  return {{"id", vehicle.id},           {"system_id", vehicle.system_id}, {"type", vehicle.type},
+          {"track_m", vehicle.track_m}, {"pictures", vehicle.pictures},   {"missions", std::move(missions)}};
+}
+
+}  // namespace
+
+std::string to_json(RunReport const& report) {
+  json value{{"script", report.script},
+             {"outcome", report.outcome},
+             {"started", to_iso8601(report.started)},
+             {"ended", to_iso8601(report.ended)}};
+  auto& vehicles = value["vehicles"] = json::array();
+  for (auto const& vehicle : report.vehicles) vehicles.push_back(to_json_value(vehicle));
+  auto& tasks = value["tasks"] = json::array();
+  for (auto const& task : report.tasks) tasks.push_back(to_json_value(task));
+  auto& errors = value["errors"] = json::array();
+  for (auto const& error : report.errors) {
+    errors.push_back({{"file", error.file}, {"line", error.line}, {"message", error.message}});
+  }
+  return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lapwing::host

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/time.hpp"
+#include "fleet/mission/platform.hpp"
+#include "tasks/task_view.hpp"
+
+namespace lapwing::host {
+
+struct VehicleReport {
+  std::string id;
+  int system_id = 0;
+  std::string type;  ///< family: copter, plane, rover ...
+  double track_m = 0.0;
+  int pictures = 0;  ///< that it was heard to take
+  std::vector<fleet::MissionReport> missions;
+};
+
+struct ErrorReport {
+  std::string file;
+  int line = 0;
+  std::string message;
+};
+
+/// What `run` and `demo` write with --report: the contract of docs/reference/command-line.md.
+struct RunReport {
+  std::string script;
+  std::string outcome;  ///< done, error, halted, interrupted
+  base::UtcTime started{};
+  base::UtcTime ended{};
+  std::vector<VehicleReport> vehicles;
+  std::vector<tasks::TaskView> tasks;
+  std::vector<ErrorReport> errors;
+};
+
+[[nodiscard]] std::string to_json(RunReport const& report);
+/// UTC as ISO 8601 with milliseconds: 2026-11-21T10:12:52.123Z.
+[[nodiscard]] std::string to_iso8601(base::UtcTime time);
+
+}  // namespace lapwing::host

@@ -1,0 +1,93 @@
+#include "host/session/report.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace lapwing::host {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+base::UtcTime utc(std::chrono::milliseconds since_epoch) {
+  return base::UtcTime(std::chrono::duration_cast<base::UtcTime::duration>(since_epoch));
+}
+
+RunReport example() {
+  RunReport report;
+  report.script = "a.dolphin";
+  report.outcome = "error";
+  report.started = utc(1'000ms);
+  report.ended = utc(61'500ms);
+  report.vehicles = {{.id = "1",
+                      .system_id = 1,
+                      .type = "copter",
+                      .track_m = 12.5,
+                      .pictures = 3,
+                      .missions = {{"North", 9, 0.25, "done", ""}}}};
+  tasks::TaskView child;
+  child.kind = "mission";
+  child.line = 3;
+  child.vehicle = vehicle::VehicleId{"1"};
+  tasks::TaskView root;
+  root.kind = "sequence";
+  root.state = tasks::TaskState::failed;
+  root.children = {child};
+  report.tasks = {root};
+  report.errors = {{"a.dolphin", 9, "no such thing"}};
+  return report;
+}
+
+TEST(Iso8601, HasMillisecondsAndTheZoneUtc) {
+  EXPECT_EQ(to_iso8601(utc(0ms)), "1970-01-01T00:00:00.000Z");
+  EXPECT_EQ(to_iso8601(utc(1'000'000'000'007ms)), "2001-09-09T01:46:40.007Z");
+}
+
+TEST(Iso8601, CountsForwardsBefore1970) {
+  EXPECT_EQ(to_iso8601(utc(-1ms)), "1969-12-31T23:59:59.999Z");
+  EXPECT_EQ(to_iso8601(utc(-1'000ms)), "1969-12-31T23:59:59.000Z");
+}
+
+TEST(Report, HasEveryKeyOfTheContract) {
+  auto const report = json::parse(to_json(example()));
+  EXPECT_EQ(report["script"], "a.dolphin");
+  EXPECT_EQ(report["outcome"], "error");
+  EXPECT_EQ(report["started"], "1970-01-01T00:00:01.000Z");
+  EXPECT_EQ(report["ended"], "1970-01-01T00:01:01.500Z");
+  auto const& vehicle = report["vehicles"][0];
+  EXPECT_EQ(vehicle["id"], "1");
+  EXPECT_EQ(vehicle["system_id"], 1);
+  EXPECT_EQ(vehicle["type"], "copter");
+  EXPECT_EQ(vehicle["track_m"], 12.5);
+  EXPECT_EQ(vehicle["pictures"], 3);
+  EXPECT_EQ(vehicle["missions"][0]["name"], "North");
+  EXPECT_EQ(vehicle["missions"][0]["items"], 9);
+  EXPECT_EQ(vehicle["missions"][0]["upload_s"], 0.25);
+  EXPECT_EQ(vehicle["missions"][0]["outcome"], "done");
+  EXPECT_EQ(report["errors"][0], (json{{"file", "a.dolphin"}, {"line", 9}, {"message", "no such thing"}}));
+}
+
+TEST(Report, NestsTasks) {
+  auto const report = json::parse(to_json(example()));
+  auto const& root = report["tasks"][0];
+  EXPECT_EQ(root["state"], "failed");
+  EXPECT_TRUE(root["vehicle"].is_null());
+  EXPECT_EQ(root["children"][0]["vehicle"], "1");
+  EXPECT_EQ(root["children"][0]["line"], 3);
+  EXPECT_TRUE(root["children"][0]["children"].empty());
+}
+
+TEST(Report, OfNothingHasEmptyLists) {
+  auto const report = json::parse(to_json(RunReport{}));
+  for (auto const* key : {"vehicles", "tasks", "errors"})
+    EXPECT_TRUE(report[key].is_array() && report[key].empty()) << key;
+}
+
+TEST(Report, SurvivesTextThatIsNoUtf8) {
+  auto report = example();
+  report.errors[0].message = "bad \xff byte";
+  EXPECT_EQ(json::parse(to_json(report))["errors"][0]["message"], "bad \xEF\xBF\xBD byte");
+}
+
+}  // namespace
+}  // namespace lapwing::host

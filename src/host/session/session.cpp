@@ -1,0 +1,247 @@
+#include "host/session/session.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/files/files.hpp"
+#include "host/session/console.hpp"
+#include "host/session/metrics.hpp"
+#include "host/session/signals.hpp"
+#include "host/simulation/simulation.hpp"
+#include "mavlink/connection/connection_link.hpp"
+
+namespace lapwing::host {
+
+namespace {
+
+/// A script's own words are on standard output; standard error need not repeat them.
+base::LogHub::Sink terminal_sink(base::LogLevel lowest) {
+  return [sink = base::standard_error_sink(lowest)](base::LogRecord const& record) {
+    if (record.source != script_source) sink(record);
+  };
+}
+
+fleet::Fleet::Options fleet_options(Session::Options const& options) {
+  fleet::Fleet::Options fleet{.battery_limits = options.battery_limits, .payload = options.payload};
+  fleet.asks_for_messages = !options.listens_only;
+  // The faster time runs, the more of it passes while a busy machine is late by a moment.
+  constexpr base::Duration moment = std::chrono::milliseconds(300);
+  fleet.silence = std::max(fleet.silence, base::from_seconds(base::to_seconds(moment) * options.speedup));
+  return fleet;
+}
+
+base::Loop::Pace pace_of(Session::Options const& options) {
+  auto pace = pace_for(options.speedup, options.seed);
+  if (options.begins_at) pace.begins_at = options.begins_at;
+  return pace;
+}
+
+}  // namespace
+
+base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
+  if (text == "loiter") return fleet::OnStop::loiter;
+  if (text == "rtl") return fleet::OnStop::rtl;
+  if (text == "land") return fleet::OnStop::land;
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("--on-stop {} is not known", text),
+                    "use loiter (hold in place, the default), rtl (return to launch) or land");
+}
+
+base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text) {
+  if (auto const action = vehicle::stop_action_from(text)) return *action;
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("--emergency-stop {} is not known", text),
+                    "use hold (stay in place, the default), land, rtl or terminate (motors off at once)");
+}
+
+Session::Session(Options const& options)
+    : loop(pace_of(options)),
+      log(hub, "lapwing"),
+      ground(loop, log, fleet_options(options), options.signing),
+      platform(ground.fleet,
+               {.run = {.on_stop = options.on_stop, .plausibility = options.plausibility},
+                .plan_library = options.plans.library},
+               log.named("fleet")),
+      control(ground.fleet, platform, {.stop_action = options.emergency_action, .plausibility = options.plausibility},
+              log),
+      parameters(ground.fleet, parameter_cache(), log),
+      console(make_console(loop, log)),
+      host(
+          loop, platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
+          options.seed.value_or(1)),
+      on_stop_(options.on_stop),
+      interrupted_(loop),
+      events_(options.events) {
+  hub.add_sink(terminal_sink(options.log_level));
+  control.set_on_latched([this](std::string const& reason) { host.halt_for_operator(reason); });
+  host.set_bar([this] { return ground.fleet.authority().barred(); });
+  bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
+  if (is_real_time)
+    signing_time = std::make_unique<SigningTimeKeeper>(
+        loop, [this] { return ground.signed_until(); }, options.signing.time_file, log.named("signing"));
+  auto const plans = log.named("plans");
+  for (auto const& note : options.plans.notes) plans.info(note);
+  for (auto const& mistake : options.plans.mistakes) plans.warn(mistake.message);
+}
+
+base::Result<> Session::simulate(sim::WorldOptions options) {
+  auto started = start_simulation(ground, std::move(options), log);
+  if (!started) return std::unexpected(started.error());
+  world = std::move(*started);
+  return {};
+}
+
+base::Result<> Session::open_links(std::vector<std::string> const& urls) {
+  if (auto opened = ground.open(urls); !opened) return opened;
+  if (record_folder_.empty()) return {};
+  for (auto& [name, network] : ground.networks) {
+    if (name.empty()) continue;  // `record` began it
+    auto begun = Recording::begin(record_folder_, network, log.named("recording"));
+    if (!begun) return std::unexpected(begun.error());
+    log.info(fmt::format("recording network {} to {}", name, (*begun)->file().string()));
+    network_recordings.push_back(std::move(*begun));
+  }
+  return {};
+}
+
+base::Result<> Session::forward(std::vector<Forward> programs) {
+  std::map<std::string, std::vector<route::EndpointOptions>> endpoints;
+  for (auto& program : programs) endpoints[program.network].push_back(std::move(program.endpoint));
+  for (auto& [name, of_network] : endpoints) {
+    auto const network = ground.network(name);
+    if (!network) return std::unexpected(network.error());
+    auto& router = forwarding.try_emplace(name, loop, route::Router::Options{}, log.named("forward")).first->second;
+    // Packet by packet: each is looked at, held back or sent by itself, and counted so.
+    router.add({.name = name.empty() ? "vehicles" : fmt::format("vehicles of {}", name), .coalesces = false},
+               mavlink::as_link(**network));
+    if (auto opened = router.open(std::move(of_network)); !opened) return opened;
+  }
+  return {};
+}
+
+base::Result<> Session::record(std::string const& folder) {
+  record_folder_ = folder;
+  auto begun = Recording::begin(folder, ground.connection, log.named("recording"));
+  if (!begun) return std::unexpected(begun.error());
+  recording = std::move(*begun);
+  log.info(fmt::format("recording to {}", recording->file().string()));
+  return {};
+}
+
+base::Result<> Session::open_map(WebAccess const& access, MapContent const& content, station::ScriptControl* script) {
+  auto token = token_for(access);
+  if (!token) return std::unexpected(token.error());
+  station::Station::Options options;
+  options.http.address = access.bind;
+  options.http.port = access.port;
+  options.http.token = *token;
+  options.http.host_names = access.host_names;
+  options.http.static_root = home_directory() / "web/dist";
+  options.program_version = LAPWING_VERSION;
+  options.site = {content.site_name, content.home, content.tiles};
+  options.scripts = content.scripts;
+  options.control = script ? nullptr : &control;
+  options.alarms = &ground.fleet.alarms();
+  options.parameters = script ? nullptr : &parameters;
+  options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
+  auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
+  if (!opened) return std::unexpected(opened.error());
+  map = std::move(*opened);
+  fmt::print(stderr, "\n");
+  // What a service prints lies in its journal: a token that has a file of its own stays there.
+  bool const is_in_file = !access.token_file.empty();
+  for (auto const& address : map_addresses(access.bind, map->port(), is_in_file ? std::string() : *token))
+    fmt::print(stderr, "    map  {}\n", address);
+  if (is_in_file) fmt::print(stderr, "    its token is in {}; the map asks for it\n", access.token_file);
+  fmt::print(stderr, "\n");
+  if (!std::filesystem::exists(home_directory() / "web/dist/index.html")) {
+    log.warn("the browser app is not built, so the map shows nothing: ./lapwing build builds it");
+  }
+  return {};
+}
+
+void Session::run_to_end(std::optional<base::Duration> timeout) {
+  StopSignals const signals(loop, [this] {
+    host.stop("an interrupt");
+    interrupted_.notify_all();
+  });
+  auto const stall = host.halt_when_time_stands_still();
+  loop.run_until_done(finish(timeout));
+}
+
+base::Task<> Session::finish(std::optional<base::Duration> timeout) {
+  base::Scope scope(loop);
+  if (timeout) scope.spawn(host.halt_after(*timeout));
+  scope.spawn(tell_while_interrupted());
+  scope.spawn(tell_while_nobody_is_heard());
+  co_await host.ended();
+  bool const is_alone = ground.registry.all().empty();
+  bool const is_done = host.outcome() && host.outcome()->kind == dolphin::Outcome::Kind::done;
+  if (is_alone && !is_done) log.error(fmt::format("no vehicle was heard on {}", links_text()));
+  co_await platform.make_safe(on_stop_);
+}
+
+std::string Session::links_text() const {
+  std::string text;
+  for (auto const& link : ground.link_reports())
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", link.name,
+                        link.last_error.empty() ? "" : fmt::format(" ({})", link.last_error));
+  return text;
+}
+
+base::Task<> Session::tell_while_nobody_is_heard() {
+  using namespace std::chrono_literals;
+  auto const since = loop.now();
+  for (base::Duration wait = 3s;; wait = 10s) {
+    co_await loop.sleep(wait);
+    if (!ground.registry.all().empty()) co_return;
+    log.info(
+        fmt::format("no vehicle heard yet for {:.0f} s on {}", base::to_seconds(loop.now() - since), links_text()));
+  }
+}
+
+/// A vehicle that is out of reach cannot be stopped; whoever waits for it learns what else he can do.
+base::Task<> Session::tell_while_interrupted() {
+  using namespace std::chrono_literals;
+  co_await interrupted_.wait();
+  for (base::Duration wait = 3s;; wait = 10s) {
+    co_await loop.sleep(wait);
+    auto const names = platform.unsettled();
+    if (names.empty()) continue;
+    log.warn(fmt::format("still waiting for {} to stop; Ctrl-C again ends at once: {} then what {} told last",
+                         fmt::join(names, ", "), names.size() == 1 ? "it does" : "they do",
+                         names.size() == 1 ? "it was" : "they were"));
+  }
+}
+
+void Session::note(tasks::TaskEvent const& event) {
+  log.named("task").info(to_log_text(event));
+  missions::Carrier carrier;
+  if (auto const* vehicle = event.vehicle ? ground.registry.find(*event.vehicle) : nullptr)
+    carrier = {.home = vehicle->home.value, .autopilot = vehicle->autopilot, .family = vehicle->family};
+  if (events_) events_->write(event, carrier);
+}
+
+RunReport Session::report() const {
+  RunReport report;
+  auto const status = host.status();
+  report.script = status.name;
+  report.outcome = host.outcome() ? outcome_word(*host.outcome()) : "running";
+  report.started = host.started();
+  report.ended = host.finished();
+  for (auto const* vehicle : ground.registry.all()) {
+    report.vehicles.push_back({.id = vehicle->id.text,
+                               .system_id = vehicle->system_id,
+                               .type = std::string(to_string(vehicle->family)),
+                               .track_m = vehicle->track_m,
+                               .pictures = vehicle->pictures.value ? vehicle->pictures.value->taken : 0,
+                               .missions = platform.missions(vehicle->id)});
+  }
+  report.tasks = host.task_trees();
+  if (auto const& outcome = host.outcome(); outcome && outcome->kind != dolphin::Outcome::Kind::done) {
+    report.errors.push_back({outcome->file, outcome->line, outcome->message});
+  }
+  return report;
+}
+
+}  // namespace lapwing::host

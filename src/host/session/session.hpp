@@ -1,0 +1,106 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/log.hpp"
+#include "fleet/control/control.hpp"
+#include "fleet/control/parameters.hpp"
+#include "fleet/mission/platform.hpp"
+#include "host/files/event_file.hpp"
+#include "host/files/plans.hpp"
+#include "host/links/equipment.hpp"
+#include "host/links/forward.hpp"
+#include "host/links/ground.hpp"
+#include "host/links/recording.hpp"
+#include "host/session/script_host.hpp"
+#include "host/station/station_config.hpp"
+#include "host/station/web_access.hpp"
+#include "plan/plausibility/settings.hpp"
+#include "route/router.hpp"
+#include "sim/world/world.hpp"
+#include "station/station.hpp"
+
+namespace lapwing::host {
+
+/// Everything that `run`, `demo` and `station` share: loop, log, ground side, script host, and the optional simulation
+/// and map. Members end in reverse order: what talks ends before what it talks through.
+class Session {
+ public:
+  struct Options {
+    double speedup = 1.0;  ///< 0: as fast as the machine computes
+    fleet::OnStop on_stop = fleet::OnStop::loiter;
+    vehicle::StopAction emergency_action = vehicle::StopAction::hold;
+    vehicle::BatteryLimits battery_limits = {};  ///< of alarms
+    LoadedPlans plans = {};
+    Equipment payload = {};
+    plan::plausibility::Settings plausibility = {};
+    EventFile const* events = nullptr;  ///< outlives the session
+    base::LogLevel log_level = base::LogLevel::info;
+    /// Of what scripts draw by lot; also sets the calendar to a fixed time, so that a run repeats.
+    std::optional<std::uint64_t> seed = std::nullopt;
+    std::optional<base::UtcTime> begins_at = std::nullopt;  ///< what the calendar shows at the start; empty: the wall's
+    SigningSetup signing = {};
+    bool listens_only = false;  ///< asks vehicles for nothing
+  };
+  explicit Session(Options const& options);
+
+  [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
+  [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
+  /// Joins other programs with the vehicles, for as long as the session lives; call after `open_links`. Errors:
+  /// invalid_input for a network that no link belongs to, and those of `route::Router::open`.
+  [[nodiscard]] base::Result<> forward(std::vector<Forward> programs);
+  /// Keeps everything that goes over the links in a new file of this folder, from now on; call before `open_links`.
+  /// Further networks have files of their own.
+  [[nodiscard]] base::Result<> record(std::string const& folder);
+  /// Serves the map and tells its addresses on standard error; the token is in them, and nowhere else.
+  /// `script`: what the map shows and starts; null: the host's.
+  /// Vehicles can be commanded from it, unless `script` is somebody else's.
+  [[nodiscard]] base::Result<> open_map(WebAccess const& access, MapContent const& content,
+                                        station::ScriptControl* script = nullptr);
+
+  /// Runs the script that the host was given to its end; `timeout` (loop time) halts it. Ctrl-C stops it. Then every
+  /// vehicle that still runs a mission of ours is made safe.
+  void run_to_end(std::optional<base::Duration> timeout);
+  /// Vehicles get the message rates back that they had before; for the very end, takes three seconds at most.
+  void give_back_rates() { loop.run_until_done(ground.fleet.give_back_rates()); }
+  [[nodiscard]] RunReport report() const;
+
+  base::LogHub hub;
+  base::Loop loop;
+  base::Logger log;
+  Ground ground;
+  fleet::FleetPlatform platform;
+  fleet::Control control;                           ///< what operators do with the vehicles
+  fleet::Parameters parameters;                     ///< asked for when an operator asks
+  std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
+  std::unique_ptr<Recording> recording;
+  std::vector<std::unique_ptr<Recording>> network_recordings;
+  std::unique_ptr<dolphin::Output> console;
+  ScriptHost host;
+  std::unique_ptr<sim::World> world;
+  std::unique_ptr<station::Station> map;
+  std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
+
+ private:
+  base::Task<> finish(std::optional<base::Duration> timeout);
+  base::Task<> tell_while_interrupted();
+  base::Task<> tell_while_nobody_is_heard();
+  [[nodiscard]] std::string links_text() const;
+  void note(tasks::TaskEvent const& event);
+
+  fleet::OnStop on_stop_;
+  base::Notifier interrupted_;  ///< by Ctrl-C
+  EventFile const* events_;
+  std::string record_folder_;
+};
+
+/// Values of --emergency-stop.
+[[nodiscard]] base::Result<vehicle::StopAction> parse_emergency_stop(std::string const& text);
+/// Values of --on-stop.
+[[nodiscard]] base::Result<fleet::OnStop> parse_on_stop(std::string const& text);
+
+}  // namespace lapwing::host

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/text/diagnostic.hpp"
+#include "fleet/actions/vehicle_actions.hpp"
+#include "geo/position.hpp"
+#include "host/links/equipment.hpp"
+#include "host/links/forward.hpp"
+#include "host/station/web_access.hpp"
+#include "plan/plausibility/settings.hpp"
+#include "vehicle/alarm.hpp"
+#include "vehicle/control.hpp"
+
+namespace lapwing::host {
+
+/// What the map shows and offers.
+struct MapContent {
+  std::string site_name = {};
+  std::optional<geo::Wgs84> home = {};  ///< what it looks at before a vehicle is heard
+  std::string tiles = {};               ///< XYZ address of a base map; empty: a plain grid
+  std::filesystem::path scripts = {};   ///< folder whose scripts it offers; empty: none
+};
+
+/// A ground station as its file describes it: docs/reference/station-config.md.
+struct StationConfig {
+  std::vector<std::string> links;  ///< empty: the default link
+  Equipment payload;
+  fleet::OnStop on_stop = fleet::OnStop::loiter;
+  vehicle::StopAction emergency_action = vehicle::StopAction::hold;
+  plan::plausibility::Settings plausibility = {};
+  std::vector<Forward> forward = {};           ///< other programs that ride along
+  std::string signing_key = {};                ///< file; empty: nothing is signed
+  std::string record = {};                     ///< folder for recordings; empty: none are made
+  vehicle::BatteryLimits battery_limits = {};  ///< of alarms
+  WebAccess web;
+  MapContent map;
+};
+
+/// Reads the file's text; paths in it count from the file's folder. Everything wrong is reported; the result is to be
+/// used only when nothing was.
+[[nodiscard]] StationConfig read_station_config(base::SourceFile const& source, base::Diagnostics& diagnostics);
+
+/// What browsers let this program's pages load tiles from. Error: invalid_input.
+[[nodiscard]] base::Result<> check_tiles(std::string const& address);
+
+}  // namespace lapwing::host

@@ -1,0 +1,109 @@
+#include "station/http/http.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+namespace lapwing::station {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+}  // namespace
+
+bool equal_ignoring_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+std::string_view HttpRequest::header(std::string_view name) const {
+  auto const found = std::ranges::find_if(headers, [&](auto const& h) { return equal_ignoring_case(h.name, name); });
+  return found == headers.end() ? std::string_view{} : std::string_view{found->value};
+}
+
+std::size_t HttpRequest::header_count(std::string_view name) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(headers, [&](auto const& h) { return equal_ignoring_case(h.name, name); }));
+}
+
+std::optional<std::string> HttpRequest::parameter(std::string_view name) const {
+  std::string_view rest = query;
+  while (!rest.empty()) {
+    auto const pair = rest.substr(0, rest.find('&'));
+    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
+    auto const equals = pair.find('=');
+    if (pair.substr(0, equals) != name) continue;
+    return percent_decoded(equals == std::string_view::npos ? std::string_view{} : pair.substr(equals + 1));
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string decoded;
+  decoded.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    unsigned char byte = 0;
+    char const* const digits = text.data() + i + 1;
+    auto const [end, error] = std::from_chars(digits, digits + 2, byte, 16);
+    if (error != std::errc{} || end != digits + 2) return std::nullopt;
+    decoded += static_cast<char>(byte);
+    i += 2;
+  }
+  return decoded;
+}
+
+std::optional<HttpRequest> request_for(std::string_view method, std::string_view target) {
+  auto const question = target.find('?');
+  auto path = percent_decoded(target.substr(0, question));
+  if (!path || !path->starts_with('/')) return std::nullopt;
+  HttpRequest request{.method = std::string(method), .path = std::move(*path)};
+  if (question != std::string_view::npos) request.query = target.substr(question + 1);
+  return request;
+}
+
+std::string_view reason_phrase(int status) {
+  switch (status) {
+    case 200: return "OK";
+    case 202: return "Accepted";
+    case 304: return "Not Modified";
+    case 400: return "Bad Request";
+    case 401: return "Unauthorized";
+    case 403: return "Forbidden";
+    case 404: return "Not Found";
+    case 405: return "Method Not Allowed";
+    case 409: return "Conflict";
+    case 413: return "Content Too Large";
+    case 415: return "Unsupported Media Type";
+    case 422: return "Unprocessable Content";
+    case 431: return "Request Header Fields Too Large";
+    case 503: return "Service Unavailable";
+    case 504: return "Gateway Timeout";
+    default: return "Error";
+  }
+}
+
+HttpResponse problem(int status, std::string_view detail, std::string_view hint) {
+  nlohmann::ordered_json body{{"title", reason_phrase(status)}, {"status", status}, {"detail", detail}};
+  if (!hint.empty()) body["hint"] = hint;
+  // Bytes that are no UTF-8 come back from paths and headers: replaced, never an exception.
+  constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+  return {status, "application/problem+json", body.dump(-1, ' ', false, replace), {}};
+}
+
+HttpResponse problem(base::Error const& error) {
+  switch (error.kind) {
+    case base::ErrorKind::invalid_input: return problem(400, error.message, error.hint);
+    case base::ErrorKind::not_found: return problem(404, error.message, error.hint);
+    case base::ErrorKind::timed_out: return problem(504, error.message, error.hint);
+    default: return problem(409, error.message, error.hint);
+  }
+}
+
+}  // namespace lapwing::station

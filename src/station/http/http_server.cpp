@@ -1,0 +1,497 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// g++ 12 takes the frame allocator of Asio's coroutines, inlined by half, for a mismatch.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+
+#include <utility>  // before Asio: Boost 1.74 uses std::exchange without including it
+
+#include "station/http/http_server.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include "station/http/access.hpp"
+#include "station/http/internal/connection_places.hpp"
+#include "station/http/static_files.hpp"
+#include "station/messages/message_pace.hpp"
+
+namespace lapwing::station {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::redirect_error;
+using asio::use_awaitable;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+/// What a page from this server may load. Map tiles may come from anywhere the operator names, over TLS or from this
+/// machine; MapLibre runs its worker from a blob.
+constexpr std::string_view content_security_policy =
+    "default-src 'self'; script-src 'self'; style-src 'self'; worker-src 'self' blob:; child-src blob:; "
+    "img-src 'self' data: blob: https: http://127.0.0.1:* http://localhost:*; "
+    "connect-src 'self' https: http://127.0.0.1:* http://localhost:*; "
+    "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// A connection is a WebSocket stream from the start; plain HTTP is spoken on the layer below it until the upgrade.
+struct Connection {
+  Connection(tcp::socket socket, internal::Places::Guest place) : stream(std::move(socket)), guest(place) {}
+  beast::tcp_stream& transport() { return stream.next_layer(); }
+
+  websocket::stream<beast::tcp_stream> stream;
+  internal::Places::Guest guest;
+  bool is_known = false;    ///< has sent a request that carried the token, if one is needed
+  bool has_spoken = false;  ///< over its WebSocket
+  SessionId session{};
+  std::chrono::steady_clock::time_point took_last{};  ///< when it took the last message, or had none to take
+  std::deque<std::shared_ptr<std::string const>> queue;
+  std::size_t queued_bytes = 0;
+};
+
+/// Whom an address counts for: itself; of IPv6 the network of 64 bits, of which one machine may use any address.
+std::string network_of(asio::ip::address const& address) {
+  if (!address.is_v6() || address.to_v6().is_v4_mapped()) return address.to_string();
+  auto bytes = address.to_v6().to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+  return asio::ip::address_v6(bytes).to_string();
+}
+
+/// An answer that takes its time: the work, and what wakes the connection at its end.
+struct Pending {
+  Pending(asio::io_context& io, base::Task<HttpResponse> task)
+      : work(std::move(task)), ended(io, asio::steady_timer::time_point::max()) {}
+
+  base::Task<HttpResponse> work;
+  asio::steady_timer ended;
+};
+
+void wake(void* pending) noexcept {
+  error_code ignored;
+  static_cast<Pending*>(pending)->ended.cancel(ignored);
+}
+
+int status_of(error_code error) {
+  if (error == http::error::header_limit) return 431;
+  if (error == http::error::body_limit) return 413;
+  return 400;
+}
+
+/// The plain request without its body; nothing when its target is badly encoded.
+std::optional<HttpRequest> plain(http::request<http::string_body> const& request) {
+  auto const target = request.target();
+  auto const method = request.method_string();
+  auto result = request_for({method.data(), method.size()}, {target.data(), target.size()});
+  if (!result) return std::nullopt;
+  for (auto const& field : request) {
+    result->headers.push_back({std::string(field.name_string()), std::string(field.value())});
+  }
+  return result;
+}
+
+http::response<http::string_body> wire(HttpResponse response, bool is_head, bool keep_alive) {
+  http::response<http::string_body> result;
+  result.result(static_cast<unsigned>(response.status));
+  result.set(http::field::server, "lapwing");
+  result.set("Content-Security-Policy",
+             beast::string_view(content_security_policy.data(), content_security_policy.size()));
+  result.set("X-Content-Type-Options", "nosniff");
+  result.set("Referrer-Policy", "no-referrer");
+  result.set("Permissions-Policy",
+             "accelerometer=(), camera=(), display-capture=(), geolocation=(), gyroscope=(), magnetometer=(), "
+             "microphone=(), midi=(), payment=(), serial=(), usb=()");
+  result.set("Cross-Origin-Opener-Policy", "same-origin");
+  result.set("Cross-Origin-Resource-Policy", "same-origin");
+  result.set(http::field::cache_control, "no-store");
+  if (!response.content_type.empty()) result.set(http::field::content_type, response.content_type);
+  for (auto const& header : response.headers) result.set(header.name, header.value);
+  result.keep_alive(keep_alive);
+  auto const length = response.body.size();
+  if (!is_head) result.body() = std::move(response.body);
+  if (response.status != 304) result.content_length(length);
+  return result;
+}
+
+}  // namespace
+
+/// Everything that connections share. They may outlive the server by a turn of the loop: `closed` tells them.
+struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
+  Core(base::Loop& loop, Options given, base::Logger logger)
+      : io(loop.io()),
+        options(std::move(given)),
+        log(std::move(logger)),
+        acceptor(io),
+        places({.all = options.max_connections, .strangers_per_address = options.max_strangers_per_address}) {}
+
+  asio::io_context& io;
+  Options options;
+  base::Logger log;
+  AccessPolicy policy;
+  Router router;
+  WebSocketEvents events;
+  tcp::acceptor acceptor;
+  internal::Places places;
+  std::map<internal::Places::Guest, std::shared_ptr<Connection>> connections;
+  std::map<SessionId, std::shared_ptr<Connection>> sessions;
+  std::set<std::shared_ptr<asio::steady_timer>> timers;
+  std::set<std::shared_ptr<Pending>> pending;
+  std::uint64_t last_session = 0;
+  bool closed = false;
+
+  base::Result<> listen();
+  void close();
+  Reply answer(HttpRequest const& request) const;
+  asio::awaitable<HttpResponse> finish(std::shared_ptr<Reply> reply);
+  asio::awaitable<void> accept_connections();
+  asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
+  asio::awaitable<bool> serve_request(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
+  std::optional<HttpResponse> refuse_session();
+  asio::awaitable<void> drain(std::shared_ptr<Connection> connection);
+  asio::awaitable<void> serve_websocket(std::shared_ptr<Connection> connection,
+                                        http::request<http::string_body> request);
+  void write_next(std::shared_ptr<Connection> const& connection);
+  void repeat(std::shared_ptr<asio::steady_timer> const& timer, std::chrono::milliseconds period,
+              std::function<void()> function);
+};
+
+base::Result<> HttpServer::Core::listen() {
+  error_code error;
+  auto const address = asio::ip::make_address(options.address, error);
+  if (error) {
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("{} is no IP address to listen on.", options.address),
+                      "Give one of this machine's addresses, such as 127.0.0.1.");
+  }
+  policy = {address.is_loopback(), options.host_names, options.token};
+  if (!address.is_loopback() && options.token.empty()) {
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("Listening on {} would let the whole network command the vehicles.", options.address),
+                      "Set a token, or listen on 127.0.0.1.");
+  }
+  tcp::endpoint const endpoint(address, static_cast<unsigned short>(options.port));
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error == asio::error::address_in_use) {
+    return base::fail(base::ErrorKind::io,
+                      fmt::format("Port {} on {} is in use by another program.", options.port, options.address),
+                      "Choose another with --port N (0 picks a free one), or end the other program.");
+  }
+  if (error) {
+    return base::fail(base::ErrorKind::io,
+                      fmt::format("Cannot listen on {} port {}: {}.", options.address, options.port, error.message()),
+                      "Choose another with --port N.");
+  }
+  asio::co_spawn(io, accept_connections(), asio::detached);
+  return {};
+}
+
+void HttpServer::Core::close() {
+  closed = true;
+  router = {};
+  events = {};
+  error_code ignored;
+  acceptor.close(ignored);
+  for (auto const& timer : timers) timer->cancel();
+  // The work uses what ends with the server's owner; the connection itself may wake later.
+  for (auto const& one : pending) {
+    one->work = {};
+    one->ended.cancel(ignored);
+  }
+  for (auto const& [guest, connection] : connections) connection->transport().close();
+}
+
+Reply HttpServer::Core::answer(HttpRequest const& request) const {
+  bool const is_api = request.path.starts_with("/api/");
+  if (is_api || router.knows(request.path)) return router.answer(request);
+  if (request.method != "GET" && request.method != "HEAD") {
+    auto response = problem(405, fmt::format("{} does not work on files.", request.method));
+    response.headers.push_back({"Allow", "GET, HEAD"});
+    return response;
+  }
+  return static_file(options.static_root, request);
+}
+
+/// Waits for the work to end, if it is any. When the server closes meanwhile, what it gives goes nowhere.
+asio::awaitable<HttpResponse> HttpServer::Core::finish(std::shared_ptr<Reply> reply) {
+  auto const self = shared_from_this();
+  if (auto* const response = std::get_if<HttpResponse>(reply.get())) co_return std::move(*response);
+  auto const waiting = std::make_shared<Pending>(io, std::get<base::Task<HttpResponse>>(std::move(*reply)));
+  pending.insert(waiting);
+  waiting->work.on_end(wake, waiting.get());
+  waiting->work.start();
+  error_code ignored;
+  if (!waiting->work.done()) co_await waiting->ended.async_wait(redirect_error(use_awaitable, ignored));
+  pending.erase(waiting);
+  if (closed) co_return HttpResponse{};
+  co_return waiting->work.take();
+}
+
+asio::awaitable<void> HttpServer::Core::accept_connections() {
+  auto const self = shared_from_this();
+  while (!closed) {
+    error_code error;
+    auto socket = co_await acceptor.async_accept(redirect_error(use_awaitable, error));
+    if (closed) co_return;
+    if (error) {
+      // Out of file descriptors, or the peer went away: the former mends itself when connections end.
+      asio::steady_timer pause(io, std::chrono::milliseconds(100));
+      co_await pause.async_wait(redirect_error(use_awaitable, error));
+      continue;
+    }
+    auto const peer = socket.remote_endpoint(error);
+    auto const entrance = places.enter(error ? std::string() : network_of(peer.address()));
+    if (entrance.must_leave)
+      if (auto const found = connections.find(*entrance.must_leave); found != connections.end())
+        found->second->transport().close();
+    if (!entrance.guest) continue;  // closes the socket
+    socket.set_option(tcp::no_delay(true), error);
+    auto connection = std::make_shared<Connection>(std::move(socket), *entrance.guest);
+    connections.emplace(*entrance.guest, connection);
+    asio::co_spawn(io, serve(connection), asio::detached);
+  }
+}
+
+asio::awaitable<void> HttpServer::Core::serve(std::shared_ptr<Connection> connection) {
+  auto const self = shared_from_this();
+  beast::flat_buffer buffer;
+  while (!closed && co_await serve_request(connection, buffer)) {
+  }
+  connection->transport().close();
+  places.leave(connection->guest);
+  connections.erase(connection->guest);
+}
+
+/// One request and its answer; true when another may follow on the same connection. Who may not ask is told so before
+/// the body of what he asks is read.
+asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection> connection,
+                                                      beast::flat_buffer& buffer) {
+  auto& transport = connection->transport();
+  http::request_parser<http::string_body> parser;
+  parser.header_limit(static_cast<std::uint32_t>(options.max_header_bytes));
+  parser.body_limit(options.max_body_bytes);
+  transport.expires_after(connection->is_known ? options.request_timeout : options.first_request_timeout);
+  error_code error;
+  co_await http::async_read_header(transport, buffer, parser, redirect_error(use_awaitable, error));
+  std::optional<HttpRequest> asked;
+  std::optional<HttpResponse> response;
+  if (!error) {
+    bool const is_upgrade = websocket::is_upgrade(parser.get());
+    asked = plain(parser.get());
+    if (!asked) response = problem(400, "The request's target is badly encoded.");
+    if (asked) asked->opens_websocket = is_upgrade && asked->path == options.websocket_path;
+    if (asked) response = refusal(policy, *asked);
+    if (!response && is_trusted(policy, *asked)) {
+      connection->is_known = true;
+      places.set(connection->guest, internal::Places::Standing::served);
+    }
+    if (!response && asked->opens_websocket) response = refuse_session();
+    if (!response && asked->opens_websocket) {
+      co_await serve_websocket(connection, parser.release());
+      co_return false;
+    }
+    transport.expires_after(options.request_timeout);
+    if (!response && !parser.is_done())
+      co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
+  }
+  bool const is_malformed = error.category() == make_error_code(http::error::bad_method).category() &&
+                            error != http::error::end_of_stream && error != http::error::partial_message;
+  if (closed || (error && !is_malformed)) co_return false;
+  if (error) response = problem(status_of(error), error.message());
+  bool const is_whole = parser.is_done();
+  bool const keep_alive = is_whole && !error && parser.get().keep_alive();
+  bool const is_head = parser.get().method() == http::verb::head;
+  if (!response) {
+    asked->body = std::move(parser.get().body());
+    auto const reply = std::make_shared<Reply>(answer(*asked));
+    response = co_await finish(reply);
+    if (closed) co_return false;
+  }
+  auto const message = wire(*std::move(response), is_head, keep_alive);
+  transport.expires_after(options.request_timeout);
+  co_await http::async_write(transport, message, redirect_error(use_awaitable, error));
+  if (connection->is_known) places.set(connection->guest, internal::Places::Standing::resting);
+  if (!error && !is_whole) co_await drain(connection);
+  co_return !error && keep_alive;
+}
+
+/// Takes what was still on its way and throws it away, for a moment: a connection that is closed before is reset, and
+/// the client may never read why.
+asio::awaitable<void> HttpServer::Core::drain(std::shared_ptr<Connection> connection) {
+  constexpr auto moment = std::chrono::seconds(1);
+  constexpr std::size_t most = std::size_t{16} * 1024 * 1024;
+  auto& transport = connection->transport();
+  error_code error;
+  transport.socket().shutdown(tcp::socket::shutdown_send, error);
+  transport.expires_after(moment);
+  std::vector<char> scrap(64 * 1024);
+  for (std::size_t taken = 0; !error && taken < most;) {
+    auto const more = co_await transport.async_read_some(asio::buffer(scrap), redirect_error(use_awaitable, error));
+    taken += more;
+  }
+}
+
+/// Nothing when there is room for one more, by ending one that nobody misses if need be: that takes nothing of what it
+/// is sent, or else that has watched for longest without ever saying a word.
+std::optional<HttpResponse> HttpServer::Core::refuse_session() {
+  if (sessions.size() < options.max_sessions) return std::nullopt;
+  auto const now = std::chrono::steady_clock::now();
+  std::shared_ptr<Connection> goes;
+  bool is_stalled = false;
+  for (auto const& [session, connection] : sessions) {
+    bool const stalls = !connection->queue.empty() && now - connection->took_last > options.stall_timeout;
+    if (!stalls && (connection->has_spoken || goes)) continue;
+    if (stalls && is_stalled && goes->took_last <= connection->took_last) continue;
+    goes = connection;
+    is_stalled = is_stalled || stalls;
+  }
+  if (!goes)
+    return problem(503, "Too many viewers are connected.",
+                   "Close one; requests over HTTP, an emergency stop among them, are answered all the same.");
+  log.warn(fmt::format("{} viewers are connected: one that {} makes room for another", sessions.size(),
+                       is_stalled ? "takes nothing of what it is sent" : "never said a word"));
+  sessions.erase(goes->session);
+  goes->transport().close();
+  return std::nullopt;
+}
+
+asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connection> connection,
+                                                        http::request<http::string_body> request) {
+  auto& stream = connection->stream;
+  connection->transport().expires_never();  // from here on the WebSocket's own time-outs and pings count
+  auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  timeouts.idle_timeout = std::chrono::seconds(30);
+  timeouts.keep_alive_pings = true;
+  stream.set_option(timeouts);
+  stream.read_message_max(options.max_body_bytes);
+  error_code error;
+  co_await stream.async_accept(request, redirect_error(use_awaitable, error));
+  if (error || closed) co_return;
+  stream.text(true);
+  connection->session = SessionId{++last_session};
+  sessions.emplace(connection->session, connection);
+  if (events.opened) events.opened(connection->session);
+
+  beast::flat_buffer buffer;
+  internal::MessagePace pace;
+  asio::steady_timer rest(io);
+  while (!closed) {
+    co_await stream.async_read(buffer, redirect_error(use_awaitable, error));
+    if (error || closed) break;
+    auto const bytes = buffer.cdata();
+    connection->has_spoken = true;
+    if (events.received) events.received(connection->session, {static_cast<char const*>(bytes.data()), bytes.size()});
+    buffer.consume(buffer.size());
+    auto const wait = pace.take(std::chrono::steady_clock::now());
+    if (wait == std::chrono::milliseconds(0)) continue;
+    rest.expires_after(wait);
+    co_await rest.async_wait(redirect_error(use_awaitable, error));
+  }
+  sessions.erase(connection->session);
+  if (events.closed) events.closed(connection->session);
+}
+
+void HttpServer::Core::write_next(std::shared_ptr<Connection> const& connection) {
+  auto const& text = *connection->queue.front();
+  connection->stream.async_write(asio::buffer(text),
+                                 [self = shared_from_this(), connection](error_code error, std::size_t) {
+                                   if (error || self->closed) return;
+                                   connection->queued_bytes -= connection->queue.front()->size();
+                                   connection->queue.pop_front();
+                                   connection->took_last = std::chrono::steady_clock::now();
+                                   if (!connection->queue.empty()) self->write_next(connection);
+                                 });
+}
+
+void HttpServer::Core::repeat(std::shared_ptr<asio::steady_timer> const& timer, std::chrono::milliseconds period,
+                              std::function<void()> function) {
+  timer->expires_after(period);
+  timer->async_wait([self = shared_from_this(), timer, period, function = std::move(function)](error_code error) {
+    if (error || self->closed) return;
+    function();
+    self->repeat(timer, period, function);
+  });
+}
+
+HttpServer::HttpServer(std::shared_ptr<Core> core) : core_(std::move(core)) {}
+
+HttpServer::~HttpServer() {
+  core_->close();
+}
+
+base::Result<std::unique_ptr<HttpServer>> HttpServer::open(base::Loop& loop, Options options, base::Logger log) {
+  auto core = std::make_shared<Core>(loop, std::move(options), std::move(log));
+  auto listening = core->listen();
+  if (!listening) return std::unexpected(listening.error());
+  return std::unique_ptr<HttpServer>(new HttpServer(std::move(core)));
+}
+
+int HttpServer::port() const {
+  error_code ignored;
+  return core_->acceptor.local_endpoint(ignored).port();
+}
+
+std::string HttpServer::url() const {
+  auto const& address = core_->options.address;
+  bool const is_v6 = address.find(':') != std::string::npos;
+  return is_v6 ? fmt::format("http://[{}]:{}/", address, port()) : fmt::format("http://{}:{}/", address, port());
+}
+
+void HttpServer::set_router(Router router) {
+  core_->router = std::move(router);
+}
+
+void HttpServer::set_websocket(WebSocketEvents events) {
+  core_->events = std::move(events);
+}
+
+void HttpServer::every(std::chrono::milliseconds period, std::function<void()> function) {
+  auto const timer = std::make_shared<asio::steady_timer>(core_->io);
+  core_->timers.insert(timer);
+  core_->repeat(timer, period, std::move(function));
+}
+
+bool HttpServer::send(SessionId session, std::span<Message const> messages) {
+  auto const found = core_->sessions.find(session);
+  if (found == core_->sessions.end()) return false;
+  auto const& connection = found->second;
+  auto& queue = connection->queue;
+  std::size_t bytes = connection->queued_bytes;
+  for (auto const& message : messages) bytes += message->size();
+  if (!queue.empty() && bytes > core_->options.max_backlog_bytes) return false;
+  bool const is_idle = queue.empty();
+  connection->queued_bytes = bytes;
+  if (is_idle) connection->took_last = std::chrono::steady_clock::now();
+  queue.insert(queue.end(), messages.begin(), messages.end());
+  if (is_idle && !queue.empty()) core_->write_next(connection);
+  return true;
+}
+
+std::size_t HttpServer::backlog_bytes(SessionId session) const {
+  auto const found = core_->sessions.find(session);
+  return found == core_->sessions.end() ? 0 : found->second->queued_bytes;
+}
+
+}  // namespace lapwing::station
