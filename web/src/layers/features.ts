@@ -1,5 +1,5 @@
 import type { Feature, FeatureCollection } from 'geojson';
-import { MAP_END_DEG, type LonLat } from '../lib/geometry';
+import { MAP_END_DEG, type LonLat } from '../map/geometry';
 import type { Position } from '../lib/protocol';
 
 /** On the map, which ends before the poles. */

@@ -1,5 +1,5 @@
 import type { LayerSpecification } from 'maplibre-gl';
-import { gridLines } from '../lib/geometry';
+import { gridLines } from '../map/geometry';
 import type { MapColours } from '../map/colours';
 import { featuresOf } from './features';
 import { EMPTY, type MakeLayer } from './layer';

@@ -1,5 +1,5 @@
 import type { GeoJSONSource, GeoJSONSourceSpecification, LayerSpecification, Map as MapLibreMap } from 'maplibre-gl';
-import type { Bounds } from '../lib/geometry';
+import type { Bounds } from '../map/geometry';
 import type { MapColours } from '../map/colours';
 import type { StoresToRead } from '../stores/stores';
 

@@ -1,6 +1,6 @@
 import type { Vehicle } from '../lib/fleet';
 import { metres } from '../lib/format';
-import { rowsWithoutOverlap } from '../lib/geometry';
+import { rowsWithoutOverlap } from '../map/geometry';
 import { isOld, statusOf } from '../lib/status';
 import { VehicleMarker } from '../map/marker';
 import { lonLat, removeMissing } from './features';

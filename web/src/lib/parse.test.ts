@@ -6,7 +6,7 @@ import { commandedByOthers, commonModes, requestsTo, stateOf, stopSummary, summa
 import { detailsOf } from './details';
 import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from './fleet';
 import { clock, linkSummary, linkTitle, metres } from './format';
-import { boundsOf, gridLines } from './geometry';
+import { boundsOf, gridLines } from '../map/geometry';
 import { appendLines, atLeast } from './log';
 import { parseMessage, parseScripts } from './parse';
 import type { Position, ServerMessage } from './protocol';

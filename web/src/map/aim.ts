@@ -1,5 +1,5 @@
 import { Marker, type LngLat, type Map as MapLibreMap } from 'maplibre-gl';
-import type { LonLat } from '../lib/geometry';
+import type { LonLat } from './geometry';
 
 const STEP_PX = 10;
 /** With Shift: as far as an arrow key moves the map itself. */

@@ -1,5 +1,5 @@
 import type { Map as MapLibreMap } from 'maplibre-gl';
-import { contains, cover, type Bounds } from '../lib/geometry';
+import { contains, cover, type Bounds } from './geometry';
 import type { Sides } from './aim';
 
 /** Between what is shown and the panels, in px. */

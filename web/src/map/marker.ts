@@ -1,5 +1,5 @@
 import { Marker, type Map as MapLibreMap } from 'maplibre-gl';
-import type { LonLat } from '../lib/geometry';
+import type { LonLat } from './geometry';
 import type { Family } from '../lib/protocol';
 import { FAMILY_WORDS, SHAPES } from '../lib/shapes';
 import type { Status } from '../lib/status';

@@ -1,5 +1,5 @@
-import { heading, latitude, longitude, metres } from './format';
-import type { Position } from './protocol';
+import { heading, latitude, longitude, metres } from '../lib/format';
+import type { Position } from '../lib/protocol';
 
 export type LonLat = [number, number];
 export interface Bounds {
