@@ -1,4 +1,5 @@
 #include "tasks/harness_platform.hpp"
+#include "vehicle/connection_timeout.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -62,7 +63,7 @@ std::vector<VehicleInfo> conformance_vehicles() {
                        .payload = std::move(payload),
                        .position = geo::Wgs84::from_degrees(lat_deg, -8.0),
                        .battery = 1.0,
-                       .connection_timeout = std::chrono::seconds(20),
+                       .connection_timeout = vehicle::default_connection_timeout,
                        .mode = "HOLD",
                        .relative_alt_m = 0.0};
   };

@@ -20,6 +20,7 @@
 #include "dolphin/value/value.hpp"
 #include "tasks/execution.hpp"
 #include "tasks/platform.hpp"
+#include "vehicle/connection_timeout.hpp"
 
 namespace lapwing::dolphin {
 
@@ -45,7 +46,7 @@ struct Runtime {
   std::vector<bool> is_defined = {};  ///< of each global: has it got a value yet
   Signals signals = {};
   std::vector<tasks::VehicleId> picked = {};
-  base::Duration connection_timeout = std::chrono::seconds(20);
+  base::Duration connection_timeout = vehicle::default_connection_timeout;
   std::map<std::string, Ref<TaskValue>> plans = {};  ///< those of the script with a name, each one `Performed`
   std::set<tasks::VehicleId> batteries_warned_of = {};
   std::set<tasks::VehicleId> batteries_waited_for = {};

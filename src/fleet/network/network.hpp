@@ -13,6 +13,7 @@
 #include "mavlink/connection/connection.hpp"
 #include "mavlink/wire/system_name.hpp"
 #include "vehicle/alarm.hpp"
+#include "vehicle/connection_timeout.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::fleet {
@@ -26,7 +27,8 @@ namespace lapwing::fleet {
 class Network {
  public:
   struct Options {
-    base::Duration connection_timeout = std::chrono::seconds(20);  ///< of a vehicle for which nobody set another one
+    base::Duration connection_timeout =
+        vehicle::default_connection_timeout;  ///< of a vehicle for which nobody set another one
     /// After which a vehicle counts as silent: telemetry comes several times a second.
     base::Duration silence = std::chrono::milliseconds(2500);
     vehicle::BatteryLimits battery_limits = {};  ///< of alarms
