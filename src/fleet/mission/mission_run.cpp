@@ -7,6 +7,7 @@
 #include "fleet/mission/flight_plan.hpp"
 #include "fleet/plausibility/doubts.hpp"
 #include "fleet/plausibility/own_fence.hpp"
+#include "fleet/plausibility/own_home.hpp"
 #include "fleet/watch/flight_watch.hpp"
 #include "mavlink/exchange/command.hpp"
 #include "mavlink/exchange/plan_replacement.hpp"
@@ -189,6 +190,7 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   auto const& shown = craft.state;
   if (auto wrong = plan::objection(flight_plan(mission, shown).items, shown.autopilot, shown.family))
     co_return std::unexpected(*std::move(wrong));
+  co_await learn_home(craft, hasty);
   record.lands_at = plan::plausibility::landing_places(mission, shown.home.value);
   // Where it stands is what most words are about: a vehicle that does not know it yet is looked at when it does.
   Doubts doubts;
@@ -198,7 +200,8 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   record.progress = "waiting until the vehicle is ready";
   auto ready = co_await wait_until_ready(craft, context.connection.loop(), context.options.ready_timeout);
   if (!ready) co_return ready;
-  record.progress = "asking for its own fence";
+  record.progress = "asking for its home and its own fence";
+  co_await learn_home(craft, thorough);
   co_await learn_fence(craft, thorough, context.log.named("plausibility"));
   if (auto heeded = heed(context, mission, doubts); !heeded) co_return heeded;
 

@@ -5,6 +5,7 @@
 #include "fleet/actions/operator_actions.hpp"
 #include "fleet/plausibility/doubts.hpp"
 #include "fleet/plausibility/own_fence.hpp"
+#include "fleet/plausibility/own_home.hpp"
 #include "mavlink/exchange/mission_transfer.hpp"
 #include "plan/files/vehicle_plan.hpp"
 #include "plan/plausibility/judge.hpp"
@@ -45,6 +46,7 @@ Task<plausibility::Findings> findings_of(MavlinkVehicle& craft, vehicle::Vehicle
   bool const flies_plan = flies_the_plan_now(craft, command);
   // What stops a vehicle waits for nothing. A mixture of plans is no plan, and is refused as that.
   if (!(goes_somewhere || takes_off || flies_plan) || craft.holds_parts) co_return plausibility::Findings{};
+  co_await learn_home(craft, hasty);
   co_await learn_fence(craft, hasty, std::move(log));
   std::optional<plan::Mission> held;
   if (flies_plan) held = co_await held_mission(craft);

@@ -88,7 +88,8 @@ struct MavlinkVehicle {
   std::optional<bool> prearm_ok;                      ///< by the last SYS_STATUS
   std::uint32_t sick_sensors = 0;                     ///< bits of mavlink::sensor_flag
   StatusTexts texts;
-  FenceMemory fence;  ///< of its own
+  FenceMemory fence;                           ///< of its own
+  std::optional<base::TimePoint> home_untold;  ///< when its home was last asked for in vain
 
   // What it carries, and what it is asked once.
   PictureTrace pictures;

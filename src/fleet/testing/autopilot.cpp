@@ -242,11 +242,15 @@ MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& par
       send(answer);
       return MavResult::accepted;
     }
-    case MavCmd::request_message:
-      if (!options_.tells_place || static_cast<MessageId>(params[0]) != MessageId::global_position_int)
-        return MavResult::unsupported;
-      send_message(MessageId::global_position_int);
+    case MavCmd::request_message: {
+      auto const wanted = static_cast<MessageId>(params[0]);
+      bool const is_told = wanted == MessageId::home_position
+                               ? has_home
+                               : wanted == MessageId::global_position_int && options_.tells_place;
+      if (!is_told) return MavResult::unsupported;
+      send_message(wanted);
       return MavResult::accepted;
+    }
     case MavCmd::do_set_home: return MavResult::accepted;
     default: return MavResult::unsupported;
   }

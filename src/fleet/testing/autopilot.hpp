@@ -62,6 +62,7 @@ class TestAutopilot {
   std::set<mavlink::MavCmd> refused_commands;
   std::set<mavlink::MavCmd> ignored_commands;
   std::set<mavlink::MessageId> denied_intervals;
+  bool has_home = true;  ///< when asked for it
   std::set<std::uint32_t> refused_modes;
   std::map<mavlink::MavCmd, std::uint32_t> modes_by_command;  ///< of an autopilot without modes that are known
   bool takes_set_current_message = false;                     ///< instead of the command

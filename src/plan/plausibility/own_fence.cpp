@@ -70,6 +70,7 @@ class OwnFence {
       : look_(look), fence_(*look.situation.own_fence), out_(out), stops_(watched_stops(look)) {}
 
   void judge() {
+    if (!look_.home && is_round_home()) tell_unknown_home();
     auto const& names = look_.situation.autopilot == vehicle::Autopilot::px4 ? px4_names : ardupilot_names;
     if (look_.home && fence_.radius_m)
       judge_radius(*fence_.radius_m, edge_of(names.radius, *fence_.radius_m, "round home"));
@@ -81,6 +82,18 @@ class OwnFence {
   }
 
  private:
+  [[nodiscard]] bool is_round_home() const {
+    return fence_.radius_m || (look_.flies && (fence_.highest_m || fence_.lowest_m));
+  }
+
+  void tell_unknown_home() {
+    if (stops_.empty()) return;
+    out_.push_back({.rule = Rule::outside_fence,
+                    .severity = Severity::warn,
+                    .what = fmt::format("{} has not told its home", look_.situation.vehicle),
+                    .meant = "nobody knows whether this leaves its own fence, which is measured from there"});
+  }
+
   /// By how much each stop is beyond an edge; less than nothing for what is inside.
   struct Beyond {
     std::size_t item = 0;

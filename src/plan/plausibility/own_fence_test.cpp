@@ -172,6 +172,18 @@ TEST(OwnFence, IsAllowedByName) {
   EXPECT_EQ(refusal(judge(flight({go(at(420))}), standing_with(three_hundred), settings)), nullptr);
 }
 
+TEST(OwnFence, SaysThatNobodyKnowsWhereTheVehicleHasNotToldItsHome) {
+  auto homeless = standing_with(three_hundred);
+  homeless.home.reset();
+  auto mission = flight({go(at(420))});
+  mission.home.reset();
+  EXPECT_EQ(text(judge(mission, homeless, {})),
+            "warn: copter 1 has not told its home; nobody knows whether this leaves its own fence, which is measured "
+            "from there [outside_fence]\n");
+  EXPECT_NE(text(judge(flight({go(at(420))}), homeless, {})).find("refuse: item 2 is 120 m outside"), std::string::npos)
+      << "the mission's own home is known";
+}
+
 // ---- by hand
 
 TEST(OwnFence, KeepsAnOperatorIn) {
