@@ -67,7 +67,7 @@ def main():
     if options.against:
         results = [ask_all(*named.split("=", 1), options.only) for named in options.against]
     elif in_the_loop.source():
-        results = [against_ardupilot(family, options.only) for family in in_the_loop.families()]
+        results = [against_ardupilot(family, options.only) for family in TABLE if family in in_the_loop.families()]
     else:
         print("no ArduPilot named (--against, LAPWING_SITL): the simulator alone")
         with concurrent.futures.ThreadPoolExecutor(len(TABLE)) as families:

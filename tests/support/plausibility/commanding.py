@@ -1,5 +1,6 @@
 """Commands given to a station over HTTP, and what it says of them. Not a test itself."""
 
+import datetime
 import re
 
 import harness
@@ -16,8 +17,15 @@ class Watch:
         return max((line["seq"] for line in self.station.ask("log")[1]["lines"]), default=0)
 
     def said(self, vehicle: int, after: int, rule: str = "[a-z_]+") -> list[str]:
-        lines = [line["text"] for line in self.station.ask(f"log?after={after}")[1]["lines"]]
-        return [line for line in lines if re.search(rf"of [a-z]+ {vehicle}: .*\[{rule}\]", line)]
+        return [line["text"] for line in self._lines(vehicle, after, rule)]
+
+    def said_at(self, vehicle: int, after: int, rule: str) -> float:
+        """When it was said first, in seconds of the calendar."""
+        return datetime.datetime.fromisoformat(self._lines(vehicle, after, rule)[0]["time"]).timestamp()
+
+    def _lines(self, vehicle: int, after: int, rule: str) -> list[dict]:
+        lines = self.station.ask(f"log?after={after}")[1]["lines"]
+        return [line for line in lines if re.search(rf"of [a-z]+ {vehicle}: .*\[{rule}\]", line["text"])]
 
     def over(self, vehicle: int, after: int, action: str) -> dict | None:
         """The last such command's end: that of the one before it, which it cut short, comes first."""

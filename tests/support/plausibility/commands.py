@@ -7,6 +7,7 @@ from plans import LAND, TAKE_OFF, WAYPOINT
 LAT, LON, GROUND = 41.1780, -8.5980, 90
 HOME = f"{LAT},{LON},{GROUND}"
 COPTER_FENCE = ("FENCE_ENABLE=1", "FENCE_TYPE=7", "FENCE_RADIUS=300", "FENCE_ALT_MAX=80")
+ROVER_FENCE = ("FENCE_ENABLE=1", "FENCE_TYPE=6", "FENCE_RADIUS=300")  # rovers have no heights
 PX4_FENCE = ("GF_MAX_HOR_DIST=300", "GF_MAX_VER_DIST=80")
 
 
@@ -37,8 +38,8 @@ class Fleet(NamedTuple):
     parameters: tuple[str, ...] = ()
 
 
-FLEETS = (Fleet("copter:10,plane:2,rover:3,boat:2,sub:2", 1, -100), Fleet("px4:3", 21, -50), Fleet("copter:3,rover:1", 31, 0, COPTER_FENCE),
-          Fleet("px4:1", 41, 50, PX4_FENCE))
+FLEETS = (Fleet("copter:10,plane:2,rover:3,boat:2,sub:2", 1, -100), Fleet("px4:3", 21, -50), Fleet("copter:3", 31, 0, COPTER_FENCE),
+          Fleet("rover:1", 34, 25, ROVER_FENCE), Fleet("px4:1", 41, 50, PX4_FENCE))
 
 
 def kinds(fleet: Fleet) -> dict[int, str]:
