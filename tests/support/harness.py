@@ -1,6 +1,7 @@
 """What the tests of the whole program share: starting Lapwing, free ports, deadlines. Not a test itself."""
 
 import contextlib
+import itertools
 import os
 import pathlib
 import signal
@@ -14,10 +15,30 @@ LAPWING = os.environ.get("LAPWING", str(ROOT / "build/release/bin/lapwing"))
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
 
+# Ports of this process alone: what the system hands out itself (from 32768 on) may be another test's or another program's a moment
+# after it was looked at. Processes that run side by side have numbers near each other, and so blocks of ports of their own.
+PORTS_EACH = 32
+_first = 12000 + os.getpid() % 640 * PORTS_EACH
+_ports = itertools.cycle(range(_first, _first + PORTS_EACH))
+
+
+def _free_port(kind: socket.SocketKind) -> int:
+    for port in itertools.islice(_ports, PORTS_EACH):
+        with socket.socket(socket.AF_INET, kind) as probe:
+            if kind == socket.SOCK_STREAM:
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # one of a server that has ended is free
+            with contextlib.suppress(OSError):
+                probe.bind(("127.0.0.1", port))
+                return port
+    raise OSError(f"all of the {PORTS_EACH} ports of this test are taken")
+
+
 def free_udp_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    return _free_port(socket.SOCK_DGRAM)
+
+
+def free_tcp_port() -> int:
+    return _free_port(socket.SOCK_STREAM)
 
 
 @contextlib.contextmanager
@@ -62,9 +83,3 @@ def expect_exit(expected: int, *arguments: str, **keywords):
     code, out, err = finish(*arguments, **keywords)
     assert code == expected, f"lapwing {' '.join(arguments)}: exit {code}, expected {expected}\n{out}\n{err}"
     return out, err
-
-
-def free_tcp_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
