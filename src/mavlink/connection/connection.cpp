@@ -118,7 +118,7 @@ void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& fr
   auto const taken = routes_->take(from, peer, frame, now);
   if (!taken.is_fresh) return;
   auto const id = static_cast<MessageId>(frame.message_id);
-  if (id == MessageId::timesync || (taken.is_one_of_several && internal::tells_identity(id))) look_into(from, frame);
+  if (id == MessageId::timesync || (taken.is_one_of_several && tells_identity(id))) look_into(from, frame);
   if (!taken.is_news) return;
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::received, frame, now);
   if (forward_hook_) forward_hook_(from, frame);
@@ -200,7 +200,7 @@ std::string why_not_sent(link::ByteLink const& link) {
 std::optional<Message> guarded(Frame const& frame) {
   auto message = decode(frame);
   auto const* traits = find_traits(frame.message_id);
-  if (message || !traits || !internal::is_setpoint(frame.message_id)) return message;
+  if (message || !traits || !is(frame.message_id, Kind::setpoint)) return message;
   Address const target{frame.payload[traits->target_system_at], frame.payload[traits->target_component_at]};
   return SetPositionTargetGlobalInt{.target = target};
 }
@@ -225,7 +225,7 @@ base::Result<> Connection::send(Address target, Frame frame) {
     return fail(ErrorKind::refused,
                 fmt::format("two vehicles use system id {}: {} and {}", both->system_id, both->first, both->second),
                 "give one of them another system id (ArduPilot: SYSID_THISMAV or MAV_SYSID, PX4: MAV_SYS_ID)");
-  auto const routes = routes_->routes_to(target, internal::traffic_of(frame.message_id), loop_.now());
+  auto const routes = routes_->routes_to(target, traffic_of(frame.message_id), loop_.now());
   if (routes.empty())
     return fail(ErrorKind::lost, fmt::format("vehicle {} has not been heard on any link", target.system),
                 "check that it is switched on and sends to this station");
@@ -266,7 +266,7 @@ bool Connection::send_frame(PeerRef to, Frame& frame, std::uint8_t system_id) {
   frame.incompat_flags = 0;  // signed anew for each far end, or not at all
   if (guard_) guard_->sign(frame, {to.link, to.peer.key}, system_id, loop_.utc_now());
   auto const out = serialize(frame);
-  if (!links_[to.link]->send(to.peer, out.bytes(), internal::urgency_of(frame))) return false;
+  if (!links_[to.link]->send(to.peer, out.bytes(), urgency_of(frame))) return false;
   ++peer.next_seq;
   echoes_->note_sent(frame.seq, checksum_in(out.bytes(), frame.is_signed()));
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
@@ -279,8 +279,8 @@ bool Connection::pass_on(PeerRef to, std::span<std::uint8_t const> packets) {
   FrameParser parser;
   parser.feed(packets, [&](Frame const& frame) {
     // One by one: what is held back, or finds no room, takes no other with it.
-    bool const has_gone = !is_held_back(frame) && links_[to.link]->send(to.peer, serialize_as_received(frame).bytes(),
-                                                                        internal::urgency_of(frame));
+    bool const has_gone =
+        !is_held_back(frame) && links_[to.link]->send(to.peer, serialize_as_received(frame).bytes(), urgency_of(frame));
     have_all_gone = have_all_gone && has_gone;
     if (has_gone) note_passed_on(frame);
     if (has_gone && frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::sent, frame, loop_.now());
@@ -316,7 +316,7 @@ std::string Connection::describe(PeerRef peer) const {
 }
 
 std::optional<std::string> Connection::whereabouts(std::uint8_t system_id) const {
-  auto const routes = routes_->routes_to({system_id, autopilot_component}, internal::Traffic::command, loop_.now());
+  auto const routes = routes_->routes_to({system_id, autopilot_component}, Traffic::command, loop_.now());
   if (routes.empty()) return std::nullopt;
   return describe(routes.front());
 }

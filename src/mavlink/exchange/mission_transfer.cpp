@@ -145,7 +145,7 @@ base::Task<base::Result<HeldPlan>> download_mission(Connection& connection, Addr
                     .options = options,
                     .progress = progress,
                     .known = known,
-                    .retransmit = RetransmitTimer(transfer, options),
+                    .retransmit = retransmit_timer(transfer, options),
                     .attention = Attention(transfer),
                     .list = {},
                     .held = {}};

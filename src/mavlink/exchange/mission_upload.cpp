@@ -48,7 +48,7 @@ class Upload {
         options_(options),
         progress_(progress),
         attention_(attention),
-        retransmit_(transfer, options) {}
+        retransmit_(retransmit_timer(transfer, options)) {}
 
   base::Task<base::Result<>> run();
 

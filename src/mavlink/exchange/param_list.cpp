@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "mavlink/connection/inbox.hpp"
+#include "mavlink/exchange/internal/smoothed.hpp"
 
 namespace lapwing::mavlink {
 
@@ -16,6 +16,7 @@ using base::Duration;
 using base::ErrorKind;
 using base::fail;
 using base::TimePoint;
+using internal::Smoothed;
 
 namespace {
 
@@ -25,26 +26,6 @@ constexpr std::uint16_t outside_the_list = 65535;
 constexpr Duration first_list_wait = 1500ms;
 constexpr Duration longest_list_wait = 6s;
 constexpr Duration longest_look = 100ms;  ///< `may_send` may have come true
-
-/// Smoothed mean and deviation, as TCP measures round trips (RFC 6298).
-class Smoothed {
- public:
-  void add(Duration sample) {
-    auto const s = base::to_seconds(sample);
-    deviation_s_ = is_measured_ ? 0.75 * deviation_s_ + 0.25 * std::abs(mean_s_ - s) : s / 2;
-    mean_s_ = is_measured_ ? 0.875 * mean_s_ + 0.125 * s : s;
-    is_measured_ = true;
-  }
-  [[nodiscard]] bool is_measured() const { return is_measured_; }
-  /// Hardly any sample is larger.
-  [[nodiscard]] Duration bound() const { return base::from_seconds(mean_s_ + 4 * deviation_s_); }
-  [[nodiscard]] double mean_s() const { return mean_s_; }
-
- private:
-  bool is_measured_ = false;
-  double mean_s_ = 0.0;
-  double deviation_s_ = 0.0;
-};
 
 /// One list as it fills.
 class Download {

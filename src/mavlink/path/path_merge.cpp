@@ -33,8 +33,8 @@ PathMerge::Look PathMerge::look(Frame const& frame, PeerRef from, bool is_one, b
     return {.is_news = false, .copy_of = seen.from};
   seen = {from, now, frame.message_id, frame.checksum};
   if (!is_one) return {};
-  if (tells_state(frame.message_id)) return {.is_news = speaks(frame.message_id, from, is_best, now)};
-  if (tells_event(frame.message_id)) return {.is_news = is_first_to_tell(frame, from, now)};
+  if (is(frame.message_id, Kind::state)) return {.is_news = speaks(frame.message_id, from, is_best, now)};
+  if (is(frame.message_id, Kind::event)) return {.is_news = is_first_to_tell(frame, from, now)};
   return {};
 }
 

@@ -142,7 +142,7 @@ bool Routes::is_told_already(Source& source, PeerRef peer, Frame const& frame, b
   bool const is_one = claims.are_several() && claims.is_proven(peer, now) && !claims.is_contested(now);
   bool const is_best = source.system->choice(Traffic::command).current() == peer;
   auto const look = source.merge->look(frame, peer, is_one, is_best, now);
-  if (look.copy_of && carries_clock(frame.message_id)) claims.note_copy(*look.copy_of, peer);
+  if (look.copy_of && is(frame.message_id, Kind::clock)) claims.note_copy(*look.copy_of, peer);
   return !look.is_news;
 }
 

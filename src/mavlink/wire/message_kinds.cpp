@@ -3,64 +3,161 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
-namespace lapwing::mavlink::internal {
+namespace lapwing::mavlink {
 
 namespace {
 
-// All in ascending order.
-auto constexpr bulk_ids = std::to_array<std::uint32_t>({
-    20, 21, 23,          // PARAM_REQUEST_READ, _LIST, PARAM_SET
-    110,                 // FILE_TRANSFER_PROTOCOL
-    117, 119, 120, 121,  // LOG_REQUEST_LIST, LOG_REQUEST_DATA, LOG_DATA, LOG_ERASE
-    134,                 // TERRAIN_DATA
-    233,                 // GPS_RTCM_DATA
-    320, 321, 323,       // PARAM_EXT_REQUEST_READ, _LIST, PARAM_EXT_SET
-});
-auto constexpr perishable_ids = std::to_array<std::uint32_t>({
-    0,           // HEARTBEAT
-    69, 70,      // MANUAL_CONTROL, RC_CHANNELS_OVERRIDE
-    82, 84, 86,  // SET_ATTITUDE_TARGET, SET_POSITION_TARGET_LOCAL_NED, _GLOBAL_INT
-    111,         // TIMESYNC: an answer that waited measures the queue
-    232, 233,    // GPS_INPUT, GPS_RTCM_DATA
-});
-auto constexpr state_ids = std::to_array<std::uint32_t>({
-    0,   1,     2,  // HEARTBEAT, SYS_STATUS, SYSTEM_TIME
-    24,  25,    26,    27,    28,    29,
-    30,  31,    32,                       // GPS_RAW_INT .. LOCAL_POSITION_NED
-    33,  34,    35,    36,    42,    49,  // GLOBAL_POSITION_INT .. SERVO_OUTPUT_RAW, MISSION_CURRENT, GPS_GLOBAL_ORIGIN
-    62,  65,    74,    83,    85,    87,  // NAV_CONTROLLER_OUTPUT, RC_CHANNELS, VFR_HUD, targets
-    105, 116,   124,   125,   127,   128,
-    129, 132,   136,  // HIGHRES_IMU, SCALED_IMU2, GPS2_RAW, POWER_STATUS, RTK .. TERRAIN
-    137, 141,   147,   150,   152,   162,
-    163, 164,   165,  // pressures, ALTITUDE, BATTERY_STATUS, MEMINFO, FENCE, AHRS, HWSTATUS
-    168, 173,   178,   182,   193,   226,
-    230, 231,   241,  // WIND, RANGEFINDER, AHRS2, AHRS3, EKF, RPM, ESTIMATOR, VIBRATION
-    242, 245,   269,   285,   290,   291,
-    330, 331,   340,                         // HOME_POSITION, EXTENDED_SYS_STATE, gimbal, ESC, OBSTACLE, ODOMETRY
-    436, 11020, 11030, 11031, 11032, 11039,  // CURRENT_MODE, AOA_SSA, ESC_TELEMETRY, WATER_DEPTH
-});
-auto constexpr event_ids = std::to_array<std::uint32_t>({
-    46,       // MISSION_ITEM_REACHED
-    112,      // CAMERA_TRIGGER
-    180,      // CAMERA_FEEDBACK
-    253,      // STATUSTEXT
-    263,      // CAMERA_IMAGE_CAPTURED
-    410, 412  // EVENT, RESPONSE_EVENT_ERROR
-});
-// SYSTEM_TIME, GPS_RAW_INT, RAW_IMU, ATTITUDE, quaternion, LOCAL_POSITION_NED, GLOBAL_POSITION_INT, SERVO_OUTPUT_RAW
-auto constexpr clock_ids = std::to_array<std::uint32_t>({2, 24, 27, 30, 31, 32, 33, 36});
-static_assert(std::ranges::is_sorted(bulk_ids) && std::ranges::is_sorted(perishable_ids));
-static_assert(std::ranges::is_sorted(state_ids) && std::ranges::is_sorted(event_ids));
+/// So that a row names its kinds without their enum's name in front of each.
+struct Kinds {
+  std::uint16_t bits = 0;
+  constexpr Kinds(Kind kind) : bits(std::to_underlying(kind)) {}  // NOLINT(google-explicit-constructor)
+  explicit constexpr Kinds(unsigned of) : bits(static_cast<std::uint16_t>(of)) {}
+  friend constexpr Kinds operator|(Kinds a, Kinds b) { return Kinds(unsigned{a.bits} | unsigned{b.bits}); }
+};
+
+constexpr MessageKinds row(std::uint32_t id, std::string_view name, Kinds kinds) {
+  return {id, name, kinds.bits};
+}
+
+constexpr auto make_table() {
+  using enum Kind;
+  return std::to_array<MessageKinds>({
+      row(0, "HEARTBEAT", Kinds(perishable) | state),
+      row(1, "SYS_STATUS", state),
+      row(2, "SYSTEM_TIME", Kinds(state) | clock),
+      row(11, "SET_MODE", order),
+      row(20, "PARAM_REQUEST_READ", asks_for_bulk),
+      row(21, "PARAM_REQUEST_LIST", asks_for_bulk),
+      row(22, "PARAM_VALUE", single),
+      row(23, "PARAM_SET", asks_for_bulk),
+      row(24, "GPS_RAW_INT", Kinds(state) | clock),
+      row(25, "GPS_STATUS", state),
+      row(26, "SCALED_IMU", state),
+      row(27, "RAW_IMU", Kinds(state) | clock),
+      row(28, "RAW_PRESSURE", state),
+      row(29, "SCALED_PRESSURE", state),
+      row(30, "ATTITUDE", Kinds(state) | clock),
+      row(31, "ATTITUDE_QUATERNION", Kinds(state) | clock),
+      row(32, "LOCAL_POSITION_NED", Kinds(state) | clock),
+      row(33, "GLOBAL_POSITION_INT", Kinds(state) | clock),
+      row(34, "RC_CHANNELS_SCALED", state),
+      row(35, "RC_CHANNELS_RAW", state),
+      row(36, "SERVO_OUTPUT_RAW", Kinds(state) | clock),
+      row(42, "MISSION_CURRENT", state),
+      row(46, "MISSION_ITEM_REACHED", Kinds(event) | single),
+      row(49, "GPS_GLOBAL_ORIGIN", state),
+      row(62, "NAV_CONTROLLER_OUTPUT", state),
+      row(65, "RC_CHANNELS", state),
+      row(67, "DATA_STREAM", replaced),
+      row(69, "MANUAL_CONTROL", perishable),
+      row(70, "RC_CHANNELS_OVERRIDE", Kinds(perishable) | replaced),
+      row(74, "VFR_HUD", state),
+      row(75, "COMMAND_INT", order),
+      row(76, "COMMAND_LONG", order),
+      row(77, "COMMAND_ACK", Kinds(single) | answer),
+      row(80, "COMMAND_CANCEL", answer),
+      row(82, "SET_ATTITUDE_TARGET", Kinds(perishable) | setpoint | replaced),
+      row(83, "ATTITUDE_TARGET", state),
+      row(84, "SET_POSITION_TARGET_LOCAL_NED", Kinds(perishable) | setpoint | replaced),
+      row(85, "POSITION_TARGET_LOCAL_NED", state),
+      row(86, "SET_POSITION_TARGET_GLOBAL_INT", Kinds(perishable) | setpoint | replaced),
+      row(87, "POSITION_TARGET_GLOBAL_INT", state),
+      row(105, "HIGHRES_IMU", state),
+      row(110, "FILE_TRANSFER_PROTOCOL", bulk),
+      row(111, "TIMESYNC", perishable),
+      row(112, "CAMERA_TRIGGER", Kinds(event) | single),
+      row(116, "SCALED_IMU2", state),
+      row(117, "LOG_REQUEST_LIST", asks_for_bulk),
+      row(118, "LOG_ENTRY", bulk),
+      row(119, "LOG_REQUEST_DATA", asks_for_bulk),
+      row(120, "LOG_DATA", bulk),
+      row(121, "LOG_ERASE", asks_for_bulk),
+      row(124, "GPS2_RAW", state),
+      row(125, "POWER_STATUS", state),
+      row(126, "SERIAL_CONTROL", bulk),
+      row(127, "GPS_RTK", state),
+      row(128, "GPS2_RTK", state),
+      row(129, "SCALED_IMU3", state),
+      row(130, "DATA_TRANSMISSION_HANDSHAKE", bulk),
+      row(131, "ENCAPSULATED_DATA", bulk),
+      row(132, "DISTANCE_SENSOR", state),
+      row(134, "TERRAIN_DATA", bulk),
+      row(136, "TERRAIN_REPORT", state),
+      row(137, "SCALED_PRESSURE2", state),
+      row(139, "SET_ACTUATOR_CONTROL_TARGET", Kinds(perishable) | setpoint | replaced),
+      row(141, "ALTITUDE", state),
+      row(144, "FOLLOW_TARGET", replaced),
+      row(147, "BATTERY_STATUS", state),
+      row(148, "AUTOPILOT_VERSION", single),
+      row(150, "SENSOR_OFFSETS", state),
+      row(152, "MEMINFO", state),
+      row(162, "FENCE_STATUS", state),
+      row(163, "AHRS", state),
+      row(164, "SIMSTATE", state),
+      row(165, "HWSTATUS", state),
+      row(168, "WIND", state),
+      row(173, "RANGEFINDER", state),
+      row(178, "AHRS2", state),
+      row(180, "CAMERA_FEEDBACK", Kinds(event) | single),
+      row(182, "AHRS3", state),
+      row(184, "REMOTE_LOG_DATA_BLOCK", bulk),
+      row(185, "REMOTE_LOG_BLOCK_STATUS", bulk),
+      row(193, "EKF_STATUS_REPORT", state),
+      row(226, "RPM", state),
+      row(230, "ESTIMATOR_STATUS", state),
+      row(231, "WIND_COV", state),
+      row(232, "GPS_INPUT", perishable),
+      row(233, "GPS_RTCM_DATA", Kinds(bulk) | perishable),
+      row(241, "VIBRATION", state),
+      row(242, "HOME_POSITION", state),
+      row(245, "EXTENDED_SYS_STATE", state),
+      row(253, "STATUSTEXT", Kinds(event) | single),
+      row(263, "CAMERA_IMAGE_CAPTURED", Kinds(event) | single),
+      row(266, "LOGGING_DATA", bulk),
+      row(267, "LOGGING_DATA_ACKED", bulk),
+      row(268, "LOGGING_ACK", bulk),
+      row(269, "VIDEO_STREAM_INFORMATION", state),
+      row(282, "GIMBAL_MANAGER_SET_ATTITUDE", replaced),
+      row(284, "GIMBAL_DEVICE_SET_ATTITUDE", replaced),
+      row(285, "GIMBAL_DEVICE_ATTITUDE_STATUS", Kinds(replaced) | state),
+      row(286, "AUTOPILOT_STATE_FOR_GIMBAL_DEVICE", replaced),
+      row(287, "GIMBAL_MANAGER_SET_PITCHYAW", replaced),
+      row(288, "GIMBAL_MANAGER_SET_MANUAL_CONTROL", replaced),
+      row(290, "ESC_INFO", state),
+      row(291, "ESC_STATUS", state),
+      row(320, "PARAM_EXT_REQUEST_READ", asks_for_bulk),
+      row(321, "PARAM_EXT_REQUEST_LIST", asks_for_bulk),
+      row(322, "PARAM_EXT_VALUE", single),
+      row(323, "PARAM_EXT_SET", asks_for_bulk),
+      row(324, "PARAM_EXT_ACK", single),
+      row(330, "OBSTACLE_DISTANCE", state),
+      row(331, "ODOMETRY", state),
+      row(340, "UTM_GLOBAL_POSITION", state),
+      row(385, "TUNNEL", bulk),
+      row(410, "EVENT", Kinds(event) | single),
+      row(411, "CURRENT_EVENT_SEQUENCE", single),
+      row(412, "RESPONSE_EVENT_ERROR", event),
+      row(436, "CURRENT_MODE", state),
+      row(11020, "AOA_SSA", state),
+      row(11030, "ESC_TELEMETRY_1_TO_4", state),
+      row(11031, "ESC_TELEMETRY_5_TO_8", state),
+      row(11032, "ESC_TELEMETRY_9_TO_12", state),
+      row(11038, "WATER_DEPTH", state),
+  });
+}
+
+constexpr auto table = make_table();
+static_assert(std::ranges::is_sorted(table, {}, &MessageKinds::id));
 
 /// Arming excepted: that must not overtake what was said before it.
 bool may_stop(Frame const& frame) {
   std::uint32_t constexpr set_mode = 11;
-  std::uint32_t constexpr command_int = 75;
-  std::uint32_t constexpr command_long = 76;
   if (frame.message_id == set_mode) return true;
-  if (frame.message_id != command_int && frame.message_id != command_long) return false;
-  // In both the command stands behind 28 bytes, of which the first four are its first parameter.
+  if (!is(frame.message_id, Kind::order)) return false;
+  // In COMMAND_INT and COMMAND_LONG the command stands behind 28 bytes, of which the first four are its first
+  // parameter.
   auto const at = [&frame](std::size_t place) { return std::uint32_t{frame.payload[place]}; };
   auto const param1 = at(0) | at(1) << 8U | at(2) << 16U | at(3) << 24U;
   switch (static_cast<MavCmd>(at(28) | at(29) << 8U)) {
@@ -75,29 +172,22 @@ bool may_stop(Frame const& frame) {
 
 }  // namespace
 
+std::span<MessageKinds const> message_kinds() {
+  return table;
+}
+
+bool is(std::uint32_t message_id, Kind kind) {
+  auto const found = std::ranges::lower_bound(table, message_id, {}, &MessageKinds::id);
+  return found != table.end() && found->id == message_id && (found->kinds & std::to_underlying(kind)) != 0;
+}
+
 Traffic traffic_of(std::uint32_t message_id) {
-  return std::ranges::binary_search(bulk_ids, message_id) ? Traffic::bulk : Traffic::command;
+  return is(message_id, Kind::bulk) || is(message_id, Kind::asks_for_bulk) ? Traffic::bulk : Traffic::command;
 }
 
 link::Urgency urgency_of(Frame const& frame) {
-  if (std::ranges::binary_search(perishable_ids, frame.message_id)) return link::Urgency::perishable;
+  if (is(frame.message_id, Kind::perishable)) return link::Urgency::perishable;
   return may_stop(frame) ? link::Urgency::urgent : link::Urgency::prompt;
 }
 
-bool is_setpoint(std::uint32_t message_id) {
-  return message_id == 82 || message_id == 84 || message_id == 86 || message_id == 139;
-}
-
-bool tells_state(std::uint32_t message_id) {
-  return std::ranges::binary_search(state_ids, message_id);
-}
-
-bool tells_event(std::uint32_t message_id) {
-  return std::ranges::binary_search(event_ids, message_id);
-}
-
-bool carries_clock(std::uint32_t message_id) {
-  return std::ranges::binary_search(clock_ids, message_id);
-}
-
-}  // namespace lapwing::mavlink::internal
+}  // namespace lapwing::mavlink

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "mavlink/connection/inbox.hpp"
-#include "mavlink/exchange/internal/repeats.hpp"
+#include "mavlink/exchange/internal/retransmit_timer.hpp"
 #include "mavlink/exchange/mission_transfer.hpp"
 
 /// What uploads and downloads share.
@@ -43,50 +43,9 @@ Inbox::Wanted meant_for(TransferTarget const& transfer) {
   };
 }
 
-/// How long until a message is repeated: as TCP does it (RFC 6298), with bounds that fit a vehicle's link. An
-/// autopilot asks again for what it misses only after a second, so on a lossy link the ground's patience decides how
-/// long a transfer takes.
-class RetransmitTimer {
- public:
-  RetransmitTimer(TransferTarget const& transfer, TransferOptions const& options) : first_(options.reply_timeout) {
-    auto const round_trip = transfer.connection.round_trip(transfer.target.system);
-    if (round_trip) first_ = std::min(first_, usual_answer(*round_trip));
-  }
-
-  /// The answer to a message that went out once (Karn: an answer to a repeated one tells nothing).
-  void measured(base::Duration round_trip) {
-    auto const sample = base::to_seconds(round_trip);
-    if (!is_measured_) {
-      smoothed_s_ = sample;
-      deviation_s_ = sample / 2;
-      is_measured_ = true;
-    } else {
-      deviation_s_ = 0.75 * deviation_s_ + 0.25 * std::abs(smoothed_s_ - sample);
-      smoothed_s_ = 0.875 * smoothed_s_ + 0.125 * sample;
-    }
-    repeats_ = 0;
-  }
-  /// Waits longer the next time, until something is measured again. Not much longer once the round trip is known: one
-  /// small message at a time congests nothing, so silence then mostly means that it was lost.
-  void repeated() { repeats_ = std::min(repeats_ + 1, is_measured_ ? 2 : 4); }
-  /// The other side has moved on after a repetition: what was repeated was lost, or the round trip has become longer.
-  void moved_on() { repeats_ = std::max(repeats_ - (is_measured_ ? 1 : 0), 0); }
-
-  [[nodiscard]] base::Duration value() const {
-    auto const once = is_measured_ ? base::from_seconds(smoothed_s_ + 4 * deviation_s_) : first_;
-    return std::min(std::max<base::Duration>(once, shortest) * (1 << repeats_), longest);
-  }
-
- private:
-  static constexpr base::Duration shortest = 50ms;  // a few turns of an autopilot's telemetry loop
-  // The protocol's own default. Beyond it too few tries would fit into what a vehicle waits before it gives up.
-  static constexpr base::Duration longest = 1500ms;
-  base::Duration first_;
-  bool is_measured_ = false;
-  double smoothed_s_ = 0.0;
-  double deviation_s_ = 0.0;
-  int repeats_ = 0;
-};
+inline RetransmitTimer retransmit_timer(TransferTarget const& transfer, TransferOptions const& options) {
+  return {options.reply_timeout, transfer.connection.round_trip(transfer.target.system)};
+}
 
 inline std::unexpected<base::Error> silent(TransferTarget const& transfer, std::string_view what) {
   return base::fail(base::ErrorKind::timed_out, fmt::format("vehicle {} fell silent during the {} of {}",
