@@ -41,9 +41,7 @@ base::Loop::Pace pace_of(Session::Options const& options) {
 }  // namespace
 
 base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
-  if (text == "loiter") return fleet::OnStop::loiter;
-  if (text == "rtl") return fleet::OnStop::rtl;
-  if (text == "land") return fleet::OnStop::land;
+  if (auto const on_stop = fleet::on_stop_from(text)) return *on_stop;
   return base::fail(base::ErrorKind::invalid_input, fmt::format("--on-stop {} is not known", text),
                     "use loiter (hold in place, the default), rtl (return to launch) or land");
 }
