@@ -1,5 +1,6 @@
 // Starts a station to test against and a browser to look at it with.
 import { spawn } from 'node:child_process';
+import { createSocket } from 'node:dgram';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '@playwright/test';
@@ -7,6 +8,14 @@ import config from '../playwright.config.js';
 
 const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
+
+const freeUdpPort = () =>
+  new Promise((resolve) => {
+    const probe = createSocket('udp4').bind(0, '127.0.0.1', () => {
+      const { port } = probe.address();
+      probe.close(() => resolve(port));
+    });
+  });
 
 /** A station over moving vehicles on a port; 0 picks a free one. With a token, only who has it gets in. */
 export async function startStation(port = 0, token = '') {
@@ -25,6 +34,36 @@ export async function startStation(port = 0, token = '') {
     silence: () => child.kill('SIGSTOP'),
     stop: async () => {
       child.kill('SIGKILL');
+      await ended;
+    },
+  };
+}
+
+/** The program itself: a station with simulated vehicles, whose time runs faster. */
+export async function startFleet(vehicles, speedup = 5) {
+  const program = path.join(build, 'bin', 'lapwing');
+  const link = `127.0.0.1:${await freeUdpPort()}`;
+  const start = (...words) =>
+    spawn(program, words, { env: { ...process.env, LAPWING_HOME: path.dirname(web) }, stdio: ['ignore', 'ignore', 'pipe'] });
+  const [station, sim] = [
+    start('station', '--link', `udpin://${link}`, '--port', '0'),
+    start('sim', '--vehicles', vehicles, '--home', '47.3977,8.5456,488', '--speedup', String(speedup), '--out', `udpout://${link}`),
+  ];
+  sim.stderr.resume();
+  const ended = Promise.all([station, sim].map((child) => new Promise((resolve) => child.once('close', resolve))));
+  const url = await new Promise((resolve, reject) => {
+    let said = '';
+    station.stderr.on('data', (data) => {
+      const address = (said += data).match(/http:\/\/127\.0\.0\.1:\d+\//);
+      if (address) resolve(address[0]);
+    });
+    station.once('error', () => reject(new Error(`${program} does not start: build the target lapwing first`)));
+    station.once('exit', (code) => reject(new Error(`${program} ended with ${code}: ${said}`)));
+  });
+  return {
+    url,
+    stop: async () => {
+      for (const child of [station, sim]) child.kill('SIGKILL');
       await ended;
     },
   };

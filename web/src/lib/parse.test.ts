@@ -8,6 +8,7 @@ import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from './fle
 import { clock, linkSummary, linkTitle, metres } from './format';
 import { boundsOf, gridLines } from '../map/geometry';
 import { appendLines, atLeast } from './log';
+import { objectionsTo } from './plausibility';
 import { parseMessage, parseScripts } from './parse';
 import type { Position, ServerMessage } from './protocol';
 import { statusOf } from './status';
@@ -231,7 +232,8 @@ const SAMPLES: Record<string, unknown>[] = [
         height_m: 10,
         place: { lat_deg: 1, lon_deg: 1, alt_m: 1 },
         mode: '',
-        vehicles: [{ vehicle: '1', state: 'waiting', reason: '' }],
+        allow: { ceiling: 'x' },
+        vehicles: [{ vehicle: '1', state: 'refused', reason: 'x [too_far]' }],
       },
     ],
   },
@@ -302,7 +304,13 @@ class Page {
         break;
       case 'commands':
         for (const command of message.commands)
-          void [titleOf(command), summaryOf(command), command.vehicles.map(({ state }) => stateOf(state, command.action).word)];
+          void [
+            titleOf(command),
+            objectionsTo(command, message.commands, 'x'),
+            Object.values(command.allow ?? {}).join(),
+            summaryOf(command),
+            command.vehicles.map(({ state }) => stateOf(state, command.action).word),
+          ];
         break;
       case 'alarms':
         groupAlarms(knownAlarms(message.alarms, 1000), (id) => id);

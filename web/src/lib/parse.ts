@@ -92,6 +92,12 @@ function plain(value: unknown, depth = 0): unknown {
   return Object.fromEntries(entries.filter(([key, one]) => key !== '__proto__' && one !== undefined));
 }
 
+/** Texts by their keys. */
+const texts: Parse<Record<string, string>> = (value) => {
+  const entries = Object.entries(isObject(value) ? value : {}).map(([key, one]) => [key, text(one)] as const);
+  return Object.fromEntries(entries.filter(([key, one]) => key !== '__proto__' && one !== undefined)) as Record<string, string>;
+};
+
 /** An object of that shape; without one of the `needed` keys it is none. Other keys that cannot be read are left out. */
 function object<T extends object>(shape: Shape<T>, needed: readonly (keyof T)[]): Parse<T> {
   return (value) => {
@@ -278,6 +284,7 @@ const command = object<Command>(
     height_m: metres,
     place: position,
     mode: text,
+    allow: texts,
     vehicles: list(outcome, ({ vehicle }) => vehicle),
   },
   ['number', 'action', 'by', 'asked', 'vehicles'],

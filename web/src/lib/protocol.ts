@@ -159,6 +159,8 @@ export interface CommandDetails {
   lat_deg?: number;
   lon_deg?: number;
   mode?: string;
+  /** Rules of plausibility that it may break, with the reasons. */
+  allow?: Record<string, string>;
 }
 
 export type CommandState =
@@ -172,6 +174,7 @@ export interface Command {
   height_m?: number;
   place?: Position;
   mode?: string;
+  allow?: Record<string, string>;
   vehicles: CommandOutcome[];
 }
 

@@ -1,3 +1,4 @@
+import type { Objection } from '../lib/plausibility';
 import type { Action, Command, CommandDetails, Emergency, Reply, Request, ServerMessage, StopAction } from '../lib/protocol';
 import { reasonOf, type Receiver, type Session } from './session.svelte';
 
@@ -21,6 +22,22 @@ export class ControlStore implements Receiver {
 
   async command(action: Action, vehicles: string[], details: CommandDetails = {}, take_over = false): Promise<boolean> {
     return this.noteObjection(await this.session.request({ type: 'command', action, vehicles, ...details, take_over }));
+  }
+
+  /** The same once more, for those vehicles that a rule refused it for, with that rule set aside. */
+  async commandAnyway(
+    { action, place, height_m, mode, allow }: Command,
+    against: Objection,
+    reason: string,
+    take_over: boolean,
+  ): Promise<boolean> {
+    const details: CommandDetails = {
+      ...(place && { lat_deg: place.lat_deg, lon_deg: place.lon_deg }),
+      ...(height_m !== undefined && { height_m }),
+      ...(mode && { mode }),
+      allow: { ...allow, [against.rule]: reason },
+    };
+    return this.command(action, against.vehicles, details, take_over);
   }
 
   async changeControl(type: 'request_control' | 'yield_control' | 'keep_control', vehicle: string): Promise<boolean> {
