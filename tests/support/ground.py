@@ -68,8 +68,9 @@ class Viewer:
 class Station:
     """HTTP at `port`, vehicles at `link_ports`."""
 
-    def __init__(self, process, port: int, link_ports: list[int]):
+    def __init__(self, process, port: int, link_ports: list[int], token: str = ""):
         self.process, self.port, self.link_ports = process, port, link_ports
+        self._headers = {"Authorization": f"Bearer {token}"} if token else {}
         self.said: list[str] = []
 
     def get(self, path: str) -> dict:
@@ -81,7 +82,7 @@ class Station:
     def _ask(self, method: str, path: str, body: str | None = None) -> tuple[int, dict]:
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
         with contextlib.closing(connection):
-            connection.request(method, path, body, {"Content-Type": "application/json"} if body else {})
+            connection.request(method, path, body, self._headers | ({"Content-Type": "application/json"} if body else {}))
             answer = connection.getresponse()
             return answer.status, json.loads(answer.read())
 
@@ -94,8 +95,8 @@ class Station:
 
 
 @contextlib.contextmanager
-def station(*arguments: str, links: int = 1, stdout=subprocess.DEVNULL):
-    """Runs until the block ends; listens for vehicles on free ports. What scripts print goes to `stdout`."""
+def station(*arguments: str, links: int = 1, stdout=subprocess.DEVNULL, token: str = ""):
+    """Runs until the block ends; listens for vehicles on free ports. What scripts print goes to `stdout`; `token` is the one that it asks for."""
     ports = [harness.free_udp_port() for _ in range(links)]
     wanted = [word for port in ports for word in ("--link", f"udpin://127.0.0.1:{port}")]
     process = subprocess.Popen([harness.LAPWING, "station", *wanted, "--port", "0", *arguments], stderr=subprocess.PIPE,
@@ -108,7 +109,7 @@ def station(*arguments: str, links: int = 1, stdout=subprocess.DEVNULL):
             if "listening for vehicles" in line:
                 break
         assert address, "the station did not start"
-        ground = Station(process, int(address[1]), ports)
+        ground = Station(process, int(address[1]), ports, token)
         # Somebody has to read what it says, or it would wait for that.
         threading.Thread(target=lambda: ground.said.extend(process.stderr), daemon=True).start()
         yield ground

@@ -4,6 +4,7 @@ import contextlib
 import dataclasses
 import select
 import socket
+import struct
 import subprocess
 import threading
 
@@ -14,6 +15,16 @@ import harness
 # Of the vehicles' many messages only these are read: the others are passed on unseen.
 READ_FROM_VEHICLES = {mavlink.MAVLINK_MSG_ID_HEARTBEAT, mavlink.MAVLINK_MSG_ID_SYS_STATUS,
                       mavlink.MAVLINK_MSG_ID_BATTERY_STATUS, mavlink.MAVLINK_MSG_ID_MISSION_ACK}
+
+
+SO_TIMESTAMPNS = 35  # Linux; Python has no name for it
+
+
+def taken(link) -> tuple[float, bytes]:
+    """The next datagram, and when it came to this end: by the kernel, however long nobody had time to take it."""
+    datagram, extra, _, _ = link.recvmsg(65536, 64)
+    seconds, nanoseconds = struct.unpack("qq", extra[0][2])
+    return seconds + nanoseconds / 1e9, datagram
 
 
 def frames(datagram: bytes):
@@ -27,18 +38,19 @@ def frames(datagram: bytes):
 
 @dataclasses.dataclass
 class Seen:
-    """One message: who it is from or for, and what it was."""
+    """One message: who it is from or for, what it was, and when it came to the vehicle (`time.time`; 0 from a vehicle)."""
 
     vehicle: int
     to_vehicle: bool
     message: object
+    at: float = 0.0
 
 
 class Wire:
     """Vehicles send to `vehicle_port`; the station listens on `station_port`."""
 
-    def __init__(self):
-        self.vehicle_port, self.station_port = harness.free_udp_port(), harness.free_udp_port()
+    def __init__(self, station_port: int | None = None):
+        self.vehicle_port, self.station_port = harness.free_udp_port(), station_port or harness.free_udp_port()
         self.seen: list[Seen] = []
         self._field = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._field.setblocking(False)
@@ -70,25 +82,29 @@ class Wire:
     def _pass_on(self, link):
         if link is not self._field:
             vehicle = next(address for address, up in self._up.items() if up is link)
-            datagram = link.recv(65536)
-            self._note(datagram, to_vehicle=True)
+            at, datagram = taken(link)
+            self._note(datagram, to_vehicle=True, at=at)
             self._field.sendto(datagram, vehicle)
             return
         datagram, vehicle = link.recvfrom(65536)
         if vehicle not in self._up:
             self._up[vehicle] = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
             self._up[vehicle].setblocking(False)
+            self._up[vehicle].setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
             self._up[vehicle].connect(("127.0.0.1", self.station_port))
         self._note(datagram, to_vehicle=False)
         self._up[vehicle].send(datagram)
 
-    def _note(self, datagram: bytes, to_vehicle: bool):
+    def _note(self, datagram: bytes, to_vehicle: bool, at: float = 0.0):
         for kind, frame in frames(datagram):
             if not to_vehicle and kind not in READ_FROM_VEHICLES:
                 continue
             message = self._parser.decode(bytearray(frame))
             vehicle = getattr(message, "target_system", 0) if to_vehicle else message.get_srcSystem()
-            self.seen.append(Seen(vehicle, to_vehicle, message))
+            self.keep(Seen(vehicle, to_vehicle, message, at))
+
+    def keep(self, seen: Seen):
+        self.seen.append(seen)
 
     def missions(self, vehicle: int) -> list[list]:
         """The missions that were uploaded to the vehicle, in order: their items by sequence number, each as it was sent

@@ -1,8 +1,12 @@
 """Idle connections, connections that come and go, silent viewers, floods of requests and of WebSocket messages, with an operator beside them: each of his
-emergency stops, over HTTP on a new connection and over his WebSocket, is answered all along. Prints how long it took."""
+emergency stops, over HTTP on a new connection and over his WebSocket, is answered and reaches every vehicle all along: ten copters in the air, a hundred
+on the ground. Prints how long it took to the answer, and to the last of the vehicles."""
 
 import base64
+import contextlib
 import json
+import math
+import multiprocessing
 import os
 import pathlib
 import socket
@@ -15,6 +19,8 @@ import time
 
 import ground
 import harness
+import wire
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 TOKEN = "a-token-of-sixteen-letters-or-more"
 STOPS = 100
@@ -124,7 +130,7 @@ class Operator:
         head, self.data = self.data.split(b"\r\n\r\n", 1)
         assert b" 101 " in head.splitlines()[0], head
         self.answers: dict[str, float] = {}
-        self.stops = 0
+        self.asked = 0
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
         self.say({"type": "ping", "id": "hello"})
@@ -157,11 +163,14 @@ class Operator:
                 text += payload
                 if not first & 0x80:
                     continue
-                message, text = json.loads(text), b""
+                now, whole, text = time.time(), text, b""
+                if b'"reply"' not in whole and b'"pong"' not in whole:
+                    continue  # news of vehicles: to read it would take the time that is measured
+                message = json.loads(whole)
                 if message.get("type") in ("reply", "pong"):
-                    self.answers[message["id"]] = time.monotonic()
+                    self.answers[message["id"]] = now
         except (ConnectionError, OSError):
-            self.answers["over"] = time.monotonic()
+            self.answers["over"] = time.time()
 
     def frame(self, kind, payload):
         size = bytes([0x80 | len(payload)]) if len(payload) < 126 else bytes([0x80 | 126]) + len(payload).to_bytes(2, "big")
@@ -174,40 +183,101 @@ class Operator:
         assert "over" not in self.answers, "the operator's WebSocket was closed"
         return name in self.answers
 
-    def stop_over_websocket(self) -> float:
-        self.stops += 1
-        name, began = f"stop {self.stops}", time.monotonic()
-        self.say({"type": "emergency_stop", "id": name})
+    def ask(self, what: str) -> float:
+        self.asked += 1
+        name, began = f"{what} {self.asked}", time.time()
+        self.say({"type": what, "id": name})
         while not self.is_answered(name):
-            assert time.monotonic() - began < 10, "an emergency stop over WebSocket had no answer"
+            assert time.time() - began < 10, f"{what} over WebSocket had no answer"
             time.sleep(0.0005)
         return self.answers[name] - began
 
+    def stop_over_websocket(self) -> float:
+        return self.ask("emergency_stop")
+
+    def release(self):
+        self.ask("release_emergency_stop")
+
     def stop_over_http(self) -> float:
-        began = time.monotonic()
+        began = time.time()
         body = b"{}"
         with socket.create_connection(("127.0.0.1", self.port), timeout=10) as one:
             one.sendall((f"POST /api/v1/emergency-stop HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n{self.authorization}"
                          f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n").encode() + body)
             answer = one.recv(4096)
         assert answer.startswith(b"HTTP/1.1 2"), answer[:200]
-        return time.monotonic() - began
+        return time.time() - began
+
+
+STOPPING = (mavlink.MAV_CMD_DO_SET_MODE, mavlink.MAV_CMD_COMPONENT_ARM_DISARM)
+
+
+class StopsOnTheWire(wire.Wire):
+    """Tells what stops vehicles, and when it came to them."""
+
+    def __init__(self, station_port: int, told):
+        super().__init__(station_port)
+        self.told = told
+
+    def keep(self, seen: wire.Seen):
+        if seen.to_vehicle and getattr(seen.message, "command", 0) in STOPPING:
+            self.told.send((seen.at, seen.vehicle))
+
+
+def relay(station_port: int, told):
+    with StopsOnTheWire(station_port, told) as link:
+        told.send(link.vehicle_port)
+        threading.Event().wait()
+
+
+class Vehicles:
+    """Copters of `lapwing sim` behind a relay: a process of its own, so that it takes no time from the operator's."""
+
+    def __init__(self, count: int, pipe):
+        self.count, self.pipe = count, pipe
+
+    def reached_after(self, began: float) -> float:
+        """How long it took until the last of them had a stop that was sent after that."""
+        came: dict[int, float] = {}
+        while len(came) < self.count:
+            assert self.pipe.poll(5), f"the stop reached {len(came)} of {self.count} vehicles"
+            at, vehicle = self.pipe.recv()
+            if at >= began:
+                came.setdefault(vehicle, at)
+        return max(came.values()) - began
+
+
+@contextlib.contextmanager
+def vehicles(station_port: int, count: int):
+    ours, theirs = multiprocessing.Pipe()
+    process = multiprocessing.get_context("fork").Process(target=relay, args=(station_port, theirs), daemon=True)
+    process.start()
+    try:
+        out = f"udpout://127.0.0.1:{ours.recv()}"
+        with harness.lapwing("sim", "--vehicles", f"copter:{count}", "--home", "47.3977,8.5456,488", "--out", out):
+            yield Vehicles(count, ours)
+    finally:
+        process.kill()
+        process.join()
 
 
 def percentile(values, share):
-    return sorted(values)[min(len(values) - 1, int(share * len(values)))]
+    return sorted(values)[math.ceil(share * len(values)) - 1]
 
 
-def operate(operator, what: str):
-    http, ws = [], []
-    for _ in range(STOPS):
-        http.append(operator.stop_over_http())
-        ws.append(operator.stop_over_websocket())
-        time.sleep(0.01)
-    for name, times in (("HTTP", http), ("WebSocket", ws)):
-        assert max(times) < LONGEST_S, f"{what}: an emergency stop over {name} took {max(times):.2f} s"
-        print(f"{what}: {len(times)} emergency stops over {name}: median {1000 * statistics.median(times):.1f} ms, "
-              f"p99 {1000 * percentile(times, 0.99):.1f} ms, longest {1000 * max(times):.1f} ms")
+def operate(operator, fleet, what: str):
+    for name, stop in (("HTTP", operator.stop_over_http), ("WebSocket", operator.stop_over_websocket)):
+        answered, reached = [], []
+        for _ in range(STOPS):
+            began = time.time()
+            answered.append(stop())
+            reached.append(fleet.reached_after(began))
+            operator.release()
+            time.sleep(0.003)
+        for until, times in (("the answer", answered), (f"the last of {fleet.count} vehicles", reached)):
+            assert max(times) < LONGEST_S, f"{what}: an emergency stop over {name} took {max(times):.2f} s to {until}"
+            print(f"{what}: {len(times)} emergency stops over {name}, to {until}: median {1000 * statistics.median(times):.1f} ms, "
+                  f"p99 {1000 * percentile(times, 0.99):.1f} ms, longest {1000 * max(times):.1f} ms")
 
 
 def attacked(port: int, token: str, *kinds: str):
@@ -226,19 +296,36 @@ def end(attackers):
         attacker.wait()
 
 
+def is_ready(vehicle: dict) -> bool:
+    return vehicle.get("health", {}).get("prearm_ok", False)
+
+
+def is_up(vehicle: dict) -> bool:
+    return vehicle.get("relative_alt_m", 0) > 1
+
+
 with tempfile.TemporaryDirectory() as folder:
     file = pathlib.Path(folder, "station.token")
     file.touch(0o600)
     file.write_text(TOKEN + "\n")
-    for token, arguments in (("", ()), (TOKEN, ("--token-file", str(file)))):
-        with ground.station(*arguments) as station:
+    for token, arguments, count in (("", (), 10), (TOKEN, ("--token-file", str(file)), 100)):
+        with ground.station(*arguments, token=token) as station, vehicles(station.link_ports[0], count) as fleet:
+            def all_are(wanted):
+                time.sleep(0.1)
+                known = station.vehicles().values()
+                return len(known) == fleet.count and all(map(wanted, known))
+
+            harness.wait_until(lambda: all_are(is_ready), 60, "the vehicles are ready")
             operator = Operator(station.port, token)
-            guarded = "with a token" if token else "without a token"
-            operate(operator, f"{guarded}, alone")
+            if count == 10:
+                operator.say({"type": "command", "action": "take_off", "vehicles": list(map(str, station.vehicles())), "height_m": 5})
+                harness.wait_until(lambda: all_are(is_up), 60, "the vehicles are in the air")
+            guarded = f"{count} copters, {'with a token' if token else 'without a token'}"
+            operate(operator, fleet, f"{guarded}, alone")
             for kinds in (("idle",), ("churn",), ("viewers",), ("requests",), ("words",), ("idle", "churn", "viewers", "requests", "words")):
                 attackers = attacked(station.port, token, *kinds)
                 try:
-                    operate(operator, f"{guarded}, {' and '.join(kinds)}")
+                    operate(operator, fleet, f"{guarded}, {' and '.join(kinds)}")
                 finally:
                     end(attackers)
                 operator.is_answered("hello")  # its WebSocket is still the first one
