@@ -1,10 +1,12 @@
 // What the browser app costs in the browser that shows it. usage: node bench/page.mjs [--vehicles 3,100] [--points 1500] [--seconds 20]
-// [--dist web/dist] [--json FILE]
+// [--dist web/dist] [--pixels 1] [--json FILE]
 //
 // A made-up station serves the built app and sends it what a real one would, five times a second, of vehicles that fly in circles with
 // trails of that many points. Told are, over those seconds: processor time of the page's main thread a tick (and what of it was script,
-// style and layout), of the page's process with its workers and of the process that draws; frames a second and the longest frame.
-// Drawing is done by the processor here, as on a machine without a GPU: figures of one machine compare with each other alone.
+// style and layout), of the page's process with its workers and of the process that draws; frames a second, those in which the map was
+// drawn, and the longest frame: with vehicles that rest, that fly, and that fly while somebody drags the map about all the time.
+// Drawing is done by the processor here, as on a machine without a GPU: figures of one machine compare with each other alone. With
+// `--pixels 0.25` the map has a sixteenth of the pixels, so that frames tell of the page rather than of the drawing.
 import { createReadStream, existsSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -22,6 +24,7 @@ const { values } = parseArgs({
     vehicles: { type: 'string', default: '3,100' },
     points: { type: 'string', default: '1500' },
     seconds: { type: 'string', default: '20' },
+    pixels: { type: 'string', default: '1' },
     dist: { type: 'string', default: path.join(root, 'web/dist') },
     json: { type: 'string' },
   },
@@ -117,9 +120,9 @@ async function overSomeTime(page, session, system, tick) {
   const timer = setInterval(tick, TICK_MS);
   await new Promise((rested) => setTimeout(rested, 5000)); // until the view has come to rest, and what waited is done
   const [before, timesBefore, begun] = [await mainThread(session), await processTimes(system), performance.now()];
-  await page.evaluate(() => (window.frames_.length = window.taken_ = 0));
+  await page.evaluate(() => (window.frames_.length = window.taken_ = window.drawn_ = 0));
   await new Promise((over) => setTimeout(over, Number(values.seconds) * 1000));
-  const [frames, ticks] = await page.evaluate(() => [window.frames_, window.taken_]);
+  const [frames, ticks, drawn] = await page.evaluate(() => [window.frames_, window.taken_, window.drawn_]);
   const [after, timesAfter, seconds] = [await mainThread(session), await processTimes(system), (performance.now() - begun) / 1000];
   clearInterval(timer);
   const perTick = (name) => ((after[name] - before[name]) * 1000) / ticks;
@@ -131,6 +134,7 @@ async function overSomeTime(page, session, system, tick) {
     script_ms_a_tick: perTick('ScriptDuration'),
     style_and_layout_ms_a_tick: perTick('RecalcStyleDuration') + perTick('LayoutDuration'),
     frames_a_second: pauses.length / ((frames.at(-1) - frames[0]) / 1000),
+    map_frames_a_second: drawn / ((frames.at(-1) - frames[0]) / 1000),
     longest_frame_ms: Math.max(...pauses),
     page_process_percent: share('renderer'),
     drawing_process_percent: share('GPU'),
@@ -139,21 +143,43 @@ async function overSomeTime(page, session, system, tick) {
 
 const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done))));
 
-/** The same vehicles with the same trails, standing still and then flying. */
+/** In the page: holds the map and draws small circles with it, a step for every frame. */
+function dragAbout() {
+  const canvas = document.querySelector('.maplibregl-canvas');
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  const at = (angle) => ({ clientX: left + width / 2 + 60 * Math.cos(angle), clientY: top + height / 2 + 60 * Math.sin(angle), button: 0, bubbles: true });
+  canvas.dispatchEvent(new MouseEvent('mousedown', { ...at(0), buttons: 1 }));
+  const step = (now) => {
+    document.dispatchEvent(new MouseEvent('mousemove', { ...at(now / 300), buttons: 1 }));
+    requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+/** The same vehicles with the same trails, standing still, then flying, then flying below a map that is dragged about. */
 async function measure(browser, count, points, tell) {
   const station = await startStation(count);
   const page = await browser.newPage({ viewport: { width: 1440, height: 900 }, colorScheme: 'dark' });
   try {
     // A page that is too slow falls behind: what counts is what it has taken, not what was sent.
-    await page.addInitScript(() => {
-      window.taken_ = 0;
+    await page.addInitScript((pixels) => {
+      if (pixels !== 1) Object.defineProperty(window, 'devicePixelRatio', { get: () => pixels });
+      window.taken_ = window.drawn_ = 0;
+      window.frames_ = [];
+      let drawnIn = 0;
+      const { drawElements } = WebGL2RenderingContext.prototype;
+      WebGL2RenderingContext.prototype.drawElements = function (...what) {
+        if (drawnIn !== window.frames_.at(-1)) window.drawn_ += 1;
+        drawnIn = window.frames_.at(-1);
+        return drawElements.apply(this, what);
+      };
       window.WebSocket = class extends WebSocket {
         constructor(...address) {
           super(...address);
           this.addEventListener('message', () => (window.taken_ += 1));
         }
       };
-    });
+    }, Number(values.pixels));
     await page.goto(station.url);
     await page.locator('#vehicles tbody tr').nth(count - 1).waitFor({ timeout: 60_000 });
     for (let i = 0; i < points; ++i) {
@@ -166,11 +192,13 @@ async function measure(browser, count, points, tell) {
     // Of the thread's own clock: what other programs take of the processor is not counted.
     await session.send('Performance.enable', { timeDomain: 'threadTicks' });
     await page.evaluate(() => {
-      window.frames_ = [];
       const note = (now) => (window.frames_.push(now), requestAnimationFrame(note));
       requestAnimationFrame(note);
     });
-    for (const moves of [false, true]) tell({ vehicles: count, trail_points: points, moves, ...(await overSomeTime(page, session, system, () => station.tick(moves))) });
+    for (const [moves, isDragged] of [[false, false], [true, false], [true, true]]) {
+      if (isDragged) await page.evaluate(dragAbout);
+      tell({ vehicles: count, trail_points: points, moves, dragged: isDragged, ...(await overSomeTime(page, session, system, () => station.tick(moves))) });
+    }
   } finally {
     await page.close();
     station.stop();
@@ -186,8 +214,8 @@ function tell(row) {
   rows.push(row);
   const figure = (key, digits = 1) => row[key].toFixed(digits);
   console.log(
-    `page    ${String(row.vehicles).padStart(3)} vehicles ${row.moves ? 'flying ' : 'resting'}, trails of ${row.trail_points}: main thread ${figure('main_thread_ms_a_tick')} ms a tick ` +
-      `at ${figure('ticks_a_second')} ticks/s (script ${figure('script_ms_a_tick')}, style and layout ${figure('style_and_layout_ms_a_tick')}), ${figure('frames_a_second')} frames/s, ` +
+    `page    ${String(row.vehicles).padStart(3)} vehicles ${row.dragged ? 'flying, map dragged' : row.moves ? 'flying ' : 'resting'}, trails of ${row.trail_points}: main thread ${figure('main_thread_ms_a_tick')} ms a tick ` +
+      `at ${figure('ticks_a_second')} ticks/s (script ${figure('script_ms_a_tick')}, style and layout ${figure('style_and_layout_ms_a_tick')}), ${figure('frames_a_second')} frames/s, ${figure('map_frames_a_second')} of the map, ` +
       `longest ${figure('longest_frame_ms', 0)} ms; page ${figure('page_process_percent', 0)} %, drawing ${figure('drawing_process_percent', 0)} % of a core`,
   );
 }
