@@ -1,7 +1,7 @@
 import { Marker, type Map as MapLibreMap } from 'maplibre-gl';
 import type { LonLat } from './geometry';
 import type { Family } from '../lib/protocol';
-import { FAMILY_WORDS, SHAPES } from '../lib/shapes';
+import { FAMILY_WORDS, SHAPES } from './shapes';
 import type { Status } from '../lib/status';
 
 export interface MarkerState {

@@ -1,4 +1,4 @@
-import type { Family } from './protocol';
+import type { Family } from '../lib/protocol';
 
 /** Outlines in a 32 x 32 box, nose up. Each family is told by its shape alone, at map size and in grey. */
 const COPTER =
