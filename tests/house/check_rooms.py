@@ -14,7 +14,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+(?:"(?P<own>[^"]+)"|<(?P<system>[^>]+)>
 # More files than that in one folder, and nobody finds the one he looks for. Folders of cases and golden files are read by programs.
 MOST_FILES = 30
 WATCHED_FOR_CROWDS = ("src", "bench", "fuzz", "web/src", "tests/house", "tests/support", "tests/system", "tests/peers")
-MARKS = ("<!-- made from tests/house/rooms.toml -->\n", "<!-- end -->\n")
+TABLE_MARKS = ("<!-- made from tests/house/rooms.toml -->\n", "<!-- end -->\n")
+PICTURE_MARKS = ("<!-- drawn from tests/house/rooms.toml -->\n", "<!-- end of the picture -->\n")
 
 
 def is_test(path: pathlib.PurePath) -> bool:
@@ -138,21 +139,30 @@ class House:
             lines.append(f"| {room} | {words} |")
         return "\n".join(lines) + "\n"
 
+    def picture(self) -> str:
+        """The same as a drawing: an arrow to each room that is not reached over another; rooms to come are dashed."""
+        rooms = {room: others for room, others in self.rooms.items() if "*" not in others}
+        arrows = [f"  {room} --> {other}" for room, others in rooms.items() for other in others
+                  if not any(other in self.closure(between) for between in others if between != other)]
+        to_come = [room for room in rooms if not (self.repo / "src" / room).is_dir()]
+        return "\n".join(["```mermaid", "flowchart TD", *arrows, "  classDef later stroke-dasharray: 4 4",
+                          f"  class {','.join(to_come)} later", "```"]) + "\n"
+
 
 def written(house: House, write: bool) -> list[str]:
-    """The table in docs/architecture.md, put there or compared."""
+    """What docs/architecture.md shows of the allow list, put there or compared."""
     page = house.repo / "docs/architecture.md"
-    text = page.read_text()
-    before, _, rest = text.partition(MARKS[0])
-    old, _, after = rest.partition(MARKS[1])
-    if not rest or not after:
-        return [f"{page.relative_to(house.repo)}: the marks round the allow list are gone: {MARKS[0].strip()} ... {MARKS[1].strip()}"]
-    if old == house.table():
-        return []
-    if not write:
-        return [f"{page.relative_to(house.repo)}: its allow list is old; write it with tests/house/check_rooms.py . --write"]
-    page.write_text(before + MARKS[0] + house.table() + MARKS[1] + after)
-    return []
+    wrong = []
+    for what, marks, new in (("table", TABLE_MARKS, house.table()), ("picture", PICTURE_MARKS, house.picture())):
+        before, _, rest = page.read_text().partition(marks[0])
+        old, _, after = rest.partition(marks[1])
+        if not rest or not after:
+            wrong.append(f"{page.relative_to(house.repo)}: the marks round its {what} of rooms are gone: {marks[0].strip()} ... {marks[1].strip()}")
+        elif old != new and write:
+            page.write_text(before + marks[0] + new + marks[1] + after)
+        elif old != new:
+            wrong.append(f"{page.relative_to(house.repo)}: its {what} of rooms is old; write it with tests/house/check_rooms.py . --write")
+    return wrong
 
 
 def main() -> int:

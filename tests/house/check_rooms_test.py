@@ -64,7 +64,7 @@ with tempfile.TemporaryDirectory() as folder:
     page = copy / "docs/architecture.md"
     page.write_text(page.read_text().replace("| tasks | base geo vehicle |", "| tasks | everything |"))
     code, text = said(copy)
-    assert code == 1 and "its allow list is old" in text, text
+    assert code == 1 and "its table of rooms is old" in text, text
     subprocess.run([sys.executable, CHECK, copy, "--write"], check=True, capture_output=True, timeout=60)
     assert page.read_text() == (REPO / "docs/architecture.md").read_text()
 print(f"{len(PLANTED)} planted includes are found")
