@@ -1,6 +1,7 @@
 // Any text that a browser may send over the WebSocket or post as a script, and the answers that quote it.
 #include <cstdint>
 #include <string>
+#include <variant>
 
 #include "require.hpp"
 #include "station/messages/messages.hpp"
@@ -12,6 +13,10 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   auto const request = station::parse_client_request(text);
   if (request) {
     fuzz::require(!station::accepted_message(request->id).empty());
+    if (auto const* subscribe = std::get_if<station::Subscribe>(&request->what)) {
+      fuzz::require(subscribe->feeds.size() <= 100 && subscribe->revisions.size() <= 100);
+      for (auto const& name : subscribe->feeds) fuzz::require(name.size() <= 100);
+    }
   } else {
     fuzz::require(!request.error().message.empty());
     fuzz::require(!station::refused_message("1", {request.error(), {}}).empty());

@@ -38,6 +38,7 @@ case $target in
   client_request)
     printf '{"type":"ping","id":"1"}' | seed ping
     printf '{"type":"stop_script","id":"2"}' | seed stop
+    printf '{"type":"subscribe","id":"3","feeds":["vehicles","log"],"run":"5d1c","revisions":{"log":88}}' | seed subscribe
     printf '{"type":"start_script","id":"3","name":"a.dolphin","source":"message \\"\\u00e9\\ud83d\\ude00\\""}' | seed start
     ;;
   http)

@@ -15,7 +15,9 @@
 #include "fleet/network/fleet.hpp"
 #include "link/pipe_link.hpp"
 #include "mavlink/wire/dialect_names.hpp"
-#include "station/messages/vehicle_feed.hpp"
+#include "station/feeds/pictures_feed.hpp"
+#include "station/feeds/plans_feed.hpp"
+#include "station/feeds/vehicles_feed.hpp"
 
 namespace lapwing::host {
 namespace {
@@ -192,14 +194,19 @@ struct Sky {
     vehicle->send(vehicle->standing_peers().front(), mavlink::serialize(frame).bytes());
   }
   void expect_possible_news() {
-    for (auto const& text : feed.news(loop.now())) {
-      auto const message = json::parse(text);
-      for (auto const& key : {"vehicles", "pictures", "path"})
-        if (message.contains(key)) expect_possible(message[key], key);
+    for (auto& [feed, had] : feeds) {
+      auto const revision = feed->refresh(loop.now());
+      for (auto const& frame : feed->since(had, loop.now(), 0).frames) {
+        auto const message = json::parse(frame.content);
+        for (auto const& key : {"vehicles", "pictures", "path"})
+          if (message.contains(key)) expect_possible(message[key], key);
+      }
+      had = revision;
     }
   }
   void expect_possible_picture() {
-    for (auto const& text : feed.snapshot(loop.now())) expect_possible(json::parse(text), "");
+    for (auto const& [feed, had] : feeds)
+      for (auto const& frame : feed->since(0, loop.now(), 0).frames) expect_possible(json::parse(frame.content), "");
   }
 
   base::Loop loop{{.unpaced = true}};
@@ -208,7 +215,10 @@ struct Sky {
   mavlink::Connection connection{loop, {}, base::Logger(log, "mavlink")};
   vehicle::Registry registry{loop};
   fleet::Fleet fleet{connection, registry, {}, base::Logger(log, "fleet")};
-  station::VehicleFeed feed{registry};
+  station::VehiclesFeed vehicles{registry};
+  station::PlansFeed plans{registry};
+  station::PicturesFeed pictures{registry};
+  std::vector<std::pair<station::Feed*, std::uint64_t>> feeds{{&vehicles, 0}, {&plans, 0}, {&pictures, 0}};
   std::unique_ptr<link::ByteLink> vehicle = hub.connect();
   std::uint8_t seq = 0;
 };

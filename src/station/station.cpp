@@ -1,14 +1,21 @@
 #include "station/station.hpp"
 
-#include <algorithm>
-#include <array>
 #include <charconv>
+#include <span>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
-#include "base/flood_gate.hpp"
 #include "base/open_metrics.hpp"
+#include "station/feeds/alarms_feed.hpp"
+#include "station/feeds/control_feed.hpp"
+#include "station/feeds/log_feed.hpp"
+#include "station/feeds/pictures_feed.hpp"
+#include "station/feeds/plans_feed.hpp"
+#include "station/feeds/script_feed.hpp"
+#include "station/feeds/tasks_feed.hpp"
+#include "station/feeds/vehicles_feed.hpp"
 #include "station/http/openapi.hpp"
 #include "station/operator/control_routes.hpp"
 #include "station/operator/parameter_routes.hpp"
@@ -17,8 +24,19 @@
 namespace lapwing::station {
 namespace {
 
-HttpServer::Message shared(std::string text) {
-  return std::make_shared<std::string const>(std::move(text));
+/// What a station shows without being told more, in the order in which a newcomer gets it.
+std::vector<std::unique_ptr<Feed>> usual_feeds(vehicle::Registry const& vehicles, ScriptControl const& script,
+                                               std::shared_ptr<LogHistory const> log, Station::Options const& options) {
+  std::vector<std::unique_ptr<Feed>> feeds;
+  feeds.push_back(std::make_unique<VehiclesFeed>(vehicles));
+  feeds.push_back(std::make_unique<PlansFeed>(vehicles));
+  feeds.push_back(std::make_unique<PicturesFeed>(vehicles));
+  feeds.push_back(std::make_unique<ScriptFeed>(script));
+  feeds.push_back(std::make_unique<TasksFeed>(script));
+  feeds.push_back(std::make_unique<LogFeed>(std::move(log)));
+  if (options.control) feeds.push_back(std::make_unique<ControlFeed>(*options.control));
+  feeds.push_back(std::make_unique<AlarmsFeed>(options.alarms));
+  return feeds;
 }
 
 HttpResponse start_failure(StartFailure const& failure) {
@@ -42,19 +60,17 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       script_(script),
       options_(std::move(options)),
       log_(hub, "station"),
-      history_(std::make_shared<LogHistory>(options_.log_history)),
-      feed_(vehicles),
+      history_(keep_log(hub, options_.log_history)),
+      viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_), std::move(options_.feeds)),
       server_(std::move(server)) {
-  hub.add_sink(base::without_floods([weak = std::weak_ptr(history_)](base::LogRecord const& record) {
-    if (auto const history = weak.lock()) history->add(record);
-  }));
   server_->set_router(make_router());
   server_->set_websocket({
-      .opened = [this](SessionId session) { open_session(session); },
+      .opened = [this](SessionId session, HttpRequest const& request) { open_session(session, request); },
       .received = [this](SessionId session, std::string_view text) { receive(session, text); },
+      .drained = [this](SessionId session) { viewers_.go_on(session); },
       .closed = [this](SessionId session) { close_session(session); },
   });
-  server_->every(options_.period, [this] { send_news(); });
+  server_->every(options_.period, [this] { viewers_.send_news(); });
   watch_ = watch_membership();
   watch_.start();
 }
@@ -65,112 +81,83 @@ base::Task<> Station::watch_membership() {
   for (;;) {
     co_await vehicles_.membership_changed().wait();
     co_await loop_.sleep(moment);
-    send_news();
+    viewers_.send_news();
   }
-}
-
-// ---- to the viewers
-
-void Station::send_news() {
-  auto const messages = news();
-  for (auto& [session, viewer] : viewers_) {
-    if (viewer.is_behind && server_->backlog_bytes(session) > 0) continue;
-    viewer.is_behind = !server_->send(session, viewer.is_behind ? whole_state(viewer.name) : messages);
-  }
-}
-
-std::vector<Station::Message> Station::news() {
-  std::vector<Message> messages;
-  for (auto& text : feed_.news(loop_.now())) messages.push_back(shared(std::move(text)));
-  auto const add_if_changed = [&](std::string& last, std::string text) {
-    if (text == last) return;
-    last = text;
-    messages.push_back(shared(std::move(text)));
-  };
-  add_if_changed(last_script_, script_message(script_.status()));
-  add_if_changed(last_tasks_, tasks_message(script_.task_trees()));
-  auto const lines = history_->after(std::exchange(last_log_, history_->last_sequence()));
-  if (!lines.empty()) messages.push_back(shared(log_message(lines)));
-  if (auto const* control = options_.control; control && control->revision() != last_control_) {
-    last_control_ = control->revision();
-    messages.push_back(shared(emergency_message(control->emergency())));
-    messages.push_back(shared(commands_message(control->commands())));
-  }
-  if (auto const* alarms = options_.alarms; alarms && alarms->revision() != last_alarms_) {
-    last_alarms_ = alarms->revision();
-    messages.push_back(shared(alarms_message(alarms, loop_.now())));
-  }
-  return messages;
-}
-
-std::vector<Station::Message> Station::whole_state(std::string const& commander) const {
-  std::vector<Message> messages{shared(hello_message(hello(commander)))};
-  for (auto& text : feed_.snapshot(loop_.now())) messages.push_back(shared(std::move(text)));
-  messages.push_back(shared(script_message(script_.status())));
-  messages.push_back(shared(tasks_message(script_.task_trees())));
-  messages.push_back(shared(log_message(history_->after(0))));
-  if (auto const* control = options_.control) {
-    messages.push_back(shared(emergency_message(control->emergency())));
-    messages.push_back(shared(commands_message(control->commands())));
-  }
-  messages.push_back(shared(alarms_message(options_.alarms, loop_.now())));
-  return messages;
 }
 
 // ---- from the viewers
 
-void Station::open_session(SessionId session) {
-  auto& viewer = viewers_[session];
-  if (options_.control) viewer.name = fmt::format("operator {}", ++sessions_);
-  viewer.is_behind = !server_->send(session, whole_state(viewer.name));
+void Station::open_session(SessionId session, HttpRequest const& request) {
+  auto& name = operators_[session];
+  if (options_.control) name = fmt::format("operator {}", ++sessions_);
+  auto greeting = hello(name);
+  greeting.feeds = viewers_.feeds();
+  reply(session, hello_message(greeting));
+  viewers_.open(session, request.parameter("subscribe").has_value());
 }
 
 /// Whoever closes the page cannot be asked any more.
 void Station::close_session(SessionId session) {
-  auto const viewer = viewers_.extract(session);
-  if (options_.control && !viewer.empty()) options_.control->forget(viewer.mapped().name);
-}
-
-void Station::obey_viewer(SessionId session, std::string const& request_id, ControlRequest request) {
-  auto const done = obey(options_.control, std::move(request), viewers_[session].name);
-  if (!done) return reply(session, refused_message(request_id, {done.error(), {}}));
-  reply(session, accepted_message(request_id));
-}
-
-void Station::acknowledge(SessionId session, std::string const& request_id, AcknowledgeAlarms const& request) {
-  auto const& name = viewers_[session].name;
-  if (options_.alarms) (void)options_.alarms->acknowledge(request.numbers, name.empty() ? "a viewer" : name);
-  reply(session, accepted_message(request_id));
+  viewers_.close(session);
+  auto const name = operators_.extract(session);
+  if (options_.control && !name.empty()) options_.control->forget(name.mapped());
 }
 
 void Station::receive(SessionId session, std::string_view text) {
   auto request = parse_client_request(text);
   if (!request) return reply(session, refused_message("", {request.error(), {}}));
-  if (std::holds_alternative<Ping>(request->what)) return reply(session, pong_message(request->id, loop_.utc_now()));
-  if (auto* const control = std::get_if<ControlRequest>(&request->what)) {
-    control->by.clear();  // a viewer has its name
-    return obey_viewer(session, request->id, std::move(*control));
-  }
-  if (auto const* const acknowledged = std::get_if<AcknowledgeAlarms>(&request->what))
-    return acknowledge(session, request->id, *acknowledged);
-  if (auto* const start = std::get_if<StartScript>(&request->what)) {
-    log_.info(fmt::format("start asked for by a viewer script={}", start->name));
-    auto const started = script_.start(std::move(start->name), std::move(start->source));
-    if (!started) return reply(session, refused_message(request->id, started.error()));
-  } else {
-    auto const& name = viewers_[session].name;
-    auto by = name.empty() ? std::string("a viewer") : name;
-    log_.warn(fmt::format("stop asked for by {}", by));
-    script_.stop(std::move(by));
-  }
-  reply(session, accepted_message(request->id));
+  auto const& id = request->id;
+  auto& what = request->what;
+  if (std::holds_alternative<Ping>(what)) return reply(session, pong_message(id, loop_.utc_now()));
+  if (std::holds_alternative<StopScript>(what)) return stop_script(session, id);
+  if (auto* const asked = std::get_if<StartScript>(&what)) return start_script(session, id, std::move(*asked));
+  if (auto* const asked = std::get_if<ControlRequest>(&what)) return obey_viewer(session, id, std::move(*asked));
+  if (auto const* const asked = std::get_if<Subscribe>(&what)) return subscribe(session, id, *asked);
+  acknowledge(session, id, std::get<AcknowledgeAlarms>(what));
 }
 
-/// A viewer that cannot take the answer sees the outcome in the whole state that it gets next.
+/// The reply goes before what is subscribed to.
+void Station::subscribe(SessionId session, std::string const& request_id, Subscribe const& request) {
+  auto const done = viewers_.subscribe(session, request);
+  if (!done) return reply(session, refused_message(request_id, {done.error(), {}}));
+  reply(session, accepted_message(request_id));
+  viewers_.begin(session);
+}
+
+void Station::obey_viewer(SessionId session, std::string const& request_id, ControlRequest request) {
+  request.by.clear();  // a viewer has its name
+  auto const done = obey(options_.control, std::move(request), operators_[session]);
+  if (!done) return reply(session, refused_message(request_id, {done.error(), {}}));
+  reply(session, accepted_message(request_id));
+}
+
+void Station::acknowledge(SessionId session, std::string const& request_id, AcknowledgeAlarms const& request) {
+  if (options_.alarms) (void)options_.alarms->acknowledge(request.numbers, name_of(session));
+  reply(session, accepted_message(request_id));
+}
+
+void Station::start_script(SessionId session, std::string const& request_id, StartScript request) {
+  log_.info(fmt::format("start asked for by a viewer script={}", request.name));
+  auto const started = script_.start(std::move(request.name), std::move(request.source));
+  reply(session, started ? accepted_message(request_id) : refused_message(request_id, started.error()));
+}
+
+void Station::stop_script(SessionId session, std::string const& request_id) {
+  auto by = name_of(session);
+  log_.warn(fmt::format("stop asked for by {}", by));
+  script_.stop(std::move(by));
+  reply(session, accepted_message(request_id));
+}
+
+/// A viewer that cannot take the answer sees the outcome in the feeds.
 void Station::reply(SessionId session, std::string text) {
-  auto const viewer = viewers_.find(session);
-  if (viewer == viewers_.end()) return;
-  if (!server_->send(session, std::array{shared(std::move(text))})) viewer->second.is_behind = true;
+  HttpServer::Message const message{std::make_shared<std::string const>(std::move(text))};
+  (void)server_->send(session, std::span(&message, 1));
+}
+
+vehicle::Commander Station::name_of(SessionId session) const {
+  auto const found = operators_.find(session);
+  return found == operators_.end() || found->second.empty() ? "a viewer" : found->second;
 }
 
 // ---- HTTP
@@ -179,7 +166,7 @@ Router Station::make_router() {
   Router router;
   router.add("GET", "/api/v1/status", [this](auto const&) { return get_status(); });
   router.add("GET", "/api/v1/vehicles",
-             [this](auto const&) { return HttpResponse{.body = feed_.vehicles_message(loop_.now())}; });
+             [this](auto const&) { return HttpResponse{.body = vehicles_message(vehicles_, loop_.now())}; });
   router.add("GET", "/api/v1/script",
              [this](auto const&) { return HttpResponse{.body = script_message(script_.status())}; });
   router.add("POST", "/api/v1/script", [this](auto const& request) { return post_script(request); });
@@ -204,7 +191,7 @@ Router Station::make_router() {
 }
 
 Hello Station::hello(std::string commander) const {
-  return {options_.program_version, options_.site, loop_.utc_now(), std::move(commander)};
+  return {options_.program_version, options_.site, loop_.utc_now(), std::move(commander), {}};
 }
 
 HttpResponse Station::get_status() const {

@@ -11,11 +11,12 @@
 #include "base/async/task.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "station/feeds/feed.hpp"
 #include "station/http/http_server.hpp"
 #include "station/messages/log_history.hpp"
 #include "station/messages/messages.hpp"
-#include "station/messages/vehicle_feed.hpp"
 #include "station/operator/script_control.hpp"
+#include "station/viewers.hpp"
 #include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
 #include "vehicle/parameters.hpp"
@@ -23,11 +24,10 @@
 
 namespace lapwing::station {
 
-/// The ground station's face: joins vehicles, script and log to browsers and programs. Owns none of them.
+/// The ground station's face: joins feeds, and what takes requests, to browsers and programs.
 ///
-/// Several times a second, and at once when a vehicle appears, is lost or returns, it sends every viewer what changed.
-/// A viewer too slow to take it misses messages and is sent the whole state once it has caught up, so that a bad
-/// network shows old data for a while but never wrong data.
+/// Several times a second, and at once when a vehicle appears, is lost or returns, it has `Viewers` send everybody what
+/// is new in the feeds. It answers what they ask, over WebSocket and HTTP.
 class Station {
  public:
   struct Options {
@@ -41,6 +41,9 @@ class Station {
     vehicle::VehicleAlarms* alarms = nullptr;          ///< outlives the station; null: there are none
     vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
+    /// Further things to show, beside vehicles, plans, pictures, script, tasks, log, control and alarms. What they look
+    /// at outlives the station.
+    std::vector<std::unique_ptr<Feed>> feeds = {};
   };
 
   /// Listens at once. `vehicles`, `script` and `loop` must outlive the station; `hub` may go first or last.
@@ -57,21 +60,20 @@ class Station {
   [[nodiscard]] Router make_router();
 
  private:
-  using Message = HttpServer::Message;
-
   Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptControl& script, base::LogHub& hub,
           Options options, std::unique_ptr<HttpServer> server);
 
-  void send_news();
   [[nodiscard]] base::Task<> watch_membership();
-  [[nodiscard]] std::vector<Message> news();
-  [[nodiscard]] std::vector<Message> whole_state(std::string const& commander) const;
-  void open_session(SessionId session);
+  void open_session(SessionId session, HttpRequest const& request);
   void close_session(SessionId session);
+  void receive(SessionId session, std::string_view text);
+  void subscribe(SessionId session, std::string const& request_id, Subscribe const& request);
   void obey_viewer(SessionId session, std::string const& request_id, ControlRequest request);
   void acknowledge(SessionId session, std::string const& request_id, AcknowledgeAlarms const& request);
-  void receive(SessionId session, std::string_view text);
+  void start_script(SessionId session, std::string const& request_id, StartScript request);
+  void stop_script(SessionId session, std::string const& request_id);
   void reply(SessionId session, std::string text);
+  [[nodiscard]] vehicle::Commander name_of(SessionId session) const;
 
   [[nodiscard]] Hello hello(std::string commander = {}) const;
   [[nodiscard]] HttpResponse get_status() const;
@@ -85,19 +87,10 @@ class Station {
   ScriptControl& script_;
   Options options_;
   base::Logger log_;
-  std::shared_ptr<LogHistory> history_;  // shared with the hub's sink, which may outlive the station
-  VehicleFeed feed_;
-  std::string last_script_;
-  std::string last_tasks_;
-  std::uint64_t last_log_ = 0;
-  std::uint64_t last_control_ = 0;
-  std::uint64_t last_alarms_ = 0;
-  int sessions_ = 0;  ///< ever opened: numbers the operators
-  struct Viewer {
-    vehicle::Commander name = {};  ///< "operator 3", where it commands vehicles
-    bool is_behind = false;        ///< missed something: gets the whole state when its backlog is gone
-  };
-  std::map<SessionId, Viewer> viewers_;
+  std::shared_ptr<LogHistory const> history_;
+  int sessions_ = 0;                                   ///< ever opened: numbers the operators
+  std::map<SessionId, vehicle::Commander> operators_;  ///< "operator 3", where vehicles are commanded
+  Viewers viewers_;
   base::Task<> watch_;
   std::unique_ptr<HttpServer> server_;  // last: ends first, so that no call-back finds half a station
 };

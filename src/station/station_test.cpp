@@ -14,6 +14,7 @@
 #include "station/testing/fake_alarms.hpp"
 #include "station/testing/fake_control.hpp"
 #include "station/testing/fake_parameters.hpp"
+#include "station/testing/fake_script.hpp"
 #include "station/testing/http_client.hpp"
 
 namespace lapwing::station {
@@ -24,34 +25,6 @@ using testing::Answer;
 using testing::ask;
 using testing::run_until;
 using testing::WebSocketClient;
-
-/// Remembers what it was asked; runs nothing.
-class ScriptedControl : public ScriptControl {
- public:
-  ScriptStatus status() const override { return current; }
-  std::vector<tasks::TaskView> task_trees() const override { return trees; }
-  std::expected<void, StartFailure> start(std::string name, std::string source) override {
-    if (current.state == ScriptState::running) {
-      return std::unexpected(StartFailure{{base::ErrorKind::refused, "A script runs already.", "Stop it first."}, {}});
-    }
-    if (source.empty()) {
-      return std::unexpected(StartFailure{{base::ErrorKind::invalid_input, "The script does not check.", ""},
-                                          {{name, {1, 1}, {1, 1}, "error", "nothing here", "", {}, ""}}});
-    }
-    current = {std::move(name), std::move(source), ScriptState::running, "", {}};
-    return {};
-  }
-  void stop(std::string by) override {
-    stopped_by = std::move(by);
-    ++stops;
-    if (current.state == ScriptState::running) current.state = ScriptState::stopping;
-  }
-
-  ScriptStatus current;
-  std::vector<tasks::TaskView> trees;
-  int stops = 0;
-  std::string stopped_by;
-};
 
 class StationTest : public ::testing::Test {
  protected:
@@ -90,7 +63,7 @@ class StationTest : public ::testing::Test {
   std::chrono::milliseconds period{5};
   base::Loop loop;
   vehicle::Registry registry{loop};
-  ScriptedControl control;
+  testing::FakeScript control;
   base::LogHub hub;
   std::unique_ptr<Station> station;
 };
@@ -264,36 +237,6 @@ TEST_F(StationTest, TellsOfAlarmsAndTakesAcknowledgementsOverHttp) {
   EXPECT_EQ(post("/api/v1/alarms/acknowledge", R"({"numbers":[]})").status, 400);
 }
 
-TEST_F(StationTest, BringsASlowViewerUpToDate) {
-  open({.http = {.max_backlog_bytes = 2000}, .log_history = 3});
-  auto const viewer = watch();
-  ASSERT_TRUE(viewer);
-  (void)next(*viewer, "log");
-  // Each message is so long that the system's buffers hold only a few of them.
-  viewer->pause();
-  constexpr int sent = 8;
-  control.current.source = std::string(3'000'000, 'x');
-  for (int i = 0; i < sent; ++i) {
-    move_vehicle(i);
-    control.current.message = fmt::format("{}", i);
-    (void)run_until(loop, [&, turns = 0]() mutable { return ++turns > 10; });
-  }
-  control.current.source = "short";
-  move_vehicle(99);
-  viewer->resume();
-  int full = 0;
-  double alt_m = 0;
-  while (alt_m != 99.0) {
-    auto const message = next(*viewer, "vehicles");
-    ASSERT_FALSE(message.is_null());
-    if (message["full"]) ++full;
-    alt_m = message["vehicles"].at(0)["relative_alt_m"];
-  }
-  EXPECT_GE(full, 1) << "what was missed comes as a whole";
-  EXPECT_LT(full, sent);
-  EXPECT_EQ(next(*viewer, "script")["source"], "short");
-}
-
 TEST_F(StationTest, NoticesViewersThatGo) {
   open();
   auto viewer = watch();
@@ -312,7 +255,7 @@ TEST_F(StationTest, MayEndBeforeTheLog) {
 TEST_F(StationTest, OffersTheScriptsOfItsFolder) {
   Station::Options options;
   options.scripts = LAPWING_SOURCE_DIR "/examples";
-  open(options);
+  open(std::move(options));
   auto const names = json::parse(get("/api/v1/scripts").body)["scripts"];
   EXPECT_TRUE(std::ranges::any_of(names, [](auto const& script) { return script["name"] == "survey.dolphin"; }));
   auto const text = json::parse(get("/api/v1/scripts/text?name=survey.dolphin").body);
@@ -330,15 +273,16 @@ TEST_F(StationTest, OffersNoScriptsWithoutAFolder) {
 
 TEST_F(StationTest, NamesItsMapTiles) {
   Station::Options options;
-  options.site.tiles = "https://tiles.example/{z}/{x}/{y}.png";
-  open(options);
-  EXPECT_EQ(json::parse(get("/api/v1/status").body)["site"]["tiles"], options.site.tiles);
+  std::string const tiles = "https://tiles.example/{z}/{x}/{y}.png";
+  options.site.tiles = tiles;
+  open(std::move(options));
+  EXPECT_EQ(json::parse(get("/api/v1/status").body)["site"]["tiles"], tiles);
 }
 
 TEST_F(StationTest, AsksForItsTokenOverHttpAndWebSocket) {
   Station::Options options;
   options.http.token = "0123456789abcdef";
-  open(options);
+  open(std::move(options));
   EXPECT_EQ(get("/api/v1/status").status, 401);
   EXPECT_EQ(get("/api/v1/scripts").status, 401);
   EXPECT_EQ(post("/api/v1/stop", "{}").status, 401);

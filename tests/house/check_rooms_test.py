@@ -20,7 +20,7 @@ PLANTED = [
     ("src/slam/scan.hpp", "<fstream>", "slam is pure and must not include <fstream>"),
     ("src/tasks/task.hpp", '"plan/mission.hpp"', "tasks must not include plan/mission.hpp"),
     ("src/lsp/server_test.cpp", '"fleet/control/control.hpp"', "lsp must not include fleet/control/control.hpp"),
-    ("src/station/messages/vehicle_feed.cpp", '"tasks/internal/executor.hpp"', "tasks/internal/executor.hpp is private to tasks"),
+    ("src/station/messages/vehicle_fields.cpp", '"tasks/internal/executor.hpp"', "tasks/internal/executor.hpp is private to tasks"),
     ("src/fleet/network/fleet.cpp", '"mavlink/path/internal/path_merge.hpp"', "path_merge.hpp is private to mavlink/path"),
     ("src/mavlink/wire/frame.cpp", '"mavlink/path/internal/path_merge.hpp"', "path_merge.hpp is private to mavlink/path"),
     ("bench/decode.cpp", '"sim/internal/nothing.hpp"', "sim/internal/nothing.hpp is private to sim"),

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <deque>
 #include <map>
 #include <set>
 
@@ -32,6 +31,7 @@
 
 #include "station/http/access.hpp"
 #include "station/http/internal/connection_places.hpp"
+#include "station/http/internal/outbox.hpp"
 #include "station/http/static_files.hpp"
 #include "station/messages/message_pace.hpp"
 
@@ -67,8 +67,7 @@ struct Connection {
   bool has_spoken = false;  ///< over its WebSocket
   SessionId session{};
   std::chrono::steady_clock::time_point took_last{};  ///< when it took the last message, or had none to take
-  std::deque<std::shared_ptr<std::string const>> queue;
-  std::size_t queued_bytes = 0;
+  internal::Outbox outbox;
 };
 
 /// Whom an address counts for: itself; of IPv6 the network of 64 bits, of which one machine may use any address.
@@ -170,7 +169,7 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   std::optional<HttpResponse> refuse_session();
   asio::awaitable<void> drain(std::shared_ptr<Connection> connection);
   asio::awaitable<void> serve_websocket(std::shared_ptr<Connection> connection,
-                                        http::request<http::string_body> request);
+                                        http::request<http::string_body> request, HttpRequest asked);
   void write_next(std::shared_ptr<Connection> const& connection);
   void repeat(std::shared_ptr<asio::steady_timer> const& timer, std::chrono::milliseconds period,
               std::function<void()> function);
@@ -309,7 +308,7 @@ asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection
     }
     if (!response && asked->opens_websocket) response = refuse_session();
     if (!response && asked->opens_websocket) {
-      co_await serve_websocket(connection, parser.release());
+      co_await serve_websocket(connection, parser.release(), *std::move(asked));
       co_return false;
     }
     transport.expires_after(options.request_timeout);
@@ -361,7 +360,7 @@ std::optional<HttpResponse> HttpServer::Core::refuse_session() {
   std::shared_ptr<Connection> goes;
   bool is_stalled = false;
   for (auto const& [session, connection] : sessions) {
-    bool const stalls = !connection->queue.empty() && now - connection->took_last > options.stall_timeout;
+    bool const stalls = !connection->outbox.empty() && now - connection->took_last > options.stall_timeout;
     if (!stalls && (connection->has_spoken || goes)) continue;
     if (stalls && is_stalled && goes->took_last <= connection->took_last) continue;
     goes = connection;
@@ -378,7 +377,7 @@ std::optional<HttpResponse> HttpServer::Core::refuse_session() {
 }
 
 asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connection> connection,
-                                                        http::request<http::string_body> request) {
+                                                        http::request<http::string_body> request, HttpRequest asked) {
   auto& stream = connection->stream;
   connection->transport().expires_never();  // from here on the WebSocket's own time-outs and pings count
   auto timeouts = websocket::stream_base::timeout::suggested(beast::role_type::server);
@@ -389,10 +388,9 @@ asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connecti
   error_code error;
   co_await stream.async_accept(request, redirect_error(use_awaitable, error));
   if (error || closed) co_return;
-  stream.text(true);
   connection->session = SessionId{++last_session};
   sessions.emplace(connection->session, connection);
-  if (events.opened) events.opened(connection->session);
+  if (events.opened) events.opened(connection->session, asked);
 
   beast::flat_buffer buffer;
   internal::MessagePace pace;
@@ -414,14 +412,15 @@ asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connecti
 }
 
 void HttpServer::Core::write_next(std::shared_ptr<Connection> const& connection) {
-  auto const& text = *connection->queue.front();
-  connection->stream.async_write(asio::buffer(text),
+  auto const& message = connection->outbox.front();
+  connection->stream.binary(message.is_binary);
+  connection->stream.async_write(asio::buffer(*message.content),
                                  [self = shared_from_this(), connection](error_code error, std::size_t) {
                                    if (error || self->closed) return;
-                                   connection->queued_bytes -= connection->queue.front()->size();
-                                   connection->queue.pop_front();
+                                   connection->outbox.take_out();
                                    connection->took_last = std::chrono::steady_clock::now();
-                                   if (!connection->queue.empty()) self->write_next(connection);
+                                   if (!connection->outbox.empty()) return self->write_next(connection);
+                                   if (self->events.drained) self->events.drained(connection->session);
                                  });
 }
 
@@ -474,24 +473,24 @@ void HttpServer::every(std::chrono::milliseconds period, std::function<void()> f
 }
 
 bool HttpServer::send(SessionId session, std::span<Message const> messages) {
+  return send(session, messages, {0, core_->options.max_backlog_bytes});
+}
+
+bool HttpServer::send(SessionId session, std::span<Message const> messages, Lane lane) {
   auto const found = core_->sessions.find(session);
   if (found == core_->sessions.end()) return false;
   auto const& connection = found->second;
-  auto& queue = connection->queue;
-  std::size_t bytes = connection->queued_bytes;
-  for (auto const& message : messages) bytes += message->size();
-  if (!queue.empty() && bytes > core_->options.max_backlog_bytes) return false;
-  bool const is_idle = queue.empty();
-  connection->queued_bytes = bytes;
-  if (is_idle) connection->took_last = std::chrono::steady_clock::now();
-  queue.insert(queue.end(), messages.begin(), messages.end());
-  if (is_idle && !queue.empty()) core_->write_next(connection);
+  bool const is_idle = connection->outbox.empty();
+  if (!connection->outbox.add(messages, lane)) return false;
+  if (!is_idle || connection->outbox.empty()) return true;
+  connection->took_last = std::chrono::steady_clock::now();
+  core_->write_next(connection);
   return true;
 }
 
-std::size_t HttpServer::backlog_bytes(SessionId session) const {
+std::size_t HttpServer::unsent_bytes(SessionId session, std::size_t lane) const {
   auto const found = core_->sessions.find(session);
-  return found == core_->sessions.end() ? 0 : found->second->queued_bytes;
+  return found == core_->sessions.end() ? 0 : found->second->outbox.unsent_bytes(lane);
 }
 
 }  // namespace lapwing::station

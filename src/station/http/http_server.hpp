@@ -23,8 +23,9 @@ enum class SessionId : std::uint64_t {};
 /// What happens on WebSocket connections. Called on the loop; `closed` comes once for every `opened`, except at the
 /// server's end.
 struct WebSocketEvents {
-  std::function<void(SessionId)> opened;
+  std::function<void(SessionId, HttpRequest const&)> opened;  ///< with the request that asked for it
   std::function<void(SessionId, std::string_view text)> received;
+  std::function<void(SessionId)> drained;  ///< all that was queued for it has gone to the network
   std::function<void(SessionId)> closed;
 };
 
@@ -46,7 +47,7 @@ class HttpServer {
     std::size_t max_sessions = 64;               ///< WebSockets among them
     std::size_t max_header_bytes = 16 * 1024;
     std::size_t max_body_bytes = 1024 * 1024;    ///< of a request and of a WebSocket message
-    std::size_t max_backlog_bytes = 512 * 1024;  ///< unsent bytes of one WebSocket above which `send` refuses
+    std::size_t max_backlog_bytes = 512 * 1024;  ///< unsent bytes of a WebSocket's lane 0 above which `send` refuses
     std::chrono::milliseconds first_request_timeout{5'000};  ///< for the head of a connection's first request
     std::chrono::milliseconds request_timeout{15'000};       ///< for all of a request, and to keep an idle connection
     std::chrono::milliseconds stall_timeout{
@@ -70,13 +71,23 @@ class HttpServer {
   /// Calls `function` again and again in wall time, which browsers live in, however fast the loop's time runs.
   void every(std::chrono::milliseconds period, std::function<void()> function);
 
-  using Message = std::shared_ptr<std::string const>;
-  /// Queues text messages, all or none. False when the session is gone or so slow that its backlog would be too long:
-  /// the caller decides what to leave out, since only it knows which messages newer ones replace. An empty backlog
-  /// takes any.
+  struct Message {
+    std::shared_ptr<std::string const> content;
+    bool is_binary = false;
+  };
+  /// Messages that wait for the network are counted by lane, so that those of one do not keep out those of another.
+  /// All lanes share the session's one stream: what is queued first goes first.
+  struct Lane {
+    std::size_t number = 0;
+    std::size_t max_unsent_bytes = 0;
+  };
+  /// Queues messages, all or none. False when the session is gone or so slow that the lane would hold too much: the
+  /// caller decides what to leave out, since only it knows which messages newer ones replace. An empty lane takes any.
+  [[nodiscard]] bool send(SessionId session, std::span<Message const> messages, Lane lane);
+  /// The same on lane 0, up to `max_backlog_bytes`.
   [[nodiscard]] bool send(SessionId session, std::span<Message const> messages);
-  /// Bytes queued and not yet given to the network; 0 for a session that is gone.
-  [[nodiscard]] std::size_t backlog_bytes(SessionId session) const;
+  /// Bytes queued on that lane and not yet given to the network; 0 for a session that is gone.
+  [[nodiscard]] std::size_t unsent_bytes(SessionId session, std::size_t lane = 0) const;
 
  private:
   struct Core;

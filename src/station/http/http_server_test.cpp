@@ -19,7 +19,7 @@ using testing::run_until;
 using testing::WebSocketClient;
 
 std::array<HttpServer::Message, 1> text(std::string bytes) {
-  return {std::make_shared<std::string const>(std::move(bytes))};
+  return {HttpServer::Message{std::make_shared<std::string const>(std::move(bytes))}};
 }
 
 class HttpServerTest : public ::testing::Test {
@@ -37,11 +37,16 @@ class HttpServerTest : public ::testing::Test {
     router.add("GET", "/api/v1/quick", [this](auto const&) { return answer_at_once(); });
     server->set_router(std::move(router));
     server->set_websocket({
-        .opened = [this](SessionId session) { sessions.push_back(session); },
+        .opened =
+            [this](SessionId session, HttpRequest const& request) {
+              sessions.push_back(session);
+              query = request.query;
+            },
         .received =
             [this](SessionId session, std::string_view message) {
               (void)server->send(session, text("echo " + std::string(message)));
             },
+        .drained = [this](SessionId) { ++drained; },
         .closed = [this](SessionId) { ++closed; },
     });
   }
@@ -60,6 +65,8 @@ class HttpServerTest : public ::testing::Test {
   int waiting = 0;
   std::vector<SessionId> sessions;
   int closed = 0;
+  int drained = 0;
+  std::string query;
   std::unique_ptr<HttpServer> server;
 };
 
@@ -316,10 +323,42 @@ TEST_F(HttpServerTest, RefusesToQueueForeverForASlowClient) {
   ASSERT_TRUE(client);
   EXPECT_TRUE(server->send(sessions[0], text(std::string(5000, 'a')))) << "one long message may wait";
   EXPECT_FALSE(server->send(sessions[0], text("b")));
-  EXPECT_EQ(server->backlog_bytes(sessions[0]), 5000U);
+  EXPECT_EQ(server->unsent_bytes(sessions[0]), 5000U);
   EXPECT_EQ(client->receive(), std::string(5000, 'a'));
-  EXPECT_TRUE(run_until(loop, [&] { return server->backlog_bytes(sessions[0]) == 0; }));
+  EXPECT_TRUE(run_until(loop, [&] { return server->unsent_bytes(sessions[0]) == 0; }));
   EXPECT_TRUE(server->send(sessions[0], text("b")));
+}
+
+TEST_F(HttpServerTest, CountsWhatWaitsByLane) {
+  serve({});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws"});
+  ASSERT_TRUE(client);
+  EXPECT_TRUE(server->send(sessions[0], text(std::string(5000, 'a')), {1, 1000}));
+  EXPECT_FALSE(server->send(sessions[0], text("b"), {1, 1000}));
+  EXPECT_TRUE(server->send(sessions[0], text("c"), {2, 1000})) << "another lane is free";
+  EXPECT_EQ(server->unsent_bytes(sessions[0], 1), 5000U);
+  EXPECT_EQ(server->unsent_bytes(sessions[0], 2), 1U);
+  EXPECT_EQ(drained, 0);
+  EXPECT_TRUE(run_until(loop, [&] { return drained == 1; }));
+  EXPECT_EQ(server->unsent_bytes(sessions[0], 1), 0U);
+  EXPECT_EQ(client->receive(), std::string(5000, 'a'));
+  EXPECT_EQ(client->receive(), "c");
+}
+
+TEST_F(HttpServerTest, SendsTextAsTextAndBytesAsBytes) {
+  serve({});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws?how"});
+  ASSERT_TRUE(client);
+  EXPECT_EQ(query, "how");
+  std::array const messages{text("words")[0], HttpServer::Message{text(std::string("\0\xff", 2))[0].content, true},
+                            text("more")[0]};
+  EXPECT_TRUE(server->send(sessions[0], messages));
+  EXPECT_EQ(client->receive(), "words");
+  EXPECT_FALSE(client->last_was_binary());
+  EXPECT_EQ(client->receive(), std::string("\0\xff", 2));
+  EXPECT_TRUE(client->last_was_binary());
+  EXPECT_EQ(client->receive(), "more");
+  EXPECT_FALSE(client->last_was_binary());
 }
 
 TEST_F(HttpServerTest, RepeatsInWallTime) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/flood_gate.hpp"
+
 namespace lapwing::station {
 
 namespace {
@@ -31,6 +33,14 @@ void LogHistory::make_room() {
 std::vector<LogLine> LogHistory::after(std::uint64_t sequence) const {
   auto const first = std::ranges::upper_bound(lines_, sequence, {}, &LogLine::sequence);
   return {first, lines_.end()};
+}
+
+std::shared_ptr<LogHistory const> keep_log(base::LogHub& hub, std::size_t limit) {
+  auto const history = std::make_shared<LogHistory>(limit);
+  hub.add_sink(base::without_floods([weak = std::weak_ptr(history)](base::LogRecord const& record) {
+    if (auto const kept = weak.lock()) kept->add(record);
+  }));
+  return history;
 }
 
 }  // namespace lapwing::station

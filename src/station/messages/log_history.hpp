@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,8 @@ class LogHistory {
   std::map<std::string, std::size_t> counts_;  ///< by source, errors not counted
   std::uint64_t last_sequence_ = 0;
 };
+
+/// Keeps what the hub is told from now on. The hub may outlive the history, and keeps nothing alive.
+[[nodiscard]] std::shared_ptr<LogHistory const> keep_log(base::LogHub& hub, std::size_t limit);
 
 }  // namespace lapwing::station

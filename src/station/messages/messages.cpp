@@ -62,6 +62,33 @@ base::Result<StartScript> start_script_from(Json const& object) {
   return StartScript{std::move(*name), std::move(*source)};
 }
 
+/// `"feeds": ["vehicles"], "run": "4f1c", "revisions": {"vehicles": 12}`
+base::Result<Subscribe> subscribe_from(Json const& object) {
+  constexpr std::size_t most = 100;
+  constexpr std::size_t longest = 100;
+  auto const feeds = object.find("feeds");
+  bool const is_list = feeds != object.end() && feeds->is_array() && feeds->size() <= most;
+  if (!is_list) return wrong("\"feeds\" must be a list of feeds' names.");
+  Subscribe wanted;
+  for (auto const& name : *feeds) {
+    if (!name.is_string() || name.get_ref<std::string const&>().size() > longest)
+      return wrong("\"feeds\" must be a list of feeds' names.");
+    wanted.feeds.push_back(name.get<std::string>());
+  }
+  auto run = text_member(object, "run", "");
+  if (!run) return std::unexpected(run.error());
+  wanted.run = std::move(*run);
+  auto const revisions = object.find("revisions");
+  if (revisions == object.end()) return wanted;
+  if (!revisions->is_object() || revisions->size() > most)
+    return wrong("\"revisions\" must give a number for each feed that it names.");
+  for (auto const& [name, revision] : revisions->items()) {
+    if (!revision.is_number_unsigned()) return wrong("\"revisions\" must give a number for each feed that it names.");
+    wanted.revisions.emplace(name, revision.get<std::uint64_t>());
+  }
+  return wanted;
+}
+
 Json reply(std::string_view request_id, bool ok) {
   return {{"type", "reply"}, {"id", request_id}, {"ok", ok}};
 }
@@ -72,6 +99,10 @@ std::string hello_message(Hello const& hello) {
   Json json{{"type", "hello"}};
   add_hello(json, hello);
   if (!hello.commander.empty()) json["operator"] = hello.commander;
+  if (hello.feeds.feeds.empty()) return dump(json);
+  json["run"] = hello.feeds.run;
+  for (auto const& feed : hello.feeds.feeds)
+    json["feeds"].push_back({{"name", feed.name}, {"id", feed.id}, {"usual", feed.is_usual}});
   return dump(json);
 }
 
@@ -162,6 +193,11 @@ base::Result<ClientRequest> parse_client_request(std::string_view text) {
     auto acknowledge = parse_acknowledge_alarms(text);
     if (!acknowledge) return std::unexpected(acknowledge.error());
     return ClientRequest{std::move(*id), std::move(*acknowledge)};
+  }
+  if (*type == "subscribe") {
+    auto subscribe = subscribe_from(*object);
+    if (!subscribe) return std::unexpected(subscribe.error());
+    return ClientRequest{std::move(*id), *std::move(subscribe)};
   }
   if (*type != "start_script") return wrong(fmt::format("There is no request of type \"{}\".", *type));
   auto start = start_script_from(*object);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,11 +39,23 @@ struct LogLine {
   base::LogRecord record;
 };
 
+/// What a viewer may subscribe to.
+struct FeedList {
+  struct Entry {
+    std::string name;
+    std::uint16_t id = 0;  ///< in binary messages
+    bool is_usual = true;  ///< sent to who has not subscribed
+  };
+  std::string run;  ///< revisions mean something within one run of the station only
+  std::vector<Entry> feeds;
+};
+
 struct Hello {
   std::string program_version;
   Site site;
   base::UtcTime server_time{};
   std::string commander = {};  ///< what this viewer is called where it commands vehicles; empty over HTTP
+  FeedList feeds = {};         ///< none over HTTP
 };
 
 // ---- station to client
@@ -79,10 +92,15 @@ struct StartScript {
 };
 struct StopScript {};
 struct Ping {};
+struct Subscribe {
+  std::vector<std::string> feeds;
+  std::string run = {};  ///< of which the revisions are
+  std::map<std::string, std::uint64_t> revisions = {};
+};
 
 struct ClientRequest {
   std::string id;  ///< chosen by the client, comes back in the answer; may be empty
-  std::variant<StartScript, StopScript, Ping, ControlRequest, AcknowledgeAlarms> what;
+  std::variant<StartScript, StopScript, Ping, Subscribe, ControlRequest, AcknowledgeAlarms> what;
 };
 
 /// Reads what a client sent; says what is wrong with it.

@@ -1,5 +1,6 @@
 #include "station/messages/messages.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,15 @@ TEST(Messages, SayHello) {
   Hello const hello{"1.2.3", {"field", geo::Wgs84::from_degrees(1, 2, 3)}, base::UtcTime{} + 1'700'000'000'123ms};
   EXPECT_EQ(json::parse(hello_message(hello)), json::parse(R"({"type":"hello","protocol":1,"version":"1.2.3",
     "server_time":"2023-11-14T22:13:20.123Z","site":{"name":"field","origin":{"lat_deg":1.0,"lon_deg":2.0,"alt_m":3.0}}})"));
+}
+
+TEST(Messages, ListFeedsInTheHello) {
+  Hello hello{"1.2.3", {}, {}};
+  hello.feeds = {.run = "4f", .feeds = {{"vehicles", 1, true}, {"map", 2, false}}};
+  auto const message = json::parse(hello_message(hello));
+  EXPECT_EQ(message["run"], "4f");
+  EXPECT_EQ(message["feeds"],
+            json::parse(R"([{"name":"vehicles","id":1,"usual":true},{"name":"map","id":2,"usual":false}])"));
 }
 
 TEST(Messages, DescribeTheScript) {
@@ -73,6 +83,29 @@ TEST(Messages, SayWhatIsWrongWithARequest) {
   EXPECT_EQ(message_of(R"({"type":"start_script"})"), "\"source\", the script's text, is missing.");
   EXPECT_EQ(message_of(R"({"type":"start_script","source":null})"), "\"source\" must be text.");
   EXPECT_EQ(message_of(R"({"type":"start_script","source":"","name":[]})"), "\"name\" must be text.");
+}
+
+TEST(Messages, ReadSubscriptions) {
+  auto const request =
+      parse_client_request(R"({"type":"subscribe","id":"a","feeds":["log","map"],"run":"4f","revisions":{"log":12}})");
+  ASSERT_TRUE(request);
+  auto const& subscribe = std::get<Subscribe>(request->what);
+  EXPECT_EQ(subscribe.feeds, (std::vector<std::string>{"log", "map"}));
+  EXPECT_EQ(subscribe.run, "4f");
+  EXPECT_EQ(subscribe.revisions, (std::map<std::string, std::uint64_t>{{"log", 12}}));
+  EXPECT_TRUE(std::get<Subscribe>(parse_client_request(R"({"type":"subscribe","feeds":[]})")->what).feeds.empty());
+  auto const message_of = [](std::string_view members) {
+    auto const wrong = parse_client_request(fmt::format(R"({{"type":"subscribe"{}}})", members));
+    return wrong ? std::string("accepted") : wrong.error().message;
+  };
+  std::string const no_feeds = "\"feeds\" must be a list of feeds' names.";
+  for (auto const* members : {"", R"(,"feeds":"log")", R"(,"feeds":{"log":1})", R"(,"feeds":[1])"})
+    EXPECT_EQ(message_of(members), no_feeds) << members;
+  EXPECT_EQ(message_of(fmt::format(R"(,"feeds":["{}"])", std::string(101, 'x'))), no_feeds);
+  std::string const no_revisions = "\"revisions\" must give a number for each feed that it names.";
+  for (auto const* revisions : {"12", "[12]", R"({"log":-1})", R"({"log":1.5})", R"({"log":"1"})"})
+    EXPECT_EQ(message_of(fmt::format(R"(,"feeds":[],"revisions":{})", revisions)), no_revisions) << revisions;
+  EXPECT_EQ(message_of(R"(,"feeds":[],"run":1)"), "\"run\" must be text.");
 }
 
 TEST(Messages, ReadTheBodyThatStartsAScript) {

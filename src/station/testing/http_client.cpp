@@ -178,7 +178,7 @@ struct WebSocketClient::State : std::enable_shared_from_this<State> {
         self->ended = true;
         return;
       }
-      self->messages.push_back(beast::buffers_to_string(self->buffer.cdata()));
+      self->messages.push_back({beast::buffers_to_string(self->buffer.cdata()), self->stream.got_binary()});
       self->buffer.consume(self->buffer.size());
       if (!self->paused) self->read();
     });
@@ -187,7 +187,12 @@ struct WebSocketClient::State : std::enable_shared_from_this<State> {
   base::Loop& loop;
   websocket::stream<beast::tcp_stream> stream;
   beast::flat_buffer buffer;
-  std::deque<std::string> messages;
+  struct Message {
+    std::string content;
+    bool is_binary = false;
+  };
+  std::deque<Message> messages;
+  bool last_was_binary = false;
   bool reading = false;
   bool paused = false;
   bool ended = false;
@@ -226,7 +231,12 @@ std::optional<std::string> WebSocketClient::receive() {
   if (messages.empty()) return std::nullopt;
   auto message = std::move(messages.front());
   messages.pop_front();
-  return message;
+  state_->last_was_binary = message.is_binary;
+  return std::move(message.content);
+}
+
+bool WebSocketClient::last_was_binary() const {
+  return state_->last_was_binary;
 }
 
 void WebSocketClient::pause() {

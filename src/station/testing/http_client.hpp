@@ -61,6 +61,8 @@ class WebSocketClient {
   void send(std::string text);
   /// The next message, waiting for it; nothing when the server closed the connection or none came in time.
   [[nodiscard]] std::optional<std::string> receive();
+  /// Whether the message that `receive` gave last came as bytes.
+  [[nodiscard]] bool last_was_binary() const;
   /// Reads nothing more until `resume`: a viewer on a bad network.
   void pause();
   void resume();

@@ -313,7 +313,7 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   options.http.token = std::move(token);
   options.site = {"demo field", origin};
   options.scripts = web_folder / "../../examples";
-  auto const station = Station::open(loop, registry, script, hub, options);
+  auto const station = Station::open(loop, registry, script, hub, std::move(options));
   if (!station) {
     fmt::print(stderr, "{} {}\n", station.error().message, station.error().hint);
     return 3;

@@ -1,28 +1,16 @@
-#include "station/messages/vehicle_feed.hpp"
+#include "station/messages/vehicle_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "station/messages/json.hpp"
-
-namespace lapwing::station {
+namespace lapwing::station::internal {
 namespace {
 
 using vehicle::VehicleState;
-
-/// One key of a vehicle's JSON object. Null as a value: never heard, not part of the message.
-struct Field {
-  Json value;
-  std::optional<base::TimePoint> heard;  ///< nothing for what has no age
-  bool operator==(Field const&) const = default;
-};
-using Fields = std::map<std::string, Field>;
 
 template <class T, class ToJson>
 void add(Fields& fields, char const* key, vehicle::Aged<T> const& aged, ToJson to_json) {
@@ -223,6 +211,8 @@ void add_identity(Fields& fields, VehicleState const& state) {
   fields["silent"] = {state.is_silent, state.is_silent ? std::optional(state.heard) : std::nullopt};
 }
 
+}  // namespace
+
 Fields fields_of(VehicleState const& state) {
   Fields fields;
   add_identity(fields, state);
@@ -261,105 +251,4 @@ Fields fields_of(VehicleState const& state) {
   return fields;
 }
 
-/// The vehicle's object with those fields that differ from `before`; with nothing but the id when none does.
-Json changes(std::string const& id, Fields const& now_known, Fields const& before, base::TimePoint now) {
-  Json object{{"id", id}};
-  Json ages = Json::object();
-  for (auto const& [key, field] : now_known) {
-    auto const old = before.find(key);
-    if (old != before.end() && old->second == field) continue;
-    if (old == before.end() || old->second.value != field.value) object[key] = field.value;
-    if (field.heard) ages[key] = rounded(base::to_seconds(now - *field.heard), 3);
-  }
-  if (!ages.empty()) object["age_s"] = std::move(ages);
-  return object;
-}
-
-std::string vehicles_text(Json vehicles, bool is_full, base::TimePoint now) {
-  return dump({{"type", "vehicles"},
-               {"time_s", rounded(base::to_seconds(now.time_since_epoch()), 3)},
-               {"full", is_full},
-               {"vehicles", std::move(vehicles)}});
-}
-
-std::string plan_text(VehicleState const& state) {
-  Json path = Json::array();
-  for (auto const& place : state.planned_path) path.push_back(position_json(place));
-  return dump({{"type", "plan"}, {"vehicle", state.id.text}, {"path", std::move(path)}});
-}
-
-/// The pictures behind that number; `full` when the client is to forget those that it has.
-std::string pictures_text(VehicleState const& state, int behind, bool is_full) {
-  Json list = Json::array();
-  for (auto const& picture : state.pictures.value->recent) {
-    if (picture.number <= behind) continue;
-    auto json = position_json(picture.position);
-    json["number"] = picture.number;
-    json["relative_alt_m"] = rounded(picture.relative_alt_m, 1);
-    list.push_back(std::move(json));
-  }
-  return dump({{"type", "pictures"}, {"vehicle", state.id.text}, {"full", is_full}, {"pictures", std::move(list)}});
-}
-
-int newest_picture(VehicleState const& state) {
-  auto const& pictures = state.pictures.value;
-  return pictures && !pictures->recent.empty() ? pictures->recent.back().number : 0;
-}
-
-}  // namespace
-
-struct VehicleFeed::Sent {
-  struct Vehicle {
-    unsigned long long revision = 0;
-    Fields fields;
-    std::vector<geo::Wgs84> plan;
-    int picture = 0;  ///< the newest
-  };
-  std::map<vehicle::VehicleId, Vehicle> vehicles;
-};
-
-VehicleFeed::VehicleFeed(vehicle::Registry const& registry) : registry_(registry), sent_(std::make_unique<Sent>()) {}
-VehicleFeed::~VehicleFeed() = default;
-
-std::string VehicleFeed::vehicles_message(base::TimePoint now) const {
-  Json vehicles = Json::array();
-  for (auto const* state : registry_.all()) vehicles.push_back(changes(state->id.text, fields_of(*state), {}, now));
-  return vehicles_text(std::move(vehicles), true, now);
-}
-
-std::vector<std::string> VehicleFeed::snapshot(base::TimePoint now) const {
-  std::vector<std::string> messages{vehicles_message(now)};
-  // A vehicle without a plan says so too: the client may hold an old one from before it lost the station.
-  for (auto const* state : registry_.all()) {
-    messages.push_back(plan_text(*state));
-    if (newest_picture(*state) > 0) messages.push_back(pictures_text(*state, 0, true));
-  }
-  return messages;
-}
-
-std::vector<std::string> VehicleFeed::news(base::TimePoint now) {
-  Json vehicles = Json::array();
-  std::vector<std::string> others;
-  for (auto const* state : registry_.all()) {
-    auto& before = sent_->vehicles[state->id];
-    auto const revision = registry_.revision(state->id);
-    if (revision == before.revision) continue;
-    before.revision = revision;
-    auto fields = fields_of(*state);
-    auto object = changes(state->id.text, fields, before.fields, now);
-    before.fields = std::move(fields);
-    if (object.size() > 1) vehicles.push_back(std::move(object));
-    if (before.plan != state->planned_path) {
-      before.plan = state->planned_path;
-      others.push_back(plan_text(*state));
-    }
-    if (auto const newest = newest_picture(*state); newest > before.picture)
-      others.push_back(pictures_text(*state, std::exchange(before.picture, newest), false));
-  }
-  std::vector<std::string> messages;
-  if (!vehicles.empty()) messages.push_back(vehicles_text(std::move(vehicles), false, now));
-  messages.insert(messages.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
-  return messages;
-}
-
-}  // namespace lapwing::station
+}  // namespace lapwing::station::internal

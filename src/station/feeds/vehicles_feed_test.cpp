@@ -1,6 +1,7 @@
-#include "station/messages/vehicle_feed.hpp"
+#include "station/feeds/vehicles_feed.hpp"
 
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-class VehicleFeedTest : public ::testing::Test {
+class VehiclesFeedTest : public ::testing::Test {
  protected:
   static base::TimePoint at(base::Duration since_start) { return base::TimePoint(since_start); }
   vehicle::VehicleState& edit(std::string const& id) {
@@ -19,18 +20,26 @@ class VehicleFeedTest : public ::testing::Test {
     registry.touch(name);
     return registry.edit(name);
   }
-  json only_news(base::Duration time) {
-    auto const messages = feed.news(at(time));
-    EXPECT_EQ(messages.size(), 1U);
-    return messages.empty() ? json() : json::parse(messages[0]);
+  /// What a viewer is told that has had everything before.
+  json news(base::Duration time) {
+    auto const before = std::exchange(had, feed.refresh(at(time)));
+    return told_since(before, time);
   }
+  json told_since(std::uint64_t revision, base::Duration time) {
+    auto const frames = feed.since(revision, at(time), 0).frames;
+    EXPECT_LE(frames.size(), 1U);
+    for (auto const& frame : frames) EXPECT_EQ(frame.revision, feed.refresh(at(time)));
+    return frames.empty() ? json() : json::parse(frames[0].content);
+  }
+  json whole(base::Duration time) { return json::parse(vehicles_message(registry, at(time))); }
 
   base::Loop loop{{.unpaced = true}};
   vehicle::Registry registry{loop};
-  VehicleFeed feed{registry};
+  VehiclesFeed feed{registry};
+  std::uint64_t had = 1;
 };
 
-TEST_F(VehicleFeedTest, TellsEverythingKnownWithItsAge) {
+TEST_F(VehiclesFeedTest, TellsEverythingKnownWithItsAge) {
   auto& state = edit("7");
   state.name = "copter 7";
   state.family = vehicle::Family::copter;
@@ -39,7 +48,7 @@ TEST_F(VehicleFeedTest, TellsEverythingKnownWithItsAge) {
   state.position.set(geo::Wgs84::from_degrees(52.123456789, 13.5, 100.126), at(9900ms));
   state.heading_rad.set(std::numbers::pi, at(10s));
   state.battery.set({.remaining = 0.5, .voltage_v = 12.3456, .current_a = {}}, at(8s));
-  auto const message = json::parse(feed.vehicles_message(at(10s)));
+  auto const message = whole(10s);
   EXPECT_EQ(message["type"], "vehicles");
   EXPECT_EQ(message["full"], true);
   EXPECT_EQ(message["time_s"], 10.0);
@@ -54,22 +63,22 @@ TEST_F(VehicleFeedTest, TellsEverythingKnownWithItsAge) {
             json({{"battery", 2.0}, {"heading_rad", 0.0}, {"heartbeat", 0.5}, {"mode", 0.5}, {"position", 0.1}}));
 }
 
-TEST_F(VehicleFeedTest, TellsSinceWhenAVehicleIsSilentAndNoLossOfNothing) {
+TEST_F(VehiclesFeedTest, TellsSinceWhenAVehicleIsSilentAndNoLossOfNothing) {
   auto& state = edit("1");
   state.heard = at(4s);
   state.links = {
       {.name = "udp", .loss = 0.0, .messages_per_s = 3.0, .round_trip = {}, .is_alive = true, .is_used = true}};
-  auto vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  auto vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["silent"], false);
   EXPECT_EQ(vehicle["links"].at(0)["loss"], 0.0);
   edit("1").is_silent = true;
-  vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["silent"], true);
   EXPECT_EQ(vehicle["age_s"]["silent"], 6.0);
   EXPECT_FALSE(vehicle["links"].at(0).contains("loss")) << "0 % of nothing is not known";
 }
 
-TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
+TEST_F(VehiclesFeedTest, TellsTheHealthOfAVehicleInWords) {
   auto& state = edit("1");
   vehicle::Battery battery{.remaining = 0.4, .voltage_v = {}, .current_a = {}};
   battery.time_left = 333s;
@@ -87,7 +96,7 @@ TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
   state.mission.set({.current_seq = 2, .total = 5, .complete = false, .state = "active"}, at(9s));
   state.components = {{.id = 154, .kind = "gimbal", .state = "active", .model = "Maker G", .heard = at(8s)}};
   state.gimbal.set({.roll_rad = 0, .pitch_rad = -1.5, .yaw_rad = 0, .yaw_is_from_north = true}, at(9s));
-  auto const vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  auto const vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["battery"], json({{"remaining", 0.4},
                                       {"time_left_s", 330.0},
                                       {"time_left_is_estimate", true},
@@ -109,101 +118,87 @@ TEST_F(VehicleFeedTest, TellsTheHealthOfAVehicleInWords) {
   EXPECT_EQ(vehicle["gimbal"]["pitch_rad"], -1.5);
 }
 
-TEST_F(VehicleFeedTest, TakesBackReasonsThatAreGone) {
+TEST_F(VehiclesFeedTest, TakesBackReasonsThatAreGone) {
   edit("1").arming_reasons = {{2, "PreArm: Compass not calibrated", at(1s)}};
-  (void)feed.news(at(1s));
+  (void)news(1s);
   edit("1").arming_reasons.clear();
-  EXPECT_EQ(only_news(2s)["vehicles"].at(0)["arming_reasons"], json::array());
+  EXPECT_EQ(news(2s)["vehicles"].at(0)["arming_reasons"], json::array());
 }
 
-TEST_F(VehicleFeedTest, SendsEachPictureOnce) {
-  auto& pictures = edit("1").pictures;
-  auto const place = geo::Wgs84::from_degrees(1, 2, 3);
-  pictures.set({.taken = 1, .lost = 0, .recent = {{.number = 1, .position = place, .relative_alt_m = 20}}}, at(1s));
-  auto const first = feed.news(at(1s));
-  ASSERT_EQ(first.size(), 2U);
-  auto const expected =
-      json{{"number", 1}, {"lat_deg", 1.0}, {"lon_deg", 2.0}, {"alt_m", 3.0}, {"relative_alt_m", 20.0}};
-  EXPECT_EQ(json::parse(first[1])["pictures"], json::array({expected}));
-  edit("1").pictures.value->recent.push_back({.number = 2, .position = place, .relative_alt_m = 20});
-  auto const second = json::parse(feed.news(at(2s)).back());
-  EXPECT_EQ(second["type"], "pictures");
-  EXPECT_EQ(second["full"], false);
-  ASSERT_EQ(second["pictures"].size(), 1U);
-  EXPECT_EQ(second["pictures"].at(0)["number"], 2);
-  auto const newcomer = json::parse(feed.snapshot(at(3s)).back());
-  EXPECT_EQ(newcomer["full"], true);
-  EXPECT_EQ(newcomer["pictures"].size(), 2U);
-}
-
-TEST_F(VehicleFeedTest, TellsWhoCommandsAVehicle) {
+TEST_F(VehiclesFeedTest, TellsWhoCommandsAVehicle) {
   auto& state = edit("7");
   state.control = {.commander = "anna", .asked_for_by = "ben", .granted_at = at(12s)};
   state.foreign_change.set("station 252/190 commanded MISSION_START", at(9s));
-  auto const vehicle = json::parse(feed.vehicles_message(at(10s)))["vehicles"].at(0);
+  auto const vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["control"], json({{"commander", "anna"}, {"asked_for_by", "ben"}, {"granted_at_s", 12.0}}));
   EXPECT_EQ(vehicle["foreign_change"], "station 252/190 commanded MISSION_START");
   EXPECT_EQ(vehicle["age_s"]["foreign_change"], 1.0);
 }
 
-TEST_F(VehicleFeedTest, LeavesOutWhatWasNeverHeard) {
+TEST_F(VehiclesFeedTest, LeavesOutWhatWasNeverHeard) {
   edit("1");
-  auto const vehicle = json::parse(feed.vehicles_message(at(1s)))["vehicles"].at(0);
+  auto const vehicle = whole(1s)["vehicles"].at(0);
   for (auto const* key : {"mode", "armed", "position", "battery", "texts"}) EXPECT_FALSE(vehicle.contains(key)) << key;
 }
 
-TEST_F(VehicleFeedTest, SendsOnlyWhatChanged) {
+TEST_F(VehiclesFeedTest, SendsOnlyWhatChanged) {
   auto& state = edit("1");
   state.armed.set(true, at(1s));
   state.relative_alt_m.set(10.0, at(1s));
-  EXPECT_EQ(only_news(1s)["vehicles"].at(0)["armed"], true);
-  EXPECT_TRUE(feed.news(at(2s)).empty());
+  EXPECT_EQ(news(1s)["vehicles"].at(0)["armed"], true);
+  EXPECT_TRUE(news(2s).is_null());
 
   edit("1").relative_alt_m.set(11.0, at(2s));
-  EXPECT_EQ(only_news(2500ms)["vehicles"],
+  EXPECT_EQ(news(2500ms)["vehicles"],
             json::array({{{"id", "1"}, {"relative_alt_m", 11.0}, {"age_s", {{"relative_alt_m", 0.5}}}}}));
 }
 
-TEST_F(VehicleFeedTest, SendsTheAgeAloneOfAValueHeardAgain) {
+TEST_F(VehiclesFeedTest, SendsTheAgeAloneOfAValueHeardAgain) {
   edit("1").armed.set(true, at(1s));
-  (void)feed.news(at(1s));
+  (void)news(1s);
   edit("1").armed.set(true, at(3s));
-  EXPECT_EQ(only_news(3s)["vehicles"], json::array({{{"id", "1"}, {"age_s", {{"armed", 0.0}}}}}));
+  EXPECT_EQ(news(3s)["vehicles"], json::array({{{"id", "1"}, {"age_s", {{"armed", 0.0}}}}}));
 }
 
-TEST_F(VehicleFeedTest, IsSilentWhenATouchChangedNothing) {
+TEST_F(VehiclesFeedTest, IsSilentWhenATouchChangedNothing) {
   edit("1");
-  (void)feed.news(at(1s));
+  (void)news(1s);
   edit("1");
-  EXPECT_TRUE(feed.news(at(2s)).empty());
+  EXPECT_TRUE(news(2s).is_null());
 }
 
-TEST_F(VehicleFeedTest, SendsPlansWhenTheyChange) {
-  edit("1").planned_path = {geo::Wgs84::from_degrees(1, 2, 3)};
-  auto const messages = feed.news(at(1s));
-  ASSERT_EQ(messages.size(), 2U);
-  EXPECT_EQ(
-      json::parse(messages[1]),
-      json({{"type", "plan"}, {"vehicle", "1"}, {"path", {{{"lat_deg", 1.0}, {"lon_deg", 2.0}, {"alt_m", 3.0}}}}}));
-  edit("1").planned_path.clear();
-  EXPECT_EQ(only_news(2s)["path"], json::array());
+TEST_F(VehiclesFeedTest, TellsTheLastOfWhatASlowViewerMissedWithItsAge) {
+  edit("1").armed.set(true, at(1s));
+  edit("2").armed.set(true, at(1s));
+  (void)news(1s);
+  auto const had_then = had;
+  edit("1").relative_alt_m.set(10.0, at(2s));
+  (void)news(2s);
+  edit("1").relative_alt_m.set(11.0, at(3s));
+  (void)news(3s);
+  auto const missed = told_since(had_then, 5s);
+  EXPECT_EQ(missed["full"], false);
+  EXPECT_EQ(missed["vehicles"],
+            json::array({{{"id", "1"}, {"relative_alt_m", 11.0}, {"age_s", {{"relative_alt_m", 2.0}}}}}));
+  EXPECT_TRUE(told_since(had, 5s).is_null());
+  EXPECT_EQ(told_since(0, 5s)["full"], true);
+  EXPECT_EQ(told_since(0, 5s)["vehicles"].size(), 2U);
 }
 
-TEST_F(VehicleFeedTest, GivesNewcomersVehiclesAndPlans) {
-  edit("1");
-  edit("2").planned_path = {geo::Wgs84::from_degrees(1, 2, 3)};
-  (void)feed.news(at(1s));
-  auto const messages = feed.snapshot(at(2s));
-  ASSERT_EQ(messages.size(), 3U);
-  EXPECT_EQ(json::parse(messages[0])["vehicles"].size(), 2U);
-  EXPECT_EQ(json::parse(messages[2])["path"].size(), 1U);
+TEST_F(VehiclesFeedTest, TellsAgainOfWhatWasGone) {
+  edit("1").recent_texts = {{.severity = 6, .text = "here", .heard = at(1s)}};
+  (void)news(1s);
+  edit("1").recent_texts.clear();
+  EXPECT_TRUE(news(2s).is_null());
+  edit("1").recent_texts = {{.severity = 6, .text = "here", .heard = at(1s)}};
+  EXPECT_EQ(news(3s)["vehicles"].at(0)["texts"].size(), 1U);
 }
 
-TEST_F(VehicleFeedTest, SurvivesNumbersAndTextsThatAreNone) {
+TEST_F(VehiclesFeedTest, SurvivesNumbersAndTextsThatAreNone) {
   auto& state = edit("1");
   state.relative_alt_m.set(std::numeric_limits<double>::quiet_NaN(), at(1s));
   state.recent_texts = {{.severity = 3, .text = "bad \xff byte", .heard = at(1s)}};
-  auto const vehicle = json::parse(feed.vehicles_message(at(1s)))["vehicles"].at(0);
+  auto const vehicle = whole(1s)["vehicles"].at(0);
   EXPECT_TRUE(vehicle["relative_alt_m"].is_null());
   EXPECT_EQ(vehicle["texts"].at(0), json({{"severity", 3}, {"text", "bad \xEF\xBF\xBD byte"}}));
 }
