@@ -6,6 +6,7 @@ import type {
   Component,
   Diagnostic,
   Emergency,
+  FeedEntry,
   Hello,
   LinkQuality,
   LogLine,
@@ -332,6 +333,8 @@ const HELLO: Shape<Hello> = {
   version: text,
   server_time: text,
   site: object({ name: text, origin: position, tiles: text }, []),
+  run: text,
+  feeds: list(object<FeedEntry>({ name: text, id: count }, ['name', 'id']), ({ id }) => id),
 };
 const SCRIPT: Shape<Script> = {
   name: text,
@@ -379,11 +382,20 @@ const MESSAGES: { [T in ServerMessage['type']]: Parse<Typed<T>> } = Object.assig
   pong: object<Typed<'pong'>>({ type: word(['pong']), id: text, server_time: text }, []),
 });
 
-/** The message in a text frame; nothing for what is none, or for one of a type that this app does not know. */
-export function parseMessage(data: string): ServerMessage | undefined {
+/** The object in a text; nothing for what is none. */
+export function parseObject(data: string): Record<string, unknown> | undefined {
   try {
     const value: unknown = JSON.parse(data);
-    if (!isObject(value) || typeof value.type !== 'string') return undefined;
+    return isObject(value) ? value : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
+/** The message that an object is; nothing for what is none, or for one of a type that this app does not know. */
+export function messageOf(value: Record<string, unknown>): ServerMessage | undefined {
+  try {
+    if (typeof value.type !== 'string') return undefined;
     const parse = MESSAGES[value.type as ServerMessage['type']] as Parse<ServerMessage> | undefined;
     const message = parse?.(value);
     if (message?.type !== 'hello') return message;
@@ -392,4 +404,9 @@ export function parseMessage(data: string): ServerMessage | undefined {
   } catch {
     return undefined;
   }
+}
+
+export function parseMessage(data: string): ServerMessage | undefined {
+  const value = parseObject(data);
+  return value && messageOf(value);
 }

@@ -227,6 +227,15 @@ export interface Hello {
   version: string;
   server_time: string;
   site: { name: string; origin?: Position; tiles?: string };
+  /** Revisions mean something within one run of the station only. */
+  run?: string;
+  feeds?: FeedEntry[];
+}
+
+export interface FeedEntry {
+  name: string;
+  /** What binary messages call it. */
+  id: number;
 }
 
 export interface Reply {
@@ -261,4 +270,7 @@ export type Request =
   | { type: 'acknowledge_alarms'; numbers: number[] }
   | { type: 'request_control' | 'yield_control' | 'keep_control'; vehicle: string };
 
-export type ClientMessage = (Request & { id: string }) | { type: 'ping'; id: string };
+export type ClientMessage =
+  | (Request & { id: string })
+  | { type: 'ping'; id: string }
+  | { type: 'subscribe'; id: string; feeds: string[]; run: string; revisions: Record<string, number> };

@@ -7,6 +7,7 @@ import type { Settings } from './settings.svelte';
 
 /** What an operator must be told without having looked, and the sounds that tell it. */
 export class AlarmsStore implements Receiver {
+  readonly feeds = ['alarms'];
   list = $state.raw<KnownAlarm[]>([]);
   /** Sound is wanted, and the browser keeps it off until somebody touches the page. */
   isMuted = $state(false);

@@ -4,6 +4,7 @@ import { reasonOf, type Receiver, type Session } from './session.svelte';
 
 /** What operators command and what becomes of it, the emergency stop before all. */
 export class ControlStore implements Receiver {
+  readonly feeds = ['control'];
   commands = $state.raw<Command[]>([]);
   emergency = $state.raw<Emergency>({ latched: false, action: 'hold', by: '', vehicles: [] });
   /** Why the last command or handover was refused; empty when it was not. */

@@ -6,6 +6,7 @@ import type { Receiver, Session } from './session.svelte';
 
 /** The vehicles, each with the last that is known of it. */
 export class FleetStore implements Receiver {
+  readonly feeds = ['vehicles', 'alarms'];
   vehicles = $state.raw<Fleet>(new Map());
   batteryLimits = $state.raw<BatteryLimits>(USUAL_LIMITS);
   private readonly parameters = new Map<string, VehicleParameters>();

@@ -1,14 +1,12 @@
-import { addPictures } from '../lib/fleet';
-import type { Picture, Position, ServerMessage } from '../lib/protocol';
+import type { Position, ServerMessage } from '../lib/protocol';
 import { Trails } from '../lib/trails';
 import type { FleetStore } from './fleet.svelte';
 import type { Receiver, Session } from './session.svelte';
 
 /** What lies on the map beside the vehicles themselves. */
 export class LayersStore implements Receiver {
+  readonly feeds = ['vehicles', 'plans'];
   plans = $state.raw<Map<string, Position[]>>(new Map());
-  /** Where each vehicle has taken pictures. */
-  pictures = $state.raw<Map<string, Picture[]>>(new Map());
   /** Trails grow in place, a point at a time; `trailRevision` tells that they have. */
   readonly trails = new Trails();
   trailRevision = $state(0);
@@ -30,8 +28,6 @@ export class LayersStore implements Receiver {
       if (this.trails.grow(this.fleet.vehicles.values())) this.trailRevision += 1;
     } else if (message.type === 'plan') {
       this.plans = new Map(this.plans).set(message.vehicle, message.path);
-    } else if (message.type === 'pictures') {
-      this.pictures = addPictures(this.pictures, message.vehicle, message.pictures, message.full);
     }
   }
 }

@@ -4,6 +4,7 @@ import type { Receiver, Session } from './session.svelte';
 
 /** What the station has told, the newest last. */
 export class LogStore implements Receiver {
+  readonly feeds = ['log'];
   lines = $state.raw<LogLine[]>([]);
   private lastSeq = 0;
 

@@ -5,6 +5,7 @@ import { reasonOf, type Receiver, type Session } from './session.svelte';
 
 /** The script, its tasks, and those in the station's folder. */
 export class ScriptsStore implements Receiver {
+  readonly feeds = ['script', 'tasks'];
   script = $state.raw<Script>({ name: '', state: 'idle', message: '', source: '', diagnostics: [] });
   trees = $state.raw<Task[]>([]);
   /** Scripts in the station's folder. */

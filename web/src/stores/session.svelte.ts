@@ -1,4 +1,5 @@
-import { Connection, type Socket } from '../lib/connection';
+import { Connection, type Socket } from '../connection/connection';
+import type { Frame } from '../connection/frame';
 import { PROTOCOL, type Hello, type Reply, type Request, type ServerMessage } from '../lib/protocol';
 
 /** locked: the station is there and asks for a token that this browser does not have. */
@@ -14,6 +15,8 @@ export interface Network {
 
 /** A store that hears what the session hears, in the order in which they were given to it. */
 export interface Receiver {
+  /** Whose messages it hears. What belongs to no feed, such as the hello, everybody hears. */
+  readonly feeds: readonly string[];
   received?(message: ServerMessage, now: number): void;
   lost?(wasLive: boolean): void;
   ticked?(now: number): void;
@@ -35,6 +38,7 @@ export class Session {
   alert = $state('');
 
   private readonly receivers: Receiver[] = [];
+  private readonly followers = new Map<string, (frame: Frame) => void>();
   private readonly connection: Connection;
   private readonly clock: ReturnType<typeof setInterval>;
   private token: string | undefined;
@@ -47,7 +51,9 @@ export class Session {
     this.token = network.token;
     this.connection = new Connection(() => network.open(this.token), {
       opened: () => {},
-      received: (message) => this.receive(message),
+      received: (message, feed) => this.receive(message, feed),
+      arrived: (frame) => this.followers.get(frame.feed)?.(frame),
+      wanted: () => new Set([...this.receivers.flatMap(({ feeds }) => feeds), ...this.followers.keys()]),
       lost: () => this.lose(),
     });
     this.clock = setInterval(() => this.tick(), CLOCK_MS);
@@ -57,6 +63,12 @@ export class Session {
   begin(receivers: Receiver[]): void {
     this.receivers.push(...receivers);
     this.connection.connect();
+  }
+
+  /** One more feed is wanted; all of its messages go to `take`. */
+  follow(feed: string, take: (frame: Frame) => void): void {
+    this.followers.set(feed, take);
+    this.connection.subscribe();
   }
 
   end(): void {
@@ -118,12 +130,12 @@ export class Session {
     for (const receiver of this.receivers) receiver.ticked?.(this.now);
   }
 
-  private receive(message: ServerMessage): void {
+  private receive(message: ServerMessage, feed: string | undefined): void {
     const now = performance.now();
     this.lastHeard = now;
     if (message.type === 'hello') this.greet(message);
     if (message.type === 'vehicles') this.clockOffset_s = message.time_s - now / 1000;
-    for (const receiver of this.receivers) receiver.received?.(message, now);
+    for (const receiver of this.receivers) if (!feed || receiver.feeds.includes(feed)) receiver.received?.(message, now);
   }
 
   private greet({ protocol, site, version, operator = '' }: Hello): void {

@@ -1,9 +1,10 @@
 import { getContext } from 'svelte';
-import type { Socket } from '../lib/connection';
+import type { Socket } from '../connection/connection';
 import { BrowserVoices, type Voices } from '../lib/announcer';
-import { rememberToken, socketUrl, takeToken } from '../lib/token';
+import { rememberToken, socketUrl, takeToken } from '../connection/token';
 import { AlarmsStore } from './alarms.svelte';
 import { ControlStore } from './control.svelte';
+import { FeedsStore } from './feeds.svelte';
 import { FleetStore } from './fleet.svelte';
 import { LayersStore } from './layers.svelte';
 import { LogStore } from './log.svelte';
@@ -16,6 +17,7 @@ export interface Stores {
   session: Session;
   fleet: FleetStore;
   layers: LayersStore;
+  feeds: FeedsStore;
   scripts: ScriptsStore;
   control: ControlStore;
   log: LogStore;
@@ -33,13 +35,14 @@ export function createStores(network: Network, voices: Voices): Stores {
   const session = new Session(network);
   const fleet = new FleetStore(session);
   const layers = new LayersStore(session, fleet);
+  const feeds = new FeedsStore(session);
   const control = new ControlStore(session);
   const scripts = new ScriptsStore(session, control);
   const log = new LogStore(session);
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   // Who reads another store hears after it.
   session.begin([fleet, layers, control, scripts, log, alarms]);
-  return { session, fleet, layers, scripts, control, log, alarms, settings };
+  return { session, fleet, layers, feeds, scripts, control, log, alarms, settings };
 }
 
 /** The stores of this page, over its own station. */

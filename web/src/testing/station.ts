@@ -1,12 +1,14 @@
 import { flushSync } from 'svelte';
-import type { Socket } from '../lib/connection';
-import type { Hello, Reply, Request, ServerMessage, VehicleUpdate } from '../lib/protocol';
+import type { Socket } from '../connection/connection';
+import type { ClientMessage, Hello, Reply, Request, ServerMessage, VehicleUpdate } from '../lib/protocol';
 import { contextOf, createStores, type Stores } from '../stores/stores';
 
 /** A station in memory: it says what a test has it say, and keeps what it is asked. */
 export class TestStation {
   /** What the page has asked, without its pings. */
   readonly asked: Request[] = [];
+  /** The feeds that it has asked for last. */
+  subscribed: string[] = [];
   /** What it answers over HTTP, by the path of the address. */
   readonly files = new Map<string, Response>();
   /** What was said aloud or sounded. */
@@ -45,6 +47,11 @@ export class TestStation {
     flushSync();
   }
 
+  tellBytes(data: ArrayBuffer): void {
+    this.socket?.onmessage?.({ data });
+    flushSync();
+  }
+
   /** Answers the oldest request that waits. */
   async reply(reply: Partial<Reply> = {}): Promise<void> {
     this.tell({ type: 'reply', id: this.waiting.shift() ?? '', ok: true, ...reply });
@@ -64,8 +71,9 @@ export class TestStation {
 
   private connect(): Socket {
     const send = (text: string): void => {
-      const { id, ...request } = JSON.parse(text) as Request & { id: string };
-      if ((request as { type: string }).type === 'ping') return;
+      const { id, ...request } = JSON.parse(text) as ClientMessage;
+      if (request.type === 'subscribe') this.subscribed = request.feeds;
+      if (request.type === 'ping' || request.type === 'subscribe') return;
       this.asked.push(request);
       this.waiting.push(id);
     };

@@ -15,6 +15,6 @@ it('takes the token out of the address and remembers it', () => {
 });
 
 it('makes the WebSocket address', () => {
-  expect(socketUrl(place(''), undefined)).toBe('ws://h:8080/api/v1/ws');
-  expect(socketUrl(place('', 'https:'), 'a b&')).toBe('wss://h:8080/api/v1/ws?token=a%20b%26');
+  expect(socketUrl(place(''), undefined)).toBe('ws://h:8080/api/v1/ws?subscribe');
+  expect(socketUrl(place('', 'https:'), 'a b&')).toBe('wss://h:8080/api/v1/ws?subscribe&token=a%20b%26');
 });

@@ -14,8 +14,9 @@ export function rememberToken(token: string, storage: Storage): void {
   storage.setItem(KEY, token);
 }
 
+/** The station sends nothing but its hello until the page subscribes. */
 export function socketUrl(location: Location, token: string | undefined): string {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-  const query = token ? `?token=${encodeURIComponent(token)}` : '';
-  return `${scheme}://${location.host}/api/v1/ws${query}`;
+  const query = token ? `&token=${encodeURIComponent(token)}` : '';
+  return `${scheme}://${location.host}/api/v1/ws?subscribe${query}`;
 }

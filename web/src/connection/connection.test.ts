@@ -1,16 +1,18 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Connection, retryDelay, type Socket } from './connection';
-import { parseMessage } from './parse';
-import type { ServerMessage } from './protocol';
+import type { Frame } from './frame';
+import { parseMessage } from '../lib/parse';
+import type { ServerMessage } from '../lib/protocol';
 
 class MemorySocket implements Socket {
   onopen: (() => void) | null = null;
   onmessage: ((event: { data: unknown }) => void) | null = null;
   onclose: (() => void) | null = null;
-  sent: { type: string; id: string }[] = [];
+  binaryType = 'blob';
+  sent: ({ type: string; id: string } & Record<string, unknown>)[] = [];
   isClosed = false;
   send(text: string): void {
-    this.sent.push(JSON.parse(text) as { type: string; id: string });
+    this.sent.push(JSON.parse(text) as MemorySocket['sent'][number]);
   }
   close(): void {
     this.isClosed = true;
@@ -19,6 +21,8 @@ class MemorySocket implements Socket {
 
 let sockets: MemorySocket[];
 let received: ServerMessage[];
+let arrived: Frame[];
+let wanted: Set<string>;
 let lost: number[];
 let connection: Connection;
 
@@ -26,9 +30,17 @@ beforeEach(() => {
   vi.useFakeTimers();
   sockets = [];
   received = [];
+  arrived = [];
+  wanted = new Set(['log', 'map']);
   lost = [];
   const open = () => sockets[sockets.push(new MemorySocket()) - 1]!;
-  const events = { opened: () => {}, received: (m: ServerMessage) => received.push(m), lost: (ms: number) => lost.push(ms) };
+  const events = {
+    opened: () => {},
+    received: (message: ServerMessage) => received.push(message),
+    arrived: (frame: Frame) => arrived.push(frame),
+    wanted: () => wanted,
+    lost: (ms: number) => lost.push(ms),
+  };
   connection = new Connection(open, events, () => Date.now());
   connection.connect();
 });
@@ -43,6 +55,53 @@ describe('Connection', () => {
     last().onmessage!({ data: 'rubbish' });
     last().onmessage!({ data: new ArrayBuffer(2) });
     expect(received).toEqual([{ type: 'tasks', trees: [] }]);
+  });
+
+  it('hands on what belongs to a feed with its name, bytes too', () => {
+    tell({ type: 'hello', run: 'a', feeds: [{ name: 'map', id: 9 }] });
+    tell({ type: 'tasks', trees: [], feed: 'tasks', revision: 3 });
+    tell({ type: 'weather', wind: 3, feed: 'weather', revision: 4 });
+    last().onmessage!({ data: new Uint8Array([1, 1, 9, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0x78]).buffer });
+    expect(last().binaryType).toBe('arraybuffer');
+    expect(received.map(({ type }) => type)).toEqual(['hello', 'tasks']);
+    expect(arrived.map(({ feed, revision }) => [feed, revision])).toEqual([
+      ['tasks', 3],
+      ['weather', 4],
+      ['map', 2],
+    ]);
+    expect(arrived[2]!.content).toEqual(new Uint8Array([0x78]));
+  });
+
+  it('subscribes to what is wanted, and asks a station that is back for what it missed', () => {
+    const hello = (run: string): void => {
+      last().onopen!();
+      tell({ type: 'hello', run, feeds: ['log', 'map', 'other'].map((name, id) => ({ name, id })) });
+    };
+    const asked = (): object => last().sent.at(-1)!;
+    hello('a');
+    expect(asked()).toEqual({ type: 'subscribe', id: '', feeds: ['log', 'map'], run: 'a', revisions: {} });
+    tell({ type: 'log', lines: [], feed: 'log', revision: 12 });
+    wanted.add('other');
+    connection.subscribe();
+    expect(asked()).toMatchObject({ feeds: ['log', 'map', 'other'], revisions: { log: 12 } });
+
+    last().onclose!();
+    connection.subscribe();
+    vi.advanceTimersByTime(2500);
+    hello('a');
+    expect(last().sent).toHaveLength(1);
+    expect(asked()).toMatchObject({ run: 'a', revisions: { log: 12 } });
+
+    last().onclose!();
+    vi.advanceTimersByTime(2500);
+    hello('b');
+    expect(asked()).toMatchObject({ run: 'b', revisions: {} });
+  });
+
+  it('asks a station without feeds for nothing', () => {
+    last().onopen!();
+    tell({ type: 'hello' });
+    expect(last().sent).toEqual([]);
   });
 
   it('connects again after ever longer pauses, and starts over after a hello', () => {

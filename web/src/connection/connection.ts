@@ -1,8 +1,10 @@
-import { parseMessage } from './parse';
-import type { ClientMessage, Reply, Request, ServerMessage } from './protocol';
+import { binaryFrame, textFrame, type Frame } from './frame';
+import { messageOf, parseObject } from '../lib/parse';
+import type { ClientMessage, Hello, Reply, Request, ServerMessage } from '../lib/protocol';
 
 /** What the connection needs of the browser; tests bring their own. */
 export interface Socket {
+  binaryType?: string;
   onopen: (() => void) | null;
   onmessage: ((event: { data: unknown }) => void) | null;
   onclose: (() => void) | null;
@@ -12,7 +14,12 @@ export interface Socket {
 
 export interface Events {
   opened(): void;
-  received(message: ServerMessage): void;
+  /** With the feed that it belongs to, if it does. */
+  received(message: ServerMessage, feed: string | undefined): void;
+  /** A message of a feed, also of one whose messages this app does not know otherwise. */
+  arrived(frame: Frame): void;
+  /** The feeds that are wanted of those that the station has. */
+  wanted(): ReadonlySet<string>;
   /** The station is not there; the next try comes in that many ms. */
   lost(retryInMs: number): void;
 }
@@ -38,6 +45,11 @@ export class Connection {
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private pingTimer: ReturnType<typeof setInterval> | undefined;
   private lastHeard = 0;
+  /** The station's feeds by what binary messages call them; none before its hello. */
+  private feeds = new Map<number, string>();
+  /** Its run, and what this page has of each feed: only what it missed comes when the station is back. */
+  private run = '';
+  private readonly revisions = new Map<string, number>();
 
   constructor(
     private readonly open: () => Socket,
@@ -49,6 +61,7 @@ export class Connection {
     clearTimeout(this.retryTimer);
     this.drop();
     const socket = this.open();
+    socket.binaryType = 'arraybuffer';
     this.socket = socket;
     this.lastHeard = this.now();
     socket.onopen = () => {
@@ -80,16 +93,36 @@ export class Connection {
     this.socket?.send(JSON.stringify(message));
   }
 
+  /** Tells the station which feeds are wanted. Nothing before its hello: that is answered with the same. */
+  subscribe(): void {
+    if (!this.isOpen || this.feeds.size === 0) return;
+    const wanted = this.events.wanted();
+    const feeds = [...this.feeds.values()].filter((name) => wanted.has(name));
+    this.send({ type: 'subscribe', id: '', feeds, run: this.run, revisions: Object.fromEntries(this.revisions) });
+  }
+
   private receive(data: unknown): void {
     this.lastHeard = this.now();
-    const message = typeof data === 'string' ? parseMessage(data) : undefined;
-    if (!message) return;
-    if (message.type === 'hello') this.failures = 0;
-    if (message.type === 'reply') {
+    const object = typeof data === 'string' ? parseObject(data) : undefined;
+    const message = object && messageOf(object);
+    const frame = data instanceof ArrayBuffer ? binaryFrame(data, this.feeds) : object && textFrame(object, message);
+    if (message?.type === 'hello') this.greet(message);
+    if (message?.type === 'reply') {
       this.waiting.get(message.id)?.(message);
       this.waiting.delete(message.id);
     }
-    this.events.received(message);
+    if (message) this.events.received(message, frame?.feed);
+    if (!frame) return;
+    this.events.arrived(frame);
+    this.revisions.set(frame.feed, frame.revision);
+  }
+
+  private greet({ run = '', feeds = [] }: Hello): void {
+    this.failures = 0;
+    if (run !== this.run) this.revisions.clear();
+    this.run = run;
+    this.feeds = new Map(feeds.map(({ id, name }) => [id, name]));
+    this.subscribe();
   }
 
   private watch(): void {
@@ -107,6 +140,7 @@ export class Connection {
   private drop(): void {
     clearInterval(this.pingTimer);
     this.isOpen = false;
+    this.feeds.clear();
     for (const [id, resolve] of this.waiting) resolve(notSent(id));
     this.waiting.clear();
     const socket = this.socket;
