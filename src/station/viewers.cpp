@@ -95,7 +95,7 @@ void Viewers::open(SessionId session, bool waits) {
   if (waits) return;
   for (auto const& channel : channels_)
     if (channel.is_usual) viewer.feeds[channel.id] = {};
-  serve_whole(session, viewer);
+  serve_at_once(session, viewer);
 }
 
 base::Result<> Viewers::subscribe(SessionId session, Subscribe const& wanted) {
@@ -126,7 +126,7 @@ base::Result<> Viewers::subscribe(SessionId session, Subscribe const& wanted) {
 void Viewers::begin(SessionId session) {
   auto const viewer = viewers_.find(session);
   if (viewer == viewers_.end() || !std::exchange(viewer->second.waits, false)) return;
-  serve_whole(session, viewer->second);
+  serve_at_once(session, viewer->second);
 }
 
 // ---- what they are sent
@@ -153,7 +153,7 @@ void Viewers::send_news() {
   }
 }
 
-void Viewers::serve_whole(SessionId session, Viewer& viewer) {
+void Viewers::serve_at_once(SessionId session, Viewer& viewer) {
   auto const now = loop_.now();
   for (auto& channel : channels_) {
     auto const standing = viewer.feeds.find(channel.id);

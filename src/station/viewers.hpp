@@ -66,7 +66,7 @@ class Viewers {
   [[nodiscard]] bool is_watched(Channel const& channel) const;
   void refresh(Channel& channel, base::TimePoint now);
   void serve(SessionId session, Standing& standing, Channel const& channel, Round& round);
-  void serve_whole(SessionId session, Viewer& viewer);
+  void serve_at_once(SessionId session, Viewer& viewer);
 
   base::Loop& loop_;
   HttpServer& server_;

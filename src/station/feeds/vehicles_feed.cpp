@@ -23,8 +23,8 @@ struct KnownField {
 };
 
 struct KnownVehicle {
-  unsigned long long looked_at = 0;  ///< the registry's revision
-  std::uint64_t told = 0;            ///< the newest of its fields'
+  std::optional<unsigned long long> looked_at = std::nullopt;  ///< the registry's revision
+  std::uint64_t told = 0;                                      ///< the newest of its fields'
   std::map<std::string, KnownField> fields;
 };
 

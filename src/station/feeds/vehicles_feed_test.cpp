@@ -135,6 +135,12 @@ TEST_F(VehiclesFeedTest, TellsWhoCommandsAVehicle) {
   EXPECT_EQ(vehicle["age_s"]["foreign_change"], 1.0);
 }
 
+TEST_F(VehiclesFeedTest, ListsAVehicleOfWhichNothingIsKnownYet) {
+  (void)registry.edit({"1"});
+  EXPECT_EQ(whole(1s)["vehicles"].at(0)["id"], "1");
+  EXPECT_EQ(news(1s)["vehicles"].at(0)["id"], "1");
+}
+
 TEST_F(VehiclesFeedTest, LeavesOutWhatWasNeverHeard) {
   edit("1");
   auto const vehicle = whole(1s)["vehicles"].at(0);
