@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -297,6 +297,16 @@ def lossy() -> list:
     return bad_links.measure(EXCHANGERS, simulator, free_udp_port, say)
 
 
+def feed() -> dict:
+    """Microseconds of processor time for one vehicle, whenever the station looks for news of it."""
+    done = subprocess.run([BENCH_BIN / "bench_feed", "--benchmark_format=json", "--benchmark_repetitions=5",
+                           "--benchmark_report_aggregates_only=true"], capture_output=True, text=True, check=True)
+    took = {row["run_name"]: 1e6 / row["items_per_second"] for row in json.loads(done.stdout)["benchmarks"] if row["aggregate_name"] == "median"}
+    for name, us in took.items():
+        say(f"feed    {name:24} {us:8.2f} us a vehicle")
+    return took
+
+
 def pool() -> dict:
     """Microseconds for an empty job beside the loop and back."""
     done = subprocess.run([BENCH_BIN / "bench_pool", "--benchmark_format=json", "--benchmark_repetitions=5",
@@ -338,12 +348,12 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "pool", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page"]
+    wanted = sys.argv[1:] or ["decode", "pool", "feed", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "pool": pool, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
+        results[name] = {"decode": decode, "pool": pool, "feed": feed, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
                          "params": params, "router": router, "language": language, "page": page}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")

@@ -46,8 +46,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   loop.run_until_done(send(loop, *pipe.b, {data, size}));
   fuzz::require(fleet.all().size() <= 255);
   for (auto const* state : registry.all()) {
-    fuzz::require(state->components.size() <= 32 && state->arming_reasons.size() <= 20);
-    fuzz::require(!state->pictures.value || state->pictures.value->recent.size() <= 2000);
+    fuzz::require(state->payload.components.size() <= 32 && state->arming.reasons.size() <= 20);
+    fuzz::require(!state->payload.pictures.value || state->payload.pictures.value->recent.size() <= 2000);
   }
   return 0;
 }

@@ -9,7 +9,7 @@
 #include "plan/estimate.hpp"
 #include "plan/track.hpp"
 #include "tasks/platform.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 /// What a dry run saw. Times count from the script's start, places are in the local frame of the site.
 namespace lapwing::dryrun {

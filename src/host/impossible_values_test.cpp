@@ -285,7 +285,7 @@ TEST(ImpossibleValues, NeverReachViewersWhateverAnyFieldOfAnyMessageHolds) {
   }
   sky.expect_possible_picture();
   EXPECT_GT(said, 3000U);
-  EXPECT_TRUE(sky.registry.find({"7"})->position.known()) << "the honest ones among them were heard";
+  EXPECT_TRUE(sky.registry.find({"7"})->motion.position.known()) << "the honest ones among them were heard";
 }
 
 TEST(ImpossibleValues, LeaveWhatIsHonestInTheSameMessage) {
@@ -304,9 +304,9 @@ TEST(ImpossibleValues, LeaveWhatIsHonestInTheSameMessage) {
   sky.say(frame);
   sky.pass(1ms);
   auto const& state = *sky.registry.find({"7"});
-  EXPECT_NEAR(state.position.value->lat_deg(), 41.0, 1e-6);
-  EXPECT_NEAR(*state.relative_alt_m.value, 13.5, 1e-9);
-  EXPECT_LT(state.position.heard, state.relative_alt_m.heard) << "and the place grows old";
+  EXPECT_NEAR(state.motion.position.value->lat_deg(), 41.0, 1e-6);
+  EXPECT_NEAR(*state.motion.relative_alt_m.value, 13.5, 1e-9);
+  EXPECT_LT(state.motion.position.heard, state.motion.relative_alt_m.heard) << "and the place grows old";
 }
 
 }  // namespace

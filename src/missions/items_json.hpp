@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tasks/task_view.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::missions {
 

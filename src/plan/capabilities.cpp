@@ -34,6 +34,7 @@ Families bit_of(Family family) {
     case Family::rover:
     case Family::boat: return rover;
     case Family::sub: return sub;
+    case Family::robot:  // takes no MAVLink mission
     case Family::unknown: break;
   }
   return none;
@@ -144,6 +145,7 @@ std::string_view noun(Family family) {
     case Family::rover: return "a rover";
     case Family::boat: return "a boat";
     case Family::sub: return "an underwater vehicle";
+    case Family::robot: return "a robot";
     case Family::unknown: break;
   }
   return "this vehicle";

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "mavlink/codec/messages.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 /// What each autopilot makes of a mission item: the one place where that is known.
 ///

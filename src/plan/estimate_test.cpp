@@ -24,6 +24,12 @@ class EstimateTest : public ::testing::Test {
   MissionBuilder builder_;
 };
 
+TEST(Performance, OfARobotIsThatOfWheels) {
+  EXPECT_FALSE(flies(vehicle::Family::robot));
+  EXPECT_TRUE(flies(vehicle::Family::copter));
+  EXPECT_EQ(performance_of(vehicle::Family::robot).cruise_m_s, performance_of(vehicle::Family::rover).cruise_m_s);
+}
+
 TEST_F(EstimateTest, OfNothingIsNothing) {
   EXPECT_EQ(estimated().path_m, 0.0);
   EXPECT_EQ(seconds(estimated()), 0.0);

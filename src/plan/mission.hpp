@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "geo/position.hpp"
 #include "mavlink/codec/messages.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::plan {
 

@@ -58,6 +58,7 @@ Performance performance_of(vehicle::Family family) {
   switch (family) {
     case vehicle::Family::plane: return plane;
     case vehicle::Family::rover:
+    case vehicle::Family::robot:
     case vehicle::Family::boat: return rover;
     case vehicle::Family::sub: return underwater;
     default: return copter;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::plan {
 
@@ -35,14 +35,14 @@ struct Performance {
 };
 
 /// With the parameters that ArduPilot has from the start (WPNAV_SPEED 10 m/s, AIRSPEED_CRUISE 22 m/s, WP_SPEED 5 m/s
-/// ...): within 10 % of what the simulator flies in still air. Boats are taken for rovers; families of which nothing is
-/// known, for copters.
+/// ...): within 10 % of what the simulator flies in still air. Boats and robots are taken for rovers; families of which
+/// nothing is known, for copters.
 [[nodiscard]] Performance performance_of(vehicle::Family family);
 
 /// Through the air; neither on wheels nor in the water.
 [[nodiscard]] constexpr bool flies(vehicle::Family family) {
   using enum vehicle::Family;
-  return family != rover && family != boat && family != sub;
+  return family != rover && family != boat && family != sub && family != robot;
 }
 
 }  // namespace lapwing::plan

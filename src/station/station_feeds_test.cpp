@@ -92,7 +92,7 @@ class StationFeedsTest : public ::testing::Test {
     return std::nullopt;
   }
   void move_vehicle(double alt_m) {
-    registry.edit({"1"}).relative_alt_m.set(alt_m, loop.now());
+    registry.edit({"1"}).motion.relative_alt_m.set(alt_m, loop.now());
     registry.touch({"1"});
   }
   void let_some_rounds_pass() {
@@ -271,7 +271,7 @@ TEST_F(StationFeedsTest, SendsASlowViewerAgainOnlyWhatItMissed) {
   open();
   for (int i = 0; i < 40; ++i) {
     vehicle::VehicleId const id{std::to_string(i)};
-    registry.edit(id).relative_alt_m.set(1.0, loop.now());
+    registry.edit(id).motion.relative_alt_m.set(1.0, loop.now());
     registry.touch(id);
   }
   for (int i = 0; i < 100; ++i) base::Logger(hub, "test").info("what was said before");

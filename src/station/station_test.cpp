@@ -56,7 +56,7 @@ class StationTest : public ::testing::Test {
     return {};
   }
   void move_vehicle(double alt_m) {
-    registry.edit({"1"}).relative_alt_m.set(alt_m, loop.now());
+    registry.edit({"1"}).motion.relative_alt_m.set(alt_m, loop.now());
     registry.touch({"1"});
   }
 

@@ -18,10 +18,10 @@ std::optional<Endurance> endurance(double remaining, Drain drain) {
 }
 
 std::optional<Endurance> endurance_in_flight(VehicleState const& state) {
-  auto const& battery = state.battery.value;
+  auto const& battery = state.power.battery.value;
   if (!battery) return std::nullopt;
   bool const is_told = battery->time_left && !battery->time_left_is_estimate;
-  if (is_told && state.landed.value == false) return Endurance{*battery->time_left, {}};
+  if (is_told && state.motion.landed.value == false) return Endurance{*battery->time_left, {}};
   return battery->in_flight;
 }
 

@@ -38,10 +38,10 @@ TEST(EnduranceInFlight, IsOfThisFlightOrOfTheLastOne) {
   VehicleState state;
   EXPECT_FALSE(endurance_in_flight(state));
   Battery battery{.remaining = 0.8, .voltage_v = {}, .current_a = {}};
-  state.battery.set(battery, base::TimePoint(1s));
+  state.power.battery.set(battery, base::TimePoint(1s));
   EXPECT_FALSE(endurance_in_flight(state)) << "it has not flown yet";
   battery.in_flight = Endurance{700s, 60s};
-  state.battery.set(battery, base::TimePoint(2s));
+  state.power.battery.set(battery, base::TimePoint(2s));
   EXPECT_EQ(endurance_in_flight(state), (Endurance{700s, 60s}));
 }
 
@@ -50,10 +50,10 @@ TEST(EnduranceInFlight, BelievesTheVehicleWhileItFliesOnly) {
   Battery battery{.remaining = 0.8, .voltage_v = {}, .current_a = {}};
   battery.time_left = 36'000s;  // standing
   battery.in_flight = Endurance{700s, 60s};
-  state.battery.set(battery, base::TimePoint(1s));
-  state.landed.set(true, base::TimePoint(1s));
+  state.power.battery.set(battery, base::TimePoint(1s));
+  state.motion.landed.set(true, base::TimePoint(1s));
   EXPECT_EQ(endurance_in_flight(state)->time, 700s);
-  state.landed.set(false, base::TimePoint(2s));
+  state.motion.landed.set(false, base::TimePoint(2s));
   EXPECT_EQ(endurance_in_flight(state), (Endurance{36'000s, {}}));
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/time.hpp"
 #include "geo/position.hpp"
+#include "vehicle/aged.hpp"
 
 /// What a vehicle carries besides its autopilot: components that speak for themselves, a gimbal, the pictures taken.
 namespace lapwing::vehicle {
@@ -39,6 +40,14 @@ struct Pictures {
   int taken = 0;                ///< since the vehicle was discovered
   int lost = 0;                 ///< taken, but where was not told
   std::vector<Picture> recent;  ///< newest last, bounded
+};
+
+/// What it carries.
+struct Payload {
+  std::vector<std::string> names;  ///< of equipment, as scripts ask for it: "Camera"
+  Aged<Gimbal> gimbal;
+  std::vector<Component> components;  ///< besides the autopilot, by id
+  Aged<Pictures> pictures;
 };
 
 }  // namespace lapwing::vehicle

@@ -27,8 +27,8 @@ TEST(Registry, RevisionGrowsWithEachTouchOfThatVehicleOnly) {
 
 TEST(VehicleState, FieldNeverHeardIsUnknownNotZero) {
   VehicleState const state;
-  EXPECT_FALSE(state.position.known());
-  EXPECT_FALSE(state.position.age(base::TimePoint{}).has_value());
+  EXPECT_FALSE(state.motion.position.known());
+  EXPECT_FALSE(state.motion.position.age(base::TimePoint{}).has_value());
 }
 
 TEST(VehicleState, AgeCountsFromTheLastTimeHeard) {

@@ -83,7 +83,7 @@ void tell(host::Session const& session, std::filesystem::path const& file, Playe
   fmt::print("{}: {} packets in {:.1f} s\n", file.string(), played.packets, base::to_seconds(played.lasted));
   if (played.skipped_bytes > 0) fmt::print("{} bytes were no telemetry and left out\n", played.skipped_bytes);
   for (auto const* vehicle : session.ground.registry.all()) {
-    fmt::print("{}: {:.0f} m of track\n", vehicle->name, vehicle->track_m);
+    fmt::print("{}: {:.0f} m of track\n", vehicle->name, vehicle->motion.track_m);
   }
 }
 

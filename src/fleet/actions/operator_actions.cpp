@@ -60,12 +60,12 @@ Task<Result<>> go_into_role(mavlink::Connection& connection, MavlinkVehicle& cra
 Task<Result<>> take_off_refused(MavlinkVehicle& craft, base::Error error, base::TimePoint since) {
   constexpr base::Duration word_wait = 1500ms;
   std::function<bool()> is_explained = [&craft, since] {
-    return !given_reason(craft, since).empty() || craft.state.landed.value == false;
+    return !given_reason(craft, since).empty() || craft.state.motion.landed.value == false;
   };
   (void)co_await craft.changed.wait_for(std::move(is_explained), word_wait);
   if (auto const reason = given_reason(craft, since); !reason.empty())
     error.message += ": " + reason;
-  else if (craft.state.landed.value == false)
+  else if (craft.state.motion.landed.value == false)
     co_return unable(craft, "is in the air already");
   co_return std::unexpected(std::move(error));
 }
@@ -93,23 +93,23 @@ Task<Result<>> leave_the_ground(mavlink::Connection& connection, MavlinkVehicle&
 
 Task<Result<>> take_off(mavlink::Connection& connection, MavlinkVehicle& craft, double height_m, ActionOptions how) {
   if (!flies(craft.state.family)) co_return unable(craft, "does not fly");
-  if (craft.state.landed.value == false) co_return unable(craft, "is in the air already");
+  if (craft.state.motion.landed.value == false) co_return unable(craft, "is in the air already");
   co_return co_await leave_the_ground(connection, craft, height_m, how);
 }
 
 /// Where to go and how high. PX4 takes the height for one above sea level, whatever the frame says.
 Result<mavlink::CommandPlace> place_to_go(MavlinkVehicle const& craft, vehicle::VehicleCommand const& command) {
   auto const& state = craft.state;
-  auto const height_m = command.height_m ? command.height_m : state.relative_alt_m.value;
+  auto const height_m = command.height_m ? command.height_m : state.motion.relative_alt_m.value;
   if (flies(state.family) && !height_m) return unable(craft, "has not told its height: give one");
   mavlink::CommandPlace there{.frame = mavlink::MavFrame::global_relative_alt,
                               .lat_rad = command.place->lat_rad,
                               .lon_rad = command.place->lon_rad,
                               .z_m = height_m.value_or(0.0)};
   if (state.autopilot != Autopilot::px4) return there;
-  bool const knows_home = state.position.value && state.relative_alt_m.value;
+  bool const knows_home = state.motion.position.value && state.motion.relative_alt_m.value;
   if (!knows_home) return unable(craft, "has not told how high it is above the sea");
-  double const home_alt_m = state.position.value->alt_m - *state.relative_alt_m.value;
+  double const home_alt_m = state.motion.position.value->alt_m - *state.motion.relative_alt_m.value;
   there.frame = mavlink::MavFrame::global;
   there.z_m = home_alt_m + *height_m;
   return there;
@@ -119,15 +119,14 @@ Result<mavlink::CommandPlace> place_to_go(MavlinkVehicle const& craft, vehicle::
 Task<Result<>> go_to(mavlink::Connection& connection, MavlinkVehicle& craft, vehicle::VehicleCommand command,
                      ActionOptions how) {
   if (!command.place) co_return unable(craft, "was told no place to go to");
-  if (flies(craft.state.family) && craft.state.landed.value.value_or(false))
+  if (flies(craft.state.family) && craft.state.motion.landed.value.value_or(false))
     co_return unable(craft, "is on the ground: take off first");
-  if (!craft.is_armed) co_return unable(craft, "is not armed");
+  if (!craft.heard->is_armed) co_return unable(craft, "is not armed");
   auto const place = place_to_go(craft, command);
   if (!place) co_return std::unexpected(place.error());
   auto const guided = mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::guided);
   auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, ModeRole::hold);
-  craft.asked_mode = guided ? guided : hold;  // PX4 goes there in AUTO.LOITER
-  craft.mode_asked = connection.loop().now();
+  note_asked_mode(craft, guided ? guided : hold, connection.loop().now());  // PX4 goes there in AUTO.LOITER
   mavlink::CommandOptions const options{.not_after = how.not_after, .takes_int = craft.takes_command_int()};
   auto const asked = co_await mavlink::run_command(connection, craft.address, mavlink::reposition(*place), options);
   if (asked && how.on_accepted) how.on_accepted();
@@ -135,13 +134,13 @@ Task<Result<>> go_to(mavlink::Connection& connection, MavlinkVehicle& craft, veh
 }
 
 Task<Result<>> resume(mavlink::Connection& connection, MavlinkVehicle& craft, ActionOptions how) {
-  if (!craft.is_armed) co_return unable(craft, "is not armed: start the mission instead");
+  if (!craft.heard->is_armed) co_return unable(craft, "is not armed: start the mission instead");
   co_return co_await go_into_role(connection, craft, ModeRole::mission, "has no mission mode", how);
 }
 
 /// Also when it was armed already: that it still is must come from itself.
 Task<Result<>> arm_anew(mavlink::Connection& connection, MavlinkVehicle& craft, ActionOptions how) {
-  if (!craft.is_armed) co_return co_await arm(connection, craft, how);
+  if (!craft.heard->is_armed) co_return co_await arm(connection, craft, how);
   mavlink::CommandOptions const options{.not_after = how.not_after};
   auto const asked = co_await mavlink::run_command(connection, craft.address, mavlink::arm(), options);
   if (asked && how.on_accepted) how.on_accepted();
@@ -160,7 +159,7 @@ bool flies_the_plan(MavlinkVehicle const& craft, vehicle::VehicleCommand const& 
 
 Task<Result<>> carry_out(mavlink::Connection& connection, MavlinkVehicle& craft, vehicle::VehicleCommand command,
                          ActionOptions how) {
-  if (craft.holds_parts && flies_the_plan(craft, command))
+  if (craft.holds_parts() && flies_the_plan(craft, command))
     co_return fail(
         ErrorKind::refused,
         fmt::format("{} may hold a part of one plan and a part of another: upload a plan first", craft.state.name));
@@ -194,7 +193,7 @@ Task<Result<>> stop_motors(mavlink::Connection& connection, MavlinkVehicle& craf
   mavlink::CommandOptions const options{.tries = 2, .ack_timeout = 500ms, .is_urgent = true};
   auto const asked = co_await mavlink::run_command(connection, craft.address, command, options);
   if (asked && on_accepted) on_accepted();
-  std::function<bool()> shown = [&craft] { return !craft.is_armed; };
+  std::function<bool()> shown = [&craft] { return !craft.heard->is_armed; };
   if (co_await craft.changed.wait_for(std::move(shown), effect_wait)) co_return Result<>{};
   if (!asked) co_return asked;
   co_return fail(ErrorKind::timed_out, "accepted, but it still reports armed");
@@ -259,7 +258,7 @@ Task<Result<>> stop_at_once(mavlink::Connection& connection, MavlinkVehicle& cra
                             std::function<void()> on_accepted) {
   if (action == StopAction::terminate) co_return co_await stop_motors(connection, craft, on_accepted);
   ActionOptions const how{.is_urgent = true, .on_accepted = on_accepted};
-  if (!craft.is_armed) co_return co_await disarm(connection, craft, how);
+  if (!craft.heard->is_armed) co_return co_await disarm(connection, craft, how);
   auto stopped = co_await bring_to_rest(connection, craft, on_stop_of(action), on_accepted);
   if (!stopped) co_return stopped;
   // Wheels stand without a motor; boats and subs would drift.

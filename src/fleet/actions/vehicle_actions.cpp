@@ -24,6 +24,18 @@ using base::TimePoint;
 using mavlink::ModeRole;
 using vehicle::Family;
 
+/// Writes what is asked of a vehicle, for the functions of this file.
+class Actions {
+ public:
+  static Asked& asked_of(MavlinkVehicle& craft) { return craft.asked.write(As<Actions>()); }
+};
+
+void note_asked_mode(MavlinkVehicle& craft, std::optional<std::uint32_t> custom_mode, TimePoint now) {
+  auto& asked = Actions::asked_of(craft);
+  asked.mode = custom_mode;
+  asked.mode_asked = now;
+}
+
 namespace {
 
 constexpr int warning = 4;  // severities up to here explain a refusal
@@ -79,8 +91,8 @@ std::unexpected<base::Error> explained(std::string_view what, base::Error const&
 std::optional<std::uint32_t> mode_to_arm_in(MavlinkVehicle const& craft) {
   if (!is_ardupilot_copter(craft)) return std::nullopt;
   auto const guided = mode_for(craft, ModeRole::guided);
-  bool const is_armable = craft.custom_mode == copter_stabilize || craft.custom_mode == guided;
-  if (is_armable && !craft.mission_mode_pending) return std::nullopt;
+  bool const is_armable = craft.heard->custom_mode == copter_stabilize || craft.heard->custom_mode == guided;
+  if (is_armable && !craft.asked->mission_mode_pending) return std::nullopt;
   return guided;
 }
 
@@ -94,15 +106,11 @@ std::optional<std::uint32_t> stop_mode(MavlinkVehicle const& craft, OnStop on_st
   return hold;
 }
 
-void note_asked(MavlinkVehicle& craft, std::uint32_t mode, TimePoint now) {
-  craft.asked_mode = mode;
-  craft.mode_asked = now;
-}
-
 Task<Result<>> send_arming(mavlink::Connection& connection, MavlinkVehicle& craft, ActionOptions how) {
-  craft.may_arm_late_until.reset();  // from now on it is wanted
-  craft.arming_begun = connection.loop().now();
-  ++craft.armings;
+  auto& notes = Actions::asked_of(craft);
+  notes.may_arm_late_until.reset();  // from now on it is wanted
+  notes.arming_begun = connection.loop().now();
+  ++notes.armings;
   auto const since = connection.loop().now();
   // Short waits and many tries: it must come through within the seconds before it expires.
   mavlink::CommandOptions const options{.tries = 10, .ack_timeout = 700ms, .expiry = 8s, .not_after = how.not_after};
@@ -114,10 +122,10 @@ Task<Result<>> send_arming(mavlink::Connection& connection, MavlinkVehicle& craf
     co_return explained("arming refused", asked.error(), given_reason(craft, since));
   }
   // An acknowledgement may be lost and the vehicle armed all the same.
-  std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
+  std::function<bool()> is_armed = [&craft] { return craft.heard->is_armed; };
   auto const patience = asked ? armed_wait : heartbeat_wait;
   if (co_await wait_for(craft, std::move(is_armed), patience)) {
-    craft.arming_begun.reset();
+    notes.arming_begun.reset();
     co_return Result<>{};
   }
   if (!asked) co_return fail(asked.error().kind, fmt::format("arming: {}", asked.error().message));
@@ -130,8 +138,8 @@ Task<Result<>> send_arming(mavlink::Connection& connection, MavlinkVehicle& craf
 Task<Result<>> command_mission(mavlink::Connection& connection, MavlinkVehicle& craft, std::uint32_t mission_mode,
                                TimePoint not_after) {
   mavlink::CommandOptions const options{.tries = 1, .ack_timeout = ack_wait, .not_after = not_after};
-  note_asked(craft, mission_mode, connection.loop().now());
-  auto const by_mode = mavlink::set_mode(craft.mav_autopilot, mission_mode);
+  note_asked_mode(craft, mission_mode, connection.loop().now());
+  auto const by_mode = mavlink::set_mode(craft.heard->mav_autopilot, mission_mode);
   if (!is_ardupilot_copter(craft)) co_return co_await mavlink::run_command(connection, craft.address, by_mode, options);
   auto const by_start = mavlink::start_mission();
   auto started = co_await mavlink::run_command(connection, craft.address, by_start, options);
@@ -146,14 +154,14 @@ Task<Result<>> enter_mission(mavlink::Connection& connection, MavlinkVehicle& cr
   auto const since = connection.loop().now();
   Result<> commanded;
   for (int attempt = 0; attempt < tries; ++attempt) {
-    craft.mission_mode_pending = !in_mission_mode(craft);
+    Actions::asked_of(craft).mission_mode_pending = !in_mission_mode(craft);
     commanded = co_await command_mission(connection, craft, *mission_mode, how.not_after);
     if (commanded && how.on_accepted) how.on_accepted();
     if (!commanded && commanded.error().kind != ErrorKind::timed_out) break;
-    std::function<bool()> decided = [&craft] { return in_mission_mode(craft) || !craft.is_armed; };
+    std::function<bool()> decided = [&craft] { return in_mission_mode(craft) || !craft.heard->is_armed; };
     (void)co_await wait_for(craft, std::move(decided), heartbeat_wait);
-    if (in_mission_mode(craft) && craft.is_armed) co_return Result<>{};
-    if (!craft.is_armed) co_return fail(ErrorKind::timed_out, "disarmed again before the mission began");
+    if (in_mission_mode(craft) && craft.heard->is_armed) co_return Result<>{};
+    if (!craft.heard->is_armed) co_return fail(ErrorKind::timed_out, "disarmed again before the mission began");
   }
   if (!commanded && commanded.error().kind == ErrorKind::refused) co_await wait_for_reason(craft, since);
   auto const reason = given_reason(craft, since);
@@ -172,7 +180,7 @@ std::optional<OnStop> on_stop_from(std::string_view word) {
 }
 
 bool in_mission_mode(MavlinkVehicle const& craft) {
-  return craft.custom_mode == mode_for(craft, ModeRole::mission);
+  return craft.heard->custom_mode == mode_for(craft, ModeRole::mission);
 }
 
 std::string mode_name(MavlinkVehicle const& craft, std::uint32_t custom_mode) {
@@ -196,27 +204,28 @@ std::string given_reason(MavlinkVehicle const& craft, TimePoint since) {
 
 Task<Result<>> change_mode(mavlink::Connection& connection, MavlinkVehicle& craft, ModeChange change) {
   auto const mode = change.custom_mode;
-  if (craft.custom_mode == mode && !change.even_if_shown) co_return Result<>{};
+  if (craft.heard->custom_mode == mode && !change.even_if_shown) co_return Result<>{};
   auto const since = connection.loop().now();
   auto const& how = change.how;
   mavlink::CommandOptions const options{.tries = 1,
                                         .ack_timeout = how.is_urgent ? urgent_ack_wait : ack_wait,
                                         .not_after = how.not_after,
                                         .is_urgent = how.is_urgent};
-  auto const command = mavlink::set_mode(craft.mav_autopilot, mode);
+  auto const command = mavlink::set_mode(craft.heard->mav_autopilot, mode);
   Result<> asked;
   for (int attempt = 0; attempt < change.tries; ++attempt) {
-    note_asked(craft, mode, connection.loop().now());
+    note_asked_mode(craft, mode, connection.loop().now());
     asked = co_await mavlink::run_command(connection, craft.address, command, options);
     if (asked && how.on_accepted) how.on_accepted();
     if (!asked && asked.error().kind != ErrorKind::timed_out) break;
     auto const answered = connection.loop().now();
     std::function<bool()> shown = [&craft, &change, mode, answered] {
-      return craft.custom_mode == mode && (!change.even_if_shown || craft.state.heartbeat_heard >= answered);
+      return craft.heard->custom_mode == mode &&
+             (!change.even_if_shown || craft.state.links.heartbeat_heard >= answered);
     };
     auto const patience = how.is_urgent && !asked ? Duration{} : heartbeat_wait;
     if (co_await wait_for(craft, std::move(shown), patience)) {
-      craft.mission_mode_pending = false;
+      Actions::asked_of(craft).mission_mode_pending = false;
       co_return Result<>{};
     }
   }
@@ -229,13 +238,13 @@ Task<Result<>> change_mode(mavlink::Connection& connection, MavlinkVehicle& craf
 namespace {
 
 bool knows_its_place(MavlinkVehicle const& craft) {
-  auto const& health = craft.state.health.value;
+  auto const& health = craft.state.arming.health.value;
   bool const estimated = health && health->position_ok;
-  return craft.state.position.known() && (estimated || craft.state.autopilot == vehicle::Autopilot::other);
+  return craft.state.motion.position.known() && (estimated || craft.state.autopilot == vehicle::Autopilot::other);
 }
 
 std::string_view missing_for_place(MavlinkVehicle const& craft) {
-  return !craft.fix || *craft.fix < mavlink::GpsFix::fix_3d ? "no GPS fix" : "no position estimate";
+  return !craft.heard->fix || *craft.heard->fix < mavlink::GpsFix::fix_3d ? "no GPS fix" : "no position estimate";
 }
 
 }  // namespace
@@ -243,7 +252,7 @@ std::string_view missing_for_place(MavlinkVehicle const& craft) {
 std::string why_not_ready(MavlinkVehicle const& craft) {
   std::string what;
   if (!knows_its_place(craft)) what = missing_for_place(craft);
-  for (auto const& objection : craft.state.arming_reasons) what += (what.empty() ? "" : "; ") + objection.text;
+  for (auto const& objection : craft.state.arming.reasons) what += (what.empty() ? "" : "; ") + objection.text;
   return what;
 }
 
@@ -256,26 +265,26 @@ Task<Result<>> wait_until_ready(MavlinkVehicle& craft, base::Loop& loop, Duratio
     co_return fail(ErrorKind::timed_out, with_reason(what, given_reason(craft, since)));
   }
   std::function<bool()> no_objection = [&craft] {
-    return craft.is_armed || craft.state.health.value.value_or(vehicle::Health{}).prearm_ok;
+    return craft.heard->is_armed || craft.state.arming.health.value.value_or(vehicle::Health{}).prearm_ok;
   };
-  if (craft.state.health.known()) (void)co_await wait_for(craft, std::move(no_objection), prearm_patience);
+  if (craft.state.arming.health.known()) (void)co_await wait_for(craft, std::move(no_objection), prearm_patience);
   co_return Result<>{};
 }
 
 Task<Result<>> leave_mission(mavlink::Connection& connection, MavlinkVehicle& craft, OnStop on_stop) {
-  if (!in_mission_mode(craft) && !craft.mission_mode_pending) co_return Result<>{};
+  if (!in_mission_mode(craft) && !craft.asked->mission_mode_pending) co_return Result<>{};
   auto mode = stop_mode(craft, on_stop);
-  if (!craft.is_armed && mode_to_arm_in(craft)) mode = mode_to_arm_in(craft);
+  if (!craft.heard->is_armed && mode_to_arm_in(craft)) mode = mode_to_arm_in(craft);
   if (!mode) co_return fail(ErrorKind::invalid_input, fmt::format("{} has no mode to stop in", craft.state.name));
-  ModeChange const change{.custom_mode = *mode, .even_if_shown = craft.mission_mode_pending};
+  ModeChange const change{.custom_mode = *mode, .even_if_shown = craft.asked->mission_mode_pending};
   co_return co_await change_mode(connection, craft, change);
 }
 
 Task<Result<>> arm(mavlink::Connection& connection, MavlinkVehicle& craft, ActionOptions how) {
-  if (craft.is_armed) co_return Result<>{};
+  if (craft.heard->is_armed) co_return Result<>{};
   if (auto const mode = mode_to_arm_in(craft)) {
     ModeChange const change{
-        .custom_mode = *mode, .even_if_shown = craft.mission_mode_pending, .how = {.not_after = how.not_after}};
+        .custom_mode = *mode, .even_if_shown = craft.asked->mission_mode_pending, .how = {.not_after = how.not_after}};
     if (auto changed = co_await change_mode(connection, craft, change); !changed) co_return changed;
   }
   co_return co_await send_arming(connection, craft, how);
@@ -284,15 +293,15 @@ Task<Result<>> arm(mavlink::Connection& connection, MavlinkVehicle& craft, Actio
 Task<Result<>> arm_and_start(mavlink::Connection& connection, MavlinkVehicle& craft, ActionOptions how) {
   constexpr int attempts = 3;  // a lossy link can eat up the seconds between arming and the start
   ActionOptions const first{.not_after = how.not_after};
-  bool const was_armed = craft.is_armed;
+  bool const was_armed = craft.heard->is_armed;
   Result<> entered;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (auto armed = co_await arm(connection, craft, first); !armed) co_return armed;
     entered = co_await enter_mission(connection, craft, how);
-    if (entered || craft.is_armed) break;
+    if (entered || craft.heard->is_armed) break;
   }
   // Motors that run for nothing. In the air, where it may be all the same, the autopilot refuses.
-  if (!entered && !was_armed && craft.is_armed) {
+  if (!entered && !was_armed && craft.heard->is_armed) {
     ActionOptions const at_once{.is_urgent = true};
     auto const disarmed = co_await disarm(connection, craft, at_once);
     if (!disarmed) entered.error().message += fmt::format("; it is still armed: {}", disarmed.error().message);
@@ -312,7 +321,7 @@ Task<Result<>> disarm(mavlink::Connection& connection, MavlinkVehicle& craft, Ac
   }
   auto const answered = connection.loop().now();
   std::function<bool()> shown = [&craft, answered] {
-    return !craft.is_armed && craft.state.heartbeat_heard >= answered;
+    return !craft.heard->is_armed && craft.state.links.heartbeat_heard >= answered;
   };
   if (co_await wait_for(craft, std::move(shown), heartbeat_wait)) co_return Result<>{};
   if (!asked) co_return asked;
@@ -342,7 +351,7 @@ Task<Result<>> stop_without_mode(mavlink::Connection& connection, MavlinkVehicle
                                  std::function<void()> on_accepted) {
   constexpr double standing_m_s = 0.5;
   mavlink::CommandOptions const options{.tries = 2, .ack_timeout = 500ms, .is_urgent = true};
-  auto const mode_before = craft.custom_mode;
+  auto const mode_before = craft.heard->custom_mode;
   auto const commands = stops_without_mode(on_stop);
   Result<> asked;
   for (auto const& command : commands) {
@@ -351,10 +360,11 @@ Task<Result<>> stop_without_mode(mavlink::Connection& connection, MavlinkVehicle
     if (on_accepted) on_accepted();
     auto const answered = connection.loop().now();
     std::function<bool()> shown = [&craft, mode_before, answered] {
-      auto const& velocity = craft.state.velocity_m_s;
+      auto const& velocity = craft.state.motion.velocity_m_s;
       bool const stands = velocity.known() && velocity.heard >= answered &&
                           std::hypot(velocity.value->north, velocity.value->east, velocity.value->down) < standing_m_s;
-      return stands || !craft.is_armed || craft.state.landed.value.value_or(false) || craft.custom_mode != mode_before;
+      return stands || !craft.heard->is_armed || craft.state.motion.landed.value.value_or(false) ||
+             craft.heard->custom_mode != mode_before;
     };
     if (co_await wait_for(craft, std::move(shown), heartbeat_wait)) co_return Result<>{};
     co_return fail(ErrorKind::timed_out,
@@ -382,9 +392,9 @@ Task<Result<>> bring_to_rest(mavlink::Connection& connection, MavlinkVehicle& cr
   }
   if (!changed) co_return changed;
   // Refused when it is in the air after all: then it holds, which is what was asked for.
-  bool const stands = craft.state.landed.value.value_or(false);
+  bool const stands = craft.state.motion.landed.value.value_or(false);
   ActionOptions const at_once{.is_urgent = true};
-  if (can_fly(craft) && craft.is_armed && stands) (void)co_await disarm(connection, craft, at_once);
+  if (can_fly(craft) && craft.heard->is_armed && stands) (void)co_await disarm(connection, craft, at_once);
   co_return Result<>{};
 }
 

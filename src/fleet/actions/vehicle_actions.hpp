@@ -33,6 +33,9 @@ enum class OnStop {
 /// or empty.
 [[nodiscard]] std::string given_reason(MavlinkVehicle const& craft, base::TimePoint since);
 
+/// This station asks for the mode, so that it is nobody else's doing when the vehicle shows it.
+void note_asked_mode(MavlinkVehicle& craft, std::optional<std::uint32_t> custom_mode, base::TimePoint now);
+
 /// How a command of this page is sent.
 struct ActionOptions {
   base::TimePoint not_after = base::TimePoint::max();  ///< nothing is sent later

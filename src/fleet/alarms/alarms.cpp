@@ -93,7 +93,7 @@ bool Alarms::look_at(VehicleState const& state, Watched& watched) {
 
 void Alarms::note_commander(VehicleState const& state, Watched& watched) const {
   bool const has_commander = !state.control.commander.empty();
-  bool const is_armed = state.armed.value.value_or(false);
+  bool const is_armed = state.arming.armed.value.value_or(false);
   if (has_commander || !is_armed)
     watched.left_at.reset();
   else if (watched.had_commander)
@@ -127,7 +127,7 @@ void Alarms::say_ended(VehicleState const& state, Alarm const& alarm) {
   switch (alarm.kind) {
     case AlarmKind::silent:
       return roll_call_.ends(alarm, fmt::format("{} is heard again after {:.0f} s", state.name, lasted));
-    case AlarmKind::lost: return roll_call_.ends(alarm, fmt::format("{} is back at {}", state.name, state.link));
+    case AlarmKind::lost: return roll_call_.ends(alarm, fmt::format("{} is back at {}", state.name, state.links.used));
     case AlarmKind::conflict: return roll_call_.ends(alarm, fmt::format("{} has its id for itself", state.name));
     default: return roll_call_.ends(alarm, fmt::format("over: {}", alarm.words));
   }

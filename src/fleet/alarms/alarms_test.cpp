@@ -47,8 +47,8 @@ TEST(Alarms, TellOfASilentVehicleWithinThreeSeconds) {
   auto const since = world.loop.now();
   ASSERT_TRUE(world.raises(AlarmKind::silent));
   EXPECT_LE(world.loop.now() - since, 3s);
-  EXPECT_TRUE(world.state().is_silent);
-  EXPECT_EQ(world.state().connection, vehicle::Connection::ok) << "for scripts it is lost after their time-out";
+  EXPECT_TRUE(world.state().links.is_silent);
+  EXPECT_EQ(world.state().links.connection, vehicle::Connection::ok) << "for scripts it is lost after their time-out";
   EXPECT_EQ(world.find(AlarmKind::silent)->severity, Severity::critical);
   EXPECT_LE(world.find(AlarmKind::silent)->since, since);
   EXPECT_TRUE(world.has_logged("copter 1 silent, last known in the air at 0 m"));
@@ -62,7 +62,7 @@ TEST(Alarms, EndTheSilenceWithTheFirstMessage) {
   EXPECT_EQ(world.find(AlarmKind::silent)->severity, Severity::warning) << "it stood on the ground, disarmed";
   copter.is_silent = false;
   EXPECT_TRUE(world.clears(AlarmKind::silent, 1500ms));
-  EXPECT_FALSE(world.state().is_silent);
+  EXPECT_FALSE(world.state().links.is_silent);
   EXPECT_TRUE(world.has_logged("copter 1 is heard again after"));
 }
 
@@ -93,11 +93,11 @@ TEST(Alarms, TakeTwoLostHeartbeatsOfAThinLinkForNoSilence) {
   auto& copter = world.add();
   world.run_for(20100ms);
   copter.is_silent = true;
-  EXPECT_FALSE(world.run_until([&] { return world.state().is_silent; }, 2800ms));
+  EXPECT_FALSE(world.run_until([&] { return world.state().links.is_silent; }, 2800ms));
   copter.is_silent = false;
-  EXPECT_FALSE(world.run_until([&] { return world.state().is_silent; }, 10s));
+  EXPECT_FALSE(world.run_until([&] { return world.state().links.is_silent; }, 10s));
   copter.is_silent = true;
-  EXPECT_TRUE(world.run_until([&] { return world.state().is_silent; }, 4s));
+  EXPECT_TRUE(world.run_until([&] { return world.state().links.is_silent; }, 4s));
 }
 
 TEST(Alarms, SayThatAFleetIsSilentInOneLine) {

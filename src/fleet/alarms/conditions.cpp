@@ -24,23 +24,23 @@ constexpr base::Duration may_be_landing = 10s;
 constexpr double stands_m_s = 0.5;
 
 bool is_armed(VehicleState const& state) {
-  return state.armed.value.value_or(false);
+  return state.arming.armed.value.value_or(false);
 }
 
 /// On the ground and disarmed nothing can happen to it.
 Severity grave_in_flight(VehicleState const& state) {
-  bool const is_flying = state.landed.value == false;
+  bool const is_flying = state.motion.landed.value == false;
   return is_armed(state) || is_flying ? Severity::critical : Severity::warning;
 }
 
 /// Where it was when it was last heard, in words that follow its name.
 std::string last_known(VehicleState const& state) {
-  bool const is_flying = state.landed.value == false;
-  if (is_flying && state.relative_alt_m.value)
-    return fmt::format("last known in the air at {:.0f} m", *state.relative_alt_m.value);
+  bool const is_flying = state.motion.landed.value == false;
+  if (is_flying && state.motion.relative_alt_m.value)
+    return fmt::format("last known in the air at {:.0f} m", *state.motion.relative_alt_m.value);
   if (is_flying) return "last known in the air";
   if (is_armed(state)) return "last known armed";
-  return state.armed.value ? "last known disarmed" : "";
+  return state.arming.armed.value ? "last known disarmed" : "";
 }
 
 /// Decides for one vehicle; one function a kind.
@@ -58,13 +58,13 @@ struct Judge {
   }
 
   void judge_link() {
-    if (state.connection == vehicle::Connection::conflict)
-      return found.push_back({AlarmKind::conflict, Severity::critical, now, state.conflict});
-    auto const since = std::max(state.heard, state.heartbeat_heard);
-    if (state.connection == vehicle::Connection::lost)
+    if (state.links.connection == vehicle::Connection::conflict)
+      return found.push_back({AlarmKind::conflict, Severity::critical, now, state.links.conflict});
+    auto const since = std::max(state.links.heard, state.links.heartbeat_heard);
+    if (state.links.connection == vehicle::Connection::lost)
       return add(AlarmKind::lost, grave_in_flight(state), since,
-                 fmt::format("lost: silent for {:.0f} s", base::to_seconds(now - state.heartbeat_heard)));
-    if (!state.is_silent) return;
+                 fmt::format("lost: silent for {:.0f} s", base::to_seconds(now - state.links.heartbeat_heard)));
+    if (!state.links.is_silent) return;
     auto const where = last_known(state);
     add(AlarmKind::silent, grave_in_flight(state), since, where.empty() ? "silent" : "silent, " + where);
   }
@@ -74,13 +74,13 @@ struct Judge {
     using vehicle::Charge;
     auto worst = Charge::ok;
     double share = 1.0;
-    if (auto const& battery = state.battery.value) {
+    if (auto const& battery = state.power.battery.value) {
       share = battery->remaining;
       worst = battery->charge;
       if (worst < Charge::low && is_below(circumstances.battery.low, AlarmKind::battery_low)) worst = Charge::low;
       if (is_below(circumstances.battery.critical, AlarmKind::battery_critical)) worst = Charge::critical;
     }
-    for (auto const& battery : state.further_batteries) {
+    for (auto const& battery : state.power.further_batteries) {
       auto const charge = battery.value->charge;
       if (charge <= worst || charge == Charge::ok) continue;
       worst = charge;
@@ -92,18 +92,19 @@ struct Judge {
       add(AlarmKind::battery_critical, grave_in_flight(state), now, "battery nearly empty: " + left);
   }
   [[nodiscard]] bool is_below(double limit, AlarmKind kind) const {
-    return state.battery.value->remaining < limit + (stands(kind) ? charge_slack : 0.0);
+    return state.power.battery.value->remaining < limit + (stands(kind) ? charge_slack : 0.0);
   }
 
   /// The text says what it is, the heartbeat how long it goes on. What was only said counts for a while.
   void judge_failsafe() {
     for (auto const& text : std::views::reverse(state.recent_texts)) {
-      if (!state.is_in_trouble && text.text.find("leared") != std::string::npos) break;
+      if (!state.arming.is_in_trouble && text.text.find("leared") != std::string::npos) break;
       if (!tells_failsafe(text.text) || is_of_other_kind(text.text)) continue;
-      if (!state.is_in_trouble && text.heard + text_holds < now) break;
+      if (!state.arming.is_in_trouble && text.heard + text_holds < now) break;
       return add(AlarmKind::failsafe, grave_in_flight(state), text.heard, "failsafe: " + text.text);
     }
-    if (state.is_in_trouble) add(AlarmKind::failsafe, grave_in_flight(state), now, "says that its state is critical");
+    if (state.arming.is_in_trouble)
+      add(AlarmKind::failsafe, grave_in_flight(state), now, "says that its state is critical");
   }
   /// Of the fence and of batteries that are merely low there is more than a text.
   [[nodiscard]] static bool is_of_other_kind(std::string_view text) {
@@ -113,7 +114,7 @@ struct Judge {
   }
 
   void judge_fence() {
-    auto const& fence = state.fence.value;
+    auto const& fence = state.mission.fence.value;
     if (!fence || !fence->is_breached) return;
     add(AlarmKind::fence, grave_in_flight(state), now,
         fence->type.empty() ? std::string("fence breached") : fmt::format("fence breached: {}", fence->type));
@@ -128,8 +129,8 @@ struct Judge {
   /// Ground vehicles tell no landing: what has no speed stands.
   void judge_leaving() {
     if (!is_armed(state) || !circumstances.left_at || now - *circumstances.left_at < may_be_landing) return;
-    if (state.landed.value == false) return;
-    auto const& velocity = state.velocity_m_s.value;
+    if (state.motion.landed.value == false) return;
+    auto const& velocity = state.motion.velocity_m_s.value;
     if (!velocity || std::hypot(velocity->north, velocity->east, velocity->down) > stands_m_s) return;
     add(AlarmKind::left_armed, Severity::warning, *circumstances.left_at, "stands armed, and nobody commands it");
   }

@@ -63,7 +63,7 @@ TEST(Confirmation, SaysWhereItIsWhenItIsCutShortAndNotWhereItWasWhenThatWasLastT
   EXPECT_TRUE(world.stops_all());
   auto const cut = world.outcome(number).reason;
   double const said_m = std::stod(cut.substr(cut.find(", at ") + 5));
-  EXPECT_NEAR(said_m, world.state().relative_alt_m.value.value_or(0.0), 2.0) << cut;
+  EXPECT_NEAR(said_m, world.state().motion.relative_alt_m.value.value_or(0.0), 2.0) << cut;
 }
 
 TEST(Confirmation, SaysThatALaterCommandCutAnEarlierOneShort) {

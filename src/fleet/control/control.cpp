@@ -117,17 +117,18 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   record.outcomes.push_back({.vehicle = id});
   auto* const craft = fleet_.find(id);
   if (!craft) return show(record.number, id, CommandState::refused, fmt::format("there is no vehicle {}", id.text));
-  bool const was_nobodys = craft->state.control.commander.empty() || craft->loans > 0;
+  bool const was_nobodys = craft->state.control.commander.empty() || craft->runs->loans > 0;
   if (auto through = let_through(*craft, record, takes_over); !through)
     return show(record.number, id, CommandState::refused, through.error().message);
-  if (craft->state.control.commander == record.by) craft->loans = 0;  // from now on he has it for more than a parameter
+  if (craft->state.control.commander == record.by)
+    craft->runs.write(As<Control>()).loans = 0;  // from now on he has it for more than a parameter
   supersede(id, fmt::format("{} by {} came after it", to_string(record.command.action), record.by));
   // A stop is not given up while there is a chance; what makes a vehicle move must not come late.
   auto const patience = is_stop(record.command.action) ? 3 * options_.expiry : options_.expiry;
   auto& running = running_[id];
   running.number = record.number;
   running.made_commander = was_nobodys;
-  craft->arming_begun.reset();
+  craft->asked.write(As<Control>()).arming_begun.reset();
   running.task = carry(*craft, record.number, record.command, fleet_.loop().now() + patience);
   running.task.start();
 }
@@ -167,7 +168,8 @@ base::Task<> Control::carry(MavlinkVehicle& craft, std::uint64_t number, vehicle
   if (!ended) fail_command(craft, number, ended.error(), expires);
   running_[id].is_sent = true;
   // An arming that comes late is taken back.
-  if (!ended && may_arm(command.action) && (command.action == Action::arm || craft.may_arm_late_until)) co_return;
+  if (!ended && may_arm(command.action) && (command.action == Action::arm || craft.asked->may_arm_late_until))
+    co_return;
   auto const* const outcome = outcome_of(number, id);
   if (outcome && !is_final(outcome->state)) co_await watch(craft, number, goal);
 }
@@ -186,9 +188,9 @@ base::Task<> Control::watch(MavlinkVehicle& craft, std::uint64_t number, Goal& g
     auto const* const outcome = outcome_of(number, craft.id());
     if (!outcome) co_return;
     auto const state = outcome->state;
-    if (!heard && craft.state.heartbeat_heard >= begun) heard = now;
+    if (!heard && craft.state.links.heartbeat_heard >= begun) heard = now;
     auto const standing = goal.look(craft, now);
-    auto const silent = now - craft.state.heartbeat_heard;
+    auto const silent = now - craft.state.links.heartbeat_heard;
     auto const age = silent < is_silent ? "" : fmt::format("; not heard for {:.0f} s", base::to_seconds(silent));
     switch (standing.kind) {
       case Kind::unseen:
@@ -273,8 +275,8 @@ void Control::expect_late_arming(MavlinkVehicle& craft) {
   constexpr base::Duration links_keep = std::chrono::seconds(60);
   auto& commands = craft.connection.commands();
   auto const sent = commands.last_sent(craft.address.system, mavlink::MavCmd::component_arm_disarm);
-  if (craft.is_armed || !craft.arming_begun || !sent || *sent < *craft.arming_begun) return;
-  craft.may_arm_late_until = fleet_.loop().now() + links_keep;
+  if (craft.heard->is_armed || !craft.asked->arming_begun || !sent || *sent < *craft.asked->arming_begun) return;
+  craft.asked.write(As<Control>()).may_arm_late_until = fleet_.loop().now() + links_keep;
 }
 
 /// An acknowledgement to us of an arming that we have given up: the link had kept one or the other.
@@ -284,7 +286,7 @@ void Control::take_late_arming(Network& network, mavlink::Received const& receiv
     return;
   if (!mavlink::addresses(ack->target, network.connection().self())) return;
   auto* const craft = network.find(received.source.system);
-  if (!craft || !craft->may_arm_late_until || received.at > *craft->may_arm_late_until) return;
+  if (!craft || !craft->asked->may_arm_late_until || received.at > *craft->asked->may_arm_late_until) return;
   // A station that rides along may have our id.
   if (network.connection().commands().was_just_passed_on(received.source.system, ack->command, received.at)) return;
   scope_.spawn(take_back(*craft));
@@ -293,11 +295,11 @@ void Control::take_late_arming(Network& network, mavlink::Received const& receiv
 /// The acknowledgement does not tell an arming from a disarming; the next heartbeat does.
 base::Task<> Control::take_back(MavlinkVehicle& craft) {
   constexpr base::Duration heartbeats = std::chrono::seconds(3);
-  auto const armings = craft.armings;
-  std::function<bool()> is_armed = [&craft] { return craft.is_armed; };
+  auto const armings = craft.asked->armings;
+  std::function<bool()> is_armed = [&craft] { return craft.heard->is_armed; };
   if (!co_await craft.changed.wait_for(std::move(is_armed), heartbeats)) co_return;
-  if (craft.armings != armings) co_return;  // somebody here wants it armed meanwhile
-  if (!std::exchange(craft.may_arm_late_until, std::nullopt)) co_return;
+  if (craft.asked->armings != armings) co_return;  // somebody here wants it armed meanwhile
+  if (!std::exchange(craft.asked.write(As<Control>()).may_arm_late_until, std::nullopt)) co_return;
   log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
   ActionOptions const how{.is_urgent = true};
   auto const disarmed = co_await disarm(craft.connection, craft, how);

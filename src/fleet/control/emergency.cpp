@@ -29,8 +29,8 @@ struct Rest {
 };
 
 bool has_left(Rest const& rest, MavlinkVehicle const& craft) {
-  if (craft.is_armed && !rest.is_armed) return true;
-  return craft.is_armed && craft.custom_mode != rest.custom_mode;
+  if (craft.heard->is_armed && !rest.is_armed) return true;
+  return craft.heard->is_armed && craft.heard->custom_mode != rest.custom_mode;
 }
 
 /// Heard from two places: perhaps two vehicles, and what the one shows says nothing of the other.
@@ -46,14 +46,15 @@ void hold_all(MavlinkVehicle& craft) {
         mavlink::CommandLong{.target = craft.address, .command = command.id, .params = command.params});
   };
   auto const hold = mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::hold);
-  if (hold) return send(mavlink::set_mode(craft.mav_autopilot, *hold));
+  if (hold) return send(mavlink::set_mode(craft.heard->mav_autopilot, *hold));
   auto const stops = stops_without_mode(OnStop::loiter);
   send(stops[0]);  // those that hold it; the further ones would take each other's place
   send(stops[1]);
 }
 
 std::string posture(MavlinkVehicle const& craft) {
-  return fmt::format("{}, {}", mode_name(craft, craft.custom_mode), craft.is_armed ? "armed" : "disarmed");
+  return fmt::format("{}, {}", mode_name(craft, craft.heard->custom_mode),
+                     craft.heard->is_armed ? "armed" : "disarmed");
 }
 
 }  // namespace
@@ -126,7 +127,7 @@ base::Task<> Emergency::welcome() {
     for (auto* craft : fleet_.all()) {
       bool const is_known =
           std::ranges::find(state_.vehicles, craft->id(), &StopOutcome::vehicle) != state_.vehicles.end();
-      bool const are_two = craft->state.connection == vehicle::Connection::conflict;
+      bool const are_two = craft->state.links.connection == vehicle::Connection::conflict;
       if (is_known && are_two && is_left(*craft)) begin_pursuit(*craft);
       if (is_known) continue;
       join(*craft);
@@ -164,7 +165,7 @@ base::Task<> Emergency::pursue(MavlinkVehicle& craft) {
     }
     outcome(craft).is_confirmed = true;
     tell(craft, posture(craft));
-    Rest const rest{craft.custom_mode, craft.is_armed};
+    Rest const rest{craft.heard->custom_mode, craft.heard->is_armed};
     auto const since = loop.now();
     while (!has_left(rest, craft) && !may_be_two(craft)) co_await craft.changed.wait();
     outcome(craft).is_confirmed = false;

@@ -68,11 +68,11 @@ std::string metres(double value_m) {
 }
 
 std::string in_mode(MavlinkVehicle const& craft) {
-  return fmt::format("it is in {}", mode_name(craft, craft.custom_mode));
+  return fmt::format("it is in {}", mode_name(craft, craft.heard->custom_mode));
 }
 
 std::optional<double> speed_m_s(MavlinkVehicle const& craft) {
-  auto const& velocity = craft.state.velocity_m_s.value;
+  auto const& velocity = craft.state.motion.velocity_m_s.value;
   if (!velocity) return std::nullopt;
   return std::hypot(velocity->north, velocity->east);
 }
@@ -80,11 +80,11 @@ std::optional<double> speed_m_s(MavlinkVehicle const& craft) {
 /// Who or what put the vehicle into the mode that it shows now.
 std::string change_of_mode(MavlinkVehicle const& craft, TimePoint now) {
   constexpr Duration goes_before = 2s;
-  auto const what = fmt::format("mode changed to {}", mode_name(craft, craft.custom_mode));
+  auto const what = fmt::format("mode changed to {}", mode_name(craft, craft.heard->custom_mode));
   if (auto const failsafe = recent_failsafe(craft.state, now); !failsafe.empty())
     return fmt::format("{}: {}", what, failsafe);
   auto const& foreign = craft.state.foreign_change;
-  bool const is_told = foreign.value && foreign.heard + goes_before >= craft.mode_changed;
+  bool const is_told = foreign.value && foreign.heard + goes_before >= craft.heard->mode_changed;
   return is_told ? fmt::format("{} ({})", what, *foreign.value) : what;
 }
 
@@ -94,7 +94,7 @@ Goal::Goal(MavlinkVehicle const& craft, vehicle::VehicleCommand command, TimePoi
     : command_(std::move(command)),
       since_(given),
       mode_(mode_of(craft, command_)),
-      start_height_m_(craft.state.relative_alt_m.value) {
+      start_height_m_(craft.state.motion.relative_alt_m.value) {
   bool const climbs_to_its_own = command_.action == Action::take_off && take_off_mode(craft);
   bool const is_px4 = craft.state.autopilot == Autopilot::px4;
   if (climbs_to_its_own && is_px4)
@@ -138,12 +138,12 @@ Standing Goal::look(MavlinkVehicle const& craft, TimePoint now) {
 
 void Goal::note(MavlinkVehicle const& craft, TimePoint now) {
   auto const& state = craft.state;
-  if (is_news(state.heartbeat_heard)) {
+  if (is_news(state.links.heartbeat_heard)) {
     has_been_in_mode_ = has_been_in_mode_ || is_in_mode(craft);
-    has_been_armed_ = has_been_armed_ || craft.is_armed;
+    has_been_armed_ = has_been_armed_ || craft.heard->is_armed;
   }
-  if (!state.velocity_m_s.value || !is_news(state.velocity_m_s.heard)) return;
-  bool const is_level = std::abs(state.velocity_m_s.value->down) < level_m_s;
+  if (!state.motion.velocity_m_s.value || !is_news(state.motion.velocity_m_s.heard)) return;
+  bool const is_level = std::abs(state.motion.velocity_m_s.value->down) < level_m_s;
   bool const is_at_rest = is_level && speed_m_s(craft).value_or(0.0) < rest_m_s;
   if (!is_level) level_since_.reset();
   if (!is_at_rest) at_rest_since_.reset();
@@ -152,63 +152,64 @@ void Goal::note(MavlinkVehicle const& craft, TimePoint now) {
 }
 
 bool Goal::is_in_mode(MavlinkVehicle const& craft) const {
-  return is_news(craft.state.heartbeat_heard) &&
-         (!mode_ || craft.custom_mode == *mode_ || craft.custom_mode == mode_after_);
+  return is_news(craft.state.links.heartbeat_heard) &&
+         (!mode_ || craft.heard->custom_mode == *mode_ || craft.heard->custom_mode == mode_after_);
 }
 
 std::string Goal::ended_by(MavlinkVehicle const& craft, TimePoint now) const {
-  if (!is_news(craft.state.heartbeat_heard)) return {};
-  if (has_been_armed_ && !craft.is_armed) return "disarmed";
-  if (!has_been_in_mode_ || is_in_mode(craft) || now - craft.mode_changed < reason_wait) return {};
+  if (!is_news(craft.state.links.heartbeat_heard)) return {};
+  if (has_been_armed_ && !craft.heard->is_armed) return "disarmed";
+  if (!has_been_in_mode_ || is_in_mode(craft) || now - craft.heard->mode_changed < reason_wait) return {};
   return change_of_mode(craft, now);
 }
 
 std::optional<double> Goal::height_m(MavlinkVehicle const& craft) const {
-  auto const& height = craft.state.relative_alt_m;
+  auto const& height = craft.state.motion.relative_alt_m;
   return is_news(height.heard) ? height.value : std::nullopt;
 }
 
 std::optional<double> Goal::distance_m(MavlinkVehicle const& craft, geo::Wgs84 const& place) const {
-  auto const& position = craft.state.position;
+  auto const& position = craft.state.motion.position;
   if (!position.value || !is_news(position.heard)) return std::nullopt;
   return geo::surface_distance_m(*position.value, place);
 }
 
 bool Goal::has_come_to_rest(MavlinkVehicle const& craft, TimePoint now, Duration time) const {
-  return craft.state.velocity_m_s.known() && at_rest_since_ && now - *at_rest_since_ >= time;
+  return craft.state.motion.velocity_m_s.known() && at_rest_since_ && now - *at_rest_since_ >= time;
 }
 
 bool Goal::is_down(MavlinkVehicle const& craft) const {
-  auto const& landed = craft.state.landed;
+  auto const& landed = craft.state.motion.landed;
   bool const stands = !landed.value || (*landed.value && is_news(landed.heard));
-  return is_news(craft.state.heartbeat_heard) && !craft.is_armed && stands;
+  return is_news(craft.state.links.heartbeat_heard) && !craft.heard->is_armed && stands;
 }
 
 // ---- by what is wanted
 
 Standing Goal::arming(MavlinkVehicle const& craft) const {
   bool const wanted = command_.action == Action::arm;
-  bool const shows = is_news(craft.state.heartbeat_heard) && craft.is_armed == wanted;
-  if (shows) return {Kind::reached, mode_name(craft, craft.custom_mode)};
+  bool const shows = is_news(craft.state.links.heartbeat_heard) && craft.heard->is_armed == wanted;
+  if (shows) return {Kind::reached, mode_name(craft, craft.heard->custom_mode)};
   return {Kind::unseen, wanted ? "it does not report armed" : "it still reports armed"};
 }
 
 Standing Goal::mode(MavlinkVehicle const& craft) const {
   bool const moves = command_.action != Action::set_mode;
-  if (is_in_mode(craft) && (craft.is_armed || !moves)) return {Kind::reached, mode_name(craft, craft.custom_mode)};
+  if (is_in_mode(craft) && (craft.heard->is_armed || !moves))
+    return {Kind::reached, mode_name(craft, craft.heard->custom_mode)};
   return {Kind::unseen, in_mode(craft)};
 }
 
 Standing Goal::holding(MavlinkVehicle const& craft) const {
   constexpr double drifts_m_s = 1.5;
   if (!is_in_mode(craft)) return {Kind::unseen, in_mode(craft)};
-  auto const name = mode_name(craft, craft.custom_mode);
+  auto const name = mode_name(craft, craft.heard->custom_mode);
   auto const family = craft.state.family;
   auto const speed = speed_m_s(craft);
   bool const is_afloat = family == Family::boat || family == Family::sub;
-  bool const cannot_stand = circles(family) || !speed || !craft.is_armed;
+  bool const cannot_stand = circles(family) || !speed || !craft.heard->is_armed;
   if (cannot_stand) return {Kind::reached, name};
-  bool const stands = is_news(craft.state.velocity_m_s.heard) && *speed < (is_afloat ? drifts_m_s : rest_m_s);
+  bool const stands = is_news(craft.state.motion.velocity_m_s.heard) && *speed < (is_afloat ? drifts_m_s : rest_m_s);
   if (stands) return {Kind::reached, fmt::format("{}, stands", name)};
   return {Kind::under_way, fmt::format("{}, still {:.1f} m/s", name, *speed)};
 }
@@ -223,12 +224,12 @@ Standing Goal::take_off(MavlinkVehicle const& craft, TimePoint now) const {
                                   : fmt::format("at {:.0f} of {:.0f} m", *height, wanted_m);
   if (auto const end = ended_by(craft, now); !end.empty()) return {Kind::cut_short, fmt::format("{}, {}", end, at)};
   bool const rose = height && *height > start_height_m_.value_or(0.0) + off_the_ground_m;
-  bool const flies = craft.state.landed.value == false && is_news(craft.state.landed.heard);
+  bool const flies = craft.state.motion.landed.value == false && is_news(craft.state.motion.landed.heard);
   if (!rose && !flies) return {Kind::unseen, "it has not left the ground"};
   if (!height) return {Kind::under_way, at};
   if (is_own_height) {
     bool const has_levelled = rose && level_since_ && now - *level_since_ >= is_there;
-    bool const has_ended = has_been_in_mode_ && mode_after_ && craft.custom_mode == *mode_after_;
+    bool const has_ended = has_been_in_mode_ && mode_after_ && craft.heard->custom_mode == *mode_after_;
     if (has_levelled || has_ended) return {Kind::reached, fmt::format("at {:.0f} m", *height)};
     return {Kind::under_way, at};
   }
@@ -240,8 +241,8 @@ Standing Goal::take_off(MavlinkVehicle const& craft, TimePoint now) const {
 
 Standing Goal::landing(MavlinkVehicle const& craft, TimePoint now) const {
   if (is_down(craft)) return {Kind::reached, "on the ground, motors off"};
-  bool const stands = craft.state.landed.value == true && is_news(craft.state.landed.heard);
-  bool const has_left = has_been_in_mode_ && !is_in_mode(craft) && now - craft.mode_changed >= reason_wait;
+  bool const stands = craft.state.motion.landed.value == true && is_news(craft.state.motion.landed.heard);
+  bool const has_left = has_been_in_mode_ && !is_in_mode(craft) && now - craft.heard->mode_changed >= reason_wait;
   if (has_left) return {Kind::cut_short, change_of_mode(craft, now)};
   if (!has_been_in_mode_) return {Kind::unseen, in_mode(craft)};
   if (stands) return {Kind::under_way, "on the ground, motors still on"};
@@ -254,15 +255,15 @@ Standing Goal::return_home(MavlinkVehicle const& craft, TimePoint now) const {
   constexpr Duration stays = 15s;  // ArduPilot waits 5 s above home before it sinks
   constexpr double near_home_m = 10.0;
   auto const& state = craft.state;
-  auto const left_m = state.home.value ? distance_m(craft, *state.home.value) : std::nullopt;
+  auto const left_m = state.motion.home.value ? distance_m(craft, *state.motion.home.value) : std::nullopt;
   auto const from = left_m ? fmt::format(", {} from home", metres(*left_m)) : std::string();
   bool const is_near = !left_m || *left_m <= near_home_m;
   bool const can_fly = plan::flies(state.family);
   bool const has_ended = can_fly && is_down(craft);
   if (has_ended) return {is_near ? Kind::reached : Kind::cut_short, fmt::format("on the ground, motors off{}", from)};
-  if (has_been_armed_ && !craft.is_armed && !is_near) return {Kind::cut_short, fmt::format("disarmed{}", from)};
+  if (has_been_armed_ && !craft.heard->is_armed && !is_near) return {Kind::cut_short, fmt::format("disarmed{}", from)};
   if (has_been_in_mode_ && !is_in_mode(craft)) {
-    if (now - craft.mode_changed >= reason_wait) return {Kind::cut_short, change_of_mode(craft, now) + from};
+    if (now - craft.heard->mode_changed >= reason_wait) return {Kind::cut_short, change_of_mode(craft, now) + from};
   } else if (!has_been_in_mode_) {
     return {Kind::unseen, in_mode(craft)};
   }
@@ -281,7 +282,7 @@ Standing Goal::go_to(MavlinkVehicle const& craft, TimePoint now) {
   auto const left_m = distance_m(craft, *command_.place);
   auto const to_go = left_m ? metres(*left_m) + " to go" : std::string("position not told");
   if (auto const end = ended_by(craft, now); !end.empty()) return {Kind::cut_short, fmt::format("{}, {}", end, to_go)};
-  auto const& target = state.position_target;
+  auto const& target = state.mission.position_target;
   bool const tells_target = target.value && is_news(target.heard) && has_been_in_mode_;
   double const off_m = tells_target ? geo::surface_distance_m(*target.value, *command_.place) : 0.0;
   if (heads_there_ && off_m > jumped_m)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleet/testing/autopilot.hpp"
+#include "fleet/testing/test_hand.hpp"
 #include "mavlink/wire/modes.hpp"
 
 namespace lapwing::fleet {
@@ -17,23 +18,24 @@ struct GoalTest : testing::Test {
   GoalTest() {
     state.family = vehicle::Family::copter;
     state.autopilot = vehicle::Autopilot::ardupilot;
-    state.home.set(home, now);
-    craft.mav_autopilot = mavlink::MavAutopilot::ardupilotmega;
+    state.motion.home.set(home, now);
+    TestHand::heard_of(craft).mav_autopilot = mavlink::MavAutopilot::ardupilotmega;
     flies(20.0);
     beats(copter_mode::guided);
   }
 
   void beats(std::uint32_t mode, bool is_armed = true) {
-    if (craft.custom_mode != mode) craft.mode_changed = now;
-    craft.custom_mode = mode;
-    craft.is_armed = is_armed;
-    state.heartbeat_heard = now;
+    auto& heard = TestHand::heard_of(craft);
+    if (heard.custom_mode != mode) heard.mode_changed = now;
+    heard.custom_mode = mode;
+    heard.is_armed = is_armed;
+    state.links.heartbeat_heard = now;
   }
   void flies(double height_m, double north_m = 0.0, geo::Ned velocity = {}) {
-    state.position.set(geo::displaced(home, {.north = north_m, .east = 0.0, .down = -height_m}), now);
-    state.relative_alt_m.set(height_m, now);
-    state.velocity_m_s.set(velocity, now);
-    state.landed.set(height_m <= 0.0, now);
+    state.motion.position.set(geo::displaced(home, {.north = north_m, .east = 0.0, .down = -height_m}), now);
+    state.motion.relative_alt_m.set(height_m, now);
+    state.motion.velocity_m_s.set(velocity, now);
+    state.motion.landed.set(height_m <= 0.0, now);
   }
   void says(std::string text) { state.recent_texts.push_back({.severity = 2, .text = std::move(text), .heard = now}); }
   /// The command as given now and acknowledged at once.
@@ -105,11 +107,11 @@ TEST_F(GoalTest, ReachesATakeOffAtItsHeightOnly) {
 
 TEST_F(GoalTest, IsNotMisledByTheHeightOfAPadAboveHome) {
   flies(6.0);
-  state.landed.set(true, now);
+  state.motion.landed.set(true, now);
   beats(copter_mode::guided, false);
   auto goal = given({.action = Action::take_off, .height_m = 20.0});
   beats(copter_mode::guided);
-  state.relative_alt_m.set(6.0, now);
+  state.motion.relative_alt_m.set(6.0, now);
   EXPECT_EQ(look(goal).kind, Kind::unseen);
   EXPECT_EQ(look(goal).text, "it has not left the ground");
 }
@@ -182,7 +184,7 @@ TEST_F(GoalTest, LetsAPlaneEndATakeOffWhenItClimbsNoMore) {
 
 struct GoTo : GoalTest {
   geo::Wgs84 const there = geo::displaced(home, {.north = 300, .east = 0, .down = 0});
-  void targets(geo::Wgs84 const& place) { state.position_target.set(place, now); }
+  void targets(geo::Wgs84 const& place) { state.mission.position_target.set(place, now); }
 };
 
 TEST_F(GoTo, IsNotProvedByBeingGuided) {

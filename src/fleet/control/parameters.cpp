@@ -38,17 +38,19 @@ class Parameters::Loan {
  public:
   Loan(Parameters& owner, MavlinkVehicle& craft, Commander by, bool is_lent)
       : owner_(owner), craft_(craft), by_(std::move(by)), is_lent_(is_lent) {
-    if (is_lent_) ++craft_.loans;
+    if (is_lent_) ++loans();
   }
   Loan(Loan const&) = delete;
   Loan& operator=(Loan const&) = delete;
   ~Loan() {
     // None left although this one goes on: its holder has commanded the vehicle since, and keeps it.
-    if (!is_lent_ || craft_.loans == 0 || --craft_.loans > 0) return;
+    if (!is_lent_ || loans() == 0 || --loans() > 0) return;
     (void)owner_.fleet_.authority().yield(craft_, by_);
   }
 
  private:
+  int& loans() { return craft_.runs.write(As<Parameters>()).loans; }
+
   Parameters& owner_;
   MavlinkVehicle& craft_;
   Commander by_;
@@ -69,7 +71,7 @@ parameters::ParameterService& Parameters::service_of(mavlink::Connection& connec
 Result<MavlinkVehicle*> Parameters::find(VehicleId const& id) const {
   auto* const craft = fleet_.find(id);
   if (!craft) return fail(ErrorKind::not_found, fmt::format("there is no vehicle {}", id.text));
-  if (craft->state.connection == vehicle::Connection::lost)
+  if (craft->state.links.connection == vehicle::Connection::lost)
     return fail(ErrorKind::lost, fmt::format("{} is not heard", craft->state.name), "ask again when it is back");
   return craft;
 }
@@ -147,7 +149,7 @@ base::Task<Result<vehicle::ParameterChange>> Parameters::change(VehicleId id, st
   auto const found = find(id);
   if (!found) co_return std::unexpected(found.error());
   auto& craft = **found;
-  bool const is_lent = craft.state.control.commander.empty() || craft.loans > 0;
+  bool const is_lent = craft.state.control.commander.empty() || craft.runs->loans > 0;
   if (auto const claimed = fleet_.authority().claim(craft, by); !claimed) co_return std::unexpected(claimed.error());
   Loan const loan(*this, craft, by, is_lent);
   auto const system_id = craft.address.system;

@@ -214,7 +214,7 @@ TEST_F(ParametersTest, FailWithAReason) {
   copter.is_silent = true;
   EXPECT_EQ(all().error().kind, base::ErrorKind::timed_out);
   EXPECT_FALSE(parameters.progress({"1"}));
-  world.registry.edit({"1"}).connection = vehicle::Connection::lost;
+  world.registry.edit({"1"}).links.connection = vehicle::Connection::lost;
   EXPECT_EQ(all().error().message, "copter 1 is not heard");
   EXPECT_EQ(change("P1", 9.0).error().kind, base::ErrorKind::lost);
 }

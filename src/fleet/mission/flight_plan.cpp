@@ -46,12 +46,12 @@ MissionShape shape_of(std::span<mavlink::MissionItem const> items) {
 
 FlightPlan flight_plan(plan::Mission const& mission, vehicle::VehicleState const& vehicle) {
   FlightPlan flight;
-  flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.home.value, vehicle.family);
+  flight.items = plan::for_autopilot(mission, vehicle.autopilot, vehicle.motion.home.value, vehicle.family);
   flight.first_seq = static_cast<std::uint16_t>(flight.items.size() - mission.items.size());
   auto const flown = reachable(flight.items, vehicle);
   flight.shape = shape_of(flown);
   flight.places = planned_places(flown, flight.first_seq, vehicle.autopilot, vehicle.family);
-  auto const home = mission.home ? mission.home : vehicle.home.value;
+  auto const home = mission.home ? mission.home : vehicle.motion.home.value;
   flight.home = home;
   for (auto const& item : mission.items) {
     if (!plan::has_position(item) || !is_navigation(item.command)) continue;

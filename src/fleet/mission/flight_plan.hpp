@@ -7,6 +7,7 @@
 #include "fleet/mission/mission_end.hpp"
 #include "fleet/watch/planned_places.hpp"
 #include "plan/mission.hpp"
+#include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::fleet {
 

@@ -8,6 +8,7 @@
 #include "fleet/plausibility/doubts.hpp"
 #include "fleet/plausibility/own_fence.hpp"
 #include "fleet/plausibility/own_home.hpp"
+#include "fleet/state/telemetry.hpp"
 #include "fleet/watch/flight_watch.hpp"
 #include "mavlink/exchange/command.hpp"
 #include "mavlink/exchange/plan_replacement.hpp"
@@ -55,7 +56,7 @@ Task<> wait_until_one(RunContext context) {
 /// would double the time to take-off. A failure leaves none, rather than a part of each.
 mavlink::ReplaceOptions replace_options(RunContext const& context) {
   return {.transfer = transfer,
-          .autopilot = context.craft.mav_autopilot,
+          .autopilot = context.craft.heard->mav_autopilot,
           .verifies = context.options.verifies,
           .keeps_old = false};
 }
@@ -85,8 +86,8 @@ Task<Result<>> select_first_item(RunContext context, std::uint16_t seq) {
     mavlink::MissionSetCurrent const message{.seq = seq};
     if (auto sent = context.connection.send(craft.address, message); !sent) co_return sent;
     std::function<bool()> is_current = [&craft, seq, asked] {
-      return craft.state.mission.known() && craft.state.mission.heard > asked &&
-             craft.state.mission.value->current_seq == seq;
+      return craft.state.mission.progress.known() && craft.state.mission.progress.heard > asked &&
+             craft.state.mission.progress.value->current_seq == seq;
     };
     if (co_await craft.changed.wait_for(std::move(is_current), 2s)) co_return Result<>{};
   }
@@ -105,7 +106,7 @@ Result<> heed(RunContext const& context, plan::Mission const& mission, Doubts& d
 /// From here on every return goes there, a failsafe's too.
 void tell_home(RunContext const& context, geo::Wgs84 home) {
   auto const& state = context.craft.state;
-  auto const from = state.home.value ? state.home.value : state.position.value;
+  auto const from = state.motion.home.value ? state.motion.home.value : state.motion.position.value;
   double const moved_m = from ? geo::surface_distance_m(*from, home) : 0.0;
   if (moved_m > context.options.plausibility.limits.gps_error_m)
     context.log.info(
@@ -122,8 +123,8 @@ Task<> set_home(RunContext context, geo::Wgs84 home) {
 
 /// How far and how long the vehicle should fly, from where it is now.
 plan::Estimate expectation(plan::Mission const& mission, vehicle::VehicleState const& state) {
-  return plan::estimate(mission, state.position.value, plan::performance_of(state.family),
-                        state.heading_rad.value.value_or(0.0));
+  return plan::estimate(mission, state.motion.position.value, plan::performance_of(state.family),
+                        state.motion.heading_rad.value.value_or(0.0));
 }
 
 /// Phase 5.
@@ -131,16 +132,16 @@ Task<Result<>> start(RunContext context, plan::Mission const& mission, FlightPla
   record.progress = "starting";
   if (mission.home) co_await set_home(context, *mission.home);
   if (auto selected = co_await select_first_item(context, plan.first_seq); !selected) co_return selected;
-  context.craft.trace = {};
+  begin_trace(context.craft);
   auto const expected = expectation(mission, context.craft.state);
-  record.may_have_armed = !context.craft.is_armed;
+  record.may_have_armed = !context.craft.heard->is_armed;
   ActionOptions const how{};
   auto started = co_await arm_and_start(context.connection, context.craft, how);
   if (!started) co_return started;
   record.has_begun = true;
   record.flown = plan::Flown{.estimate = expected, .path_m = 0.0, .duration = {}};
   record.begun = context.connection.loop().now();
-  record.path_before_m = context.craft.path_m;
+  record.path_before_m = context.craft.heard->path_m;
   context.log.info(fmt::format("{} flies '{}'", context.craft.state.name, mission.name));
   co_return Result<>{};
 }
@@ -151,7 +152,8 @@ Task<Result<>> follow(RunContext context, FlightPlan const& plan, RunRecord& rec
   auto& loop = context.connection.loop();
   watch.begin();
   while (true) {
-    record.progress = fmt::format("item {}/{}", craft.trace.current_seq.value_or(plan.first_seq), plan.last_seq());
+    record.progress =
+        fmt::format("item {}/{}", craft.heard->trace.current_seq.value_or(plan.first_seq), plan.last_seq());
     auto verdict = watch.look();
     if (verdict.kind == MissionVerdict::Kind::done) co_return Result<>{};
     record.aftermath = verdict.aftermath;
@@ -172,13 +174,19 @@ std::string_view to_string(RunRecord::Outcome outcome) {
   return "failed";
 }
 
+/// Writes what runs on a vehicle, for the functions of this file.
+class MissionRun {
+ public:
+  static void forget_parts(MavlinkVehicle& craft) { craft.runs.write(As<MissionRun>()).parts_left_after.reset(); }
+};
+
 Task<mavlink::PlanLeft> clear_part_of_plan(RunContext context) {
   auto options = replace_options(context);
   mavlink::Replacement parts;
   parts.left = mavlink::PlanLeft::unknown;
   co_await mavlink::undo_replacement(context.connection, context.craft.address, mavlink::MissionType::mission,
                                      std::move(options), parts);
-  if (parts.left != mavlink::PlanLeft::unknown) context.craft.holds_parts = false;
+  if (parts.left != mavlink::PlanLeft::unknown) MissionRun::forget_parts(context.craft);
   co_return parts.left;
 }
 
@@ -191,7 +199,7 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   if (auto wrong = plan::objection(flight_plan(mission, shown).items, shown.autopilot, shown.family))
     co_return std::unexpected(*std::move(wrong));
   co_await learn_home(craft, hasty);
-  record.lands_at = plan::plausibility::landing_places(mission, shown.home.value);
+  record.lands_at = plan::plausibility::landing_places(mission, shown.motion.home.value);
   // Where it stands is what most words are about: a vehicle that does not know it yet is looked at when it does.
   Doubts doubts;
   bool const knows_its_place = situation_of(craft, {}).position.has_value();
@@ -213,8 +221,8 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   record.items = static_cast<int>(plan.items.size());
   auto transferred = co_await transfer_mission(context, plan, record);
   if (!transferred) co_return transferred;
-  craft.holds_parts = false;
-  craft.state.planned_path = plan.path;
+  MissionRun::forget_parts(craft);
+  craft.state.mission.planned_path = plan.path;
 
   // Perhaps it has landed meanwhile.
   if (auto heeded = heed(context, mission, doubts); !heeded) co_return heeded;

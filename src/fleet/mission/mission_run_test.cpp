@@ -56,7 +56,7 @@ TEST_F(MissionRun, FliesACopterFromTheGroundToTheGround) {
   EXPECT_EQ(reports[0].items, 6);
   EXPECT_EQ(reports[0].outcome, "done");
   EXPECT_GT(reports[0].upload_s, 0.0);
-  EXPECT_EQ(world->state().planned_path.size(), 5u);
+  EXPECT_EQ(world->state().mission.planned_path.size(), 5u);
 }
 
 TEST_F(MissionRun, FliesARoverWithoutTouchingItsModeBeforehand) {

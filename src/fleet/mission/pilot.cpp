@@ -81,20 +81,20 @@ Task<> Pilot::fly(plan::Mission mission) {
 Task<> Pilot::guard() {
   auto const run = run_;
   auto const& craft = context_.craft;
-  auto const boots = craft.boots;
+  auto const boots = craft.heard->boots;
   std::string reason;
   while (run->outcome == Outcome::running && reason.empty()) {
     if (auto const rivals = context_.connection.conflict(craft.address.system)) {
       reason =
           fmt::format("two vehicles use system id {}: {} and {}", craft.address.system, rivals->first, rivals->second);
-    } else if (craft.state.connection == Connection::lost) {
+    } else if (craft.state.links.connection == Connection::lost) {
       reason =
           fmt::format("{} lost: silent for {:.0f} s", craft.state.name, base::to_seconds(craft.connection_timeout));
-    } else if (craft.boots != boots && !context_.connection.is_contested(craft.address.system)) {
+    } else if (craft.heard->boots != boots && !context_.connection.is_contested(craft.address.system)) {
       reason = fmt::format("{} restarted", craft.state.name);
     } else {
       // What looks like a restart may be a second vehicle; that shows within seconds, and until then nothing is sent.
-      if (craft.boots != boots) flight_ = {};
+      if (craft.heard->boots != boots) flight_ = {};
       co_await context_.craft.changed.wait();
     }
   }
@@ -108,11 +108,13 @@ Task<> Pilot::guard() {
 void Pilot::end(Outcome outcome, std::string error) {
   run_->outcome = outcome;
   run_->error = std::move(error);
-  if (run_->upload.left == mavlink::PlanLeft::unknown) context_.craft.holds_parts = true;
-  auto line = fmt::format("{}: '{}' {}", context_.craft.state.name, run_->mission, to_string(outcome));
+  auto& craft = context_.craft;
+  if (run_->upload.left == mavlink::PlanLeft::unknown)
+    craft.runs.write(As<Pilot>()).parts_left_after = craft.heard->plans_taken;
+  auto line = fmt::format("{}: '{}' {}", craft.state.name, run_->mission, to_string(outcome));
   if (auto& flown = run_->flown) {
     flown->duration = context_.connection.loop().now() - run_->begun;
-    flown->path_m = context_.craft.path_m - run_->path_before_m;
+    flown->path_m = craft.heard->path_m - run_->path_before_m;
     if (outcome == Outcome::done) line += ": " + plan::to_text(*flown);
   }
   if (outcome == Outcome::failed) return context_.log.error(fmt::format("{}: {}", line, run_->error));
@@ -122,8 +124,8 @@ void Pilot::end(Outcome outcome, std::string error) {
 /// What there is to undo, decided before a next run begins anew.
 void Pilot::begin_rest(OnStop on_stop) {
   bool const flies_the_last = run_->took_over && in_mission_mode(context_.craft);
-  bool const flies = context_.craft.mission_mode_pending || run_->has_begun || flies_the_last;
-  if (!flies && !run_->may_have_armed && !context_.craft.holds_parts) return;
+  bool const flies = context_.craft.asked->mission_mode_pending || run_->has_begun || flies_the_last;
+  if (!flies && !run_->may_have_armed && !context_.craft.holds_parts()) return;
   is_settling_ = true;
   rest_ = rest(on_stop, flies);
   words_ = tell_stopping(context_);
@@ -143,8 +145,8 @@ void Pilot::begin_parking() {
   using enum vehicle::Family;
   auto const& craft = context_.craft;
   bool const flies = craft.state.family == plane || craft.state.family == copter;
-  bool const stands = craft.state.family == rover || (flies && craft.trace.on_ground_since);
-  if (!stands || !craft.is_armed) return;
+  bool const stands = craft.state.family == rover || (flies && craft.heard->trace.on_ground_since);
+  if (!stands || !craft.heard->is_armed) return;
   is_settling_ = true;
   rest_ = park();
   rest_.start();
@@ -160,7 +162,7 @@ Task<> Pilot::park() {
   if (craft.state.family == vehicle::Family::rover)
     parked = co_await bring_to_rest(context_.connection, craft, OnStop::loiter, nobody_waits);
   ActionOptions const at_once{.is_urgent = true};
-  if (parked && craft.is_armed) parked = co_await disarm(context_.connection, craft, at_once);
+  if (parked && craft.heard->is_armed) parked = co_await disarm(context_.connection, craft, at_once);
   if (parked) {
     context_.log.info(fmt::format("{} parked: {}, disarmed", craft.state.name, craft.state.mode.value.value_or("")));
   } else {
@@ -174,7 +176,7 @@ Task<> Pilot::rest(OnStop on_stop, bool flies) {
   co_await context_.connection.loop()
       .turn();  // the next task on this vehicle may start in this turn and will deal with it
   if (flies || run->may_have_armed) co_await bring_down(on_stop, flies);
-  if (context_.craft.holds_parts) co_await discard_parts();
+  if (context_.craft.holds_parts()) co_await discard_parts();
   be_settled();
 }
 
@@ -202,7 +204,7 @@ Task<> Pilot::discard_parts() {
 }
 
 void Pilot::begin_tidying() {
-  if (!context_.craft.holds_parts) return;
+  if (!context_.craft.holds_parts()) return;
   tidy_ = tidy();
   tidy_.start();
 }
@@ -212,12 +214,12 @@ Task<> Pilot::tidy() {
   constexpr int tries = 3;
   auto& craft = context_.craft;
   auto const may_be_cleared = [&] {
-    bool const flies_it = craft.is_armed && in_mission_mode(craft);
+    bool const flies_it = craft.heard->is_armed && in_mission_mode(craft);
     return craft.is_connected() && !flies_it && !context_.connection.is_contested(craft.address.system);
   };
-  for (int attempt = 0; attempt < tries && craft.holds_parts; ++attempt) {
+  for (int attempt = 0; attempt < tries && craft.holds_parts(); ++attempt) {
     while (!may_be_cleared()) co_await craft.changed.wait();
-    if (craft.holds_parts) co_await discard_parts();
+    if (craft.holds_parts()) co_await discard_parts();
   }
 }
 

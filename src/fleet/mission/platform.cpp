@@ -63,15 +63,15 @@ VehicleInfo info_of(MavlinkVehicle const& craft) {
   auto const& state = craft.state;
   VehicleInfo info;
   info.id = state.id;
-  info.type = craft.type;
-  info.payload = state.payload;
+  info.type = craft.heard->type;
+  info.payload = state.payload.names;
   info.connected = craft.is_connected();
-  info.position = state.position.value;
-  if (state.battery.value) info.battery = state.battery.value->remaining;
+  info.position = state.motion.position.value;
+  if (state.power.battery.value) info.battery = state.power.battery.value->remaining;
   info.connection_timeout = craft.connection_timeout;
-  info.battery_is_awaited = !craft.has_reported_battery;
+  info.battery_is_awaited = !craft.heard->has_reported_battery;
   info.mode = state.mode.value.value_or("");
-  info.relative_alt_m = state.relative_alt_m.value;
+  info.relative_alt_m = state.motion.relative_alt_m.value;
   return info;
 }
 
@@ -227,7 +227,7 @@ std::vector<plan::plausibility::Neighbour> FleetPlatform::neighbours(MavlinkVehi
   for (auto const* other : fleet_.all()) {
     if (other == &craft) continue;
     plan::plausibility::Neighbour neighbour{.name = other->state.name};
-    if (stands_on_ground(*other).value_or(false)) neighbour.stands = other->state.position.value;
+    if (stands_on_ground(*other).value_or(false)) neighbour.stands = other->state.motion.position.value;
     auto const found = pilots_.find(other->id());
     if (found != pilots_.end() && found->second->is_flying())
       neighbour.lands_at = found->second->runs().back()->lands_at;

@@ -30,10 +30,10 @@ TEST(Fleet, MakesAVehicleOfAnAutopilotsHeartbeat) {
   EXPECT_EQ(state.system_id, 1);
   EXPECT_EQ(state.family, vehicle::Family::copter);
   EXPECT_EQ(state.autopilot, vehicle::Autopilot::ardupilot);
-  EXPECT_EQ(state.connection, Connection::ok);
+  EXPECT_EQ(state.links.connection, Connection::ok);
   EXPECT_EQ(state.mode.value, "GUIDED");
-  EXPECT_EQ(state.armed.value, false);
-  EXPECT_FALSE(state.link.empty());
+  EXPECT_EQ(state.arming.armed.value, false);
+  EXPECT_FALSE(state.links.used.empty());
 }
 
 TEST(Fleet, MapsVehicleTypesToTheWordsOfTheLanguage) {
@@ -80,11 +80,11 @@ TEST(Fleet, AddsTheCameraThatItHearsToTheConfiguredPayload) {
   TestWorld world({.payload = {{{.system_id = 1}, {"Lidar"}}}});
   auto& copter = world.add();
   world.run_for(1s);
-  EXPECT_EQ(world.state().payload, std::vector<std::string>{"Lidar"});
+  EXPECT_EQ(world.state().payload.names, std::vector<std::string>{"Lidar"});
   copter.send_as({1, 100}, heartbeat(MavType::camera, mavlink::MavAutopilot::invalid));
   copter.send_as({1, 100}, heartbeat(MavType::camera, mavlink::MavAutopilot::invalid));
   world.run_for(1s);
-  EXPECT_EQ(world.state().payload, (std::vector<std::string>{"Lidar", "Camera"}));
+  EXPECT_EQ(world.state().payload.names, (std::vector<std::string>{"Lidar", "Camera"}));
 }
 
 TEST(Fleet, LosesASilentVehicleAfterItsTimeoutAndTakesItBack) {
@@ -93,14 +93,14 @@ TEST(Fleet, LosesASilentVehicleAfterItsTimeoutAndTakesItBack) {
   world.run_for(2s);
   copter.is_silent = true;
   world.run_for(18s);
-  EXPECT_EQ(world.state().connection, Connection::ok);
+  EXPECT_EQ(world.state().links.connection, Connection::ok);
   world.run_for(4s);
-  EXPECT_EQ(world.state().connection, Connection::lost);
+  EXPECT_EQ(world.state().links.connection, Connection::lost);
   EXPECT_FALSE(world.platform->find(VehicleId{"1"})->connected);
   EXPECT_TRUE(world.has_logged("copter 1 lost: silent for 20 s"));
   copter.is_silent = false;
   world.run_for(2s);
-  EXPECT_EQ(world.state().connection, Connection::ok);
+  EXPECT_EQ(world.state().links.connection, Connection::ok);
   EXPECT_TRUE(world.has_logged("copter 1 is back"));
 }
 
@@ -112,8 +112,8 @@ TEST(Fleet, TimesOutEachVehicleByItsOwnSetting) {
   world.platform->set_connection_timeout(VehicleId{"2"}, 60s);
   first.is_silent = second.is_silent = true;
   world.run_for(30s);
-  EXPECT_EQ(world.state("1").connection, Connection::lost);
-  EXPECT_EQ(world.state("2").connection, Connection::ok);
+  EXPECT_EQ(world.state("1").links.connection, Connection::lost);
+  EXPECT_EQ(world.state("2").links.connection, Connection::ok);
 }
 
 TEST(Fleet, TellsOfArrivalsAndLossesAtOnce) {
@@ -131,7 +131,7 @@ TEST(Fleet, NamesBothPeersWhenTwoVehiclesUseOneSystemId) {
   auto& first = world.add();
   auto& second = world.add();
   world.run_for(10s);
-  EXPECT_EQ(world.state().connection, Connection::conflict);
+  EXPECT_EQ(world.state().links.connection, Connection::conflict);
   EXPECT_FALSE(world.platform->find(VehicleId{"1"})->connected);
   EXPECT_TRUE(world.has_logged("two vehicles use system id 1: "));
   auto const first_commands = first.heard.size();
@@ -149,10 +149,10 @@ TEST(Fleet, EndsTheConflictWhenOneOfTheTwoLeaves) {
   auto& first = world.add();
   world.add();
   world.run_for(10s);
-  EXPECT_EQ(world.state().connection, Connection::conflict);
+  EXPECT_EQ(world.state().links.connection, Connection::conflict);
   first.is_silent = true;
   world.run_for(10s);
-  EXPECT_EQ(world.state().connection, Connection::ok);
+  EXPECT_EQ(world.state().links.connection, Connection::ok);
 }
 
 TEST(Fleet, AsksOnlyForMessagesThatDoNotComeByThemselves) {
@@ -166,8 +166,8 @@ TEST(Fleet, AsksOnlyForMessagesThatDoNotComeByThemselves) {
   EXPECT_EQ(std::ranges::count(asked, MessageId::sys_status), 0);
   EXPECT_EQ(std::ranges::count(asked, MessageId::global_position_int), 1);
   EXPECT_EQ(std::ranges::count(asked, MessageId::ekf_status_report), 1);
-  EXPECT_TRUE(world.state().position.known());
-  EXPECT_LT(*world.state().position.age(world.loop.now()), 500ms);
+  EXPECT_TRUE(world.state().motion.position.known());
+  EXPECT_LT(*world.state().motion.position.age(world.loop.now()), 500ms);
 }
 
 TEST(Fleet, KnowsAtOnceWhereANewVehicleIs) {
@@ -175,7 +175,7 @@ TEST(Fleet, KnowsAtOnceWhereANewVehicleIs) {
   world.add({.tells_place = true});
   ASSERT_TRUE(world.run_until([&] { return !world.registry.all().empty(); }));
   auto const found = world.loop.now();
-  EXPECT_TRUE(world.run_until([&] { return world.state().position.known(); }));
+  EXPECT_TRUE(world.run_until([&] { return world.state().motion.position.known(); }));
   EXPECT_LT(world.loop.now() - found, 1s);
 }
 
@@ -202,11 +202,11 @@ TEST(Fleet, AsksAgainAfterARestartAndNoticesIt) {
   auto const asked = std::ranges::count(copter.messages_asked_for(), MessageId::attitude);
   copter.reboot(world.hub.connect());
   world.run_for(10s);
-  EXPECT_EQ(world.fleet->find(VehicleId{"1"})->boots, 2);
+  EXPECT_EQ(world.fleet->find(VehicleId{"1"})->heard->boots, 2);
   EXPECT_TRUE(world.has_logged("copter 1 restarted"));
   EXPECT_GT(std::ranges::count(copter.messages_asked_for(), MessageId::attitude), asked);
-  EXPECT_LT(*world.state().position.age(world.loop.now()), 500ms);
-  EXPECT_EQ(world.state().connection, Connection::ok);
+  EXPECT_LT(*world.state().motion.position.age(world.loop.now()), 500ms);
+  EXPECT_EQ(world.state().links.connection, Connection::ok);
 }
 
 TEST(Fleet, NoticesARestartByTheVehiclesClockWhenItsModeDidNotChange) {
@@ -215,7 +215,7 @@ TEST(Fleet, NoticesARestartByTheVehiclesClockWhenItsModeDidNotChange) {
   world.run_for(20s);
   copter.reboot(world.hub.connect());
   world.run_for(10s);
-  EXPECT_EQ(world.fleet->find(VehicleId{"1"})->boots, 2);
+  EXPECT_EQ(world.fleet->find(VehicleId{"1"})->heard->boots, 2);
 }
 
 TEST(Fleet, DoesNotTakeAMoveToAnotherAddressForARestart) {
@@ -228,7 +228,7 @@ TEST(Fleet, DoesNotTakeAMoveToAnotherAddressForARestart) {
   copter.is_silent = true;
   moved.change_mode(copter.mode);
   world.run_for(1s);
-  EXPECT_EQ(world.fleet->find(VehicleId{"1"})->boots, 1);
+  EXPECT_EQ(world.fleet->find(VehicleId{"1"})->heard->boots, 1);
 }
 
 TEST(Fleet, ShowsWhatARadioSaysAtTheVehiclesBehindIt) {
@@ -238,9 +238,9 @@ TEST(Fleet, ShowsWhatARadioSaysAtTheVehiclesBehindIt) {
   world.run_for(1s);
   near.send_as({51, 68}, mavlink::RadioStatus{.rssi = 180, .remote_rssi = 170, .transmit_buffer_free = 0.9});
   world.run_for(100ms);
-  ASSERT_TRUE(world.state("1").radio.known());
-  EXPECT_EQ(world.state("1").radio.value->rssi, 180);
-  EXPECT_FALSE(world.state("2").radio.known());
+  ASSERT_TRUE(world.state("1").links.radio.known());
+  EXPECT_EQ(world.state("1").links.radio.value->rssi, 180);
+  EXPECT_FALSE(world.state("2").links.radio.known());
   EXPECT_EQ(world.registry.all().size(), 2u);
 }
 
@@ -264,9 +264,9 @@ TEST(Fleet, ForgetsReasonsAgainstArmingThatAreNotRepeated) {
   world.run_for(1s);
   copter.say(mavlink::MavSeverity::critical, "Arm: Throttle too high");
   world.run_for(60s);
-  EXPECT_EQ(world.state().arming_reasons.size(), 1u);
+  EXPECT_EQ(world.state().arming.reasons.size(), 1u);
   world.run_for(20s);
-  EXPECT_TRUE(world.state().arming_reasons.empty());
+  EXPECT_TRUE(world.state().arming.reasons.empty());
 }
 
 TEST(Fleet, GivesTheRatesBackThatItChanged) {
@@ -331,8 +331,8 @@ TEST(Fleet, KeepsAFewOfTheQuestionsToAVehicleThatCannotBeAsked) {
   auto& craft = *world.fleet->find(vehicle::VehicleId{"1"});
   for (int picture = 0; picture < 1000; ++picture)
     ask(craft, {MessageId::camera_image_captured, 100, static_cast<float>(picture)});
-  EXPECT_EQ(craft.questions.size(), 200u);
-  EXPECT_EQ(craft.questions.front().argument, 800.0F) << "the latest";
+  EXPECT_EQ(craft.asked->questions.size(), 200u);
+  EXPECT_EQ(craft.asked->questions.front().argument, 800.0F) << "the latest";
 }
 
 TEST(Fleet, LeavesItsConnectionsToOthersWhenItEnds) {

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "fleet/actions/vehicle_actions.hpp"
+#include "fleet/network/vehicle_kind.hpp"
 #include "fleet/state/arming_reasons.hpp"
 #include "fleet/state/payload.hpp"
 #include "fleet/state/telemetry.hpp"
-#include "fleet/state/vehicle_kind.hpp"
 #include "mavlink/wire/modes.hpp"
 
 namespace lapwing::fleet {
@@ -37,17 +37,17 @@ std::string vehicle_name(vehicle::Family family, std::uint8_t system_id) {
   return fmt::format("{} {}", vehicle::to_string(family), system_id);
 }
 
-void set_kind(MavlinkVehicle& craft, VehicleKind const& kind, mavlink::MavAutopilot autopilot) {
+void set_kind(MavlinkVehicle& craft, Heard& heard, VehicleKind const& kind, mavlink::MavAutopilot autopilot) {
   craft.state.family = kind.family;
   craft.state.autopilot = kind.autopilot;
-  craft.type = kind.type;
-  craft.mav_autopilot = autopilot;
+  heard.type = kind.type;
+  heard.mav_autopilot = autopilot;
 }
 
 /// It speaks from a new place on the same link, and that is not known to be another way to the same vehicle.
 bool has_moved(mavlink::Connection const& connection, MavlinkVehicle const& craft, mavlink::Received const& received) {
-  return received.from != craft.from && received.from.link == craft.from.link &&
-         !connection.are_one(received.source.system, received.from, craft.from);
+  return received.from != craft.heard->from && received.from.link == craft.heard->from.link &&
+         !connection.are_one(received.source.system, received.from, craft.heard->from);
 }
 
 /// An autopilot on the same link that speaks from a new place and has lost its arming or mode has restarted. (That its
@@ -55,15 +55,16 @@ bool has_moved(mavlink::Connection const& connection, MavlinkVehicle const& craf
 bool heartbeat_tells_restart(MavlinkVehicle const& craft, bool has_moved, mavlink::Heartbeat const& heartbeat) {
   auto const status = heartbeat.system_status;
   if (status == mavlink::MavState::uninit || status == mavlink::MavState::boot)
-    return craft.is_armed;  // nobody boots armed
-  return has_moved && ((craft.is_armed && !heartbeat.armed()) || craft.custom_mode != heartbeat.custom_mode);
+    return craft.heard->is_armed;  // nobody boots armed
+  return has_moved &&
+         ((craft.heard->is_armed && !heartbeat.armed()) || craft.heard->custom_mode != heartbeat.custom_mode);
 }
 
 /// Over a thin or bad link there is little more than a heartbeat a second; that some of those get lost is no silence.
 bool speaks_rarely(vehicle::VehicleState const& state) {
   constexpr double few = 4.0;
   double messages_per_s = 0.0;
-  for (auto const& link : state.links) messages_per_s += link.messages_per_s;
+  for (auto const& link : state.links.all) messages_per_s += link.messages_per_s;
   return messages_per_s < few;
 }
 
@@ -123,7 +124,7 @@ void Network::take(mavlink::Received const& received) {
 /// A radio speaks for itself, under a system id of its own: what it says concerns every vehicle behind it.
 void Network::take_radio_of_link(mavlink::Received const& received, mavlink::RadioStatus const& radio) {
   for (auto& [system_id, craft] : crafts_) {
-    if (craft->from != received.from) continue;
+    if (craft->heard->from != received.from) continue;
     take_radio(*craft, radio, received.at);
     registry_.touch(craft->id());
   }
@@ -135,7 +136,7 @@ void Network::take_from_component(MavlinkVehicle& craft, mavlink::Received const
     take_component_heartbeat(craft, received.source, *heartbeat, received.at);
   if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
     tell(craft, take_text(craft, component, *chunk, received.at));
-  if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
+  if (auto const id = id_of(received.message); id && craft.asked->rates) asked_of(craft).rates->arrived(*id);
   (void)take_payload(craft, component, received.message, received.at);
   registry_.touch(craft.id());
   craft.changed.notify_all();
@@ -150,7 +151,7 @@ void Network::let_age(MavlinkVehicle& craft) {
   auto const now = loop().now();
   auto const texts = take_overdue_texts(craft, now);
   tell(craft, texts);
-  bool const forgot = forget_old_arming_reasons(craft.state.arming_reasons, now);
+  bool const forgot = forget_old_arming_reasons(craft.state.arming.reasons, now);
   if (forgot || !texts.empty()) registry_.touch(craft.id());
 }
 
@@ -163,34 +164,36 @@ void Network::take_heartbeat(mavlink::Received const& received, mavlink::Heartbe
   auto const found = crafts_.find(received.source.system);
   bool const is_new = found == crafts_.end();
   auto& craft = is_new ? discover(received) : *found->second;
-  set_kind(craft, *kind, heartbeat.autopilot);
+  auto& heard = heard_of(craft);
+  auto& asked = asked_of(craft);
+  set_kind(craft, heard, *kind, heartbeat.autopilot);
   craft.state.name = in_network(vehicle_name(kind->family, craft.address.system));
   bool const is_restarted = heartbeat_tells_restart(craft, has_moved(connection_, craft, received), heartbeat);
   if (!is_new && is_restarted) note_restart(craft, received.at);
   // A vehicle sends each link what was asked for over that link.
-  if (!is_new && received.from != craft.from && craft.rates) craft.rates->restart(received.at);
+  if (!is_new && received.from != heard.from && asked.rates) asked.rates->restart(received.at);
 
-  craft.from = received.from;
-  if (craft.custom_mode != heartbeat.custom_mode) craft.mode_changed = received.at;
-  craft.custom_mode = heartbeat.custom_mode;
-  if (craft.is_armed != heartbeat.armed()) craft.armed_changed = received.at;
-  craft.is_armed = heartbeat.armed();
-  if (in_mission_mode(craft)) craft.mission_mode_pending = false;
+  heard.from = received.from;
+  if (heard.custom_mode != heartbeat.custom_mode) heard.mode_changed = received.at;
+  heard.custom_mode = heartbeat.custom_mode;
+  if (heard.is_armed != heartbeat.armed()) heard.armed_changed = received.at;
+  heard.is_armed = heartbeat.armed();
+  if (in_mission_mode(craft)) asked.mission_mode_pending = false;
   auto& state = craft.state;
-  state.heartbeat_heard = received.at;
-  state.is_in_trouble =
+  state.links.heartbeat_heard = received.at;
+  state.arming.is_in_trouble =
       heartbeat.system_status == mavlink::MavState::critical || heartbeat.system_status == mavlink::MavState::emergency;
   state.mode.set(name_of_mode(craft, heartbeat.type, heartbeat.custom_mode), received.at);
-  for (auto& component : state.components)
+  for (auto& component : state.payload.components)
     if (component.id == received.source.component) component.heard = received.at;  // it speaks for what is wired to it
-  state.armed.set(heartbeat.armed(), received.at);
-  if (heartbeat.armed()) state.arming_reasons.clear();
-  state.link = connection_.whereabouts(received.source.system).value_or("");
+  state.arming.armed.set(heartbeat.armed(), received.at);
+  if (heartbeat.armed()) state.arming.reasons.clear();
+  state.links.used = connection_.whereabouts(received.source.system).value_or("");
   if (is_new) {
     // Whatever is streamed or asked for regularly takes seconds; people look for the vehicle on the map now.
     ask(craft, {mavlink::MessageId::global_position_int, craft.address.component});
     ask_for_payload(craft);
-    log_.info(fmt::format("{} found at {}", state.name, state.link));
+    log_.info(fmt::format("{} found at {}", state.name, state.links.used));
     registry_.touch_membership(craft.id());
   }
   check_connection(craft);
@@ -201,12 +204,12 @@ MavlinkVehicle& Network::discover(mavlink::Received const& received) {
   mavlink::SystemName const name{options_.name, system_id};
   auto& state = registry_.edit(VehicleId{to_string(name)});
   state.system_id = system_id;
-  auto& craft = *crafts_.emplace(system_id, std::make_unique<MavlinkVehicle>(connection_, state)).first->second;
-  craft.network = name.network;
-  craft.address = received.source;
+  auto made = std::make_unique<MavlinkVehicle>(connection_, state, name.network, received.source);
+  auto& craft = *crafts_.emplace(system_id, std::move(made)).first->second;
   craft.connection_timeout = options_.connection_timeout;
-  craft.from = received.from;
-  if (auto const names = options_.payload.find(name); names != options_.payload.end()) state.payload = names->second;
+  heard_of(craft).from = received.from;
+  if (auto const names = options_.payload.find(name); names != options_.payload.end())
+    state.payload.names = names->second;
   if (cameras_.contains(system_id)) note_camera(system_id);
   return craft;
 }
@@ -215,48 +218,51 @@ void Network::note_camera(std::uint8_t system_id) {
   cameras_.insert(system_id);
   auto const found = crafts_.find(system_id);
   if (found == crafts_.end()) return;
-  auto& payload = found->second->state.payload;
+  auto& payload = found->second->state.payload.names;
   if (std::ranges::find(payload, camera) == payload.end()) payload.emplace_back(camera);
 }
 
 void Network::note_restart(MavlinkVehicle& craft, TimePoint now) {
-  ++craft.boots;
-  craft.since_boot.reset();
-  craft.fix.reset();
-  craft.trace = {};
-  craft.mission_mode_pending = false;
-  craft.state.health.value.reset();
-  craft.state.arming_reasons.clear();
-  craft.prearm_ok.reset();
-  craft.pictures.restart();
-  craft.fence.forget();
-  craft.modes.clear();
-  craft.has_asked_for_modes = false;
-  craft.questions.clear();
+  auto& heard = heard_of(craft);
+  auto& asked = asked_of(craft);
+  ++heard.boots;
+  heard.since_boot.reset();
+  heard.fix.reset();
+  heard.trace = {};
+  heard.prearm_ok.reset();
+  heard.pictures.restart();
+  heard.fence.forget();
+  heard.modes.clear();
+  asked.mission_mode_pending = false;
+  asked.has_asked_for_modes = false;
+  asked.questions.clear();
+  craft.state.arming.health.value.reset();
+  craft.state.arming.reasons.clear();
   ask_for_payload(craft);
-  if (craft.rates) craft.rates->restart(now);
+  if (asked.rates) asked.rates->restart(now);
   log_.warn(fmt::format("{} restarted", craft.state.name));
 }
 
 void Network::take_from_autopilot(MavlinkVehicle& craft, mavlink::Received const& received) {
+  auto& heard = heard_of(craft);
   if (auto const clock = boot_time(received.message)) {
     // Two vehicles under one id have two clocks.
-    bool const is_one = craft.state.connection != Connection::conflict;
-    auto const slack = received.from == craft.clock_from ? clock_slack : clock_slack_between_links;
-    if (is_one && craft.since_boot && *clock + slack < *craft.since_boot) note_restart(craft, received.at);
-    craft.since_boot = clock;
-    craft.clock_from = received.from;
+    bool const is_one = craft.state.links.connection != Connection::conflict;
+    auto const slack = received.from == heard.clock_from ? clock_slack : clock_slack_between_links;
+    if (is_one && heard.since_boot && *clock + slack < *heard.since_boot) note_restart(craft, received.at);
+    heard.since_boot = clock;
+    heard.clock_from = received.from;
   }
-  if (auto const id = id_of(received.message); id && craft.rates) craft.rates->arrived(*id);
+  if (auto const id = id_of(received.message); id && craft.asked->rates) asked_of(craft).rates->arrived(*id);
   if (auto const* chunk = std::get_if<mavlink::StatusText>(&received.message))
     tell(craft, take_text(craft, received.source.component, *chunk, received.at));
   if (auto const* version = std::get_if<mavlink::AutopilotVersion>(&received.message))
-    craft.capabilities = version->capabilities;
+    heard.capabilities = version->capabilities;
   // Whoever has sent it: the vehicle has taken a whole plan, or was cleared.
   if (auto const* ack = std::get_if<mavlink::MissionAck>(&received.message);
       ack && ack->result == mavlink::MavMissionResult::accepted && ack->type == mavlink::MissionType::mission)
-    craft.holds_parts = false;
-  craft.fence.note(received.message, craft.state.autopilot, received.at);
+    ++heard.plans_taken;
+  heard.fence.note(received.message, craft.state.autopilot, received.at);
   if (!take_telemetry(craft, received.message, received.at))
     (void)take_payload(craft, received.source.component, received.message, received.at);
   registry_.touch(craft.id());
@@ -266,13 +272,13 @@ void Network::take_from_autopilot(MavlinkVehicle& craft, mavlink::Received const
 /// Lost, back, in conflict: looked at with every heartbeat and, for silence, now and then.
 void Network::check_connection(MavlinkVehicle& craft) {
   auto const conflict = connection_.conflict(craft.address.system);
-  auto const silence = loop().now() - craft.state.heartbeat_heard;
+  auto const silence = loop().now() - craft.state.links.heartbeat_heard;
   auto const now = conflict                             ? Connection::conflict
                    : silence > craft.connection_timeout ? Connection::lost
                                                         : Connection::ok;
-  auto const before = std::exchange(craft.state.connection, now);
+  auto const before = std::exchange(craft.state.links.connection, now);
   if (now == before) return;
-  craft.state.conflict =
+  craft.state.links.conflict =
       conflict ? fmt::format(
                      "two vehicles use system id {}: {} and {}; give one of them another id, until then neither is "
                      "commanded",
@@ -283,18 +289,18 @@ void Network::check_connection(MavlinkVehicle& craft) {
 }
 
 void Network::note_heard(MavlinkVehicle& craft, TimePoint at) {
-  craft.state.heard = at;
-  if (!std::exchange(craft.state.is_silent, false)) return;
+  craft.state.links.heard = at;
+  if (!std::exchange(craft.state.links.is_silent, false)) return;
   registry_.touch_membership(craft.id());
 }
 
 /// Any message counts, and several kinds come each second: one that is silent by this has said nothing at all. Of two
 /// vehicles with one id nobody can tell which is.
 void Network::check_silence(MavlinkVehicle& craft) {
-  auto const silence = loop().now() - craft.state.heard;
+  auto const silence = loop().now() - craft.state.links.heard;
   auto const limit = speaks_rarely(craft.state) ? options_.silence + heartbeat_period : options_.silence;
-  if (craft.state.is_silent || silence <= limit || craft.state.connection == Connection::conflict) return;
-  craft.state.is_silent = true;
+  if (craft.state.links.is_silent || silence <= limit || craft.state.links.connection == Connection::conflict) return;
+  craft.state.links.is_silent = true;
   registry_.touch_membership(craft.id());
 }
 
@@ -312,8 +318,8 @@ void Network::note_links() {
                                                .is_alive = source.is_alive,
                                                .is_used = source.is_route});
   for (auto& [system_id, craft] : crafts_) {
-    if (craft->state.links == links[system_id]) continue;
-    craft->state.links = std::move(links[system_id]);
+    if (craft->state.links.all == links[system_id]) continue;
+    craft->state.links.all = std::move(links[system_id]);
     registry_.touch(craft->id());
   }
 }
@@ -334,11 +340,12 @@ base::Task<> Network::watch() {
       if (was_listening) check_silence(*craft);
       let_age(*craft);
       if (!options_.asks_for_messages || !may_be_asked(*craft)) continue;
-      if (!craft->questions.empty() && !craft->is_questioning) scope_.spawn(ask_questions(*craft));
-      if (craft->is_asking || is_giving_back_) continue;
-      if (!craft->rates) craft->rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
+      auto& asked = asked_of(*craft);
+      if (!asked.questions.empty() && !asked.is_questioning) scope_.spawn(ask_questions(*craft));
+      if (asked.is_asking || is_giving_back_) continue;
+      if (!asked.rates) asked.rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
       spare_slow_link(*craft);
-      auto wanted = craft->rates->due(loop().now());
+      auto wanted = asked.rates->due(loop().now());
       if (!wanted.empty()) scope_.spawn(ask_for_messages(*craft, std::move(wanted)));
     }
   }

@@ -60,6 +60,10 @@ class Network {
   [[nodiscard]] base::Loop& loop() const { return connection_.loop(); }
 
  private:
+  /// What this class writes of a vehicle.
+  static Heard& heard_of(MavlinkVehicle& craft) { return craft.heard.write(As<Network>()); }
+  static Asked& asked_of(MavlinkVehicle& craft) { return craft.asked.write(As<Network>()); }
+
   void take(mavlink::Received const& received);
   void take_heartbeat(mavlink::Received const& received, mavlink::Heartbeat const& heartbeat);
   void take_from_autopilot(MavlinkVehicle& craft, mavlink::Received const& received);

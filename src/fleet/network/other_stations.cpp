@@ -47,7 +47,7 @@ std::string_view plan_word(mavlink::MissionType type) {
 /// What follows by itself: the mode after a mission, or after a take-off (PX4). A copter stays in AUTO to the end.
 bool is_its_own_sequel(MavlinkVehicle const& craft, std::uint32_t before) {
   if (mode_name(craft, before) == "AUTO.TAKEOFF") return true;
-  auto const& mission = craft.state.mission.value;
+  auto const& mission = craft.state.mission.progress.value;
   if (!mission || before != mavlink::mode_for(craft.state.autopilot, craft.state.family, mavlink::ModeRole::mission))
     return false;
   bool const is_at_last_item = mission->current_seq + 1 >= mission->total;
@@ -118,7 +118,7 @@ void OtherStations::note_command(Network& network, Address by, Address target, M
 void OtherStations::note_mode(MavlinkVehicle& craft, std::uint32_t before) {
   auto const now = fleet_.loop().now();
   bool const is_ours =
-      craft.asked_mode == std::as_const(modes_).at(craft.id()) && now - craft.mode_asked <= asked_recently;
+      craft.asked->mode == std::as_const(modes_).at(craft.id()) && now - craft.asked->mode_asked <= asked_recently;
   bool const has_just_booted = mode_name(craft, before) == "INITIALISING";
   craft.state.foreign_mode.value.reset();
   fleet_.registry().touch(craft.id());

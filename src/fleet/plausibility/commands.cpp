@@ -24,7 +24,7 @@ constexpr int most_items_fetched = 100;
 
 /// The mission that the vehicle holds, as far as it tells within the moment that there is.
 Task<std::optional<plan::Mission>> held_mission(MavlinkVehicle& craft) {
-  auto const& known = craft.state.mission.value;
+  auto const& known = craft.state.mission.progress.value;
   if (known && known->total > most_items_fetched) co_return std::nullopt;
   constexpr mavlink::TransferOptions quickly{.tries = 3, .silence_limit = std::chrono::seconds(2), .restarts = 0};
   auto held =
@@ -36,7 +36,7 @@ Task<std::optional<plan::Mission>> held_mission(MavlinkVehicle& craft) {
 /// Of a vehicle that is not armed, a mode may be chosen at leisure, and resuming is refused anyway.
 bool flies_the_plan_now(MavlinkVehicle const& craft, vehicle::VehicleCommand const& command) {
   bool const arms = command.action == Action::start_mission || command.action == Action::arm;
-  return flies_the_plan(craft, command) && (arms || craft.is_armed);
+  return flies_the_plan(craft, command) && (arms || craft.heard->is_armed);
 }
 
 Task<plausibility::Findings> findings_of(MavlinkVehicle& craft, vehicle::VehicleCommand command,
@@ -45,7 +45,7 @@ Task<plausibility::Findings> findings_of(MavlinkVehicle& craft, vehicle::Vehicle
   bool const takes_off = command.action == Action::take_off;
   bool const flies_plan = flies_the_plan_now(craft, command);
   // What stops a vehicle waits for nothing. A mixture of plans is no plan, and is refused as that.
-  if (!(goes_somewhere || takes_off || flies_plan) || craft.holds_parts) co_return plausibility::Findings{};
+  if (!(goes_somewhere || takes_off || flies_plan) || craft.holds_parts()) co_return plausibility::Findings{};
   co_await learn_home(craft, hasty);
   co_await learn_fence(craft, hasty, std::move(log));
   std::optional<plan::Mission> held;

@@ -11,7 +11,7 @@
 #include "base/time.hpp"
 #include "mavlink/codec/messages.hpp"
 #include "plan/plausibility/vehicle_fence.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::fleet {
 

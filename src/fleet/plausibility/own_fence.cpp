@@ -27,20 +27,26 @@ constexpr base::Duration ask_again = 400ms;
 /// everything else has, it does not have.
 constexpr int rounds_for_optional = 2;
 
+}  // namespace
+
 /// Ends a reading also when who wanted it is stopped in the middle.
-class Reading {
+class FenceReading {
  public:
-  explicit Reading(MavlinkVehicle& craft) : craft_(craft) { craft_.fence.is_being_read = true; }
-  Reading(Reading const&) = delete;
-  Reading& operator=(Reading const&) = delete;
-  ~Reading() {
-    craft_.fence.is_being_read = false;
+  static FenceMemory& memory_of(MavlinkVehicle& craft) { return craft.heard.write(As<FenceReading>()).fence; }
+
+  explicit FenceReading(MavlinkVehicle& craft) : craft_(craft) { memory_of(craft_).is_being_read = true; }
+  FenceReading(FenceReading const&) = delete;
+  FenceReading& operator=(FenceReading const&) = delete;
+  ~FenceReading() {
+    memory_of(craft_).is_being_read = false;
     craft_.changed.notify_all();
   }
 
  private:
   MavlinkVehicle& craft_;
 };
+
+namespace {
 
 std::vector<std::string_view> missing(FenceMemory const& memory, std::span<std::string_view const> names,
                                       TimePoint since) {
@@ -58,22 +64,23 @@ Task<Result<>> read_values(MavlinkVehicle& craft, TimePoint deadline) {
   for (int round = 0;; ++round) {
     auto const next = std::min(begun + (round + 1) * ask_again, deadline);
     for (auto const& some : {names.needed, names.optional})
-      for (auto const name : missing(craft.fence, some, begun))
+      for (auto const name : missing(craft.heard->fence, some, begun))
         if (auto sent = craft.connection.send(craft.address, mavlink::ParamRequestRead{.name = std::string(name)});
             !sent)
           co_return sent;
     while (loop.now() < next) {
-      bool const has_all =
-          missing(craft.fence, names.needed, begun).empty() && missing(craft.fence, names.optional, begun).empty();
-      if (has_all || craft.fence.is_off(craft.state.autopilot, begun)) co_return Result<>{};
+      bool const has_all = missing(craft.heard->fence, names.needed, begun).empty() &&
+                           missing(craft.heard->fence, names.optional, begun).empty();
+      if (has_all || craft.heard->fence.is_off(craft.state.autopilot, begun)) co_return Result<>{};
       co_await craft.changed.wait_until(next);
     }
-    auto const needed = missing(craft.fence, names.needed, begun);
+    auto const needed = missing(craft.heard->fence, names.needed, begun);
     if (needed.empty() && round + 1 >= rounds_for_optional) break;
     if (loop.now() >= deadline)
       co_return fail(ErrorKind::timed_out, needed.empty() ? "its parameters" : std::string(needed.front()));
   }
-  for (auto const name : missing(craft.fence, names.optional, begun)) craft.fence.set_untold(name);
+  for (auto const name : missing(craft.heard->fence, names.optional, begun))
+    FenceReading::memory_of(craft).set_untold(name);
   co_return Result<>{};
 }
 
@@ -93,13 +100,13 @@ Task<Result<>> read_areas(MavlinkVehicle& craft, TimePoint deadline) {
   if (!held || !*held) co_return fail(ErrorKind::timed_out, "its stored areas");
   auto areas = plan::fence_from((*held)->items);
   if (!areas) co_return fail(ErrorKind::timed_out, "stored areas that make sense: " + areas.error().message);
-  craft.fence.set_areas(*std::move(areas), loop.now());
+  FenceReading::memory_of(craft).set_areas(*std::move(areas), loop.now());
   co_return Result<>{};
 }
 
 Task<Result<>> read_all(MavlinkVehicle& craft, base::Duration patience) {
   auto const now = craft.connection.loop().now();
-  auto& memory = craft.fence;
+  auto& memory = FenceReading::memory_of(craft);
   bool const is_fresh = memory.read && now - *memory.read < values_keep;
   if (is_fresh && memory.failure && memory.failure->patience >= patience)
     co_return fail(ErrorKind::timed_out, memory.failure->what);
@@ -118,11 +125,11 @@ Task<Result<>> read_all(MavlinkVehicle& craft, base::Duration patience) {
 Task<Result<>> learn_fence(MavlinkVehicle& craft, base::Duration patience) {
   if (fence_names(craft.state.autopilot, craft.state.family).needed.empty()) co_return Result<>{};
   auto const deadline = craft.connection.loop().now() + patience;
-  while (craft.fence.is_being_read) {
+  while (craft.heard->fence.is_being_read) {
     if (craft.connection.loop().now() >= deadline) co_return fail(ErrorKind::timed_out, "its parameters");
     co_await craft.changed.wait_until(deadline);
   }
-  Reading const reading(craft);
+  FenceReading const reading(craft);
   co_return co_await read_all(craft, patience);
 }
 

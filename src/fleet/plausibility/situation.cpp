@@ -5,13 +5,14 @@ namespace lapwing::fleet {
 namespace {
 
 bool knows_its_place(vehicle::VehicleState const& state) {
-  auto const& health = state.health.value;
-  return state.position.known() && ((health && health->position_ok) || state.autopilot == vehicle::Autopilot::other);
+  auto const& health = state.arming.health.value;
+  return state.motion.position.known() &&
+         ((health && health->position_ok) || state.autopilot == vehicle::Autopilot::other);
 }
 
 /// Zero only when it says that there is none: an autopilot that does not count tells nothing.
 std::optional<int> items_held(vehicle::VehicleState const& state) {
-  auto const& mission = state.mission.value;
+  auto const& mission = state.mission.progress.value;
   if (!mission) return std::nullopt;
   if (mission->state == "no mission") return 0;
   return mission->total > 0 ? std::optional(mission->total) : std::nullopt;
@@ -20,8 +21,8 @@ std::optional<int> items_held(vehicle::VehicleState const& state) {
 }  // namespace
 
 std::optional<bool> stands_on_ground(MavlinkVehicle const& craft) {
-  if (!craft.is_armed) return true;
-  return craft.state.landed.value;
+  if (!craft.heard->is_armed) return true;
+  return craft.state.motion.landed.value;
 }
 
 plan::plausibility::Situation situation_of(MavlinkVehicle const& craft, Neighbours const& neighbours) {
@@ -29,14 +30,14 @@ plan::plausibility::Situation situation_of(MavlinkVehicle const& craft, Neighbou
   plan::plausibility::Situation situation{.vehicle = state.name,
                                           .family = state.family,
                                           .autopilot = state.autopilot,
-                                          .home = state.home.value,
+                                          .home = state.motion.home.value,
                                           .on_ground = stands_on_ground(craft),
                                           .items_held = items_held(state),
-                                          .own_fence = craft.fence.known(state.autopilot, state.family)};
-  if (knows_its_place(state)) situation.position = state.position.value;
+                                          .own_fence = craft.heard->fence.known(state.autopilot, state.family)};
+  if (knows_its_place(state)) situation.position = state.motion.position.value;
   // What standing on the ground uses says nothing about a flight.
   bool const is_under_way = situation.on_ground == false;
-  if (is_under_way && state.battery.value) situation.endurance = state.battery.value->time_left;
+  if (is_under_way && state.power.battery.value) situation.endurance = state.power.battery.value->time_left;
   if (neighbours) situation.neighbours = neighbours(craft);
   return situation;
 }

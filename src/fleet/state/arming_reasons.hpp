@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/time.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/status_text.hpp"
 
 namespace lapwing::fleet {
 

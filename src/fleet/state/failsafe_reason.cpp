@@ -33,7 +33,7 @@ std::string recent_failsafe(vehicle::VehicleState const& state, base::TimePoint 
                             std::optional<base::TimePoint> fence_breached) {
   for (auto const& text : std::views::reverse(state.recent_texts))
     if (text.heard + is_recent >= now && tells_failsafe(text.text)) return text.text;
-  auto const& fence = state.fence;
+  auto const& fence = state.mission.fence;
   if (!fence.value) return {};
   bool const is_breached = fence.value->is_breached && fence.heard + is_recent >= now;
   bool const was_breached = fence_breached && *fence_breached + is_recent >= now;

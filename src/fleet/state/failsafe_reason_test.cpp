@@ -42,10 +42,10 @@ TEST(RecentFailsafe, IsTheNewestThatBegan) {
 
 TEST(RecentFailsafe, IsToldByTheFenceWhereAVehicleHasNoWords) {
   auto state = having_said({{1s, "Fence Indexed OK"}});
-  state.fence.set({.is_breached = true, .breaches = 1, .type = "boundary"}, at(3s));
+  state.mission.fence.set({.is_breached = true, .breaches = 1, .type = "boundary"}, at(3s));
   EXPECT_EQ(recent_failsafe(state, at(4s)), "fence breached: boundary");
   EXPECT_EQ(recent_failsafe(state, at(30s)), "") << "too old to be the reason";
-  state.fence.set({.is_breached = false, .breaches = 1}, at(30s));
+  state.mission.fence.set({.is_breached = false, .breaches = 1}, at(30s));
   EXPECT_EQ(recent_failsafe(state, at(31s)), "");
   EXPECT_EQ(recent_failsafe(state, at(31s), at(30s)), "fence breached") << "over already, and counted";
 }

@@ -6,7 +6,7 @@
 namespace lapwing::fleet {
 
 /// Takes one message about what the vehicle carries (components, cameras, gimbals, its list of modes) into its state,
-/// whichever of its components sent it. What has to be asked for then is left in `craft.questions`. True when somebody
+/// whichever of its components sent it. What has to be asked for then waits among its questions. True when somebody
 /// who looks at the state can see a difference.
 bool take_payload(MavlinkVehicle& craft, std::uint8_t component, mavlink::Message const& message, base::TimePoint now);
 

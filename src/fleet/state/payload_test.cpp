@@ -54,7 +54,7 @@ TEST(Components, AreListedWithStateAndAge) {
   copter.send_as({1, 154}, heartbeat(MavType::gimbal, mavlink::MavState::standby));
   copter.send_as({1, 191}, heartbeat(MavType::onboard_controller));
   world.run_for(100ms);
-  auto const& all = world.state().components;
+  auto const& all = world.state().payload.components;
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].id, 154);
   EXPECT_EQ(all[0].kind, "gimbal");
@@ -62,11 +62,11 @@ TEST(Components, AreListedWithStateAndAge) {
   EXPECT_EQ(all[1].kind, "companion computer");
   auto const heard = all[0].heard;
   world.run_for(5s);
-  EXPECT_EQ(world.state().components[0].heard, heard);
+  EXPECT_EQ(world.state().payload.components[0].heard, heard);
   copter.send_as({1, 154}, heartbeat(MavType::gimbal, mavlink::MavState::critical));
   world.run_for(100ms);
-  EXPECT_GT(world.state().components[0].heard, heard);
-  EXPECT_EQ(world.state().components[0].state, "critical");
+  EXPECT_GT(world.state().payload.components[0].heard, heard);
+  EXPECT_EQ(world.state().payload.components[0].state, "critical");
 }
 
 TEST(Components, AreBoundedInNumber) {
@@ -84,9 +84,10 @@ TEST(Components, AreAskedWhatTheyAreOnce) {
   EXPECT_EQ(requests(copter), (std::vector<std::pair<int, int>>{{280, 0}, {259, 0}}));
   copter.send(mavlink::CameraInformation{.vendor = "Maker", .model = "M1"});
   world.run_for(1s);
-  ASSERT_EQ(world.state().components.size(), 1u);
-  EXPECT_EQ(world.state().components[0].model, "Maker M1");
-  EXPECT_LT(world.loop.now() - world.state().components[0].heard, 2s);  // as old as the autopilot that speaks for it
+  ASSERT_EQ(world.state().payload.components.size(), 1u);
+  EXPECT_EQ(world.state().payload.components[0].model, "Maker M1");
+  EXPECT_LT(world.loop.now() - world.state().payload.components[0].heard,
+            2s);  // as old as the autopilot that speaks for it
   EXPECT_EQ(requests(copter).size(), 2u);
 }
 
@@ -112,28 +113,28 @@ TEST(Gimbal, PointsWhereItsQuaternionSays) {
   status.orientation = {std::cos(half), 0.0F, -std::sin(half), 0.0F};
   copter.send(status);
   world.run_for(100ms);
-  ASSERT_TRUE(world.state().gimbal.known());
-  EXPECT_NEAR(world.state().gimbal.value->pitch_rad, -std::numbers::pi / 4.0, 1e-6);
-  EXPECT_FALSE(world.state().gimbal.value->yaw_is_from_north);
+  ASSERT_TRUE(world.state().payload.gimbal.known());
+  EXPECT_NEAR(world.state().payload.gimbal.value->pitch_rad, -std::numbers::pi / 4.0, 1e-6);
+  EXPECT_FALSE(world.state().payload.gimbal.value->yaw_is_from_north);
 
   auto const quarter = static_cast<float>(std::numbers::sqrt2 / 2.0);
   status.orientation = {quarter, 0.0F, -quarter, 0.0F};  // straight down
   status.flags = mavlink::gimbal_flag::yaw_lock;
   copter.send_as({1, 154}, status);
   world.run_for(100ms);
-  EXPECT_NEAR(world.state().gimbal.value->pitch_rad, -std::numbers::pi / 2.0, 0.02);
-  EXPECT_EQ(world.state().gimbal.value->roll_rad, 0.0);
-  EXPECT_TRUE(world.state().gimbal.value->yaw_is_from_north);
+  EXPECT_NEAR(world.state().payload.gimbal.value->pitch_rad, -std::numbers::pi / 2.0, 0.02);
+  EXPECT_EQ(world.state().payload.gimbal.value->roll_rad, 0.0);
+  EXPECT_TRUE(world.state().payload.gimbal.value->yaw_is_from_north);
 
   status.orientation = {NAN, 0, 0, 0};
   copter.send(status);
   copter.send(mavlink::MountStatus{.pitch_rad = 0.5, .roll_rad = 0.0, .yaw_rad = 0.0});  // says less
   world.run_for(100ms);
-  EXPECT_NEAR(world.state().gimbal.value->pitch_rad, -std::numbers::pi / 2.0, 0.02);
+  EXPECT_NEAR(world.state().payload.gimbal.value->pitch_rad, -std::numbers::pi / 2.0, 0.02);
   world.run_for(6s);
   copter.send(mavlink::MountStatus{.pitch_rad = 0.5, .roll_rad = 0.0, .yaw_rad = 0.0});
   world.run_for(100ms);
-  EXPECT_NEAR(world.state().gimbal.value->pitch_rad, 0.5, 1e-3);
+  EXPECT_NEAR(world.state().payload.gimbal.value->pitch_rad, 0.5, 1e-3);
 }
 
 TEST(Pictures, AreAskedForAgainWhenTheyWereLost) {
@@ -147,11 +148,11 @@ TEST(Pictures, AreAskedForAgainWhenTheyWereLost) {
   EXPECT_EQ(asked.back(), (std::pair<int, int>{263, 5}));
   // It knows the older command only, as cameras before 2022.
   EXPECT_EQ(copter.commands_heard(mavlink::MavCmd::request_camera_image_capture), 1);
-  EXPECT_EQ(world.state().pictures.value->lost, 1);
+  EXPECT_EQ(world.state().payload.pictures.value->lost, 1);
   copter.send(captured(5));
   world.run_for(100ms);
-  EXPECT_EQ(world.state().pictures.value->lost, 0);
-  EXPECT_EQ(world.state().pictures.value->taken, 3);
+  EXPECT_EQ(world.state().payload.pictures.value->lost, 0);
+  EXPECT_EQ(world.state().payload.pictures.value->taken, 3);
 }
 
 TEST(ModeNames, AreTheVehiclesOwnWhereNoTableKnowsThem) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mavlink/codec/messages.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/equipment.hpp"
 
 namespace lapwing::fleet {
 

@@ -31,18 +31,26 @@ PictureTrace::Missing picture_of(Question const& question) {
 
 }  // namespace
 
+/// Writes what waits to be asked.
+class Questions {
+ public:
+  static std::deque<Question>& of(MavlinkVehicle& craft) { return craft.asked.write(As<Questions>()).questions; }
+};
+
 void ask(MavlinkVehicle& craft, Question question) {
   constexpr std::size_t most_waiting = 200;
-  if (craft.questions.size() >= most_waiting) craft.questions.pop_front();
-  craft.questions.push_back(question);
+  auto& questions = Questions::of(craft);
+  if (questions.size() >= most_waiting) questions.pop_front();
+  questions.push_back(question);
 }
 
 /// One after the other: acknowledgements name the command only, not the message that was asked for.
 base::Task<> Network::ask_questions(MavlinkVehicle& craft) {
-  craft.is_questioning = true;
-  while (!craft.questions.empty() && may_be_asked(craft)) {
-    auto const question = craft.questions.front();
-    craft.questions.pop_front();
+  auto& asked = asked_of(craft);
+  asked.is_questioning = true;
+  while (!asked.questions.empty() && may_be_asked(craft)) {
+    auto const question = asked.questions.front();
+    asked.questions.pop_front();
     if (question.message == mavlink::MessageId::camera_image_captured) {
       co_await ask_for_picture(craft, question);
     } else if (question.message == mavlink::MessageId::available_modes) {
@@ -53,12 +61,12 @@ base::Task<> Network::ask_questions(MavlinkVehicle& craft) {
       (void)co_await mavlink::run_command(connection_, target, command, options);
     }
   }
-  craft.is_questioning = false;
+  asked.is_questioning = false;
 }
 
 base::Task<> Network::ask_for_picture(MavlinkVehicle& craft, Question question) {
   auto const picture = picture_of(question);
-  if (!craft.pictures.is_missing(picture)) co_return;
+  if (!craft.heard->pictures.is_missing(picture)) co_return;
   mavlink::Address const target{craft.address.system, question.component};
   auto const command = command_for(question);
   auto asked = co_await mavlink::run_command(connection_, target, command, options);
@@ -68,8 +76,9 @@ base::Task<> Network::ask_for_picture(MavlinkVehicle& craft, Question question) 
   }
   if (!asked) co_return;
   auto const deadline = loop().now() + answer_time;
-  while (craft.pictures.is_missing(picture) && loop().now() < deadline) co_await craft.changed.wait_until(deadline);
-  if (craft.pictures.is_missing(picture) && ++question.tries < most_tries) ask(craft, question);
+  while (craft.heard->pictures.is_missing(picture) && loop().now() < deadline)
+    co_await craft.changed.wait_until(deadline);
+  if (craft.heard->pictures.is_missing(picture) && ++question.tries < most_tries) ask(craft, question);
 }
 
 /// The whole list first (place 0), then what of it was lost.
@@ -78,7 +87,7 @@ base::Task<> Network::ask_for_modes(MavlinkVehicle& craft, Question question) {
   auto const asked = co_await mavlink::run_command(connection_, craft.address, command, options);
   if (!asked || question.argument != 0.0F) co_return;
   co_await loop().sleep(whole_list_time);
-  for (auto const place : craft.modes.missing())
+  for (auto const place : craft.heard->modes.missing())
     ask(craft, {question.message, question.component, static_cast<float>(place)});
 }
 

@@ -24,44 +24,44 @@ constexpr double smallest_step_m = 0.5;                 // below it a standing v
 constexpr double fastest_vehicle_m_s = 100;             // a step beyond it is a jump of the estimator
 constexpr double jump_allowance_m = 20.0;
 
-void extend_track(MavlinkVehicle& craft, VehicleState& state, geo::Wgs84 place, TimePoint now) {
-  if (craft.track_end) {
-    double const step_m = geo::surface_distance_m(*craft.track_end, place);
+void extend_track(Heard& kept, VehicleState& state, geo::Wgs84 place, TimePoint now) {
+  if (kept.track_end) {
+    double const step_m = geo::surface_distance_m(*kept.track_end, place);
     if (step_m < smallest_step_m) return;
-    double const farthest_m = jump_allowance_m + fastest_vehicle_m_s * base::to_seconds(now - craft.track_end_heard);
-    if (step_m <= farthest_m) state.track_m += step_m;
+    double const farthest_m = jump_allowance_m + fastest_vehicle_m_s * base::to_seconds(now - kept.track_end_heard);
+    if (step_m <= farthest_m) state.motion.track_m += step_m;
   }
-  craft.track_end = place;
-  craft.track_end_heard = now;
+  kept.track_end = place;
+  kept.track_end_heard = now;
 }
 
 /// The same with height differences, to compare with estimates.
-void extend_path(MavlinkVehicle& craft, geo::Wgs84 place) {
-  double const step_m = craft.path_end ? geo::distance_m(*craft.path_end, place) : 0.0;
-  if (craft.path_end && step_m < smallest_step_m) return;
-  if (step_m <= jump_allowance_m + fastest_vehicle_m_s) craft.path_m += step_m;
-  craft.path_end = place;
+void extend_path(Heard& kept, geo::Wgs84 place) {
+  double const step_m = kept.path_end ? geo::distance_m(*kept.path_end, place) : 0.0;
+  if (kept.path_end && step_m < smallest_step_m) return;
+  if (step_m <= jump_allowance_m + fastest_vehicle_m_s) kept.path_m += step_m;
+  kept.path_end = place;
 }
 
 bool has_fix(MavlinkVehicle const& craft) {
-  return !craft.fix || *craft.fix >= mavlink::GpsFix::fix_3d;
+  return !craft.heard->fix || *craft.heard->fix >= mavlink::GpsFix::fix_3d;
 }
 
 bool position_is_estimated(VehicleState const& state) {
-  return state.health.value.value_or(vehicle::Health{}).position_ok;
+  return state.arming.health.value.value_or(vehicle::Health{}).position_ok;
 }
 
 void set_estimator(VehicleState& state, std::uint16_t flags, TimePoint now) {
-  auto health = state.health.value.value_or(vehicle::Health{});
+  auto health = state.arming.health.value.value_or(vehicle::Health{});
   health.position_ok = (flags & mavlink::ekf_flag::position_horizontal_absolute) != 0 &&
                        (flags & mavlink::ekf_flag::constant_position_mode) == 0;
-  state.health.set(health, now);
+  state.arming.health.set(health, now);
 }
 
 /// The battery of that id; the first one stands by itself.
 vehicle::Aged<vehicle::Battery>* battery_of(VehicleState& state, int id) {
-  if (id == 0) return &state.battery;
-  auto& all = state.further_batteries;
+  if (id == 0) return &state.power.battery;
+  auto& all = state.power.further_batteries;
   auto const place = std::ranges::lower_bound(all, id, {}, [](auto const& battery) { return battery.value->id; });
   if (place != all.end() && place->value->id == id) return &*place;
   if (all.size() >= batteries_kept) return nullptr;
@@ -87,25 +87,25 @@ vehicle::Charge charge_of(std::uint8_t state) {
 bool is_working(MavlinkVehicle const& craft) {
   auto const family = craft.state.family;
   bool const drives = family == vehicle::Family::rover || family == vehicle::Family::boat;
-  if (!drives && craft.state.landed.value) return !*craft.state.landed.value;
-  return craft.is_armed;
+  if (!drives && craft.state.motion.landed.value) return !*craft.state.motion.landed.value;
+  return craft.heard->is_armed;
 }
 
 bool is_level(VehicleState const& state) {
   constexpr double climbs_m_s = 0.7;
-  auto const& velocity = state.velocity_m_s.value;
+  auto const& velocity = state.motion.velocity_m_s.value;
   return !velocity || std::abs(velocity->down) < climbs_m_s;
 }
 
-void set_time_left(MavlinkVehicle& craft, vehicle::Battery& battery, std::optional<std::chrono::seconds> told,
-                   TimePoint now) {
+void set_time_left(MavlinkVehicle const& craft, Heard& kept, vehicle::Battery& battery,
+                   std::optional<std::chrono::seconds> told, TimePoint now) {
   BatteryReport const report{.remaining = battery.remaining,
                              .current_a = battery.current_a,
                              .drawn_ah = battery.consumed_ah,
                              .is_working = is_working(craft),
                              .is_level = is_level(craft.state),
                              .counts_from_full = craft.state.autopilot == vehicle::Autopilot::ardupilot};
-  auto const estimate = craft.battery_times[static_cast<std::uint8_t>(battery.id)].add(report, now);
+  auto const estimate = kept.battery_times[static_cast<std::uint8_t>(battery.id)].add(report, now);
   battery.in_flight = estimate.in_flight;
   battery.time_left_is_estimate = !told && estimate.now.has_value();
   if (told) battery.time_left = *told;
@@ -115,12 +115,12 @@ void set_time_left(MavlinkVehicle& craft, vehicle::Battery& battery, std::option
 }
 
 /// Names are put together only when a sensor falls sick or recovers, not for every message.
-void set_unhealthy(MavlinkVehicle& craft, VehicleState& state, mavlink::SysStatus const& heard, TimePoint now) {
+void set_unhealthy(Heard& kept, VehicleState& state, mavlink::SysStatus const& heard, TimePoint now) {
   auto const sick = heard.sensors_present & heard.sensors_enabled & ~heard.sensors_health;
-  auto& shown = state.unhealthy;
+  auto& shown = state.arming.unhealthy;
   shown.heard = now;
-  if (shown.value && sick == craft.sick_sensors) return;
-  craft.sick_sensors = sick;
+  if (shown.value && sick == kept.sick_sensors) return;
+  kept.sick_sensors = sick;
   std::vector<std::string_view> names;
   for (unsigned bit = 0; bit < 32; ++bit)
     if ((sick >> bit & 1U) != 0 && !mavlink::sensor_name(bit).empty()) names.push_back(mavlink::sensor_name(bit));
@@ -128,9 +128,10 @@ void set_unhealthy(MavlinkVehicle& craft, VehicleState& state, mavlink::SysStatu
 }
 
 void set_remote_control_lost(MavlinkVehicle const& craft, VehicleState& state) {
-  auto& remote = state.remote_control;
+  auto& remote = state.links.remote_control;
   if (!remote.value) return;
-  remote.value->is_lost = remote.value->channels == 0 || (craft.sick_sensors & mavlink::sensor_flag::rc_receiver) != 0;
+  remote.value->is_lost =
+      remote.value->channels == 0 || (craft.heard->sick_sensors & mavlink::sensor_flag::rc_receiver) != 0;
 }
 
 std::string_view state_name(mavlink::MissionState state) {
@@ -150,11 +151,23 @@ std::string_view breach_name(std::uint8_t type) {
   return type < names.size() ? names[type] : "fence";
 }
 
+void show_texts(VehicleState& state, std::vector<vehicle::StatusText> const& texts) {
+  for (auto const& text : texts) (void)note_arming_reason(state.arming.reasons, text);
+  auto& kept = state.recent_texts;
+  kept.insert(kept.end(), texts.begin(), texts.end());
+  if (kept.size() > texts_kept) kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(texts_kept));
+}
+
+}  // namespace
+
 /// One overload for each message that shows; everything else falls through to the template.
-struct Taking {
+struct TelemetryTaking {
+  static Heard& kept_of(MavlinkVehicle& vehicle) { return vehicle.heard.write(As<TelemetryTaking>()); }
+
   MavlinkVehicle& craft;
-  VehicleState& state;
   TimePoint now;
+  VehicleState& state = craft.state;
+  Heard& kept = kept_of(craft);
 
   template <class Other>
   bool operator()(Other const&) const {
@@ -171,48 +184,48 @@ struct Taking {
     auto const& place = heard.position;
     bool const is_nowhere = place && place->lat_rad == 0.0 && place->lon_rad == 0.0;
     if (is_nowhere || !has_fix(craft)) return false;
-    take_known(state.position, place);
-    take_known(state.relative_alt_m, heard.relative_alt_m);
-    take_known(state.velocity_m_s, heard.velocity_m_s);
-    if (position_is_estimated(state)) take_known(state.heading_rad, heard.heading_rad);
+    take_known(state.motion.position, place);
+    take_known(state.motion.relative_alt_m, heard.relative_alt_m);
+    take_known(state.motion.velocity_m_s, heard.velocity_m_s);
+    if (position_is_estimated(state)) take_known(state.motion.heading_rad, heard.heading_rad);
     if (!place) return true;
-    extend_track(craft, state, *place, now);
-    extend_path(craft, *place);
+    extend_track(kept, state, *place, now);
+    extend_path(kept, *place);
     return true;
   }
 
   bool operator()(mavlink::Attitude const& heard) const {
     if (!heard.roll_rad || !heard.pitch_rad || !heard.yaw_rad) return false;
-    state.attitude.set({*heard.roll_rad, *heard.pitch_rad, *heard.yaw_rad}, now);
+    state.motion.attitude.set({*heard.roll_rad, *heard.pitch_rad, *heard.yaw_rad}, now);
     return true;
   }
 
   bool operator()(mavlink::GpsRaw const& heard) const {
-    craft.fix = heard.fix;
-    state.gps.set({static_cast<int>(heard.fix), heard.satellites, heard.hdop}, now);
+    kept.fix = heard.fix;
+    state.positioning.gps.set({static_cast<int>(heard.fix), heard.satellites, heard.hdop}, now);
     return true;
   }
 
   bool operator()(mavlink::VfrHud const& heard) const {
-    state.hud.set({heard.airspeed_m_s, heard.climb_m_s, heard.throttle}, now);
+    state.motion.hud.set({heard.airspeed_m_s, heard.climb_m_s, heard.throttle}, now);
     return true;
   }
 
   bool operator()(mavlink::Wind const& heard) const {
     if (!heard.from_rad || !heard.speed_m_s) return false;
-    state.wind.set({geo::wrap_two_pi(*heard.from_rad), *heard.speed_m_s}, now);
+    state.motion.wind.set({geo::wrap_two_pi(*heard.from_rad), *heard.speed_m_s}, now);
     return true;
   }
 
   bool operator()(mavlink::WindCov const& heard) const {
     if (!heard.north_m_s || !heard.east_m_s) return false;
     auto const from_rad = geo::wrap_two_pi(std::atan2(-*heard.east_m_s, -*heard.north_m_s));
-    state.wind.set({from_rad, std::hypot(*heard.north_m_s, *heard.east_m_s)}, now);
+    state.motion.wind.set({from_rad, std::hypot(*heard.north_m_s, *heard.east_m_s)}, now);
     return true;
   }
 
   bool operator()(mavlink::NavControllerOutput const& heard) const {
-    state.waypoint_distance_m.set(heard.waypoint_distance_m, now);
+    state.mission.waypoint_distance_m.set(heard.waypoint_distance_m, now);
     return true;
   }
 
@@ -220,38 +233,38 @@ struct Taking {
     constexpr std::uint16_t horizontal = 0b11;
     auto const& target = heard.setpoint;
     bool const is_place = (target.ignore & horizontal) == 0 && (target.lat_rad != 0.0 || target.lon_rad != 0.0);
-    if (is_place) state.position_target.set({target.lat_rad, target.lon_rad, target.alt_m}, now);
+    if (is_place) state.mission.position_target.set({target.lat_rad, target.lon_rad, target.alt_m}, now);
     return false;
   }
 
   bool operator()(mavlink::RcChannels const& heard) const {
-    state.remote_control.set({false, heard.count, heard.pulses_us, heard.rssi}, now);
+    state.links.remote_control.set({false, heard.count, heard.pulses_us, heard.rssi}, now);
     set_remote_control_lost(craft, state);
     return true;
   }
 
   bool operator()(mavlink::FenceStatus const& heard) const {
-    state.fence.set({heard.breached, heard.breach_count, breach_name(heard.breach_type)}, now);
+    state.mission.fence.set({heard.breached, heard.breach_count, breach_name(heard.breach_type)}, now);
     return true;
   }
 
   bool operator()(mavlink::SysStatus const& heard) const {
-    craft.has_reported_battery = true;
-    bool const knows_more = craft.battery_status_heard && now - *craft.battery_status_heard < battery_status_prevails;
+    kept.has_reported_battery = true;
+    bool const knows_more = kept.battery_status_heard && now - *kept.battery_status_heard < battery_status_prevails;
     if (heard.battery_remaining && !knows_more) {
       vehicle::Battery battery{.remaining = *heard.battery_remaining,
                                .voltage_v = heard.battery_voltage_v,
                                .current_a = heard.battery_current_a};
-      set_time_left(craft, battery, std::nullopt, now);
-      state.battery.set(battery, now);
+      set_time_left(craft, kept, battery, std::nullopt, now);
+      state.power.battery.set(battery, now);
     }
-    auto health = state.health.value.value_or(vehicle::Health{});
+    auto health = state.arming.health.value.value_or(vehicle::Health{});
     health.prearm_ok = (heard.sensors_health & prearm_check) != 0;
-    state.health.set(health, now);
-    bool const could_not_arm = craft.prearm_ok == false;
-    craft.prearm_ok = health.prearm_ok;
-    if (could_not_arm && health.prearm_ok) state.arming_reasons.clear();
-    set_unhealthy(craft, state, heard, now);
+    state.arming.health.set(health, now);
+    bool const could_not_arm = kept.prearm_ok == false;
+    kept.prearm_ok = health.prearm_ok;
+    if (could_not_arm && health.prearm_ok) state.arming.reasons.clear();
+    set_unhealthy(kept, state, heard, now);
     set_remote_control_lost(craft, state);
     return true;
   }
@@ -266,40 +279,40 @@ struct Taking {
                              .id = heard.id,
                              .consumed_ah = heard.consumed_ah,
                              .charge = charge_of(heard.charge_state)};
-    set_time_left(craft, battery, heard.time_remaining, now);
+    set_time_left(craft, kept, battery, heard.time_remaining, now);
     shown->set(battery, now);
     if (heard.id != 0) return true;
-    craft.has_reported_battery = true;
-    craft.battery_status_heard = now;
+    kept.has_reported_battery = true;
+    kept.battery_status_heard = now;
     return true;
   }
 
   bool operator()(mavlink::EkfStatusReport const& heard) const {
     set_estimator(state, heard.flags, now);
-    state.estimator.set({heard.velocity_variance, heard.position_horizontal_variance, heard.position_vertical_variance,
-                         heard.compass_variance},
-                        now);
+    state.positioning.estimator.set({heard.velocity_variance, heard.position_horizontal_variance,
+                                     heard.position_vertical_variance, heard.compass_variance},
+                                    now);
     return true;
   }
 
   bool operator()(mavlink::EstimatorStatus const& heard) const {
     set_estimator(state, heard.flags, now);
-    state.estimator.set(
+    state.positioning.estimator.set(
         {heard.velocity_ratio, heard.position_horizontal_ratio, heard.position_vertical_ratio, std::nullopt}, now);
     return true;
   }
 
   bool operator()(mavlink::HomePosition const& heard) const {
     if (!heard.position) return false;
-    state.home.set(*heard.position, now);
+    state.motion.home.set(*heard.position, now);
     return true;
   }
 
   bool operator()(mavlink::ExtendedSysState const& heard) const {
     if (heard.landed_state == mavlink::MavLandedState::undefined) return false;
     bool const landed = heard.landed_state == mavlink::MavLandedState::on_ground;
-    state.landed.set(landed, now);
-    auto& trace = craft.trace;
+    state.motion.landed.set(landed, now);
+    auto& trace = kept.trace;
     if (!landed) trace.on_ground_since.reset();
     if (landed && !trace.on_ground_since) trace.on_ground_since = now;
     trace.on_ground_heard = now;
@@ -307,58 +320,53 @@ struct Taking {
   }
 
   bool operator()(mavlink::MissionCurrent const& heard) const {
-    auto& trace = craft.trace;
+    auto& trace = kept.trace;
     trace.current_seq = std::max<int>(trace.current_seq.value_or(0), heard.seq);
     trace.reports_complete = heard.state == mavlink::MissionState::complete;
     if (!trace.reports_complete) trace.was_active = true;
-    int const known_total = state.mission.value ? state.mission.value->total : 0;
-    state.mission.set({heard.seq, heard.total ? static_cast<int>(*heard.total) : known_total, trace.reports_complete,
-                       state_name(heard.state)},
-                      now);
+    int const known_total = state.mission.progress.value ? state.mission.progress.value->total : 0;
+    state.mission.progress.set({heard.seq, heard.total ? static_cast<int>(*heard.total) : known_total,
+                                trace.reports_complete, state_name(heard.state)},
+                               now);
     return true;
   }
 
   bool operator()(mavlink::MissionItemReached const& heard) const {
-    craft.trace.reached_seq = std::max<int>(craft.trace.reached_seq.value_or(0), heard.seq);
+    kept.trace.reached_seq = std::max<int>(kept.trace.reached_seq.value_or(0), heard.seq);
     return false;
   }
 };
 
-void show_texts(VehicleState& state, std::vector<vehicle::StatusText> const& texts) {
-  for (auto const& text : texts) (void)note_arming_reason(state.arming_reasons, text);
-  auto& kept = state.recent_texts;
-  kept.insert(kept.end(), texts.begin(), texts.end());
-  if (kept.size() > texts_kept) kept.erase(kept.begin(), kept.end() - static_cast<std::ptrdiff_t>(texts_kept));
-}
-
-}  // namespace
-
 bool take_telemetry(MavlinkVehicle& craft, mavlink::Message const& message, TimePoint now) {
-  return std::visit(Taking{craft, craft.state, now}, message);
+  return std::visit(TelemetryTaking{craft, now}, message);
 }
 
 std::vector<vehicle::StatusText> take_text(MavlinkVehicle& craft, std::uint8_t component,
                                            mavlink::StatusText const& chunk, TimePoint now) {
-  auto texts =
-      craft.texts.add({static_cast<int>(chunk.severity), chunk.text, chunk.id, chunk.chunk_seq, component}, now);
+  auto texts = TelemetryTaking::kept_of(craft).texts.add(
+      {static_cast<int>(chunk.severity), chunk.text, chunk.id, chunk.chunk_seq, component}, now);
   show_texts(craft.state, texts);
   return texts;
 }
 
 std::vector<vehicle::StatusText> take_overdue_texts(MavlinkVehicle& craft, TimePoint now) {
-  auto texts = craft.texts.overdue(now);
+  auto texts = TelemetryTaking::kept_of(craft).texts.overdue(now);
   show_texts(craft.state, texts);
   return texts;
 }
 
+void begin_trace(MavlinkVehicle& craft) {
+  TelemetryTaking::kept_of(craft).trace = {};
+}
+
 void take_radio(MavlinkVehicle& craft, mavlink::RadioStatus const& heard, TimePoint now) {
-  craft.state.radio.set({.rssi = heard.rssi,
-                         .remote_rssi = heard.remote_rssi,
-                         .noise = heard.noise,
-                         .remote_noise = heard.remote_noise,
-                         .transmit_buffer_free = heard.transmit_buffer_free,
-                         .receive_errors = heard.receive_errors},
-                        now);
+  craft.state.links.radio.set({.rssi = heard.rssi,
+                               .remote_rssi = heard.remote_rssi,
+                               .noise = heard.noise,
+                               .remote_noise = heard.remote_noise,
+                               .transmit_buffer_free = heard.transmit_buffer_free,
+                               .receive_errors = heard.receive_errors},
+                              now);
 }
 
 std::optional<base::Duration> boot_time(mavlink::Message const& message) {

@@ -21,6 +21,9 @@ std::vector<vehicle::StatusText> take_text(MavlinkVehicle& craft, std::uint8_t c
 /// The same for texts whose missing chunks are not coming any more.
 std::vector<vehicle::StatusText> take_overdue_texts(MavlinkVehicle& craft, base::TimePoint now);
 
+/// A run is about to begin: what was told of another mission does not count for it.
+void begin_trace(MavlinkVehicle& craft);
+
 /// What the telemetry radio on the vehicle's link says of itself.
 void take_radio(MavlinkVehicle& craft, mavlink::RadioStatus const& heard, base::TimePoint now);
 

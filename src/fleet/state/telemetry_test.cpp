@@ -37,55 +37,55 @@ struct Telemetry : testing::Test {
 TEST_F(Telemetry, GivesEveryFieldTheTimeAtWhichItWasHeard) {
   take_position(here, 5s);
   take(mavlink::Attitude{.roll_rad = 0.1, .pitch_rad = 0.2, .yaw_rad = 0.3}, 6s);
-  EXPECT_EQ(state.position.value, here);
-  EXPECT_EQ(*state.position.age(TimePoint(8s)), 3s);
-  EXPECT_EQ(state.relative_alt_m.value, 20.0);
-  EXPECT_EQ(state.velocity_m_s.value, (geo::Ned{1.0, 2.0, 3.0}));
-  EXPECT_EQ(state.attitude.value->pitch_rad, 0.2);
-  EXPECT_EQ(*state.attitude.age(TimePoint(8s)), 2s);
-  EXPECT_FALSE(state.battery.known());
+  EXPECT_EQ(state.motion.position.value, here);
+  EXPECT_EQ(*state.motion.position.age(TimePoint(8s)), 3s);
+  EXPECT_EQ(state.motion.relative_alt_m.value, 20.0);
+  EXPECT_EQ(state.motion.velocity_m_s.value, (geo::Ned{1.0, 2.0, 3.0}));
+  EXPECT_EQ(state.motion.attitude.value->pitch_rad, 0.2);
+  EXPECT_EQ(*state.motion.attitude.age(TimePoint(8s)), 2s);
+  EXPECT_FALSE(state.power.battery.known());
 }
 
 TEST_F(Telemetry, IgnoresThePositionThatIsSentBeforeTheFirstFix) {
   take_position({}, 1s);
-  EXPECT_FALSE(state.position.known());
+  EXPECT_FALSE(state.motion.position.known());
   mavlink::GpsRaw gps;
   gps.fix = mavlink::GpsFix::no_fix;
   take(gps, 2s);
   take_position(here, 3s);
-  EXPECT_FALSE(state.position.known());
+  EXPECT_FALSE(state.motion.position.known());
   gps.fix = mavlink::GpsFix::rtk_fixed;
   take(gps, 4s);
   take_position(here, 5s);
-  EXPECT_TRUE(state.position.known());
+  EXPECT_TRUE(state.motion.position.known());
 }
 
 TEST_F(Telemetry, KnowsNoHeadingUntilTheEstimatorIsSure) {
   take_position(here, 1s);
-  EXPECT_FALSE(state.heading_rad.known());
+  EXPECT_FALSE(state.motion.heading_rad.known());
   take_ekf(0x33F, 2s);
   take_position(here, 3s);
-  EXPECT_EQ(state.heading_rad.value, 1.0);
+  EXPECT_EQ(state.motion.heading_rad.value, 1.0);
 }
 
 TEST_F(Telemetry, TakesTheEstimatorForGoodOnlyWithAnAbsolutePositionThatIsNotConstant) {
   take_ekf(0xA7, 1s);  // ArduCopter 4.6 before it uses GPS
-  EXPECT_FALSE(state.health.value->position_ok);
+  EXPECT_FALSE(state.arming.health.value->position_ok);
   take_ekf(0x33F, 2s);
-  EXPECT_TRUE(state.health.value->position_ok);
+  EXPECT_TRUE(state.arming.health.value->position_ok);
   take_ekf(0x33F | mavlink::ekf_flag::constant_position_mode, 3s);
-  EXPECT_FALSE(state.health.value->position_ok);
+  EXPECT_FALSE(state.arming.health.value->position_ok);
 }
 
 TEST_F(Telemetry, LeavesABatteryUnknownThatTheVehicleDoesNotKnow) {
   take(mavlink::SysStatus{}, 1s);
-  EXPECT_FALSE(state.battery.known());
+  EXPECT_FALSE(state.power.battery.known());
   mavlink::SysStatus status;
   status.battery_remaining = 0.25;
   status.battery_voltage_v = 11.1;
   take(status, 2s);
-  EXPECT_EQ(state.battery.value->remaining, 0.25);
-  EXPECT_EQ(state.battery.value->voltage_v, 11.1);
+  EXPECT_EQ(state.power.battery.value->remaining, 0.25);
+  EXPECT_EQ(state.power.battery.value->voltage_v, 11.1);
 }
 
 TEST_F(Telemetry, TakesTheFirstBatteryOnlyFromBatteryStatus) {
@@ -93,11 +93,11 @@ TEST_F(Telemetry, TakesTheFirstBatteryOnlyFromBatteryStatus) {
   status.id = 1;
   status.remaining = 0.1;
   take(status, 1s);
-  EXPECT_FALSE(state.battery.known());
+  EXPECT_FALSE(state.power.battery.known());
   status.id = 0;
   status.remaining = 0.9;
   take(status, 2s);
-  EXPECT_EQ(state.battery.value->remaining, 0.9);
+  EXPECT_EQ(state.power.battery.value->remaining, 0.9);
 }
 
 TEST_F(Telemetry, ShowsFurtherBatteriesById) {
@@ -107,10 +107,10 @@ TEST_F(Telemetry, ShowsFurtherBatteriesById) {
     status.remaining = 0.1 * id;
     take(status, 1s);
   }
-  ASSERT_EQ(state.further_batteries.size(), 2u);
-  EXPECT_EQ(state.further_batteries[0].value->id, 1);
-  EXPECT_NEAR(state.further_batteries[1].value->remaining, 0.2, 1e-9);
-  EXPECT_EQ(state.further_batteries[1].heard, TimePoint(1s));
+  ASSERT_EQ(state.power.further_batteries.size(), 2u);
+  EXPECT_EQ(state.power.further_batteries[0].value->id, 1);
+  EXPECT_NEAR(state.power.further_batteries[1].value->remaining, 0.2, 1e-9);
+  EXPECT_EQ(state.power.further_batteries[1].heard, TimePoint(1s));
 }
 
 TEST_F(Telemetry, BelievesTheTimeLeftThatTheVehicleTells) {
@@ -119,10 +119,10 @@ TEST_F(Telemetry, BelievesTheTimeLeftThatTheVehicleTells) {
   status.consumed_ah = 0.5;
   status.time_remaining = 600s;
   take(status, 1s);
-  EXPECT_EQ(state.battery.value->time_left, 600s);
-  EXPECT_EQ(state.battery.value->time_left_error, 0s);
-  EXPECT_FALSE(state.battery.value->time_left_is_estimate);
-  EXPECT_EQ(state.battery.value->consumed_ah, 0.5);
+  EXPECT_EQ(state.power.battery.value->time_left, 600s);
+  EXPECT_EQ(state.power.battery.value->time_left_error, 0s);
+  EXPECT_FALSE(state.power.battery.value->time_left_is_estimate);
+  EXPECT_EQ(state.power.battery.value->consumed_ah, 0.5);
 }
 
 TEST_F(Telemetry, EstimatesTheTimeLeftThatTheVehicleDoesNotTell) {
@@ -137,19 +137,19 @@ TEST_F(Telemetry, EstimatesTheTimeLeftThatTheVehicleDoesNotTell) {
     take(status, at);
   };
   for (int second = 0; second <= 600; ++second) report(1.0, 0.5, second * 1s);
-  EXPECT_FALSE(state.battery.value->time_left) << "it stands";
+  EXPECT_FALSE(state.power.battery.value->time_left) << "it stands";
   mavlink::ExtendedSysState air;
   air.landed_state = mavlink::MavLandedState::in_air;
   take(air, 600s);
   for (int second = 0; second <= 60; ++second) report(1.0 - 0.01 * (second / 6), 30.0, 600s + second * 1s);  // 600 s
-  auto const& battery = *state.battery.value;
+  auto const& battery = *state.power.battery.value;
   ASSERT_TRUE(battery.time_left);
   EXPECT_TRUE(battery.time_left_is_estimate);
   EXPECT_NEAR(base::to_seconds(*battery.time_left), 540.0, 30.0);
   EXPECT_GT(battery.time_left_error, 10s);
   take(ground, 661s);
   report(0.9, 0.5, 662s);
-  EXPECT_FALSE(state.battery.value->time_left);
+  EXPECT_FALSE(state.power.battery.value->time_left);
   ASSERT_TRUE(vehicle::endurance_in_flight(state));
   EXPECT_NEAR(base::to_seconds(vehicle::endurance_in_flight(state)->time), 540.0, 30.0) << "by the flight before";
 }
@@ -162,9 +162,9 @@ TEST_F(Telemetry, DoesNotForgetOverSysStatusWhatBatteryStatusTold) {
   mavlink::SysStatus other;
   other.battery_remaining = 0.89;
   take(other, 2s);
-  EXPECT_EQ(state.battery.value->consumed_ah, 0.5);
+  EXPECT_EQ(state.power.battery.value->consumed_ah, 0.5);
   take(other, 8s);  // BATTERY_STATUS has stopped
-  EXPECT_EQ(state.battery.value->remaining, 0.89);
+  EXPECT_EQ(state.power.battery.value->remaining, 0.89);
 }
 
 TEST_F(Telemetry, NamesTheSensorsThatAreSick) {
@@ -173,15 +173,15 @@ TEST_F(Telemetry, NamesTheSensorsThatAreSick) {
   status.sensors_enabled = 0x24;
   status.sensors_health = 0x20;
   take(status, 1s);
-  EXPECT_EQ(state.unhealthy.value, std::vector<std::string_view>{"compass"});
+  EXPECT_EQ(state.arming.unhealthy.value, std::vector<std::string_view>{"compass"});
   status.sensors_health = 0;
   status.sensors_enabled = 0x20;  // a compass that is not used may be sick
   take(status, 2s);
-  EXPECT_EQ(state.unhealthy.value, std::vector<std::string_view>{"GPS"});
+  EXPECT_EQ(state.arming.unhealthy.value, std::vector<std::string_view>{"GPS"});
   status.sensors_health = 0x20;
   take(status, 3s);
-  EXPECT_TRUE(state.unhealthy.value->empty());
-  EXPECT_EQ(state.unhealthy.heard, TimePoint(3s));
+  EXPECT_TRUE(state.arming.unhealthy.value->empty());
+  EXPECT_EQ(state.arming.unhealthy.heard, TimePoint(3s));
 }
 
 TEST_F(Telemetry, KeepsTheReasonsAgainstArmingUntilTheChecksPass) {
@@ -189,16 +189,16 @@ TEST_F(Telemetry, KeepsTheReasonsAgainstArmingUntilTheChecksPass) {
   (void)take_text(craft, 1, {.severity = mavlink::MavSeverity::critical, .text = "PreArm: Compass not calibrated"},
                   TimePoint(2s));
   take(mavlink::SysStatus{}, 3s);
-  ASSERT_EQ(state.arming_reasons.size(), 1u);
+  ASSERT_EQ(state.arming.reasons.size(), 1u);
   mavlink::SysStatus passed;
   passed.sensors_health = mavlink::sensor_flag::prearm_check;
   take(passed, 4s);
-  EXPECT_TRUE(state.arming_reasons.empty());
+  EXPECT_TRUE(state.arming.reasons.empty());
   // Refused in this mode though the checks pass.
   (void)take_text(craft, 1, {.severity = mavlink::MavSeverity::critical, .text = "Arm: Mode not armable"},
                   TimePoint(5s));
   take(passed, 6s);
-  EXPECT_EQ(state.arming_reasons.size(), 1u);
+  EXPECT_EQ(state.arming.reasons.size(), 1u);
 }
 
 TEST_F(Telemetry, TellsTheRemoteControlIsLostByItsChannelsOrItsHealth) {
@@ -206,29 +206,29 @@ TEST_F(Telemetry, TellsTheRemoteControlIsLostByItsChannelsOrItsHealth) {
   channels.count = 8;
   channels.rssi = 0.5;
   take(channels, 1s);
-  EXPECT_FALSE(state.remote_control.value->is_lost);
+  EXPECT_FALSE(state.links.remote_control.value->is_lost);
   mavlink::SysStatus status;
   status.sensors_present = status.sensors_enabled = mavlink::sensor_flag::rc_receiver;
   take(status, 2s);
-  EXPECT_TRUE(state.remote_control.value->is_lost);
+  EXPECT_TRUE(state.links.remote_control.value->is_lost);
   take(channels, 3s);
-  EXPECT_TRUE(state.remote_control.value->is_lost);
+  EXPECT_TRUE(state.links.remote_control.value->is_lost);
   status.sensors_health = mavlink::sensor_flag::rc_receiver;
   take(status, 4s);
-  EXPECT_FALSE(state.remote_control.value->is_lost);
+  EXPECT_FALSE(state.links.remote_control.value->is_lost);
   channels.count = 0;
   take(channels, 5s);
-  EXPECT_TRUE(state.remote_control.value->is_lost);
+  EXPECT_TRUE(state.links.remote_control.value->is_lost);
 }
 
 TEST_F(Telemetry, TellsWhereTheWindComesFromForBothAutopilots) {
   take(mavlink::Wind{.from_rad = -0.5, .speed_m_s = 3.0}, 1s);
-  EXPECT_NEAR(state.wind.value->from_rad, 2.0 * std::numbers::pi - 0.5, 1e-9);
+  EXPECT_NEAR(state.motion.wind.value->from_rad, 2.0 * std::numbers::pi - 0.5, 1e-9);
   take(mavlink::WindCov{.north_m_s = 0.0, .east_m_s = 4.0}, 2s);  // to the east: from the west
-  EXPECT_NEAR(state.wind.value->from_rad, 1.5 * std::numbers::pi, 1e-9);
-  EXPECT_NEAR(state.wind.value->speed_m_s, 4.0, 1e-9);
+  EXPECT_NEAR(state.motion.wind.value->from_rad, 1.5 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(state.motion.wind.value->speed_m_s, 4.0, 1e-9);
   take(mavlink::WindCov{.east_m_s = 4.0}, 3s);
-  EXPECT_EQ(state.wind.heard, TimePoint(2s));
+  EXPECT_EQ(state.motion.wind.heard, TimePoint(2s));
 }
 
 TEST_F(Telemetry, ShowsGpsEstimatorHudFenceAndTheWayToGo) {
@@ -237,62 +237,62 @@ TEST_F(Telemetry, ShowsGpsEstimatorHudFenceAndTheWayToGo) {
   gps.satellites = 14;
   gps.hdop = 0.7;
   take(gps, 1s);
-  EXPECT_EQ(vehicle::gps_fix_name(state.gps.value->fix), "RTK fixed");
-  EXPECT_EQ(state.gps.value->satellites, 14);
+  EXPECT_EQ(vehicle::gps_fix_name(state.positioning.gps.value->fix), "RTK fixed");
+  EXPECT_EQ(state.positioning.gps.value->satellites, 14);
   take(mavlink::EkfStatusReport{.flags = 0x33F, .compass_variance = 0.5F}, 2s);
-  EXPECT_EQ(state.estimator.value->compass, 0.5);
+  EXPECT_EQ(state.positioning.estimator.value->compass, 0.5);
   take(mavlink::VfrHud{.airspeed_m_s = 14.0, .throttle = 0.5, .climb_m_s = -1.0}, 3s);
-  EXPECT_EQ(state.hud.value->climb_m_s, -1.0);
+  EXPECT_EQ(state.motion.hud.value->climb_m_s, -1.0);
   take(mavlink::FenceStatus{.breached = true, .breach_count = 2, .breach_type = 3}, 4s);
-  EXPECT_TRUE(state.fence.value->is_breached);
-  EXPECT_EQ(state.fence.value->type, "boundary");
+  EXPECT_TRUE(state.mission.fence.value->is_breached);
+  EXPECT_EQ(state.mission.fence.value->type, "boundary");
   take(mavlink::FenceStatus{.breach_type = 200}, 4s);
-  EXPECT_EQ(state.fence.value->type, "fence");
+  EXPECT_EQ(state.mission.fence.value->type, "fence");
   take(mavlink::NavControllerOutput{.waypoint_distance_m = 120.0}, 5s);
-  EXPECT_EQ(state.waypoint_distance_m.value, 120.0);
+  EXPECT_EQ(state.mission.waypoint_distance_m.value, 120.0);
   take(mavlink::MissionCurrent{.seq = 3, .total = 7, .state = mavlink::MissionState::paused}, 6s);
-  EXPECT_EQ(state.mission.value->state, "paused");
+  EXPECT_EQ(state.mission.progress.value->state, "paused");
 }
 
 TEST_F(Telemetry, ReadsThePrearmBit) {
   mavlink::SysStatus status;
   take(status, 1s);
-  EXPECT_FALSE(state.health.value->prearm_ok);
+  EXPECT_FALSE(state.arming.health.value->prearm_ok);
   status.sensors_health = mavlink::sensor_flag::prearm_check;
   take(status, 2s);
-  EXPECT_TRUE(state.health.value->prearm_ok);
+  EXPECT_TRUE(state.arming.health.value->prearm_ok);
 }
 
 TEST_F(Telemetry, FollowsMissionHomeAndLanding) {
   take(mavlink::MissionCurrent{.seq = 3, .total = 7, .state = mavlink::MissionState::active}, 1s);
-  EXPECT_EQ(state.mission.value->current_seq, 3);
-  EXPECT_EQ(state.mission.value->total, 7);
+  EXPECT_EQ(state.mission.progress.value->current_seq, 3);
+  EXPECT_EQ(state.mission.progress.value->total, 7);
   take(mavlink::MissionCurrent{.seq = 0, .total = std::nullopt, .state = mavlink::MissionState::complete}, 2s);
-  EXPECT_TRUE(state.mission.value->complete);
-  EXPECT_EQ(state.mission.value->total, 7);
-  EXPECT_EQ(craft.trace.current_seq, 3);
+  EXPECT_TRUE(state.mission.progress.value->complete);
+  EXPECT_EQ(state.mission.progress.value->total, 7);
+  EXPECT_EQ(craft.heard->trace.current_seq, 3);
   take(mavlink::HomePosition{.position = here, .local_m = {}}, 3s);
-  EXPECT_EQ(state.home.value, here);
+  EXPECT_EQ(state.motion.home.value, here);
   take(mavlink::ExtendedSysState{.landed_state = mavlink::MavLandedState::undefined}, 4s);
-  EXPECT_FALSE(state.landed.known());
+  EXPECT_FALSE(state.motion.landed.known());
   take(mavlink::ExtendedSysState{.landed_state = mavlink::MavLandedState::on_ground}, 5s);
   take(mavlink::ExtendedSysState{.landed_state = mavlink::MavLandedState::on_ground}, 7s);
-  EXPECT_EQ(state.landed.value, true);
-  EXPECT_EQ(craft.trace.on_ground_for(), 2s);
+  EXPECT_EQ(state.motion.landed.value, true);
+  EXPECT_EQ(craft.heard->trace.on_ground_for(), 2s);
   take(mavlink::ExtendedSysState{.landed_state = mavlink::MavLandedState::in_air}, 8s);
-  EXPECT_FALSE(craft.trace.on_ground_for());
+  EXPECT_FALSE(craft.heard->trace.on_ground_for());
 }
 
 TEST_F(Telemetry, AddsUpTheTrackWithoutNoiseAndJumps) {
   take_position(here, 0s);
   take_position(geo::displaced(here, {0.2, 0.0, 0.0}), 1s);  // noise
-  EXPECT_EQ(state.track_m, 0.0);
+  EXPECT_EQ(state.motion.track_m, 0.0);
   take_position(geo::displaced(here, {10.0, 0.0, 0.0}), 2s);
   take_position(geo::displaced(here, {10.0, 10.0, 0.0}), 3s);
-  EXPECT_NEAR(state.track_m, 20.0, 0.01);
+  EXPECT_NEAR(state.motion.track_m, 20.0, 0.01);
   take_position(geo::displaced(here, {5000.0, 10.0, 0.0}), 4s);  // the estimator jumped
   take_position(geo::displaced(here, {5010.0, 10.0, 0.0}), 5s);
-  EXPECT_NEAR(state.track_m, 30.0, 0.01);
+  EXPECT_NEAR(state.motion.track_m, 30.0, 0.01);
 }
 
 TEST_F(Telemetry, KeepsTheLastTextsOnly) {

@@ -64,12 +64,12 @@ FlightWatch::FlightWatch(mavlink::Connection& connection, MavlinkVehicle const& 
       progress_(legs_),
       subscription_(
           connection.subscribe(craft.address.system, [this](mavlink::Received const& received) { take(received); })) {
-  if (auto const& position = craft.state.position; position.known()) {
+  if (auto const& position = craft.state.motion.position; position.known()) {
     (void)believed_.note(*position.value, {});
     (void)places_.note(*position.value, 0.0, {});
     position_heard_ = position.heard;
   }
-  if (auto const& fence = craft.state.fence.value) fence_breaches_ = fence->breaches;
+  if (auto const& fence = craft.state.mission.fence.value) fence_breaches_ = fence->breaches;
 }
 
 void FlightWatch::begin() {
@@ -96,7 +96,7 @@ void FlightWatch::take(mavlink::Received const& received) {
 void FlightWatch::take_position(mavlink::GlobalPosition const& heard, TimePoint now) {
   std::optional<geo::Wgs84> const place = heard.position;
   bool const is_empty = !place || (place->lat_rad == 0.0 && place->lon_rad == 0.0);
-  if (is_empty || (craft_.fix && *craft_.fix < mavlink::GpsFix::fix_3d)) return;
+  if (is_empty || (craft_.heard->fix && *craft_.heard->fix < mavlink::GpsFix::fix_3d)) return;
   // By the vehicle's own clock where it goes on: a simulated one may live faster or slower than this program.
   auto const by_ours = position_heard_ ? now - *position_heard_ : Duration{};
   auto const by_its = clock_ ? heard.since_boot - *clock_ : Duration{};
@@ -105,7 +105,7 @@ void FlightWatch::take_position(mavlink::GlobalPosition const& heard, TimePoint 
   position_heard_ = now;
   auto const velocity_m_s = std::optional(heard.velocity_m_s).value_or(geo::Ned{});
   sinks_m_s_ = velocity_m_s.down;
-  if (has_begun_ && !craft_.is_armed && plan::flies(family_) && sinks_m_s_ >= falling_m_s) fell_ = true;
+  if (has_begun_ && !craft_.heard->is_armed && plan::flies(family_) && sinks_m_s_ >= falling_m_s) fell_ = true;
   auto const at_most = std::max<Duration>(by_ours, by_its);
   if (!believed_.note(*place, at_most)) return tell_jump();
   double const speed_m_s = std::hypot(velocity_m_s.north, velocity_m_s.east);
@@ -163,15 +163,15 @@ MissionVerdict FlightWatch::look() {
 }
 
 MissionSight FlightWatch::sight() const {
-  auto const& trace = craft_.trace;
+  auto const& trace = craft_.heard->trace;
   auto const return_mode = mavlink::mode_for(craft_.state.autopilot, family_, mavlink::ModeRole::rtl);
   return {.since_start = now() - begun_,
           .mode_is_auto = in_mission_mode(craft_),
-          .mode_is_return = craft_.custom_mode == return_mode,
-          .mode = mode_name(craft_, craft_.custom_mode),
-          .mode_for = now() - craft_.mode_changed,
-          .armed = craft_.is_armed,
-          .disarmed_for = craft_.is_armed ? Duration{} : now() - craft_.armed_changed,
+          .mode_is_return = craft_.heard->custom_mode == return_mode,
+          .mode = mode_name(craft_, craft_.heard->custom_mode),
+          .mode_for = now() - craft_.heard->mode_changed,
+          .armed = craft_.heard->is_armed,
+          .disarmed_for = craft_.heard->is_armed ? Duration{} : now() - craft_.heard->armed_changed,
           .was_active = trace.was_active,
           .reports_complete = trace.reports_complete,
           .current_seq = trace.current_seq,
@@ -229,7 +229,7 @@ MissionVerdict FlightWatch::judge_way() {
 }
 
 bool FlightWatch::stands_in_the_middle() const {
-  auto const& trace = craft_.trace;
+  auto const& trace = craft_.heard->trace;
   bool const should_fly = family_ == vehicle::Family::copter && item_ && legs_.is_in_the_air(*item_);
   if (!should_fly || !in_the_air_since_ || !trace.on_ground_since) return false;
   return trace.on_ground_heard - std::max(*trace.on_ground_since, *in_the_air_since_) >= stands_for_good;

@@ -6,7 +6,7 @@
 #include "base/time.hpp"
 #include "geo/position.hpp"
 #include "mavlink/codec/messages.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::fleet {
 

@@ -73,6 +73,7 @@ double usual_radius_m(Family family) {
     case Family::plane:
     case Family::vtol: return 250.0;  // WP_RADIUS is 90; in a wind it counts as reached what was flown past
     case Family::rover:
+    case Family::robot:
     case Family::sub: return 15.0;
     case Family::boat: return 30.0;
     case Family::copter: return 20.0;

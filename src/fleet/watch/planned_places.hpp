@@ -5,7 +5,7 @@
 
 #include "geo/position.hpp"
 #include "mavlink/codec/messages.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::fleet {
 

@@ -30,7 +30,7 @@ std::string silence_text(mavlink::Connection const& connection, MavlinkVehicle c
   auto const heard = connection.last_heard(craft.address);
   auto const silent_for = heard ? connection.loop().now() - *heard : base::Duration{};
   if (silent_for < heartbeat_is_due) return {};
-  auto const where = connection.whereabouts(craft.address.system).value_or(craft.state.link);
+  auto const where = connection.whereabouts(craft.address.system).value_or(craft.state.links.used);
   return fmt::format("nothing heard from it for {:.0f} s on {}", base::to_seconds(silent_for), where);
 }
 

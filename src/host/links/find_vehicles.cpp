@@ -21,7 +21,7 @@ namespace {
 
 std::vector<MavlinkVehicle*> heard(Ground const& ground) {
   auto crafts = ground.fleet.all();
-  std::erase_if(crafts, [](auto const* craft) { return craft->state.connection == vehicle::Connection::lost; });
+  std::erase_if(crafts, [](auto const* craft) { return craft->state.links.connection == vehicle::Connection::lost; });
   return crafts;
 }
 

@@ -101,16 +101,17 @@ void write_vehicles(OpenMetrics& metrics, vehicle::Registry const& registry, bas
   metrics.gauge("lapwing_vehicle_connected", "1 for a vehicle that is heard, 0 for one that is lost or in conflict.");
   for (auto const* v : vehicles)
     metrics.sample({{"vehicle", v->id.text}, {"name", v->name}},
-                   std::uint64_t{v->connection == vehicle::Connection::ok});
+                   std::uint64_t{v->links.connection == vehicle::Connection::ok});
   metrics.gauge("lapwing_vehicle_heartbeat_age_seconds", "Time since the vehicle's last heartbeat.");
-  for (auto const* v : vehicles) metrics.sample({{"vehicle", v->id.text}}, base::to_seconds(now - v->heartbeat_heard));
+  for (auto const* v : vehicles)
+    metrics.sample({{"vehicle", v->id.text}}, base::to_seconds(now - v->links.heartbeat_heard));
   metrics.gauge("lapwing_vehicle_armed", "1 while the vehicle is armed.");
   for (auto const* v : vehicles) {
-    if (v->armed.known()) metrics.sample({{"vehicle", v->id.text}}, std::uint64_t{*v->armed.value});
+    if (v->arming.armed.known()) metrics.sample({{"vehicle", v->id.text}}, std::uint64_t{*v->arming.armed.value});
   }
   metrics.gauge("lapwing_vehicle_battery_ratio", "Charge left, 0 to 1.");
   for (auto const* v : vehicles) {
-    if (v->battery.known()) metrics.sample({{"vehicle", v->id.text}}, v->battery.value->remaining);
+    if (v->power.battery.known()) metrics.sample({{"vehicle", v->id.text}}, v->power.battery.value->remaining);
   }
 }
 

@@ -216,7 +216,7 @@ void Session::note(tasks::TaskEvent const& event) {
   log.named("task").info(to_log_text(event));
   missions::Carrier carrier;
   if (auto const* vehicle = event.vehicle ? ground.registry.find(*event.vehicle) : nullptr)
-    carrier = {.home = vehicle->home.value, .autopilot = vehicle->autopilot, .family = vehicle->family};
+    carrier = {.home = vehicle->motion.home.value, .autopilot = vehicle->autopilot, .family = vehicle->family};
   if (events_) events_->write(event, carrier);
 }
 
@@ -231,8 +231,8 @@ RunReport Session::report() const {
     report.vehicles.push_back({.id = vehicle->id.text,
                                .system_id = vehicle->system_id,
                                .type = std::string(to_string(vehicle->family)),
-                               .track_m = vehicle->track_m,
-                               .pictures = vehicle->pictures.value ? vehicle->pictures.value->taken : 0,
+                               .track_m = vehicle->motion.track_m,
+                               .pictures = vehicle->payload.pictures.value ? vehicle->payload.pictures.value->taken : 0,
                                .missions = platform.missions(vehicle->id)});
   }
   report.tasks = host.task_trees();

@@ -113,6 +113,7 @@ std::span<Mode const> modes_of(Autopilot autopilot, Family family) {
     case Family::rover:
     case Family::boat: return rover_modes;
     case Family::sub: return sub_modes;
+    case Family::robot:
     case Family::unknown: return {};
   }
   return {};

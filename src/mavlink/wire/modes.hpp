@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "mavlink/codec/enums.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 /// Flight modes by name and by what they are for: `custom_mode` of HEARTBEAT for ArduPilot (its source, mode.h of each
 /// vehicle) and PX4 (px4_custom_mode.h: main mode in bits 16..23, sub mode in bits 24..31).

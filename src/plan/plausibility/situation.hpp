@@ -8,7 +8,7 @@
 #include "geo/position.hpp"
 #include "plan/plan.hpp"
 #include "plan/plausibility/vehicle_fence.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::plan::plausibility {
 

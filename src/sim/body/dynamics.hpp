@@ -4,7 +4,8 @@
 #include <variant>
 
 #include "geo/position.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/aspects/motion.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::sim {
 

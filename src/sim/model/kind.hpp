@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::sim {
 

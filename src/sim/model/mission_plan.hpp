@@ -6,7 +6,7 @@
 #include "mavlink/codec/messages.hpp"
 #include "sim/model/kind.hpp"
 #include "sim/model/site.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::sim {
 

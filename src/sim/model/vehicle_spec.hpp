@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::sim {
 

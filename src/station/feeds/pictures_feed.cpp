@@ -14,7 +14,7 @@ namespace {
 /// Those with numbers behind the one and up to the other; `is_full` when the viewer is to forget those that it has.
 std::string pictures_message(vehicle::VehicleState const& state, int behind, int newest, bool is_full) {
   Json list = Json::array();
-  for (auto const& picture : state.pictures.value->recent) {
+  for (auto const& picture : state.payload.pictures.value->recent) {
     if (picture.number <= behind || picture.number > newest) continue;
     auto json = position_json(picture.position);
     json["number"] = picture.number;
@@ -33,7 +33,7 @@ std::uint64_t PicturesFeed::refresh(base::TimePoint) {
     auto const revision = registry_.revision(state->id);
     if (revision == album.looked_at) continue;
     album.looked_at = revision;
-    auto const& pictures = state->pictures.value;
+    auto const& pictures = state->payload.pictures.value;
     if (!pictures || pictures->recent.empty() || pictures->recent.back().number <= album.newest) continue;
     album.arrivals.push_back({revision_ + 1, std::exchange(album.newest, pictures->recent.back().number)});
     // What came before the oldest that is kept need not be told apart any more.

@@ -13,11 +13,11 @@ class PicturesFeedTest : public ::testing::Test {
   /// The camera takes the next picture; the vehicle keeps the last three.
   void take(std::string const& id) {
     vehicle::VehicleId const name{id};
-    auto pictures = registry.edit(name).pictures.value.value_or(vehicle::Pictures{});
+    auto pictures = registry.edit(name).payload.pictures.value.value_or(vehicle::Pictures{});
     pictures.recent.push_back(
         {.number = ++pictures.taken, .position = geo::Wgs84::from_degrees(1, 2, 3), .relative_alt_m = 20});
     if (pictures.recent.size() > 3) pictures.recent.erase(pictures.recent.begin());
-    registry.edit(name).pictures.set(pictures, {});
+    registry.edit(name).payload.pictures.set(pictures, {});
     registry.touch(name);
   }
   std::vector<json> since(std::uint64_t revision) {

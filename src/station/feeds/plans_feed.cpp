@@ -23,8 +23,8 @@ std::uint64_t PlansFeed::refresh(base::TimePoint) {
     auto const revision = registry_.revision(state->id);
     if (revision == plan.looked_at) continue;
     plan.looked_at = revision;
-    if (plan.path == state->planned_path) continue;
-    plan.path = state->planned_path;
+    if (plan.path == state->mission.planned_path) continue;
+    plan.path = state->mission.planned_path;
     plan.revision = revision_ + 1;
     is_news = true;
   }

@@ -33,7 +33,7 @@ TEST(PlansFeed, SendsPlansWhenTheyChange) {
   registry.touch({"1"});
   auto const empty = feed.refresh({});
   EXPECT_EQ(since(feed, 0).at(0)["path"], json::array()) << "a newcomer may hold an old one";
-  registry.edit({"2"}).planned_path = {geo::Wgs84::from_degrees(1, 2, 3)};
+  registry.edit({"2"}).mission.planned_path = {geo::Wgs84::from_degrees(1, 2, 3)};
   registry.touch({"2"});
   auto const planned = feed.refresh({});
   EXPECT_GT(planned, empty);
@@ -44,7 +44,7 @@ TEST(PlansFeed, SendsPlansWhenTheyChange) {
   EXPECT_EQ(since(feed, 0).size(), 2U);
   registry.touch({"2"});
   EXPECT_EQ(feed.refresh({}), planned) << "something else changed";
-  registry.edit({"2"}).planned_path.clear();
+  registry.edit({"2"}).mission.planned_path.clear();
   registry.touch({"2"});
   (void)feed.refresh({});
   EXPECT_EQ(since(feed, planned).at(0)["path"], json::array());

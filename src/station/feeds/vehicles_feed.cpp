@@ -6,57 +6,43 @@
 
 #include <nlohmann/json.hpp>
 
-#include "station/messages/vehicle_fields.hpp"
+#include "station/fields/field_changes.hpp"
+#include "station/fields/field_json.hpp"
+#include "station/fields/vehicle_fields.hpp"
+#include "station/messages/json.hpp"
 
 namespace lapwing::station {
 
-using internal::Field;
-using internal::Fields;
+using internal::FieldChanges;
+using internal::FieldJson;
+using internal::FieldVisitor;
+using vehicle::VehicleState;
 
 namespace {
-
-/// One key of a vehicle, and at which revisions of the feed it became as it is.
-struct KnownField {
-  Field field;
-  std::uint64_t changed = 0;  ///< the value did
-  std::uint64_t told = 0;     ///< the value did, or it was heard again
-};
 
 struct KnownVehicle {
   std::optional<unsigned long long> looked_at = std::nullopt;  ///< the registry's revision
   std::uint64_t told = 0;                                      ///< the newest of its fields'
-  std::map<std::string, KnownField> fields;
+  FieldChanges fields;
 };
 
-/// Takes in what a vehicle's fields are now; whether any of them is news.
-bool take_in(KnownVehicle& known, Fields now_known, std::uint64_t revision) {
-  bool is_news = false;
-  for (auto& [key, field] : now_known) {
-    auto const [place, is_new] = known.fields.try_emplace(key);
-    auto& before = place->second;
-    bool const changed = is_new || before.field.value != field.value;
-    if (!changed && before.field.heard == field.heard) continue;
-    if (changed) before.changed = revision;
-    before.told = revision;
-    before.field = std::move(field);
-    is_news = true;
-  }
-  if (known.fields.size() > now_known.size())
-    std::erase_if(known.fields, [&](auto const& entry) { return !now_known.contains(entry.first); });
-  if (is_news) known.told = revision;
-  return is_news;
+/// The vehicle's object with the fields alone that are news since that revision of the feed.
+Json object_of(VehicleState const& state, KnownVehicle const& known, std::uint64_t since, base::TimePoint now) {
+  Json object{{"id", state.id.text}};
+  FieldJson writer(object, now, [&](std::string_view key) {
+    auto const news = known.fields.news_of(key, since);
+    return FieldJson::News{.value = news.value, .age = news.age};
+  });
+  internal::vehicle_fields(writer, state);
+  writer.finish();
+  return object;
 }
 
-Json changes(std::string const& id, KnownVehicle const& vehicle, std::uint64_t since, base::TimePoint now) {
-  Json object{{"id", id}};
-  Json ages = Json::object();
-  for (auto const& [key, known] : vehicle.fields) {
-    if (known.told <= since) continue;
-    if (known.changed > since) object[key] = known.field.value;
-    if (known.field.heard) ages[key] = rounded(base::to_seconds(now - *known.field.heard), 3);
-  }
-  if (!ages.empty()) object["age_s"] = std::move(ages);
-  return object;
+std::string vehicles_text(Json vehicles, bool is_full, base::TimePoint now) {
+  return dump({{"type", "vehicles"},
+               {"time_s", rounded(base::to_seconds(now.time_since_epoch()), 3)},
+               {"full", is_full},
+               {"vehicles", std::move(vehicles)}});
 }
 
 }  // namespace
@@ -76,7 +62,10 @@ std::uint64_t VehiclesFeed::refresh(base::TimePoint) {
     auto const revision = registry_.revision(state->id);
     if (revision == known.looked_at) continue;
     known.looked_at = revision;
-    is_news = take_in(known, internal::fields_of(*state), revision_ + 1) || is_news;
+    auto const show = [&](FieldVisitor& visitor) { internal::vehicle_fields(visitor, *state); };
+    if (!known.fields.look(show, revision_ + 1)) continue;
+    known.told = revision_ + 1;
+    is_news = true;
   }
   if (is_news) ++revision_;
   return revision_;
@@ -87,21 +76,23 @@ News VehiclesFeed::since(std::uint64_t revision, base::TimePoint now, std::size_
   for (auto const* state : registry_.all()) {
     auto const known = known_->vehicles.find(state->id);
     if (known == known_->vehicles.end() || known->second.told <= revision) continue;
-    vehicles.push_back(changes(state->id.text, known->second, revision, now));
+    vehicles.push_back(object_of(*state, known->second, revision, now));
   }
   bool const is_whole = revision == 0;
   if (!is_whole && vehicles.empty()) return {};
-  Json const message{{"type", "vehicles"},
-                     {"time_s", rounded(base::to_seconds(now.time_since_epoch()), 3)},
-                     {"full", is_whole},
-                     {"vehicles", std::move(vehicles)}};
-  return {is_whole, {{.content = dump(message), .revision = revision_}}};
+  return {is_whole, {{.content = vehicles_text(std::move(vehicles), is_whole, now), .revision = revision_}}};
 }
 
 std::string vehicles_message(vehicle::Registry const& registry, base::TimePoint now) {
-  VehiclesFeed feed(registry);
-  (void)feed.refresh(now);
-  return feed.since(0, now, 0).frames.front().content;
+  Json vehicles = Json::array();
+  for (auto const* state : registry.all()) {
+    Json object{{"id", state->id.text}};
+    FieldJson writer(object, now);
+    internal::vehicle_fields(writer, *state);
+    writer.finish();
+    vehicles.push_back(std::move(object));
+  }
+  return vehicles_text(std::move(vehicles), true, now);
 }
 
 }  // namespace lapwing::station

@@ -43,11 +43,11 @@ TEST_F(VehiclesFeedTest, TellsEverythingKnownWithItsAge) {
   auto& state = edit("7");
   state.name = "copter 7";
   state.family = vehicle::Family::copter;
-  state.heartbeat_heard = at(9500ms);
+  state.links.heartbeat_heard = at(9500ms);
   state.mode.set("AUTO", at(9500ms));
-  state.position.set(geo::Wgs84::from_degrees(52.123456789, 13.5, 100.126), at(9900ms));
-  state.heading_rad.set(std::numbers::pi, at(10s));
-  state.battery.set({.remaining = 0.5, .voltage_v = 12.3456, .current_a = {}}, at(8s));
+  state.motion.position.set(geo::Wgs84::from_degrees(52.123456789, 13.5, 100.126), at(9900ms));
+  state.motion.heading_rad.set(std::numbers::pi, at(10s));
+  state.power.battery.set({.remaining = 0.5, .voltage_v = 12.3456, .current_a = {}}, at(8s));
   auto const message = whole(10s);
   EXPECT_EQ(message["type"], "vehicles");
   EXPECT_EQ(message["full"], true);
@@ -65,13 +65,13 @@ TEST_F(VehiclesFeedTest, TellsEverythingKnownWithItsAge) {
 
 TEST_F(VehiclesFeedTest, TellsSinceWhenAVehicleIsSilentAndNoLossOfNothing) {
   auto& state = edit("1");
-  state.heard = at(4s);
-  state.links = {
+  state.links.heard = at(4s);
+  state.links.all = {
       {.name = "udp", .loss = 0.0, .messages_per_s = 3.0, .round_trip = {}, .is_alive = true, .is_used = true}};
   auto vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["silent"], false);
   EXPECT_EQ(vehicle["links"].at(0)["loss"], 0.0);
-  edit("1").is_silent = true;
+  edit("1").links.is_silent = true;
   vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["silent"], true);
   EXPECT_EQ(vehicle["age_s"]["silent"], 6.0);
@@ -85,17 +85,17 @@ TEST_F(VehiclesFeedTest, TellsTheHealthOfAVehicleInWords) {
   battery.time_left_error = 42s;
   battery.time_left_is_estimate = true;
   battery.in_flight = vehicle::Endurance{333s, 42s};
-  state.battery.set(battery, at(9s));
+  state.power.battery.set(battery, at(9s));
   battery.id = 1;
-  state.further_batteries = {{battery, at(7s)}};
-  state.gps.set({.fix = 3, .satellites = 11, .hdop = 0.8}, at(9s));
-  state.unhealthy.set({"compass"}, at(9s));
-  state.arming_reasons = {{2, "PreArm: Compass not calibrated", at(6s)}};
-  state.remote_control.set({.is_lost = true, .channels = 2, .pulses_us = {1500, 1000}, .rssi = {}}, at(9s));
-  state.fence.set({.is_breached = true, .breaches = 1, .type = "boundary"}, at(9s));
-  state.mission.set({.current_seq = 2, .total = 5, .complete = false, .state = "active"}, at(9s));
-  state.components = {{.id = 154, .kind = "gimbal", .state = "active", .model = "Maker G", .heard = at(8s)}};
-  state.gimbal.set({.roll_rad = 0, .pitch_rad = -1.5, .yaw_rad = 0, .yaw_is_from_north = true}, at(9s));
+  state.power.further_batteries = {{battery, at(7s)}};
+  state.positioning.gps.set({.fix = 3, .satellites = 11, .hdop = 0.8}, at(9s));
+  state.arming.unhealthy.set({"compass"}, at(9s));
+  state.arming.reasons = {{2, "PreArm: Compass not calibrated", at(6s)}};
+  state.links.remote_control.set({.is_lost = true, .channels = 2, .pulses_us = {1500, 1000}, .rssi = {}}, at(9s));
+  state.mission.fence.set({.is_breached = true, .breaches = 1, .type = "boundary"}, at(9s));
+  state.mission.progress.set({.current_seq = 2, .total = 5, .complete = false, .state = "active"}, at(9s));
+  state.payload.components = {{.id = 154, .kind = "gimbal", .state = "active", .model = "Maker G", .heard = at(8s)}};
+  state.payload.gimbal.set({.roll_rad = 0, .pitch_rad = -1.5, .yaw_rad = 0, .yaw_is_from_north = true}, at(9s));
   auto const vehicle = whole(10s)["vehicles"].at(0);
   EXPECT_EQ(vehicle["battery"], json({{"remaining", 0.4},
                                       {"time_left_s", 330.0},
@@ -119,9 +119,9 @@ TEST_F(VehiclesFeedTest, TellsTheHealthOfAVehicleInWords) {
 }
 
 TEST_F(VehiclesFeedTest, TakesBackReasonsThatAreGone) {
-  edit("1").arming_reasons = {{2, "PreArm: Compass not calibrated", at(1s)}};
+  edit("1").arming.reasons = {{2, "PreArm: Compass not calibrated", at(1s)}};
   (void)news(1s);
-  edit("1").arming_reasons.clear();
+  edit("1").arming.reasons.clear();
   EXPECT_EQ(news(2s)["vehicles"].at(0)["arming_reasons"], json::array());
 }
 
@@ -149,20 +149,20 @@ TEST_F(VehiclesFeedTest, LeavesOutWhatWasNeverHeard) {
 
 TEST_F(VehiclesFeedTest, SendsOnlyWhatChanged) {
   auto& state = edit("1");
-  state.armed.set(true, at(1s));
-  state.relative_alt_m.set(10.0, at(1s));
+  state.arming.armed.set(true, at(1s));
+  state.motion.relative_alt_m.set(10.0, at(1s));
   EXPECT_EQ(news(1s)["vehicles"].at(0)["armed"], true);
   EXPECT_TRUE(news(2s).is_null());
 
-  edit("1").relative_alt_m.set(11.0, at(2s));
+  edit("1").motion.relative_alt_m.set(11.0, at(2s));
   EXPECT_EQ(news(2500ms)["vehicles"],
             json::array({{{"id", "1"}, {"relative_alt_m", 11.0}, {"age_s", {{"relative_alt_m", 0.5}}}}}));
 }
 
 TEST_F(VehiclesFeedTest, SendsTheAgeAloneOfAValueHeardAgain) {
-  edit("1").armed.set(true, at(1s));
+  edit("1").arming.armed.set(true, at(1s));
   (void)news(1s);
-  edit("1").armed.set(true, at(3s));
+  edit("1").arming.armed.set(true, at(3s));
   EXPECT_EQ(news(3s)["vehicles"], json::array({{{"id", "1"}, {"age_s", {{"armed", 0.0}}}}}));
 }
 
@@ -174,13 +174,13 @@ TEST_F(VehiclesFeedTest, IsSilentWhenATouchChangedNothing) {
 }
 
 TEST_F(VehiclesFeedTest, TellsTheLastOfWhatASlowViewerMissedWithItsAge) {
-  edit("1").armed.set(true, at(1s));
-  edit("2").armed.set(true, at(1s));
+  edit("1").arming.armed.set(true, at(1s));
+  edit("2").arming.armed.set(true, at(1s));
   (void)news(1s);
   auto const had_then = had;
-  edit("1").relative_alt_m.set(10.0, at(2s));
+  edit("1").motion.relative_alt_m.set(10.0, at(2s));
   (void)news(2s);
-  edit("1").relative_alt_m.set(11.0, at(3s));
+  edit("1").motion.relative_alt_m.set(11.0, at(3s));
   (void)news(3s);
   auto const missed = told_since(had_then, 5s);
   EXPECT_EQ(missed["full"], false);
@@ -202,7 +202,7 @@ TEST_F(VehiclesFeedTest, TellsAgainOfWhatWasGone) {
 
 TEST_F(VehiclesFeedTest, SurvivesNumbersAndTextsThatAreNone) {
   auto& state = edit("1");
-  state.relative_alt_m.set(std::numeric_limits<double>::quiet_NaN(), at(1s));
+  state.motion.relative_alt_m.set(std::numeric_limits<double>::quiet_NaN(), at(1s));
   state.recent_texts = {{.severity = 3, .text = "bad \xff byte", .heard = at(1s)}};
   auto const vehicle = whole(1s)["vehicles"].at(0);
   EXPECT_TRUE(vehicle["relative_alt_m"].is_null());

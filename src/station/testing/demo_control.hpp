@@ -81,7 +81,7 @@ class DemoControl : public vehicle::VehicleControl {
     }
     for (auto& outcome : stop_.vehicles) {
       if (!stop_.is_latched) break;
-      bool const is_lost = registry_.edit(outcome.vehicle).connection == vehicle::Connection::lost;
+      bool const is_lost = registry_.edit(outcome.vehicle).links.connection == vehicle::Connection::lost;
       auto const since = loop_.now() - stopped_;
       outcome.tries = is_lost ? 1 + static_cast<int>(since / 1s) : 1;
       outcome.is_acknowledged = !is_lost && since > 300ms;
@@ -99,7 +99,7 @@ class DemoControl : public vehicle::VehicleControl {
     auto const before = outcome.state;
     if (vehicle::is_over(before)) return;
     auto const& state = registry_.edit(outcome.vehicle);
-    if (state.connection == vehicle::Connection::lost) {
+    if (state.links.connection == vehicle::Connection::lost) {
       if (since > 2s) outcome = {outcome.vehicle, expired, "not heard: not sent any more", {}};
     } else if (state.family == vehicle::Family::plane && record.command.action == vehicle::Action::arm) {
       if (since > 300ms) outcome = {outcome.vehicle, refused, "arming refused: Arm: Throttle too high", {}};

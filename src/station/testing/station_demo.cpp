@@ -181,60 +181,61 @@ void update(vehicle::VehicleState& state, Traveller const& traveller, base::Time
   state.name = fmt::format("{} {}", vehicle::to_string(traveller.family), traveller.id);
   state.family = traveller.family;
   state.autopilot = vehicle::Autopilot::ardupilot;
-  state.link = "udpin://127.0.0.1:14550";
-  state.heartbeat_heard = state.heard = now;
+  state.links.used = "udpin://127.0.0.1:14550";
+  state.links.heartbeat_heard = state.links.heard = now;
   state.mode.set(!moves ? "HOLD" : holds ? "LOITER" : "AUTO", now);
-  state.armed.set(moves, now);
-  state.landed.set(!moves || traveller.alt_m == 0, now);
-  state.position.set(place, now);
-  state.relative_alt_m.set(traveller.alt_m, now);
-  state.heading_rad.set(pose.heading_rad, now);
-  state.velocity_m_s.set(
+  state.arming.armed.set(moves, now);
+  state.motion.landed.set(!moves || traveller.alt_m == 0, now);
+  state.motion.position.set(place, now);
+  state.motion.relative_alt_m.set(traveller.alt_m, now);
+  state.motion.heading_rad.set(pose.heading_rad, now);
+  state.motion.velocity_m_s.set(
       {traveller.speed_m_s * std::cos(pose.heading_rad), traveller.speed_m_s * std::sin(pose.heading_rad), 0}, now);
-  state.battery.set({.remaining = traveller.battery - base::to_seconds(now.time_since_epoch()) / 3600,
-                     .voltage_v = 15.2,
-                     .current_a = 8.0},
-                    now);
-  state.health.set({.position_ok = true, .prearm_ok = true}, now);
-  state.home.set(origin, now);
-  state.mission.set({static_cast<int>(pose.leg) + 1, static_cast<int>(traveller.path.size()), false}, now);
-  state.track_m = traveller.speed_m_s * base::to_seconds(now.time_since_epoch());
-  if (!state.planned_path.empty() || !moves) return;
+  state.power.battery.set({.remaining = traveller.battery - base::to_seconds(now.time_since_epoch()) / 3600,
+                           .voltage_v = 15.2,
+                           .current_a = 8.0},
+                          now);
+  state.arming.health.set({.position_ok = true, .prearm_ok = true}, now);
+  state.motion.home.set(origin, now);
+  state.mission.progress.set({static_cast<int>(pose.leg) + 1, static_cast<int>(traveller.path.size()), false}, now);
+  state.motion.track_m = traveller.speed_m_s * base::to_seconds(now.time_since_epoch());
+  if (!state.mission.planned_path.empty() || !moves) return;
   for (auto const& point : traveller.path) {
-    state.planned_path.push_back(geo::displaced(origin, {point.north, point.east, -traveller.alt_m}));
+    state.mission.planned_path.push_back(geo::displaced(origin, {point.north, point.east, -traveller.alt_m}));
   }
 }
 
 /// What vehicle 1 tells beyond its position: it takes a picture every two seconds and has a camera that fell silent.
 void update_health(vehicle::VehicleState& state, base::TimePoint now, base::TimePoint begun) {
-  state.gps.set({.fix = 6, .satellites = 14, .hdop = 0.71}, now);
-  state.estimator.set({.velocity = 0.05, .position_horizontal = 0.04, .position_vertical = 0.02, .compass = 0.62}, now);
-  state.hud.set({.airspeed_m_s = 8.2, .climb_m_s = 0.1, .throttle = 0.46}, now);
-  state.wind.set({.from_rad = 4.1, .speed_m_s = 3.2}, now);
-  state.remote_control.set({.is_lost = true, .channels = 0, .pulses_us = {}, .rssi = {}}, now);
-  state.radio.set({.rssi = 182,
-                   .remote_rssi = 176,
-                   .noise = 41,
-                   .remote_noise = 38,
-                   .transmit_buffer_free = 0.96,
-                   .receive_errors = 0},
-                  now);
-  state.waypoint_distance_m.set(34.0, now);
-  state.mission.value->state = "active";
-  state.gimbal.set({.roll_rad = 0.0, .pitch_rad = -std::numbers::pi / 2, .yaw_rad = 0.8, .yaw_is_from_north = true},
-                   now);
-  state.components = {{.id = 100, .kind = "camera", .state = "standby", .model = "Maker M1", .heard = begun},
-                      {.id = 191, .kind = "companion computer", .state = "active", .model = {}, .heard = now}};
-  auto& battery = *state.battery.value;
+  state.positioning.gps.set({.fix = 6, .satellites = 14, .hdop = 0.71}, now);
+  state.positioning.estimator.set(
+      {.velocity = 0.05, .position_horizontal = 0.04, .position_vertical = 0.02, .compass = 0.62}, now);
+  state.motion.hud.set({.airspeed_m_s = 8.2, .climb_m_s = 0.1, .throttle = 0.46}, now);
+  state.motion.wind.set({.from_rad = 4.1, .speed_m_s = 3.2}, now);
+  state.links.remote_control.set({.is_lost = true, .channels = 0, .pulses_us = {}, .rssi = {}}, now);
+  state.links.radio.set({.rssi = 182,
+                         .remote_rssi = 176,
+                         .noise = 41,
+                         .remote_noise = 38,
+                         .transmit_buffer_free = 0.96,
+                         .receive_errors = 0},
+                        now);
+  state.mission.waypoint_distance_m.set(34.0, now);
+  state.mission.progress.value->state = "active";
+  state.payload.gimbal.set(
+      {.roll_rad = 0.0, .pitch_rad = -std::numbers::pi / 2, .yaw_rad = 0.8, .yaw_is_from_north = true}, now);
+  state.payload.components = {{.id = 100, .kind = "camera", .state = "standby", .model = "Maker M1", .heard = begun},
+                              {.id = 191, .kind = "companion computer", .state = "active", .model = {}, .heard = now}};
+  auto& battery = *state.power.battery.value;
   battery.consumed_ah = 1.31;
   battery.time_left = std::chrono::seconds(static_cast<int>(battery.remaining * 1200.0));
   battery.time_left_error = *battery.time_left / 5;
   battery.time_left_is_estimate = true;
   battery.in_flight = vehicle::Endurance{*battery.time_left, battery.time_left_error};
-  auto pictures = state.pictures.value.value_or(vehicle::Pictures{});
-  if (state.position.value && (!state.pictures.known() || now - state.pictures.heard >= 2s)) {
-    pictures.recent.push_back({++pictures.taken, *state.position.value, 20.0});
-    state.pictures.set(std::move(pictures), now);
+  auto pictures = state.payload.pictures.value.value_or(vehicle::Pictures{});
+  if (state.motion.position.value && (!state.payload.pictures.known() || now - state.payload.pictures.heard >= 2s)) {
+    pictures.recent.push_back({++pictures.taken, *state.motion.position.value, 20.0});
+    state.payload.pictures.set(std::move(pictures), now);
   }
   if (state.recent_texts.empty())
     state.recent_texts = {{.severity = 6, .text = "Mission: 1 Takeoff", .heard = begun},
@@ -242,25 +243,26 @@ void update_health(vehicle::VehicleState& state, base::TimePoint now, base::Time
 }
 
 void update_link(vehicle::VehicleState& state) {
-  state.links = {{.name = "udpin://127.0.0.1:14550",
-                  .loss = 0.0,
-                  .messages_per_s = 20,
-                  .bytes_per_s = 900,
-                  .round_trip = {},
-                  .is_alive = true,
-                  .is_used = true}};
+  state.links.all = {{.name = "udpin://127.0.0.1:14550",
+                      .loss = 0.0,
+                      .messages_per_s = 20,
+                      .bytes_per_s = 900,
+                      .round_trip = {},
+                      .is_alive = true,
+                      .is_used = true}};
 }
 
 /// The rover that goes away: heard for 2.5 s, silent from 5 s on and lost from 7 s on.
 void let_go(vehicle::VehicleState& state, testing::FakeAlarms& alarms, base::TimePoint now, base::Logger const& log) {
   auto const since = now.time_since_epoch();
-  if (since > 5s && !std::exchange(state.is_silent, true)) {
-    alarms.raise(vehicle::AlarmKind::silent, state.id.text, state.heard);
+  if (since > 5s && !std::exchange(state.links.is_silent, true)) {
+    alarms.raise(vehicle::AlarmKind::silent, state.id.text, state.links.heard);
     alarms.list.back().words = "rover 5 silent, last known disarmed";
   }
-  if (since <= 7s || std::exchange(state.connection, vehicle::Connection::lost) == vehicle::Connection::lost) return;
+  if (since <= 7s || std::exchange(state.links.connection, vehicle::Connection::lost) == vehicle::Connection::lost)
+    return;
   alarms.clear(vehicle::AlarmKind::silent, state.id.text);
-  alarms.raise(vehicle::AlarmKind::lost, state.id.text, state.heard);
+  alarms.raise(vehicle::AlarmKind::lost, state.id.text, state.links.heard);
   alarms.list.back().words = "rover 5 lost: silent for 5 s";
   log.error("rover 5 lost: silent for 5 s");
 }

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Connection, retryDelay, type Socket } from './connection';
 import type { Frame } from './frame';
-import { parseMessage } from '../lib/parse';
+import { parseMessage } from '../lib/wire/parse';
 import type { ServerMessage } from '../lib/protocol';
 
 class MemorySocket implements Socket {

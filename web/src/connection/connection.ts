@@ -1,5 +1,5 @@
 import { binaryFrame, textFrame, type Frame } from './frame';
-import { messageOf, parseObject } from '../lib/parse';
+import { messageOf, parseObject } from '../lib/wire/parse';
 import type { ClientMessage, Hello, Reply, Request, ServerMessage } from '../lib/protocol';
 
 /** What the connection needs of the browser; tests bring their own. */

@@ -31,6 +31,10 @@ it.each<[VehicleFields, string]>([
   [{ gimbal: { roll_rad: 0, pitch_rad: -Math.PI / 2, yaw_rad: 0, yaw_is_from_north: true } }, '90° down, towards 000°'],
   [{ gimbal: { roll_rad: 0, pitch_rad: 0, yaw_rad: Math.PI / 2, yaw_is_from_north: false } }, 'level, 090° of the nose'],
   [{ pictures: { taken: 12, lost: 2 } }, '12, of 2 the place is not known'],
+  [{ site_pose: { site: 'office', floor: '1', x_m: 3.14, y_m: -2, z_m: 0, yaw_rad: 0 } }, 'office, floor 1: 3.1 east, -2.0 north'],
+  [{ carrier: { asked_speed_m_s: 0.16, completed: true, avoids_obstacle: false, killed: false } }, 'goes 0.2 m/s'],
+  [{ carrier: { asked_speed_m_s: 0.16, completed: false, avoids_obstacle: true, killed: false } }, 'backs away from an obstacle'],
+  [{ carrier: { asked_speed_m_s: 0.16, completed: false, avoids_obstacle: true, killed: true } }, 'killed'],
   [{ components: [{ id: 154, kind: 'gimbal', state: 'active', model: 'Maker G' }] }, 'Maker G, active'],
 ])('%j reads %s', (fields, value) => {
   expect(rows(fields).map((row) => row.value)).toEqual([value]);

@@ -46,6 +46,7 @@ export function detailsOf(vehicle: Vehicle, now: number, limits: BatteryLimits =
           gpsText(fields.gps),
           (fields.gps?.fix ?? '3D') === 'no fix' || fields.gps?.fix === 'no GPS' ? 'warning' : undefined,
         ),
+        ...row('Site', 'site_pose', siteText(fields.site_pose)),
         ...row('Estimate', 'estimator', estimatorText(fields.estimator), estimatorLevel(fields.estimator)),
         ...row('Sick', 'unhealthy', fields.unhealthy?.length ? fields.unhealthy.join(', ') : undefined, 'warning'),
       ],
@@ -78,6 +79,7 @@ export function detailsOf(vehicle: Vehicle, now: number, limits: BatteryLimits =
     {
       title: 'Aboard',
       rows: [
+        ...row('Carrier', 'carrier', carrierText(fields.carrier), carrierLevel(fields.carrier)),
         ...row('Gimbal', 'gimbal', gimbalText(fields.gimbal)),
         ...row('Pictures', 'pictures', picturesText(fields.pictures)),
         ...(fields.components ?? []).flatMap((part) =>
@@ -157,6 +159,26 @@ function gpsText(gps: VehicleFields['gps']): string | undefined {
     gps.hdop !== undefined ? `HDOP ${gps.hdop.toFixed(1)}` : '',
   ];
   return parts.filter(Boolean).join(', ');
+}
+
+function siteText(pose: VehicleFields['site_pose']): string | undefined {
+  if (!pose) return undefined;
+  const where = pose.floor === undefined ? pose.site : `${pose.site}, floor ${pose.floor}`;
+  return `${where}: ${pose.x_m.toFixed(1)} east, ${pose.y_m.toFixed(1)} north`;
+}
+
+/** What it does, where that is not what it was asked to. */
+function carrierText(carrier: VehicleFields['carrier']): string | undefined {
+  if (!carrier) return undefined;
+  if (carrier.killed) return 'killed';
+  if (carrier.avoids_obstacle) return 'backs away from an obstacle';
+  const asked = speed(carrier.asked_speed_m_s);
+  return carrier.completed ? `goes ${asked}` : `asked for ${asked}`;
+}
+
+function carrierLevel(carrier: VehicleFields['carrier']): Detail['level'] {
+  if (carrier?.killed) return 'critical';
+  return carrier?.avoids_obstacle ? 'warning' : undefined;
 }
 
 /** The worst of its innovations, by the name of what disagrees. */

@@ -1,97 +1,10 @@
 /** The station's messages, protocol 1: docs/reference/station-messages.md. SI units and radians; lat and lon in degrees. */
 
+import type { Position, VehicleFields } from './wire/vehicle_fields';
+
 export const PROTOCOL = 1;
 
-export interface Position {
-  lat_deg: number;
-  lon_deg: number;
-  alt_m: number;
-}
-
-export type Family = 'copter' | 'plane' | 'vtol' | 'rover' | 'boat' | 'sub' | 'unknown';
-export type Link = 'ok' | 'lost' | 'conflict';
-
-/** One of the links on which a vehicle is heard, over the last 10 s. */
-export interface LinkQuality {
-  name: string;
-  /** Missing while nothing is heard on it. */
-  loss?: number;
-  messages_per_s: number;
-  bytes_per_s: number;
-  round_trip_s?: number;
-  alive: boolean;
-  used: boolean;
-}
-
-export interface Battery {
-  /** Not for the first one. */
-  id?: number;
-  remaining: number;
-  voltage_v?: number;
-  current_a?: number;
-  consumed_ah?: number;
-  /** At what the vehicle does now. */
-  time_left_s?: number;
-  time_left_is_estimate?: boolean;
-  /** Of an estimate, to either side. */
-  time_left_error_s?: number;
-  /** What is left would last so long in flight, by this flight or the last one. */
-  in_flight_s?: number;
-  in_flight_error_s?: number;
-}
-
-/** What else is aboard; its age is that of the key component_ID. */
-export interface Component {
-  id: number;
-  kind: string;
-  state?: string;
-  model?: string;
-}
-
-/** What may be known about a vehicle; a key that is missing was never heard. */
-export interface VehicleFields {
-  system_id?: number;
-  name?: string;
-  family?: Family;
-  autopilot?: string;
-  connection?: Link;
-  link?: string;
-  links?: LinkQuality[];
-  payload?: string[];
-  track_m?: number;
-  heartbeat?: true;
-  /** Nothing has come from it for some seconds; the age of this key is that of the silence. */
-  silent?: boolean;
-  mode?: string;
-  armed?: boolean;
-  landed?: boolean;
-  position?: Position;
-  relative_alt_m?: number;
-  velocity_m_s?: { north: number; east: number; down: number };
-  attitude_rad?: { roll: number; pitch: number; yaw: number };
-  heading_rad?: number;
-  battery?: Battery;
-  further_batteries?: Battery[];
-  gps?: { fix: string; satellites?: number; hdop?: number };
-  estimator?: { velocity?: number; position_horizontal?: number; position_vertical?: number; compass?: number };
-  unhealthy?: string[];
-  arming_reasons?: string[];
-  remote_control?: { lost: boolean; channels: number; rssi?: number; pulses_us: (number | null)[] };
-  radio?: { rssi?: number; remote_rssi?: number; noise?: number; remote_noise?: number; buffer_free?: number; receive_errors: number };
-  hud?: { airspeed_m_s?: number; climb_m_s?: number; throttle?: number };
-  wind?: { from_rad: number; speed_m_s: number };
-  fence?: { breached: boolean; breaches: number; type?: string };
-  health?: { position_ok: boolean; prearm_ok: boolean };
-  home?: Position;
-  mission?: { current: number; total: number; complete: boolean; state?: string };
-  waypoint_distance_m?: number;
-  gimbal?: { roll_rad: number; pitch_rad: number; yaw_rad: number; yaw_is_from_north: boolean };
-  components?: Component[];
-  pictures?: { taken: number; lost: number };
-  texts?: { severity: number; text: string; component?: number }[];
-  control?: { commander: string; asked_for_by?: string; granted_at_s?: number };
-  foreign_change?: string;
-}
+export type * from './wire/vehicle_fields';
 
 export interface VehicleUpdate extends VehicleFields {
   id: string;

@@ -9,6 +9,7 @@ const ROVER =
   'M16 2l5 5v2.500h2V6h5v9h-5v-3h-2v9h2v-3h5v9h-5v-3.500h-2V27a2 2 0 0 1-2 2h-6a2 2 0 0 1-2-2v-3.500H9V27H4v-9h5v3h2v-9H9v3H4V6h5v3.500h2V7z';
 const BOAT = 'M16 2c4.500 4.500 7 9.500 7 15 0 4.500-1.300 8.500-3 12h-8c-1.700-3.500-3-7.500-3-12 0-5.500 2.500-10.500 7-15z';
 const SUB = 'M16 3c3.300 0 5 4 5 10v3h3.500v4H21v4l2.500 4h-15l2.500-4v-4H7.500v-4H11v-3c0-6 1.700-10 5-10z';
+const ROBOT = 'M16 3l3.500 5.500a10.500 10.500 0 1 1-7 0zM16 13a5.500 5.500 0 1 0 0 11 5.500 5.500 0 0 0 0-11z';
 const ARROW = 'M16 3l10 25-10-6-10 6z';
 
 export const SHAPES: Record<Family, string> = {
@@ -18,6 +19,7 @@ export const SHAPES: Record<Family, string> = {
   rover: ROVER,
   boat: BOAT,
   sub: SUB,
+  robot: ROBOT,
   unknown: ARROW,
 };
 
@@ -28,6 +30,7 @@ export const FAMILY_WORDS: Record<Family, string> = {
   rover: 'rover',
   boat: 'boat',
   sub: 'submarine',
+  robot: 'robot',
   unknown: 'vehicle',
 };
 

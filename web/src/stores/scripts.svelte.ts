@@ -1,4 +1,4 @@
-import { parseScripts } from '../lib/parse';
+import { parseScripts } from '../lib/wire/parse';
 import type { Diagnostic, Reply, Script, ServerMessage, Task } from '../lib/protocol';
 import type { ControlStore } from './control.svelte';
 import { reasonOf, type Receiver, type Session } from './session.svelte';

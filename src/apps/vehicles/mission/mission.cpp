@@ -138,7 +138,7 @@ Task<> clean_up(Exchange& exchange) {
   if (report.replacement.left != mavlink::PlanLeft::unknown) co_return;
   say("interrupted: putting back what the vehicle held (Ctrl-C again leaves it as it is)");
   auto const& craft = *exchange.craft;
-  mavlink::ReplaceOptions const options{.autopilot = craft.mav_autopilot};
+  mavlink::ReplaceOptions const options{.autopilot = craft.heard->mav_autopilot};
   co_await mavlink::undo_replacement(craft.connection, craft.address, report.type, options, report.replacement);
   report.error = "interrupted";
   say(fmt::format("{}: {}", to_string(report.type), to_string(report.replacement.left)));
@@ -166,7 +166,7 @@ ShowProgress show_on(Exchange& exchange) {
 
 /// What a vehicle flies is not changed under it without being asked for.
 Result<> may_change(Exchange const& exchange) {
-  if (!exchange.craft->is_armed || exchange.options.is_armed_allowed) return {};
+  if (!exchange.craft->heard->is_armed || exchange.options.is_armed_allowed) return {};
   return base::fail(base::ErrorKind::refused,
                     fmt::format("vehicle {} is armed: its plans are not changed", exchange.craft->id().text),
                     "--armed does it all the same");
@@ -176,7 +176,9 @@ Result<> may_change(Exchange const& exchange) {
 Task<bool> learn_place(fleet::MavlinkVehicle& craft) {
   constexpr base::Duration patience = std::chrono::seconds(2);
   constexpr mavlink::CommandOptions quickly{.tries = 2, .ack_timeout = std::chrono::milliseconds(500)};
-  std::function<bool()> const is_known = [&craft] { return craft.state.position.known() && craft.state.home.known(); };
+  std::function<bool()> const is_known = [&craft] {
+    return craft.state.motion.position.known() && craft.state.motion.home.known();
+  };
   for (auto const message : {mavlink::MessageId::global_position_int, mavlink::MessageId::home_position}) {
     if (is_known()) break;
     auto const command = mavlink::request_message(message);
@@ -184,7 +186,7 @@ Task<bool> learn_place(fleet::MavlinkVehicle& craft) {
   }
   auto until_known = is_known;
   (void)co_await craft.changed.wait_for(std::move(until_known), patience);
-  co_return craft.state.position.known();
+  co_return craft.state.motion.position.known();
 }
 
 /// Whether the mission makes sense where the vehicle is. Its ground and home are waited for, since a plan of another
@@ -201,7 +203,7 @@ Task<Result<>> heed_upload(Exchange& exchange, std::vector<mavlink::MissionType>
     say(fmt::format("{} has not told its own fence ({}): nobody knows whether this plan leaves it", craft.state.name,
                     learned.error().message));
   auto situation = fleet::situation_of(craft, {});
-  situation.position = craft.state.position.value;  // good enough for a plan, before it is for a flight
+  situation.position = craft.state.motion.position.value;  // good enough for a plan, before it is for a flight
   if (is_uploaded(mavlink::MissionType::fence) && !exchange.plan.fence.empty()) {
     situation.fence = exchange.plan.fence;
     if (situation.own_fence) situation.own_fence->areas = {};  // those that it holds are replaced

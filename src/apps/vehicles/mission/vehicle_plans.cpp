@@ -25,7 +25,7 @@ std::vector<mavlink::MissionItem> items_for(MissionType type, plan::Plan const& 
   auto const& state = craft.state;
   if (type == MissionType::fence) return plan::fence_items(plan::simple_fence(plan.fence, lost));
   if (type == MissionType::rally) return plan::rally_items(plan.rally);
-  auto const home = state.home.value ? state.home.value : plan.mission.planned_home;
+  auto const home = state.motion.home.value ? state.motion.home.value : plan.mission.planned_home;
   return plan::for_autopilot(plan.mission, state.autopilot, home, state.family);
 }
 
@@ -102,7 +102,7 @@ Task<Result<>> upload_lists(fleet::MavlinkVehicle const& craft, std::vector<Uplo
   reports.reserve(lists.size());  // a replacement under way is written to while the list grows
   for (auto& list : lists) {
     auto& report = reports.emplace_back(ListReport{.type = list.type, .items = list.items.size(), .outcome = "failed"});
-    mavlink::ReplaceOptions options{.transfer = patient_transfer, .autopilot = craft.mav_autopilot};
+    mavlink::ReplaceOptions options{.transfer = patient_transfer, .autopilot = craft.heard->mav_autopilot};
     options.progress = [&show, type = list.type](std::string_view phase, std::size_t done, std::size_t total) {
       if (show) show(fmt::format("{}: {}", to_string(type), phase), done, total);
     };

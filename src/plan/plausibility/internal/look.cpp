@@ -143,7 +143,8 @@ double mission_distance_m(Limits const& limits, Family family) {
     case Family::boat: return 20'000.0;
     case Family::copter:
     case Family::rover:
-    case Family::sub: return 11'000.0;
+    case Family::sub:
+    case Family::robot: return 11'000.0;
   }
   return 30'000.0;
 }
@@ -157,7 +158,8 @@ double go_to_distance_m(Limits const& limits, Family family) {
     case Family::boat: return 10'000.0;
     case Family::copter:
     case Family::rover:
-    case Family::sub: return 5'000.0;
+    case Family::sub:
+    case Family::robot: return 5'000.0;
   }
   return 20'000.0;
 }

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "mavlink/codec/messages.hpp"
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::fleet {
 

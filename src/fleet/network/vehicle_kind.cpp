@@ -1,4 +1,4 @@
-#include "fleet/state/vehicle_kind.hpp"
+#include "fleet/network/vehicle_kind.hpp"
 
 #include "mavlink/wire/modes.hpp"
 
@@ -21,6 +21,7 @@ std::optional<std::string_view> type_of(MavType type) {
     case Family::rover: return "UGV";
     case Family::boat: return "USV";
     case Family::sub: return "UUV";
+    case Family::robot:  // none that speaks MAVLink
     case Family::unknown: break;
   }
   switch (type) {

@@ -1,19 +1,19 @@
 import { describe, expect, it } from 'vitest';
-import { TrailPieces } from '../layers/trail_pieces';
-import { featuresOf, lonLat, pathFeatures } from '../layers/features';
-import { groupAlarms, knownAlarms } from './alarms';
-import { commandedByOthers, commonModes, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from './commands';
-import { detailsOf } from './details';
-import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from './fleet';
-import { clock, linkSummary, linkTitle, metres } from './format';
-import { boundsOf, gridLines } from '../map/geometry';
-import { appendLines, atLeast } from './log';
-import { objectionsTo } from './plausibility';
+import { TrailPieces } from '../../layers/trail_pieces';
+import { featuresOf, lonLat, pathFeatures } from '../../layers/features';
+import { groupAlarms, knownAlarms } from '../alarms';
+import { commandedByOthers, commonModes, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from '../commands';
+import { detailsOf } from '../details';
+import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from '../fleet';
+import { clock, linkSummary, linkTitle, metres } from '../format';
+import { boundsOf, gridLines } from '../../map/geometry';
+import { appendLines, atLeast } from '../log';
+import { objectionsTo } from '../plausibility';
 import { parseMessage, parseScripts } from './parse';
-import type { Position, ServerMessage } from './protocol';
-import { statusOf } from './status';
-import { progressOf, runningLines } from './tasks';
-import { Trails } from './trails';
+import type { Position, ServerMessage } from '../protocol';
+import { statusOf } from '../status';
+import { progressOf, runningLines } from '../tasks';
+import { Trails } from '../trails';
 
 const parse = (value: unknown): ServerMessage | undefined => parseMessage(JSON.stringify(value));
 const vehicles = (...updates: unknown[]) => {
@@ -46,6 +46,15 @@ describe('what the station sends', () => {
       expect(message, battery).toMatchObject({ vehicles: [{ id: '1' }] });
       expect(JSON.stringify(message), battery).not.toContain('remaining');
     }
+  });
+  it('keeps what a vehicle tells a part of, as its protocol has it', () => {
+    const fields = {
+      hud: { climb_m_s: 1 },
+      estimator: { compass: 0.2 },
+      radio: { receive_errors: 3 },
+      remote_control: { lost: false, channels: 3, pulses_us: [1500, null, 1200] },
+    };
+    expect(vehicles({ id: '1', ...fields })).toEqual([{ id: '1', ...fields }]);
   });
   it('has no vehicle without an id, and none twice', () => {
     expect(vehicles({ mode: 'AUTO' }, { id: '' }, { id: 3 }, null, [], { id: '1', mode: 'A' }, { id: '1', mode: 'B' })).toEqual([

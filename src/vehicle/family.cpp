@@ -1,4 +1,4 @@
-#include "vehicle/vehicle_state.hpp"
+#include "vehicle/family.hpp"
 
 namespace lapwing::vehicle {
 
@@ -10,6 +10,7 @@ std::string_view to_string(Family family) {
     case Family::rover: return "rover";
     case Family::boat: return "boat";
     case Family::sub: return "sub";
+    case Family::robot: return "robot";
     case Family::unknown: return "unknown";
   }
   return "unknown";
@@ -22,22 +23,6 @@ std::string_view to_string(Autopilot autopilot) {
     case Autopilot::other: return "other";
   }
   return "other";
-}
-
-std::string_view gps_fix_name(int fix) {
-  static constexpr std::array<std::string_view, 9> names{"no GPS",    "no fix",    "2D",     "3D", "DGPS",
-                                                         "RTK float", "RTK fixed", "static", "PPP"};
-  auto const index = static_cast<std::size_t>(fix);
-  return index < names.size() ? names[index] : "unknown";
-}
-
-std::string_view to_string(Connection connection) {
-  switch (connection) {
-    case Connection::ok: return "ok";
-    case Connection::lost: return "lost";
-    case Connection::conflict: return "conflict";
-  }
-  return "lost";
 }
 
 }  // namespace lapwing::vehicle
