@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   auto const source = std::make_shared<base::SourceFile const>(argv[1], text.str());
   base::Diagnostics diagnostics(*source);
   auto const began = std::chrono::steady_clock::now();
-  auto const program = dolphin::load(source, platform.builders(), diagnostics);
+  auto const program = dolphin::load(source, platform.vocabulary(), diagnostics);
   if (!program) {
     std::fputs(base::render(diagnostics).c_str(), stderr);
     return 2;

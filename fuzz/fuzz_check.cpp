@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   base::SourceFile const source("fuzz", fuzz::text_of(data, size));
   base::Diagnostics diagnostics(source);
   auto const program = dolphin::parse(diagnostics);
-  dolphin::check(program, fuzz::builders(), diagnostics);
+  dolphin::check(program, fuzz::vocabulary(), diagnostics);
   fuzz::require_presentable(diagnostics);
   return 0;
 }

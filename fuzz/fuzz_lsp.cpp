@@ -28,7 +28,7 @@ void work(lsp::Server& server, base::TimePoint& now) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
-  lsp::Server server(fuzz::builders(), "fuzz");
+  lsp::Server server(fuzz::vocabulary(), "fuzz");
   for (auto const opening : openings) server.receive(opening);
   base::TimePoint now{};
   work(server, now);

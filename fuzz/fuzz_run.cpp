@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   base::Loop loop({.unpaced = true});
   missions::MissionHarness platform(loop);
   base::Diagnostics diagnostics(*source);
-  auto const program = dolphin::load(source, platform.builders(), diagnostics);
+  auto const program = dolphin::load(source, platform.vocabulary(), diagnostics);
   fuzz::require((program != nullptr) != diagnostics.has_errors());
   fuzz::require_presentable(diagnostics);
   if (!program) return 0;

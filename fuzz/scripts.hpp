@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "base/text/diagnostic.hpp"
 #include "missions/vocabulary.hpp"
@@ -16,9 +15,9 @@ inline std::string text_of(std::uint8_t const* data, std::size_t size) {
   return {data, data + size};
 }
 
-inline std::vector<tasks::BuilderSpec> const& builders() {
-  static std::vector<tasks::BuilderSpec> const specs = missions::vocabulary();
-  return specs;
+inline tasks::Vocabulary const& vocabulary() {
+  static tasks::Vocabulary const words = missions::vocabulary();
+  return words;
 }
 
 /// Diagnostics can be shown to people and programs, and speak of places that are in the script.

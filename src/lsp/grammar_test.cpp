@@ -61,8 +61,8 @@ struct List {
 };
 
 std::vector<List> lists() {
-  std::vector<tasks::BuilderSpec> const builders = missions::vocabulary();
-  dolphin::Vocabulary const vocabulary(builders);
+  tasks::Vocabulary const added = missions::vocabulary();
+  dolphin::Vocabulary const vocabulary(added);
   auto const is_block = [](auto const& one) { return one.block != BlockKind::none && one.name != "move"; };
   auto const is_plain = [&](auto const& one) { return !is_block(one); };
   Words commands;
@@ -71,6 +71,8 @@ std::vector<List> lists() {
     commands.merge(names_of(block.words));
     if (block.builder) blocks.emplace(block.name);
   }
+  Words instructions = names_of(dolphin::instructions(), is_plain);
+  instructions.merge(names_of(vocabulary.instructions().added()));
   Words chains = names_of(dolphin::chain_words());
   chains.merge(Words{"then", "run", "onError"});
   auto const is_property = [](dolphin::MethodSpec const& one) { return one.is_property; };
@@ -82,7 +84,7 @@ std::vector<List> lists() {
       {"/repository/keywords/match", reserved_words()},
       {"/repository/chains/match", chains},
       {"/repository/commands/patterns/0/match", commands},
-      {"/repository/instructions/match", names_of(dolphin::instructions(), is_plain)},
+      {"/repository/instructions/match", instructions},
       {"/repository/blocks/match", blocks},
       {"/repository/constants/patterns/1/match", names_of(dolphin::constants())},
       {"/repository/types/match", names_of(dolphin::types())},

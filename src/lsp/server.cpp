@@ -43,8 +43,8 @@ std::string uri_of(Json const& parameters) {
 
 }  // namespace
 
-Server::Server(std::span<tasks::BuilderSpec const> builders, std::string version)
-    : vocabulary_(builders), version_(std::move(version)) {}
+Server::Server(tasks::Vocabulary const& added, std::string version)
+    : vocabulary_(added), version_(std::move(version)) {}
 
 // ---- the queue ----------------------------------------------------------------------------------
 

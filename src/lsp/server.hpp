@@ -33,8 +33,8 @@ class Server {
   /// keys.
   static constexpr base::Duration pause = std::chrono::milliseconds(150);
 
-  /// `builders`: the block words of the platform; they outlive the server.
-  explicit Server(std::span<tasks::BuilderSpec const> builders, std::string version);
+  /// `added`: what the platform adds to the language; it outlives the server.
+  explicit Server(tasks::Vocabulary const& added, std::string version);
 
   /// Takes in one message (the JSON text); what cannot be read is answered in its turn.
   void receive(std::string_view message);

@@ -73,16 +73,16 @@ class Talk {
     return {{"textDocument", {{"uri", uri}}}, {"position", {{"line", line}, {"character", character}}}};
   }
 
-  std::vector<tasks::BuilderSpec> builders = missions::vocabulary();
-  Server server{builders, "1.2.3"};
+  tasks::Vocabulary vocabulary = missions::vocabulary();
+  Server server{vocabulary, "1.2.3"};
   base::TimePoint now{};
   int id = 0;
   int version = 1;
 };
 
 TEST(Server, TellsWhatItCanDo) {
-  std::vector<tasks::BuilderSpec> const builders = missions::vocabulary();
-  Server server(builders, "1.2.3");
+  tasks::Vocabulary const vocabulary = missions::vocabulary();
+  Server server(vocabulary, "1.2.3");
   server.receive(R"({"jsonrpc":"2.0","id":"a","method":"initialize","params":{}})");
   auto const out = Json::parse(server.work({}).at(0));
   EXPECT_EQ(out["id"], "a");
@@ -95,8 +95,8 @@ TEST(Server, TellsWhatItCanDo) {
 }
 
 TEST(Server, GoesThroughItsLife) {
-  std::vector<tasks::BuilderSpec> const builders;
-  Server server(builders, "1");
+  tasks::Vocabulary const vocabulary;
+  Server server(vocabulary, "1");
   auto const code = [&](char const* message) {
     server.receive(message);
     auto const out = server.work({});

@@ -3,16 +3,22 @@
 #include <utility>
 
 #include "missions/mission_task.hpp"
+#include "missions/send_message.hpp"
 #include "missions/vocabulary.hpp"
 #include "plan/estimate.hpp"
 
 namespace lapwing::missions {
 
 MissionHarness::MissionHarness(base::Loop& loop, PlanLibrary plans)
-    : HarnessPlatform(loop, vocabulary()), plans_(std::move(plans)) {}
+    : HarnessPlatform(loop, missions::vocabulary()), plans_(std::move(plans)) {}
 
 base::Result<std::shared_ptr<tasks::PlatformTask const>> MissionHarness::named_task(std::string_view name) const {
   return plans_.contains(name) ? find_plan(plans_, name) : HarnessPlatform::named_task(name);
+}
+
+base::Result<> MissionHarness::perform(tasks::InstructionCall const& call, tasks::VehicleId const& id) {
+  if (call.name != send_message().name) return HarnessPlatform::perform(call, id);
+  return base::fail(base::ErrorKind::refused, "these vehicles take no raw messages");
 }
 
 base::Result<std::optional<base::Duration>> MissionHarness::length_of(tasks::PlatformTask const& task,

@@ -20,6 +20,8 @@ class MissionHarness final : public tasks::HarnessPlatform {
   [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
       std::string_view name) const override;
   [[nodiscard]] std::vector<std::string> plan_names() const override { return names_of(plans_); }
+  /// Refuses raw messages: these vehicles have no protocol.
+  [[nodiscard]] base::Result<> perform(tasks::InstructionCall const& call, tasks::VehicleId const& id) override;
 
  private:
   [[nodiscard]] base::Result<std::optional<base::Duration>> length_of(tasks::PlatformTask const& task,

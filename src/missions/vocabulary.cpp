@@ -3,11 +3,12 @@
 #include <utility>
 
 #include "missions/mission_block.hpp"
+#include "missions/send_message.hpp"
 
 namespace lapwing::missions {
 
-std::vector<tasks::BuilderSpec> vocabulary(plan::plausibility::Settings settings) {
-  return {mission_block(std::move(settings))};
+tasks::Vocabulary vocabulary(plan::plausibility::Settings settings) {
+  return {.builders = {mission_block(std::move(settings))}, .instructions = {send_message()}};
 }
 
 }  // namespace lapwing::missions

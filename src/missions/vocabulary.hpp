@@ -1,14 +1,12 @@
 #pragma once
 
-#include <vector>
-
 #include "plan/plausibility/settings.hpp"
-#include "tasks/platform.hpp"
+#include "tasks/vocabulary.hpp"
 
 namespace lapwing::missions {
 
-/// The block words of every platform that flies missions: the one list that check, plan, run, editors, tests and fuzz
-/// targets read scripts with. `settings`: by which doubts about missions are judged.
-[[nodiscard]] std::vector<tasks::BuilderSpec> vocabulary(plan::plausibility::Settings settings = {});
+/// What every platform that flies missions adds to the language: the one list that check, plan, run, editors, tests and
+/// fuzz targets read scripts with. `settings`: by which doubts about missions are judged.
+[[nodiscard]] tasks::Vocabulary vocabulary(plan::plausibility::Settings settings = {});
 
 }  // namespace lapwing::missions

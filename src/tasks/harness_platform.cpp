@@ -73,8 +73,8 @@ std::vector<VehicleInfo> conformance_vehicles() {
 
 }  // namespace
 
-HarnessPlatform::HarnessPlatform(base::Loop& loop, std::vector<BuilderSpec> builders)
-    : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()), builders_(std::move(builders)) {}
+HarnessPlatform::HarnessPlatform(base::Loop& loop, Vocabulary vocabulary)
+    : loop_(loop), changed_(loop), vehicles_(conformance_vehicles()), vocabulary_(std::move(vocabulary)) {}
 
 base::Result<std::shared_ptr<PlatformTask const>> HarnessPlatform::named_task(std::string_view name) const {
   auto const colon = name.rfind(':');

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -26,9 +25,9 @@ namespace lapwing::tasks {
 /// it.
 class HarnessPlatform : public Platform {
  public:
-  explicit HarnessPlatform(base::Loop& loop, std::vector<BuilderSpec> builders = {});
+  explicit HarnessPlatform(base::Loop& loop, Vocabulary vocabulary = {});
 
-  [[nodiscard]] std::span<BuilderSpec const> builders() const override { return builders_; }
+  [[nodiscard]] Vocabulary const& vocabulary() const override { return vocabulary_; }
   [[nodiscard]] base::Result<std::shared_ptr<PlatformTask const>> named_task(std::string_view name) const override;
   [[nodiscard]] std::vector<VehicleInfo> vehicles() const override { return vehicles_; }
   [[nodiscard]] std::optional<VehicleInfo> find(VehicleId const& id) const override;
@@ -49,7 +48,7 @@ class HarnessPlatform : public Platform {
   base::Loop& loop_;
   base::Notifier changed_;
   std::vector<VehicleInfo> vehicles_;
-  std::vector<BuilderSpec> builders_;
+  Vocabulary vocabulary_;
 };
 
 }  // namespace lapwing::tasks

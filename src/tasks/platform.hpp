@@ -1,14 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "base/async/notifier.hpp"
@@ -16,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/time.hpp"
 #include "geo/position.hpp"
+#include "tasks/vocabulary.hpp"
 #include "vehicle/vehicle_id.hpp"
 
 /// The seam between the mission language and whatever can carry out tasks. The language knows this header and never a
@@ -24,71 +21,6 @@
 namespace lapwing::tasks {
 
 using vehicle::VehicleId;
-
-// ---- what a platform adds to the language
-
-/// A script value as a builder command receives it. Units are already SI (angles that users write in degrees stay
-/// degrees only where the parameter says so); a vehicle set never reaches a builder.
-using Argument = std::variant<std::monostate, bool, std::int64_t, double, std::string, geo::Wgs84, geo::Ned>;
-
-enum class Type { number, integer, text, boolean, position, displacement };
-/// What a number means, for the checker: `timeout 2.km` is wrong before anything flies.
-enum class Dimension { none, length, angle, time, speed, ratio };
-
-struct Parameter {
-  std::string_view name;
-  Type type = Type::number;
-  Dimension dimension = Dimension::none;
-  std::optional<Argument> fallback = std::nullopt;  ///< present: the argument may be left out (trailing ones only)
-  std::string_view doc = {};
-  std::vector<std::string_view> choices = {};  ///< text parameters with a fixed set of values
-};
-
-struct Overload {
-  std::vector<Parameter> parameters;
-};
-
-/// One word that may stand inside a builder's block: `takeOff pos, 15`.
-struct CommandSpec {
-  std::string_view name;
-  std::vector<Overload> overloads;
-  std::string_view doc;
-  /// The types of vehicle ("UAV") that can carry it out; empty: every type.
-  std::vector<std::string_view> vehicle_types = {};
-
-  /// False when no vehicle of that type can carry it out: `takeOff` for a "UGV".
-  [[nodiscard]] bool suits(std::string_view vehicle_type) const {
-    return vehicle_types.empty() || std::ranges::find(vehicle_types, vehicle_type) != vehicle_types.end();
-  }
-};
-
-class PlatformTask;
-
-/// Something in a block, or between two, that hardly makes sense. For warnings: what may be meant all the same runs.
-struct Doubt {
-  std::optional<std::size_t> call;  ///< which `add` of the block, counted from 0; nothing: the block as a whole
-  std::string what;
-  std::string hint = {};
-};
-
-/// Collects the commands of one block. Arguments arrive complete (fallbacks filled in) and of the declared types.
-class BuilderSession {
- public:
-  virtual ~BuilderSession() = default;
-  /// `command` and `overload` index the builder's table.
-  virtual base::Result<> add(std::size_t command, std::size_t overload, std::span<Argument const> arguments) = 0;
-  virtual base::Result<std::shared_ptr<PlatformTask const>> finish() = 0;
-  /// What of the commands so far hardly makes sense, whatever vehicle carries them out.
-  [[nodiscard]] virtual std::vector<Doubt> doubts() const { return {}; }
-};
-
-/// A block word of the language that a platform adds, e.g. `mission { ... }`.
-struct BuilderSpec {
-  std::string_view name;
-  std::vector<CommandSpec> commands;
-  std::string_view doc;
-  std::function<std::unique_ptr<BuilderSession>()> begin;
-};
 
 // ---- tasks that run on one vehicle
 
@@ -128,10 +60,18 @@ class PlatformTask {
   }
 };
 
-/// One named value of a raw message. A text stands for the number that the protocol gives that name.
-struct MessageField {
+/// `command: 400` in the call of an instruction.
+struct NamedValue {
   std::string name;
   Argument value;
+};
+
+/// A `VehicleInstruction` as a script gives it, without the vehicles: arguments complete and of the declared types,
+/// values in the order in which they were written.
+struct InstructionCall {
+  std::string_view name;
+  std::span<Argument const> arguments = {};
+  std::span<NamedValue const> values = {};
 };
 
 enum class RunState { in_progress, done, failed };
@@ -156,8 +96,8 @@ class Platform {
  public:
   virtual ~Platform() = default;
 
-  /// Block words and commands; the same for the whole life of the platform.
-  [[nodiscard]] virtual std::span<BuilderSpec const> builders() const = 0;
+  /// What it adds to the language; the same for the whole life of the platform.
+  [[nodiscard]] virtual Vocabulary const& vocabulary() const = 0;
   /// The plan called `name` made elsewhere: `task('survey1')`.
   [[nodiscard]] virtual base::Result<std::shared_ptr<PlatformTask const>> named_task(std::string_view name) const = 0;
   /// The names that `named_task` knows, as far as they can be listed: for "did you mean".
@@ -173,14 +113,10 @@ class Platform {
   [[nodiscard]] virtual base::TimePoint all_heard_by() const { return {}; }
   virtual void set_connection_timeout(VehicleId const& id, base::Duration timeout) = 0;
 
-  /// Sends the vehicle one message of the platform's protocol, raw: `sendMessage v, 'COMMAND_LONG', command: 400`.
-  /// Returns without waiting for any answer. Errors: not_found (with what may have been meant) or invalid_input for a
-  /// message or field that there is not, or a value that does not fit it; the kinds of a link's errors.
-  [[nodiscard]] virtual base::Result<> send_message(VehicleId const& id, std::string_view message,
-                                                    std::span<MessageField const> fields) {
-    (void)id, (void)message, (void)fields;
-    return base::fail(base::ErrorKind::refused, "these vehicles take no raw messages");
-  }
+  /// Carries out an instruction of its vocabulary. Returns without waiting for any answer. Errors: refused for one that
+  /// these vehicles do not know; not_found or invalid_input for what the instruction does not take; the kinds of a
+  /// link's errors.
+  [[nodiscard]] virtual base::Result<> perform(InstructionCall const& call, VehicleId const& id);
 
   /// Starts `task` on the vehicle. Never blocks; every failure shows in the run.
   [[nodiscard]] virtual std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task,

@@ -47,7 +47,7 @@ std::size_t check_plans(CheckOptions const& options, nlohmann::json& records) {
 int check(CheckOptions const& options) {
   auto plausibility = host::plausibility_of(options.plausibility);
   if (!plausibility) return host::refuse(plausibility.error());
-  auto const builders = missions::vocabulary(*std::move(plausibility));
+  auto const vocabulary = missions::vocabulary(*std::move(plausibility));
   auto all = nlohmann::json::array();
   std::size_t errors = check_plans(options, all);
   std::size_t warnings = 0;
@@ -60,7 +60,7 @@ int check(CheckOptions const& options) {
     }
     auto const source = std::make_shared<base::SourceFile const>(path, *text);
     base::Diagnostics diagnostics(*source);
-    (void)dolphin::load(source, builders, diagnostics);
+    (void)dolphin::load(source, vocabulary, diagnostics);
     errors += diagnostics.error_count();
     warnings += diagnostics.warning_count();
     if (options.json) {

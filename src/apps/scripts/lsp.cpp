@@ -60,8 +60,8 @@ bool write_all(std::vector<std::string> const& messages) {
 
 /// What has arrived is taken in before each step, so that a cancellation overtakes the request that it is about.
 int serve() {
-  auto const builders = missions::vocabulary();
-  lsp::Server server(builders, LAPWING_VERSION);
+  auto const vocabulary = missions::vocabulary();
+  lsp::Server server(vocabulary, LAPWING_VERSION);
   lsp::MessageReader reader;
   base::Loop const clock;
   bool is_open = true;

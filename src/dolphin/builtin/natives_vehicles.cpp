@@ -10,6 +10,7 @@
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
 #include "dolphin/names/foreign_words.hpp"
+#include "dolphin/value/platform_arguments.hpp"
 #include "dolphin/value/text.hpp"
 
 /// Vehicles and geometry (language spec, 3.1 and 3.2).
@@ -246,43 +247,46 @@ Checked<Value> set_connection_timeouts(Runtime& runtime, Fiber& /*fiber*/, Argum
   return Value();
 }
 
-std::optional<tasks::Argument> message_value(Value const& value) {
-  if (auto const* text = value.as<Text>()) return tasks::Argument{text->text};
-  if (value.kind() == ValueKind::integer) return tasks::Argument{value.integer()};
-  if (value.is_number()) return tasks::Argument{value.number()};
-  if (value.kind() == ValueKind::boolean) return tasks::Argument{value.boolean()};
-  return std::nullopt;
+/// `name: value` of an instruction.
+Checked<std::vector<tasks::NamedValue>> named_values(std::string_view instruction, Map const* given) {
+  std::vector<tasks::NamedValue> values;
+  if (!given) return values;
+  for (auto const& [name, value] : given->items()) {
+    auto converted = named_value(value);
+    if (!converted)
+      return fault(fmt::format("{}: {} takes a number or a text, not {}", instruction, to_text(name), kind_name(value)),
+                   "IllegalArgumentException");
+    values.push_back({to_text(name), *std::move(converted)});
+  }
+  return values;
 }
 
-/// `sendMessage v, 'COMMAND_LONG', command: 400`; the fields, being named, come first.
-Checked<Value> send_message(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  auto const* named = arguments[0].as<Map>();
-  if (named) arguments = arguments.subspan(1);
-  auto const ids = arguments.size() == 2 ? members(arguments[0]) : std::nullopt;
-  auto const* message = ids ? arguments[1].as<Text>() : nullptr;
-  if (!message)
-    return fault(
-        "sendMessage takes vehicles, the name of a message and its fields: sendMessage v, 'COMMAND_LONG', command: 400",
-        "IllegalArgumentException");
-  std::vector<tasks::MessageField> fields;
-  if (named) {
-    for (auto const& [name, value] : named->items()) {
-      auto converted = message_value(value);
-      if (!converted)
-        return fault(fmt::format("sendMessage: {} takes a number or a text, not {}", to_text(name), kind_name(value)),
-                     "IllegalArgumentException");
-      fields.push_back({to_text(name), *std::move(converted)});
-    }
-  }
+/// An instruction of the platform's: its name, then its named values if it has any, the vehicles, and the rest.
+Checked<Value> vehicle_instruction(Runtime& runtime, Fiber& /*fiber*/, Arguments given) {
+  auto const name = to_text(given[0]);
+  auto const& known = runtime.platform.vocabulary().instructions;
+  auto const spec = std::ranges::find(known, name, &tasks::VehicleInstruction::name);
+  if (spec == known.end())
+    return fault(fmt::format("this platform cannot carry out {}", name), "MissingMethodException");
+  auto const* named = given[1].as<Map>();
+  auto const rest = given.subspan(named ? 2 : 1);
+  auto const ids = rest.empty() ? std::nullopt : members(rest[0]);
+  auto const arguments = ids ? fitted(spec->parameters, rest.subspan(1)) : std::nullopt;
+  if (!arguments || (named && !spec->takes_values))
+    return fault(fmt::format("{} {}", name, spec->usage), "IllegalArgumentException");
+  if (auto const wrong = wrong_value(spec->parameters, *arguments))
+    return fault(fmt::format("{}: {}", name, *wrong), "IllegalArgumentException");
+  auto const values = named_values(name, named);
+  if (!values) return std::unexpected(values.error());
   for (auto const& id : *ids) {
     if (std::ranges::find(runtime.picked, id) == runtime.picked.end())
-      return fault(fmt::format("sendMessage: vehicle {} is not picked", id.text), "IllegalStateException");
+      return fault(fmt::format("{}: vehicle {} is not picked", name, id.text), "IllegalStateException");
   }
   for (auto const& id : *ids) {
-    auto const sent = runtime.platform.send_message(id, to_text(arguments[1]), fields);
-    if (sent) continue;
-    auto const& [kind, text, hint] = sent.error();
-    return fault(fmt::format("sendMessage to {}: {}{}{}", id.text, text, hint.empty() ? "" : ": ", hint),
+    auto const done = runtime.platform.perform({.name = name, .arguments = *arguments, .values = *values}, id);
+    if (done) continue;
+    auto const& [kind, text, hint] = done.error();
+    return fault(fmt::format("{} to {}: {}{}{}", name, id.text, text, hint.empty() ? "" : ": ", hint),
                  "IllegalArgumentException");
   }
   return Value();
@@ -333,7 +337,7 @@ std::span<Native const> vehicle_natives() {
       Native{.name = "connected", .least = 1, .most = 1, .call = connected},
       Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
       Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},
-      Native{.name = "sendMessage", .least = 2, .most = 3, .call = send_message},
+      Native{.name = "vehicle instruction", .least = 2, .most = any_number, .call = vehicle_instruction},
       Native{.name = "location", .least = 2, .most = 3, .call = location, .is_pure = true},
       Native{.name = "area", .least = 2, .most = 2, .call = area, .is_pure = true},
       Native{.name = "move", .least = 2, .most = 2, .call = move},

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "dolphin/check/checker.hpp"
+#include "dolphin/names/instruction_table.hpp"
 #include "dolphin/syntax/parser.hpp"
 #include "missions/vocabulary.hpp"
 
@@ -34,9 +35,9 @@ std::string text_of(fs::path const& path) {
 std::string complaints(fs::path const& script) {
   base::SourceFile const source(script.filename().string(), text_of(script));
   base::Diagnostics diagnostics(source);
-  std::vector<tasks::BuilderSpec> const builders = missions::vocabulary();
-  auto const program = parse(diagnostics);
-  check(program, builders, diagnostics);
+  tasks::Vocabulary const vocabulary = missions::vocabulary();
+  auto const program = parse(diagnostics, names_of(vocabulary));
+  check(program, vocabulary, diagnostics);
   return render(diagnostics);
 }
 

@@ -181,7 +181,7 @@ void Checker::declared_arguments(ast::Call const& call, ast::FunctionDecl const&
 /// `def battery(v) { ... }`
 void Checker::hidden_instructions() {
   for (auto const& [name, functions] : resolution_.functions) {
-    if (!find_instruction(name) && !find_builder(name)) continue;
+    if (!resolution_.instructions.find(name) && !find_builder(name)) continue;
     diagnostics_.report(code("hidden-instruction"), functions.front()->name.span,
                         fmt::format("this function hides the instruction {}", name), "give it a name of its own");
   }

@@ -38,18 +38,17 @@ bool ends_early(ast::Block const& block) {
 
 }  // namespace
 
-void check(ast::Program const& program, std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics) {
-  Checker(program, builders, diagnostics).run();
+void check(ast::Program const& program, tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics) {
+  Checker(program, vocabulary, diagnostics).run();
 }
 
-Checker::Checker(ast::Program const& program, std::span<tasks::BuilderSpec const> builders,
-                 base::Diagnostics& diagnostics)
+Checker::Checker(ast::Program const& program, tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics)
     : program_(program),
       diagnostics_(diagnostics),
-      resolution_(resolve(program)),
-      inference_(resolution_, builders),
-      tasks_(resolution_, inference_, builders) {
-  for (auto const& spec : builders) {
+      resolution_(resolve(program, InstructionTable(vocabulary.instructions))),
+      inference_(resolution_, vocabulary.builders),
+      tasks_(resolution_, inference_, vocabulary.builders) {
+  for (auto const& spec : vocabulary.builders) {
     Builder made{&spec, {}};
     for (auto const& command : spec.commands) made.words.push_back(instruction_of(command));
     builders_.push_back(std::move(made));

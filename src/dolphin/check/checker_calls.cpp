@@ -82,7 +82,8 @@ void Checker::call(ast::Expr const& expr) {
   if (auto const found = resolution_.functions.find(text); found != resolution_.functions.end()) {
     return function_call(n, expr.span, found->second);
   }
-  if (auto const* instruction = find_instruction(text)) return instruction_call(n, expr.span, *instruction);
+  if (auto const* instruction = resolution_.instructions.find(text))
+    return instruction_call(n, expr.span, *instruction);
   if (auto const* builder = find_builder(text)) return builder_call(n, expr.span, *builder);
   if (auto const* variable = resolution_.find(*n.callee)) return closure_call(n, expr.span, *variable);
   undefined_call(n, n.callee->span);
@@ -184,6 +185,7 @@ void Checker::instruction_call(ast::Call const& call, base::Span span, Instructi
   if (spec.block == BlockKind::choice) empty_choice(call, spec);
   single_vehicle(call, spec);
   values(call, spec);
+  areas(call, spec);
 }
 
 /// `execute v1: task`, `setConnectionTimeout v1: 30`: keys are variables that hold vehicles.
@@ -261,10 +263,58 @@ std::optional<std::size_t> Checker::mismatch(ast::Call const& call, SignatureSpe
     auto const* text = std::get_if<ast::StringLiteral>(&argument.value->node);
     bool const wrong_choice = text && !parameter.choices.empty() &&
                               std::ranges::find(parameter.choices, text->value) == parameter.choices.end();
-    if (wrong_choice) return position;
+    if (wrong_choice || wrong_item(*argument.value, parameter)) return position;
     ++position;
   }
   return std::nullopt;
+}
+
+/// Of a list that is written out: the place of the first thing in it that does not belong there.
+std::optional<std::size_t> Checker::wrong_item(ast::Expr const& value, ParameterSpec const& parameter) {
+  auto const* list = std::get_if<ast::ListLiteral>(&value.node);
+  if (!list || parameter.items.is_any()) return std::nullopt;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    auto const facts = inference_.facts(*list->items[i]);
+    bool const wrong_dimension = parameter.dimension != Dimension::none && facts.dimension &&
+                                 *facts.dimension != Dimension::none && *facts.dimension != parameter.dimension;
+    if (!facts.kinds.meets(parameter.items) || wrong_dimension) return i;
+  }
+  return std::nullopt;
+}
+
+void Checker::report_item(ast::Expr const& item, std::size_t number, InstructionSpec const& spec,
+                          ParameterSpec const& parameter) {
+  auto const facts = inference_.facts(item);
+  bool const is_number = facts.kinds.meets(parameter.items);  // so it is of another dimension
+  auto const needed =
+      parameter.dimension == Dimension::none ? describe(parameter.items) : std::string(noun(parameter.dimension));
+  diagnostics_.report(is_number ? code("argument-dimension") : code("argument-type"), item.span,
+                      fmt::format("item {} of {} of {} is {}, not {}", number, parameter.name, spec.name, needed,
+                                  is_number ? std::string(noun(*facts.dimension)) : describe(facts.kinds)));
+}
+
+/// Corners that are the same in every run are looked at before anything moves.
+void Checker::areas(ast::Call const& call, InstructionSpec const& spec) {
+  constexpr auto an_area = Kinds(Kind::area) | Kind::list;
+  auto const has_area = [&](SignatureSpec const& one) {
+    return std::ranges::find(one.parameters, an_area, &ParameterSpec::kinds) != one.parameters.end();
+  };
+  if (std::ranges::none_of(spec.signatures, has_area)) return;
+  auto const fits = [&](SignatureSpec const& one) {
+    return takes_count(one, positional_count(call)) && !mismatch(call, one);
+  };
+  auto const signature = std::ranges::find_if(spec.signatures, fits);
+  if (signature == spec.signatures.end()) return;
+  std::size_t position = 0;
+  for (auto const& argument : call.arguments) {
+    if (argument.name) continue;
+    auto const& parameter = parameter_at(*signature, position++);
+    auto const known = parameter.kinds == an_area ? inference_.constant(*argument.value) : std::nullopt;
+    auto const area = known ? tasks::area_from(*known) : std::nullopt;
+    if (auto const fault = area ? geo::area_fault(*area) : std::nullopt)
+      diagnostics_.report(code("argument-value"), argument.value->span,
+                          fmt::format("{} of {} is no area: {}", parameter.name, spec.name, *fault));
+  }
 }
 
 void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec, SignatureSpec const& signature,
@@ -273,6 +323,8 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
   std::size_t seen = 0;
   auto const wanted = [&](ast::Argument const& argument) { return !argument.name && seen++ == position; };
   auto const& value = *std::ranges::find_if(call.arguments, wanted)->value;
+  if (auto const item = wrong_item(value, parameter))
+    return report_item(*std::get<ast::ListLiteral>(value.node).items[*item], *item + 1, spec, parameter);
   auto const facts = inference_.facts(value);
   auto const* text = std::get_if<ast::StringLiteral>(&value.node);
   if (text && parameter.kinds.meets(Kind::text)) {
@@ -288,9 +340,9 @@ void Checker::report_mismatch(ast::Call const& call, InstructionSpec const& spec
   if (text && chosen != signature.parameters.end()) {
     hint = fmt::format("{}; {} is one of {}", hint, chosen->name, fmt::join(chosen->choices, ", "));
   }
-  bool const is_number = parameter.dimension != Dimension::none && facts.kinds.meets(Kinds::number());
-  auto const needed =
-      parameter.dimension == Dimension::none ? describe(parameter.kinds) : std::string(noun(parameter.dimension));
+  bool const takes_quantity = parameter.dimension != Dimension::none && parameter.kinds.meets(Kinds::number());
+  bool const is_number = takes_quantity && facts.kinds.meets(Kinds::number());
+  auto const needed = takes_quantity ? std::string(noun(parameter.dimension)) : describe(parameter.kinds);
   auto const found = is_number && facts.dimension ? std::string(noun(*facts.dimension)) : describe(facts.kinds);
   bool const is_closure_for_task = parameter.kinds == Kinds(Kind::task) && facts.kinds == Kinds(Kind::closure);
   auto const& kind = is_number ? code("argument-dimension") : code("argument-type");

@@ -45,7 +45,8 @@ Builder const* Checker::find_builder(std::string_view name) const {
 }
 
 bool Checker::is_callable(std::string_view name) const {
-  return block_word(name) || resolution_.functions.contains(name) || find_instruction(name) || find_builder(name);
+  return block_word(name) || resolution_.functions.contains(name) || resolution_.instructions.find(name) ||
+         find_builder(name);
 }
 
 bool Checker::may_be_defined_in_unread(std::string_view name) const {
@@ -66,6 +67,7 @@ base::Hint Checker::suggestion(std::string_view name, base::Span span) const {
   for (auto const& [function, declarations] : resolution_.functions) all.push_back(function);
   for (auto const& builder : builders_) all.push_back(builder.spec->name);
   std::ranges::copy(names_of(instructions()), std::back_inserter(all));
+  std::ranges::copy(names_of(resolution_.instructions.added()), std::back_inserter(all));
   std::ranges::copy(names_of(constants()), std::back_inserter(all));
   return base::did_you_mean(span, name, all);
 }

@@ -68,7 +68,9 @@ class Evaluator {
     if (!variable && n.text == "NaN") return std::numeric_limits<double>::quiet_NaN();
     if (!variable && n.text == "PI") return std::numbers::pi;
     if (!variable || variable->has_other_values || variable->values.size() != 1) return std::nullopt;
-    return value(*variable->values.front());
+    auto known = value(*variable->values.front());
+    bool const may_grow = known && std::holds_alternative<tasks::List>(*known);  // by `list << item`
+    return may_grow ? std::nullopt : known;
   }
   Value of(ast::Unary const& n, ast::Expr const&) {
     auto const operand = value(*n.operand);
@@ -81,6 +83,7 @@ class Evaluator {
     return number ? Value(-*number) : Value();
   }
   Value of(ast::Binary const& n, ast::Expr const&) {
+    if (n.op == ast::BinaryOp::bit_xor) return disc(*n.left, *n.right);
     auto const left = as_number(value(*n.left));
     auto const right = left ? as_number(value(*n.right)) : std::nullopt;
     if (!right) return std::nullopt;
@@ -100,10 +103,32 @@ class Evaluator {
     auto const number = unit ? as_number(value(*n.object)) : std::nullopt;
     return number ? Value(*number * unit->factor) : Value();
   }
+  Value of(ast::ListLiteral const& n, ast::Expr const&) {
+    tasks::List list;
+    for (auto const& item : n.items) {
+      auto const known = value(*item);
+      auto const plain = known ? tasks::item_of(*known) : std::nullopt;
+      if (!plain) return std::nullopt;
+      list.push_back(*plain);
+    }
+    return list;
+  }
   Value of(ast::Call const& n, ast::Expr const&) {
     auto const* callee = std::get_if<ast::Name>(&n.callee->node);
-    bool const is_location = callee && callee->text == "location" && !resolution_.functions.contains("location");
-    if (!is_location || n.arguments.size() < 2 || n.arguments.size() > 3) return std::nullopt;
+    if (!callee || resolution_.functions.contains(callee->text)) return std::nullopt;
+    if (callee->text == "area" && n.arguments.size() == 2) return disc(*n.arguments[0].value, *n.arguments[1].value);
+    if (callee->text == "location") return location(n);
+    return std::nullopt;
+  }
+  Value disc(ast::Expr const& center, ast::Expr const& radius) {
+    auto const place = value(center);
+    auto const* at = place ? std::get_if<geo::Wgs84>(&*place) : nullptr;
+    auto const radius_m = at ? as_number(value(radius)) : std::nullopt;
+    if (!radius_m) return std::nullopt;
+    return geo::Area(geo::Disc{*at, *radius_m});
+  }
+  Value location(ast::Call const& n) {
+    if (n.arguments.size() < 2 || n.arguments.size() > 3) return std::nullopt;
     auto const lat = as_number(value(*n.arguments[0].value));
     auto const lon = as_number(value(*n.arguments[1].value));
     auto const height = n.arguments.size() == 3 ? as_number(value(*n.arguments[2].value)) : 0.0;
@@ -120,16 +145,6 @@ class Evaluator {
 };
 
 }  // namespace
-
-InstructionSpec const* find_instruction(std::string_view name) {
-  static auto const table = [] {
-    std::unordered_map<std::string_view, InstructionSpec const*> out;
-    for (auto const& one : instructions()) out.emplace(one.name, &one);
-    return out;
-  }();
-  auto const found = table.find(name);
-  return found == table.end() ? nullptr : found->second;
-}
 
 UnitSpec const* find_unit(std::string_view name) {
   auto const found = std::ranges::find(units(), name, &UnitSpec::name);
@@ -283,7 +298,7 @@ Facts Inference::facts_of_call(ast::Call const& call, int depth) {
   }
   if (resolution_.functions.contains(name->text)) return {};
   if (std::ranges::find(builders_, name->text, &tasks::BuilderSpec::name) != builders_.end()) return {Kind::task, {}};
-  auto const* instruction = find_instruction(name->text);
+  auto const* instruction = resolution_.instructions.find(name->text);
   if (!instruction || resolution_.locals.contains(call.callee.get())) return {};
   if (instruction->result.is_none()) return {Kind::other, {}};
   auto const dimension =

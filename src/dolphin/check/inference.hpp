@@ -48,7 +48,6 @@ class Inference {
   std::unordered_map<Variable const*, Facts> known_;
 };
 
-[[nodiscard]] InstructionSpec const* find_instruction(std::string_view name);
 [[nodiscard]] UnitSpec const* find_unit(std::string_view name);
 
 }  // namespace lapwing::dolphin

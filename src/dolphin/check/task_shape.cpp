@@ -54,7 +54,7 @@ ast::Expr const* only_value(Variable const* variable) {
 std::string_view called_instruction(ast::Call const& call, Resolution const& resolution) {
   auto const* name = std::get_if<ast::Name>(&call.callee->node);
   if (!name || resolution.locals.contains(call.callee.get()) || resolution.functions.contains(name->text)) return {};
-  return find_instruction(name->text) ? std::string_view(name->text) : std::string_view();
+  return resolution.instructions.find(name->text) ? std::string_view(name->text) : std::string_view();
 }
 
 TaskShape TaskShapes::of(ast::Expr const& task, int depth) {
@@ -134,7 +134,7 @@ tasks::BuilderSpec const* TaskShapes::builder_of(ast::Expr const& expr) const {
   auto const* call = std::get_if<ast::Call>(&expr.node);
   auto const* name = call ? std::get_if<ast::Name>(&call->callee->node) : nullptr;
   bool const is_own = name && (resolution_.locals.contains(call->callee.get()) ||
-                               resolution_.functions.contains(name->text) || find_instruction(name->text));
+                               resolution_.functions.contains(name->text) || resolution_.instructions.find(name->text));
   if (!name || is_own) return nullptr;
   auto const found = std::ranges::find(builders_, name->text, &tasks::BuilderSpec::name);
   return found == builders_.end() ? nullptr : &*found;

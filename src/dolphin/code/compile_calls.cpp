@@ -44,15 +44,16 @@ std::span<BlockWords const> built_in_blocks() {
 }
 
 bool Compilation::is_platform_block(std::string_view name) const {
-  return std::ranges::any_of(builders_, [&](auto const& builder) { return builder.name == name; });
+  return std::ranges::any_of(vocabulary_.builders, [&](auto const& builder) { return builder.name == name; });
 }
 
 bool Compilation::has_command(std::string_view block, std::string_view command) const {
   for (auto const& words : built_in_blocks()) {
     if (words.name == block) return std::ranges::find(words.commands, command) != words.commands.end();
   }
-  auto const builder = std::ranges::find(builders_, block, &tasks::BuilderSpec::name);
-  return builder != builders_.end() &&
+  auto const& builders = vocabulary_.builders;
+  auto const builder = std::ranges::find(builders, block, &tasks::BuilderSpec::name);
+  return builder != builders.end() &&
          std::ranges::any_of(builder->commands, [&](auto const& known) { return known.name == command; });
 }
 
@@ -83,6 +84,8 @@ void Compilation::named_call(std::string const& name, ast::Call const& node, bas
     return;
   }
   if (find_native(name)) return native_call(name, arguments(node.arguments), span);
+  auto const added = std::ranges::find(vocabulary_.instructions, name, &tasks::VehicleInstruction::name);
+  if (added != vocabulary_.instructions.end()) return vehicle_instruction(*added, node, span);
   load(name);
   int const count = arguments(node.arguments);
   function_->emit(Op::call_value, 0, count);
@@ -203,13 +206,27 @@ void Compilation::keyed_call(std::string const& native, ast::Call const& node) {
 void Compilation::native_call(std::string_view name, int count, base::Span span) {
   int const index = find_native(name).value();
   auto const& native = natives()[static_cast<std::size_t>(index)];
-  if (count < native.least || (native.most != any_number && count > native.most)) {
-    auto const expected = native.least == native.most ? fmt::format("{}", native.least)
-                                                      : fmt::format("{} to {}", native.least, native.most);
-    diagnostics_.report(code("argument-count"), span,
-                        fmt::format("{} takes {} arguments, not {}", name, expected, count));
-  }
+  check_count(name, native.least, native.most, count, span);
   function_->emit(Op::call_native, index, count);
+}
+
+/// A platform's: its name goes before what it is given.
+void Compilation::vehicle_instruction(tasks::VehicleInstruction const& instruction, ast::Call const& node,
+                                      base::Span span) {
+  text(std::string(instruction.name));
+  int const count = arguments(node.arguments);
+  auto const is_needed = [](tasks::Parameter const& parameter) { return !parameter.fallback; };
+  auto const needed = static_cast<int>(std::ranges::count_if(instruction.parameters, is_needed));
+  auto const known = static_cast<int>(instruction.parameters.size());
+  check_count(instruction.name, 1 + needed, 1 + known + (instruction.takes_values ? 1 : 0), count, span);
+  function_->emit(Op::call_native, find_native("vehicle instruction").value(), 1 + count);
+}
+
+void Compilation::check_count(std::string_view name, int least, int most, int count, base::Span span) {
+  if (count >= least && (most == any_number || count <= most)) return;
+  auto const expected = least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+  diagnostics_.report(code("argument-count"), span,
+                      fmt::format("{} takes {} arguments, not {}", name, expected, count));
 }
 
 void Compilation::chain(ast::Chain const& node, base::Span span) {

@@ -109,19 +109,19 @@ class Purity {
 }  // namespace internal
 
 std::shared_ptr<Program const> compile(ast::Program const& tree, std::shared_ptr<base::SourceFile const> source,
-                                       std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics) {
+                                       tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics) {
   auto program = std::make_shared<Program>();
   program->source = std::move(source);
   base::SourceFile const prelude_source("prelude", std::string(prelude()));
   base::Diagnostics prelude_diagnostics(prelude_source);
   auto const prelude_tree = parse(prelude_diagnostics);
-  internal::Compilation library(*program, builders, prelude_diagnostics);
+  internal::Compilation library(*program, vocabulary, prelude_diagnostics);
   (void)library.script(prelude_tree, true);
   if (prelude_diagnostics.has_errors()) {
     diagnostics.report(code("internal"), {}, "the prelude does not compile:\n" + base::render(prelude_diagnostics));
     return nullptr;
   }
-  program->main = internal::Compilation(*program, builders, diagnostics).script(tree, false);
+  program->main = internal::Compilation(*program, vocabulary, diagnostics).script(tree, false);
   if (diagnostics.has_errors()) return nullptr;
   return program;
 }

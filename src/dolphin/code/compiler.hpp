@@ -1,21 +1,20 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
 #include <unordered_set>
 
 #include "base/text/diagnostic.hpp"
 #include "dolphin/code/bytecode.hpp"
 #include "dolphin/syntax/ast.hpp"
-#include "tasks/platform.hpp"
+#include "tasks/vocabulary.hpp"
 
 namespace lapwing::dolphin {
 
 /// Turns a checked tree into a program. Reports what it cannot compile (`break` outside a loop); nothing then.
 [[nodiscard]] std::shared_ptr<Program const> compile(ast::Program const& tree,
                                                      std::shared_ptr<base::SourceFile const> source,
-                                                     std::span<tasks::BuilderSpec const> builders,
+                                                     tasks::Vocabulary const& vocabulary,
                                                      base::Diagnostics& diagnostics);
 
 /// What was typed at `ask`, if it is an expression of literals, the program's global variables and pure functions;

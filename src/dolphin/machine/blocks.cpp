@@ -7,6 +7,7 @@
 
 #include "dolphin/machine/runtime.hpp"
 #include "dolphin/value/operators.hpp"
+#include "dolphin/value/platform_arguments.hpp"
 #include "dolphin/value/text.hpp"
 
 namespace lapwing::dolphin {
@@ -155,57 +156,6 @@ class ChoiceBlock final : public Block {
 
 // ---- blocks of the platform
 
-std::string_view type_name(tasks::Type type) {
-  switch (type) {
-    case tasks::Type::number: return "number";
-    case tasks::Type::integer: return "integer";
-    case tasks::Type::text: return "text";
-    case tasks::Type::boolean: return "boolean";
-    case tasks::Type::position: return "position";
-    case tasks::Type::displacement: return "displacement";
-  }
-  return "value";
-}
-
-/// The value as the platform takes it; nothing when it is of another type.
-std::optional<tasks::Argument> converted(Value const& value, tasks::Type type) {
-  switch (type) {
-    case tasks::Type::number:
-      if (value.is_number()) return value.number();
-      break;
-    case tasks::Type::integer:
-      if (value.is(ValueKind::integer)) return value.integer();
-      if (value.is(ValueKind::real) && std::fabs(value.real()) < 9e15)
-        return static_cast<std::int64_t>(std::llround(value.real()));
-      break;
-    case tasks::Type::text:
-      if (value.is(ValueKind::text)) return value.as<Text>()->text;
-      break;
-    case tasks::Type::boolean:
-      if (value.is(ValueKind::boolean)) return value.boolean();
-      break;
-    case tasks::Type::position:
-      if (value.is(ValueKind::position)) return value.as<Position>()->value;
-      break;
-    case tasks::Type::displacement:
-      if (value.is(ValueKind::displacement)) return value.as<Displacement>()->value;
-      break;
-  }
-  return std::nullopt;
-}
-
-std::optional<std::vector<tasks::Argument>> fitted(tasks::Overload const& overload, Native::Arguments arguments) {
-  if (arguments.size() > overload.parameters.size()) return std::nullopt;
-  std::vector<tasks::Argument> result;
-  for (std::size_t i = 0; i < overload.parameters.size(); ++i) {
-    auto const& parameter = overload.parameters[i];
-    auto const argument = i < arguments.size() ? converted(arguments[i], parameter.type) : parameter.fallback;
-    if (!argument) return std::nullopt;
-    result.push_back(*argument);
-  }
-  return result;
-}
-
 std::string forms(tasks::CommandSpec const& command) {
   std::string text;
   for (auto const& overload : command.overloads) {
@@ -234,9 +184,9 @@ class PlatformBlock final : public Block {
   Checked<void> command(std::string_view word, Native::Arguments arguments) override {
     auto const known = std::ranges::find(spec_.commands, word, &tasks::CommandSpec::name);
     for (std::size_t i = 0; i < known->overloads.size(); ++i) {
-      auto const given = fitted(known->overloads[i], arguments);
+      auto const given = fitted(known->overloads[i].parameters, arguments);
       if (!given) continue;
-      if (auto const wrong = wrong_choice(known->overloads[i], *given))
+      if (auto const wrong = wrong_value(known->overloads[i].parameters, *given))
         return fault(fmt::format("{}: {}", word, *wrong), "MissionError");
       warn_of_rounding(*known, known->overloads[i], arguments);
       auto const added = session_->add(static_cast<std::size_t>(known - spec_.commands.begin()), i, *given);
@@ -261,18 +211,6 @@ class PlatformBlock final : public Block {
     for (auto const& argument : arguments) text += fmt::format("{}{}", text.empty() ? "" : ", ", kind_name(argument));
     return text;
   }
-  static std::optional<std::string> wrong_choice(tasks::Overload const& overload,
-                                                 std::vector<tasks::Argument> const& given) {
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      auto const& parameter = overload.parameters[i];
-      auto const* text = std::get_if<std::string>(&given[i]);
-      if (!text || parameter.choices.empty()) continue;
-      if (std::ranges::find(parameter.choices, *text) != parameter.choices.end()) continue;
-      return fmt::format("{} is \"{}\", but must be one of {}", parameter.name, *text,
-                         fmt::join(parameter.choices, ", "));
-    }
-    return std::nullopt;
-  }
   void warn_of_rounding(tasks::CommandSpec const& command, tasks::Overload const& overload,
                         Native::Arguments arguments) const {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -293,7 +231,7 @@ class PlatformBlock final : public Block {
 
 Checked<std::unique_ptr<Block>> open_block(Runtime& runtime, std::string_view word, int line) {
   std::unique_ptr<Block> block;
-  auto const builders = runtime.platform.builders();
+  auto const& builders = runtime.platform.vocabulary().builders;
   auto const builder = std::ranges::find(builders, word, &tasks::BuilderSpec::name);
   if (word == "pick") block = std::make_unique<PickBlock>(runtime.heap);
   if (word == "pos") block = std::make_unique<PositionBlock>(runtime.heap);

@@ -39,7 +39,7 @@ TEST_P(Corpus, IsReadAndChecked) {
   auto const tree = parse(diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << base::render(diagnostics);
   testing::Bench bench;
-  check(tree, bench.platform.builders(), diagnostics);
+  check(tree, bench.platform.vocabulary(), diagnostics);
   bool const spells_out_imc = GetParam().stem().string().starts_with("imc_");
   EXPECT_EQ(diagnostics.has_errors(), spells_out_imc) << base::render(diagnostics);
   auto const said = base::render(diagnostics).find("IMC plans are not supported");

@@ -7,6 +7,7 @@
 #include "dolphin/check/checker.hpp"
 #include "dolphin/code/compiler.hpp"
 #include "dolphin/machine/fiber.hpp"
+#include "dolphin/names/instruction_table.hpp"
 #include "dolphin/syntax/parser.hpp"
 
 namespace lapwing::dolphin {
@@ -40,12 +41,12 @@ std::string unexpected(Outcome const& outcome) {
 
 }  // namespace
 
-std::shared_ptr<Program const> load(std::shared_ptr<base::SourceFile const> source,
-                                    std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics) {
-  auto const tree = parse(diagnostics);
-  check(tree, builders, diagnostics);
+std::shared_ptr<Program const> load(std::shared_ptr<base::SourceFile const> source, tasks::Vocabulary const& vocabulary,
+                                    base::Diagnostics& diagnostics) {
+  auto const tree = parse(diagnostics, names_of(vocabulary));
+  check(tree, vocabulary, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
-  return compile(tree, std::move(source), builders, diagnostics);
+  return compile(tree, std::move(source), vocabulary, diagnostics);
 }
 
 int exit_code(Outcome const& outcome) {

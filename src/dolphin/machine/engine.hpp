@@ -20,10 +20,9 @@
 namespace lapwing::dolphin {
 
 /// Reads, checks and compiles a script. Everything that is wrong goes to `diagnostics`, which is about `*source`;
-/// nothing when there are errors. `builders`: the platform's block words.
+/// nothing when there are errors. `vocabulary`: what the platform adds.
 [[nodiscard]] std::shared_ptr<Program const> load(std::shared_ptr<base::SourceFile const> source,
-                                                  std::span<tasks::BuilderSpec const> builders,
-                                                  base::Diagnostics& diagnostics);
+                                                  tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics);
 
 /// How a program ended.
 struct Outcome {

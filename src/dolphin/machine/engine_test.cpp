@@ -13,7 +13,7 @@ using testing::Bench;
 std::shared_ptr<Program const> loaded(Bench& bench, std::string const& script) {
   auto const source = std::make_shared<base::SourceFile const>("test.dolphin", script);
   base::Diagnostics diagnostics(*source);
-  auto program = load(source, bench.platform.builders(), diagnostics);
+  auto program = load(source, bench.platform.vocabulary(), diagnostics);
   EXPECT_TRUE(program) << base::render(diagnostics);
   return program;
 }

@@ -231,8 +231,8 @@ void expect_to_check(InstructionSpec const& spec) {
   auto const source =
       std::make_shared<base::SourceFile const>(std::string(spec.name), std::string(spec.example) + "\n");
   base::Diagnostics diagnostics(*source);
-  auto const builders = missions::vocabulary();
-  (void)load(source, builders, diagnostics);
+  auto const vocabulary = missions::vocabulary();
+  (void)load(source, vocabulary, diagnostics);
   EXPECT_EQ(render(diagnostics), "") << spec.name;
 }
 
@@ -259,6 +259,10 @@ std::string all_instructions(Vocabulary const& vocabulary) {
   bool short_ones = false;
   for (auto const& spec : instructions()) {
     if (auto const heading = headings.find(spec.name); heading != headings.end()) {
+      // What platforms add is given to vehicles.
+      for (auto const& added :
+           spec.name == "location" ? vocabulary.instructions().added() : std::span<InstructionSpec const>())
+        out += entry_of(added, vocabulary);
       out += fmt::format("\n## {}\n", heading->second);
       short_ones = spec.name == "abs";
       if (short_ones) out += "\nAll are also known with `Math.` in front.\n\n| | |\n|---|---|\n";
@@ -385,8 +389,8 @@ std::string limits() {
 }
 
 std::string reference_text() {
-  auto const builders = missions::vocabulary();
-  Vocabulary const vocabulary(builders);
+  auto const added = missions::vocabulary();
+  Vocabulary const vocabulary(added);
   return by_hand("introduction") + "\n## Operators\n\n" + by_hand("precedence") + "\n" + precedence() + "\n" +
          by_hand("operators") + "\n" + operator_table() + unit_table() + all_instructions(vocabulary) + chains() +
          mission_commands(vocabulary) + all_methods() + names("Constants", constants()) +

@@ -248,8 +248,10 @@ Variable const* Resolution::find(ast::Identifier const& key) const {
   return found == globals.end() ? nullptr : found->second;
 }
 
-Resolution resolve(ast::Program const& program) {
-  return Resolver(program).run();
+Resolution resolve(ast::Program const& program, InstructionTable instructions) {
+  auto resolution = Resolver(program).run();
+  resolution.instructions = std::move(instructions);
+  return resolution;
 }
 
 }  // namespace lapwing::dolphin

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "dolphin/names/instruction_table.hpp"
 #include "dolphin/syntax/ast.hpp"
 
 /// Which variable a name means (language specification 1.6, Scoping; REC-14).
@@ -37,12 +38,14 @@ struct Resolution {
   /// Names (Expr), keys of `execute` and declared names (Identifier) that mean something other than a global.
   std::unordered_map<void const*, Variable const*> locals;
   std::vector<ast::Identifier const*> redeclared;  ///< declared a second time in the same scope
+  InstructionTable instructions;
 
   /// The variable, or null when the name is defined nowhere.
   [[nodiscard]] Variable const* find(ast::Expr const& name) const;
   [[nodiscard]] Variable const* find(ast::Identifier const& key) const;
 };
 
-[[nodiscard]] Resolution resolve(ast::Program const& program);
+/// `instructions`: those that the script can give.
+[[nodiscard]] Resolution resolve(ast::Program const& program, InstructionTable instructions = {});
 
 }  // namespace lapwing::dolphin

@@ -100,14 +100,6 @@ std::vector<InstructionSpec> vehicle_instructions() {
               "`v1: 30.seconds` for some. 20 s until it is set.",
        .named = NamedArguments::vehicles,
        .example = "v = pick {}\nsetConnectionTimeout 60.seconds\nsetConnectionTimeout v: 2.minutes"},
-      {.name = "sendMessage",
-       .signatures = {takes({plain("vehicles", vehicles), plain("message", text, "its name in the protocol")})},
-       .doc =
-           "Sends each vehicle, which must be picked, a raw message of its protocol: sendMessage v, 'COMMAND_LONG', "
-           "command: 'MAV_CMD_DO_SET_SERVO', param1: 9, param2: 1500. Fields left out are 0; no answer is waited for.",
-       .named = NamedArguments::values,
-       .example =
-           "v = pick {}\nsendMessage v, 'COMMAND_LONG', command: 'MAV_CMD_DO_SET_SERVO', param1: 9, param2: 1500"},
   };
 }
 
@@ -345,8 +337,23 @@ Kinds kinds_of(tasks::Type type) {
     case tasks::Type::boolean: return Kind::boolean;
     case tasks::Type::position: return place;
     case tasks::Type::displacement: return Kind::displacement;
+    case tasks::Type::list: return Kind::list;
+    case tasks::Type::area: return Kinds(Kind::area) | Kind::list;
+    case tasks::Type::layer: return text;
   }
   return any;
+}
+
+ParameterSpec parameter_of(tasks::Parameter const& parameter) {
+  ParameterSpec out{.name = parameter.name,
+                    .kinds = kinds_of(parameter.type),
+                    .dimension = parameter.dimension,
+                    .optional = parameter.fallback.has_value(),
+                    .choices = parameter.choices,
+                    .doc = parameter.doc};
+  if (parameter.type == tasks::Type::list) out.items = kinds_of(parameter.items);
+  if (parameter.type == tasks::Type::area) out.items = place;
+  return out;
 }
 
 constexpr auto kind_words = std::to_array<std::pair<Kind, std::string_view>>({
@@ -415,13 +422,21 @@ InstructionSpec instruction_of(tasks::CommandSpec const& command) {
   InstructionSpec out{.name = command.name, .signatures = {}, .result = nothing, .doc = command.doc};
   for (auto const& overload : command.overloads) {
     SignatureSpec signature;
-    for (auto const& parameter : overload.parameters) {
-      signature.parameters.push_back({parameter.name, kinds_of(parameter.type), parameter.dimension,
-                                      parameter.fallback.has_value(), parameter.choices, parameter.doc});
-    }
+    for (auto const& parameter : overload.parameters) signature.parameters.push_back(parameter_of(parameter));
     out.signatures.push_back(std::move(signature));
   }
   return out;
+}
+
+InstructionSpec instruction_of(tasks::VehicleInstruction const& instruction) {
+  auto signature = takes({plain("vehicles", vehicles)});
+  for (auto const& parameter : instruction.parameters) signature.parameters.push_back(parameter_of(parameter));
+  return {.name = instruction.name,
+          .signatures = {std::move(signature)},
+          .result = nothing,
+          .doc = instruction.doc,
+          .named = instruction.takes_values ? NamedArguments::values : NamedArguments::none,
+          .example = instruction.example};
 }
 
 }  // namespace lapwing::dolphin

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "tasks/platform.hpp"
+#include "tasks/vocabulary.hpp"
 
 /// What the language knows by name: instructions, fields of blocks, units, methods, constants, types. One table for the
-/// checker, hover texts, completion and the reference; what a platform adds comes as `tasks::BuilderSpec` beside it.
+/// checker, hover texts, completion and the reference; what a platform adds comes as a `tasks::Vocabulary` beside it.
 namespace lapwing::dolphin {
 
 using tasks::Dimension;
@@ -67,6 +67,7 @@ struct ParameterSpec {
   bool optional = false;  ///< trailing ones only
   std::vector<std::string_view> choices = {};
   std::string_view doc = {};
+  Kinds items = Kinds::any();  ///< of a list: what it holds; the dimension is theirs
 };
 
 struct SignatureSpec {
@@ -136,5 +137,7 @@ struct NameSpec {
 
 /// A command of a platform's block, in the form of the language's own instructions.
 [[nodiscard]] InstructionSpec instruction_of(tasks::CommandSpec const& command);
+/// A platform's instruction, in the same form.
+[[nodiscard]] InstructionSpec instruction_of(tasks::VehicleInstruction const& instruction);
 
 }  // namespace lapwing::dolphin

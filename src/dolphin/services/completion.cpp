@@ -146,7 +146,7 @@ class Completer {
     auto const call = open_call(document_, cursor_);
     if (!call) return;
     auto const name = document_.text(document_.stream().tokens[call->callee].span);
-    auto const callee = callee_named(name, blocks_);
+    auto const callee = callee_named(name, blocks_, document_.vocabulary());
     if (!callee.spec) return;
     if (name == "task" || name == "imcPlan") return defined_words(WordKind::plan, "mission");
     if (name == "poll") return defined_words(WordKind::signal, "signal");
@@ -289,14 +289,8 @@ class Completer {
   }
 
   void instructions_and_blocks() {
-    for (auto const& one : instructions()) {
-      bool const is_block = one.block != BlockKind::none && one.name != "move";
-      auto& made = add(one.name, is_block ? CompletionKind::block : CompletionKind::instruction, 3);
-      made.detail = call_text(one, nullptr, 0).text;
-      made.markdown = describe_word(one, nullptr);
-      if (is_block && is_free_) made.snippet = fmt::format("{} {{\n  $0\n}}", one.name);
-      if (!is_block && is_free_) made.snippet = call_snippet(one, cursor_.begins_statement);
-    }
+    for (auto const& one : instructions()) instruction(one);
+    for (auto const& one : document_.vocabulary().instructions().added()) instruction(one);
     for (auto const& block : document_.vocabulary().blocks()) {
       if (!block.builder) continue;
       auto& made = add(block.name, CompletionKind::block, 3);
@@ -304,6 +298,15 @@ class Completer {
       made.markdown = describe_word(block);
       if (is_free_) made.snippet = fmt::format("{} {{\n  $0\n}}", block.name);
     }
+  }
+
+  void instruction(InstructionSpec const& one) {
+    bool const is_block = one.block != BlockKind::none && one.name != "move";
+    auto& made = add(one.name, is_block ? CompletionKind::block : CompletionKind::instruction, 3);
+    made.detail = call_text(one, nullptr, 0).text;
+    made.markdown = describe_word(one, nullptr);
+    if (is_block && is_free_) made.snippet = fmt::format("{} {{\n  $0\n}}", one.name);
+    if (!is_block && is_free_) made.snippet = call_snippet(one, cursor_.begins_statement);
   }
 
   void chains() {

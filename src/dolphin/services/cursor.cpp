@@ -134,12 +134,12 @@ std::optional<OpenCall> open_call(Document const& document, Cursor const& cursor
   return out;
 }
 
-Callee callee_named(std::string_view name, std::vector<BlockWords const*> const& blocks) {
+Callee callee_named(std::string_view name, std::vector<BlockWords const*> const& blocks, Vocabulary const& vocabulary) {
   for (auto const* block : blocks) {
     auto const found = std::ranges::find(block->words, name, &InstructionSpec::name);
     if (found != block->words.end()) return {&*found, block};
   }
-  return {find_instruction(name), nullptr};
+  return {vocabulary.instructions().find(name), nullptr};
 }
 
 }  // namespace lapwing::dolphin

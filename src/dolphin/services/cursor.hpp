@@ -38,6 +38,7 @@ struct Callee {
   InstructionSpec const* spec = nullptr;
   BlockWords const* block = nullptr;  ///< of a command
 };
-[[nodiscard]] Callee callee_named(std::string_view name, std::vector<BlockWords const*> const& blocks);
+[[nodiscard]] Callee callee_named(std::string_view name, std::vector<BlockWords const*> const& blocks,
+                                  Vocabulary const& vocabulary);
 
 }  // namespace lapwing::dolphin

@@ -35,6 +35,9 @@ std::string value_text(tasks::Argument const& value) {
     std::string operator()(std::string const& one) const { return fmt::format("'{}'", one); }
     std::string operator()(geo::Wgs84 const&) const { return "a position"; }
     std::string operator()(geo::Ned const&) const { return "a displacement"; }
+    std::string operator()(tasks::List const& one) const { return one.empty() ? "[]" : "a list"; }
+    std::string operator()(geo::Area const&) const { return "an area"; }
+    std::string operator()(tasks::LayerName const& one) const { return (*this)(one.text); }
   };
   return std::visit(Visitor{}, value);
 }
@@ -129,6 +132,7 @@ std::string parameter_text(InstructionSpec const& spec, BlockWords const* block,
                            std::size_t parameter) {
   auto const& one = spec.signatures[signature].parameters[parameter];
   auto out = describe(one.kinds);
+  if (!one.items.is_any()) out += fmt::format(", each item {}", describe(one.items));
   if (one.dimension != Dimension::none) out += fmt::format(" in {}", unit_of(one.dimension));
   if (!one.choices.empty()) out = fmt::format("one of {}", fmt::join(one.choices, ", "));
   if (auto const value = fallback(spec, block, signature, parameter)) {

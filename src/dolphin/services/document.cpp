@@ -23,9 +23,9 @@ Document::Document(std::string name, std::string text, Vocabulary const& vocabul
       vocabulary_(vocabulary),
       mistakes_(source_),
       stream_(tokens_of(source_)),
-      program_(parse(mistakes_)),
-      resolution_(resolve(program_)),
-      inference_(resolution_, vocabulary.builders()) {
+      program_(parse(mistakes_, names_of(vocabulary.added()))),
+      resolution_(resolve(program_, vocabulary.instructions())),
+      inference_(resolution_, vocabulary.added().builders) {
   occurrences_ = find_occurrences(*this, scopes_);
 }
 
@@ -40,7 +40,7 @@ Occurrence const* Document::occurrence_at(std::uint32_t offset) const {
 
 std::vector<base::Diagnostic> Document::diagnostics() const {
   auto all = mistakes_;
-  check(program_, vocabulary_.builders(), all);
+  check(program_, vocabulary_.added(), all);
   return all.sorted();
 }
 

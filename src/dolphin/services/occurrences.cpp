@@ -240,7 +240,7 @@ class Collector {
     if (resolution.locals.contains(&expr)) return variable(expr.span, resolution.find(expr));
     if (auto const found = resolution.functions.find(text); found != resolution.functions.end()) {
       add(expr.span, WordKind::function).functions = &found->second;
-    } else if (auto const* instruction = find_instruction(text)) {
+    } else if (auto const* instruction = resolution.instructions.find(text)) {
       add(expr.span, WordKind::instruction).instruction = instruction;
     } else if (document_.vocabulary().builder(text)) {
       add(expr.span, WordKind::builder).block = document_.vocabulary().block(text);

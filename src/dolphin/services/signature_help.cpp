@@ -36,7 +36,7 @@ std::optional<SignatureHelp> signature_help(Document const& document, std::uint3
   auto const call = open_call(document, cursor);
   if (!call) return std::nullopt;
   auto const name = document.text(document.stream().tokens[call->callee].span);
-  auto const callee = callee_named(name, blocks_round(document, cursor));
+  auto const callee = callee_named(name, blocks_round(document, cursor), document.vocabulary());
   SignatureHelp out;
   auto const functions = document.resolution().functions.find(name);
   if (functions != document.resolution().functions.end() && !callee.block) {

@@ -28,8 +28,8 @@ class Marked {
     return out;
   }
 
-  std::vector<tasks::BuilderSpec> builders = missions::vocabulary();
-  Vocabulary vocabulary{builders};
+  tasks::Vocabulary added = missions::vocabulary();
+  Vocabulary vocabulary{added};
   std::unique_ptr<Document> document;
   std::uint32_t offset = 0;
 };

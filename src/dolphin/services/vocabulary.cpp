@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "dolphin/check/inference.hpp"
-
 namespace lapwing::dolphin {
 
 namespace {
@@ -33,14 +31,14 @@ std::span<ChainSpec const> chain_words() {
   return all_chains;
 }
 
-Vocabulary::Vocabulary(std::span<tasks::BuilderSpec const> builders) : builders_(builders) {
-  commands_.reserve(builders.size());
-  for (auto const& builder : builders) {
+Vocabulary::Vocabulary(tasks::Vocabulary const& added) : added_(added), instructions_(added.instructions) {
+  commands_.reserve(added.builders.size());
+  for (auto const& builder : added.builders) {
     auto& words = commands_.emplace_back();
     for (auto const& command : builder.commands) words.push_back(instruction_of(command));
     blocks_.push_back({builder.name, BlockKind::platform, words, &builder});
   }
-  for (auto const& instruction : instructions()) {
+  for (auto const& instruction : dolphin::instructions()) {
     if (instruction.block == BlockKind::none) continue;
     blocks_.push_back({instruction.name, instruction.block, block_words(instruction.block)});
   }
@@ -53,13 +51,13 @@ BlockWords const* Vocabulary::block(std::string_view name) const {
 }
 
 tasks::BuilderSpec const* Vocabulary::builder(std::string_view name) const {
-  auto const found = std::ranges::find(builders_, name, &tasks::BuilderSpec::name);
-  return found == builders_.end() ? nullptr : &*found;
+  auto const found = std::ranges::find(added_.builders, name, &tasks::BuilderSpec::name);
+  return found == added_.builders.end() ? nullptr : &*found;
 }
 
 bool Vocabulary::is_taken(std::string_view name) const {
   constexpr auto others = std::to_array<std::string_view>({"it", "_", "then", "run", "onError", "this"});
-  return find_instruction(name) || builder(name) || has(constants(), name) || has(types(), name) ||
+  return instructions_.find(name) || builder(name) || has(constants(), name) || has(types(), name) ||
          has(all_chains, name) || std::ranges::find(others, name) != others.end();
 }
 

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "dolphin/names/signatures.hpp"
+#include "dolphin/names/instruction_table.hpp"
 #include "dolphin/syntax/ast.hpp"
-#include "tasks/platform.hpp"
+#include "tasks/vocabulary.hpp"
 
 namespace lapwing::dolphin {
 
@@ -27,15 +27,18 @@ struct ChainSpec {
 };
 [[nodiscard]] std::span<ChainSpec const> chain_words();
 
-/// Everything that a script can say by name on one platform: the language's own tables and the platform's block words.
-/// `builders` outlives it.
+/// Everything that a script can say by name on one platform: the language's own tables and what the platform adds.
+/// `added` outlives it.
 class Vocabulary {
  public:
-  explicit Vocabulary(std::span<tasks::BuilderSpec const> builders);
+  explicit Vocabulary(tasks::Vocabulary const& added);
   Vocabulary(Vocabulary const&) = delete;
   Vocabulary& operator=(Vocabulary const&) = delete;
 
-  [[nodiscard]] std::span<tasks::BuilderSpec const> builders() const { return builders_; }
+  /// What the platform adds.
+  [[nodiscard]] tasks::Vocabulary const& added() const { return added_; }
+  /// The language's and the platform's.
+  [[nodiscard]] InstructionTable const& instructions() const { return instructions_; }
   [[nodiscard]] std::span<BlockWords const> blocks() const { return blocks_; }
   /// The block that the closure behind this word is, or null.
   [[nodiscard]] BlockWords const* block(std::string_view name) const;
@@ -45,7 +48,8 @@ class Vocabulary {
   [[nodiscard]] bool is_taken(std::string_view name) const;
 
  private:
-  std::span<tasks::BuilderSpec const> builders_;
+  tasks::Vocabulary const& added_;
+  InstructionTable instructions_;
   std::vector<std::vector<InstructionSpec>> commands_;  ///< of each builder
   std::vector<BlockWords> blocks_;
 };

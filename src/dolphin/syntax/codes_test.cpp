@@ -49,8 +49,8 @@ struct Complaints {
 Complaints complaints(fs::path const& script) {
   auto const source = std::make_shared<base::SourceFile const>(script.filename().string(), text_of(script));
   base::Diagnostics diagnostics(*source);
-  auto const builders = missions::vocabulary();
-  (void)load(source, builders, diagnostics);
+  auto const vocabulary = missions::vocabulary();
+  (void)load(source, vocabulary, diagnostics);
   Complaints out{render(diagnostics), {}};
   for (auto const& one : diagnostics.sorted()) out.codes.insert(one.code);
   return out;
@@ -103,8 +103,8 @@ struct Checked {
 Checked checked(std::string const& script) {
   auto const source = std::make_shared<base::SourceFile const>("test.dolphin", script);
   base::Diagnostics diagnostics(*source);
-  auto const builders = missions::vocabulary();
-  (void)load(source, builders, diagnostics);
+  auto const vocabulary = missions::vocabulary();
+  (void)load(source, vocabulary, diagnostics);
   return {diagnostics.sorted(), render(diagnostics)};
 }
 

@@ -109,7 +109,7 @@ TEST(Limits, EndlessLoopLeavesTheLoopResponsive) {
   Bench bench;
   auto const source = std::make_shared<base::SourceFile const>("loop.dolphin", "while (true) { }");
   base::Diagnostics diagnostics(*source);
-  auto const program = load(source, bench.platform.builders(), diagnostics);
+  auto const program = load(source, bench.platform.vocabulary(), diagnostics);
   ASSERT_TRUE(program);
   Engine engine(bench.loop, bench.platform, bench.transcript, {});
   int turns = 0;
@@ -128,7 +128,7 @@ TEST(Limits, TimePassesWhileAScriptComputes) {
   Bench bench;
   auto const source = std::make_shared<base::SourceFile const>("loop.dolphin", "while (true) { }");
   base::Diagnostics diagnostics(*source);
-  auto const program = load(source, bench.platform.builders(), diagnostics);
+  auto const program = load(source, bench.platform.vocabulary(), diagnostics);
   ASSERT_TRUE(program);
   Engine engine(bench.loop, bench.platform, bench.transcript, {});
   base::Scope scope(bench.loop);

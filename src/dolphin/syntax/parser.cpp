@@ -186,9 +186,9 @@ ast::StmtPtr Parser::make_statement(ast::Stmt::Node node, std::uint32_t begin) {
   return out;
 }
 
-ast::Program parse(base::Diagnostics& diagnostics) {
+ast::Program parse(base::Diagnostics& diagnostics, std::span<std::string_view const> instructions) {
   auto stream = lex(diagnostics);
-  Parser parser(stream.tokens, diagnostics);
+  Parser parser(stream.tokens, diagnostics, instructions);
   ast::Program program;
   program.body = parser.script();
   program.comments = std::move(stream.comments);

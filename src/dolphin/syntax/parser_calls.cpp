@@ -40,13 +40,8 @@ bool is_chain_word(std::string_view word) {
 
 /// Instructions without a value: `message (1) + 2` can only mean `message ((1) + 2)`, and `execute (a | b)[v]` the
 /// restricted task (REC-9).
-constexpr auto void_instructions =
-    std::to_array<std::string_view>({"execute", "halt", "message", "pause", "post", "print", "println", "release",
-                                     "sendMessage", "setConnectionTimeout"});
-
-bool is_void_instruction(std::string_view word) {
-  return std::ranges::find(void_instructions, word) != void_instructions.end();
-}
+constexpr auto void_instructions = std::to_array<std::string_view>(
+    {"execute", "halt", "message", "pause", "post", "print", "println", "release", "setConnectionTimeout"});
 
 bool is_closing_bracket(TokenKind kind) {
   return kind == right_paren || kind == right_bracket || kind == right_brace || kind == interpolation_close;
@@ -186,6 +181,11 @@ ast::Argument Parser::argument() {
   made.value = expression();
   if (made.name) made.value = misplaced_chain_word(std::move(made.value), begin);
   return made;
+}
+
+bool Parser::is_void_instruction(std::string_view word) const {
+  return std::ranges::find(void_instructions, word) != void_instructions.end() ||
+         std::ranges::find(instructions_, word) != instructions_.end();
 }
 
 bool Parser::at_wrapped_argument() const {

@@ -44,7 +44,7 @@ class Bench {
   std::string run(std::string const& script, std::string const& name = "test.dolphin") {
     auto const source = std::make_shared<base::SourceFile const>(name, script);
     base::Diagnostics diagnostics(*source);
-    auto const program = load(source, platform.builders(), diagnostics);
+    auto const program = load(source, platform.vocabulary(), diagnostics);
     if (!program) return base::render(diagnostics) + "exit 2\n";
     options.on_event = [this](tasks::TaskEvent const& event) {
       auto const vehicle = event.vehicle ? platform.find(*event.vehicle) : std::nullopt;

@@ -120,8 +120,8 @@ TEST(EmergencyStop, LetsNothingMoveAVehicleWhileItIsLatched) {
   }
   auto const run = world.platform->start(task_of(mission_ending_with(MavCmd::nav_land)), VehicleId{"1"});
   EXPECT_EQ(run->error(), "emergency stop by operator 1: release it first");
-  std::vector<tasks::MessageField> const fields{{"command", std::int64_t{400}}, {"param1", 1.0}};
-  EXPECT_FALSE(world.platform->send_message(VehicleId{"1"}, "COMMAND_LONG", fields));
+  std::vector<tasks::NamedValue> const fields{{"command", std::int64_t{400}}, {"param1", 1.0}};
+  EXPECT_FALSE(world.send_message("1", "COMMAND_LONG", fields));
   mavlink::SetPositionTargetGlobalInt const setpoint{};
   EXPECT_FALSE(world.connection.send({1, 1}, setpoint));
   EXPECT_FALSE(world.connection.send({1, 1}, mavlink::SetMode{1, 1, copter_mode::automatic}));

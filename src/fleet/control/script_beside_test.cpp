@@ -34,8 +34,8 @@ TEST(ScriptBeside, KeepsAScriptFromMovingAVehicleThatAnOperatorCommands) {
   auto& copter = world.add_ready();
   EXPECT_EQ(world.end_of(world.give({.action = Action::set_mode, .mode = "GUIDED"})), CommandState::confirmed);
   auto const says = [&](std::int64_t command) {
-    std::vector<tasks::MessageField> const fields{{"command", command}, {"param1", 1.0}};
-    return world.platform->send_message(VehicleId{"1"}, "COMMAND_LONG", fields);
+    std::vector<tasks::NamedValue> const fields{{"command", command}, {"param1", 1.0}};
+    return world.send_message("1", "COMMAND_LONG", fields);
   };
   auto const arms = says(400);
   ASSERT_FALSE(arms);

@@ -8,6 +8,7 @@
 #include "fleet/actions/operator_actions.hpp"
 #include "mavlink/wire/raw_message.hpp"
 #include "missions/mission_task.hpp"
+#include "missions/send_message.hpp"
 #include "missions/vocabulary.hpp"
 
 namespace lapwing::fleet {
@@ -108,7 +109,7 @@ FleetPlatform::FleetPlatform(Fleet& fleet, Options options, base::Logger log)
       vehicles_changed_(fleet.loop()),
       scope_(fleet.loop()) {
   scope_.spawn(tell_of_vehicles());
-  builders_ = missions::vocabulary(options_.run.plausibility);
+  vocabulary_ = missions::vocabulary(options_.run.plausibility);
   options_.run.neighbours = [this](MavlinkVehicle const& craft) { return neighbours(craft); };
 }
 
@@ -162,8 +163,13 @@ std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::Plat
   return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
 }
 
+Result<> FleetPlatform::perform(tasks::InstructionCall const& call, VehicleId const& id) {
+  if (call.name != missions::send_message().name) return Platform::perform(call, id);
+  return send_message(id, std::get<std::string>(call.arguments.front()), call.values);
+}
+
 Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view message,
-                                     std::span<tasks::MessageField const> fields) {
+                                     std::span<tasks::NamedValue const> fields) {
   auto const* craft = fleet_.find(id);
   if (!craft) return base::fail(ErrorKind::lost, fmt::format("no vehicle {}", id.text));
   std::vector<mavlink::RawField> raw;

@@ -39,7 +39,7 @@ class FleetPlatform final : public tasks::Platform {
   /// `fleet` outlives the platform.
   FleetPlatform(Fleet& fleet, Options options, base::Logger log);
 
-  [[nodiscard]] std::span<tasks::BuilderSpec const> builders() const override { return builders_; }
+  [[nodiscard]] tasks::Vocabulary const& vocabulary() const override { return vocabulary_; }
   [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
       std::string_view name) const override;
   [[nodiscard]] std::vector<std::string> plan_names() const override {
@@ -52,9 +52,8 @@ class FleetPlatform final : public tasks::Platform {
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
                                                       vehicle::VehicleId const& id) override;
-  /// The message goes out raw, by its MAVLink name.
-  [[nodiscard]] base::Result<> send_message(vehicle::VehicleId const& id, std::string_view message,
-                                            std::span<tasks::MessageField const> fields) override;
+  /// `sendMessage`.
+  [[nodiscard]] base::Result<> perform(tasks::InstructionCall const& call, vehicle::VehicleId const& id) override;
   [[nodiscard]] base::Task<void> settle() override;
 
   /// Stops every run of ours and ends when each vehicle has confirmed its stop mode, or has failed to with a logged
@@ -71,6 +70,9 @@ class FleetPlatform final : public tasks::Platform {
   [[nodiscard]] std::vector<MissionReport> missions(vehicle::VehicleId const& id) const;
 
  private:
+  /// The message goes out raw, by its MAVLink name.
+  [[nodiscard]] base::Result<> send_message(vehicle::VehicleId const& id, std::string_view message,
+                                            std::span<tasks::NamedValue const> fields);
   base::Task<void> tell_of_vehicles();
   Pilot& pilot(MavlinkVehicle& craft);
   [[nodiscard]] std::vector<plan::plausibility::Neighbour> neighbours(MavlinkVehicle const& craft) const;
@@ -79,7 +81,7 @@ class FleetPlatform final : public tasks::Platform {
   Options options_;
   base::Logger log_;
   base::TimePoint all_heard_by_;
-  std::vector<tasks::BuilderSpec> builders_;
+  tasks::Vocabulary vocabulary_;
   base::Notifier settled_;
   base::Notifier vehicles_changed_;
   std::map<vehicle::VehicleId, std::unique_ptr<Pilot>> pilots_;  // pointers: pilots do not move

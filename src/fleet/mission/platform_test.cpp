@@ -12,8 +12,8 @@ using vehicle::VehicleId;
 
 TEST(FleetPlatform, BringsTheMissionBlock) {
   TestWorld world;
-  ASSERT_EQ(world.platform->builders().size(), 1u);
-  EXPECT_EQ(world.platform->builders()[0].name, "mission");
+  ASSERT_EQ(world.platform->vocabulary().builders.size(), 1u);
+  EXPECT_EQ(world.platform->vocabulary().builders[0].name, "mission");
 }
 
 TEST(FleetPlatform, FindsNamedPlansInItsLibrary) {
@@ -31,8 +31,8 @@ TEST(FleetPlatform, SendsRawMessagesToTheVehicle) {
   TestWorld world;
   auto& copter = world.add();
   world.run_for(5s);
-  std::vector<tasks::MessageField> fields{{"command", std::string("MAV_CMD_NAV_LAND")}, {"param1", std::int64_t{3}}};
-  auto const sent = world.platform->send_message({"1"}, "COMMAND_LONG", fields);
+  std::vector<tasks::NamedValue> fields{{"command", std::string("MAV_CMD_NAV_LAND")}, {"param1", std::int64_t{3}}};
+  auto const sent = world.send_message("1", "COMMAND_LONG", fields);
   EXPECT_TRUE(sent) << sent.error().message;
   world.run_for(1s);
   EXPECT_EQ(copter.commands_heard(mavlink::MavCmd::nav_land), 1);
@@ -42,11 +42,11 @@ TEST(FleetPlatform, RefusesRawMessagesThatThereAreNot) {
   TestWorld world;
   world.add();
   world.run_for(5s);
-  EXPECT_EQ(world.platform->send_message({"1"}, "COMMAND_LNG", {}).error().hint, "did you mean COMMAND_LONG?");
-  std::vector<tasks::MessageField> const place{{"command", geo::Wgs84{}}};
-  EXPECT_EQ(world.platform->send_message({"1"}, "COMMAND_LONG", place).error().message,
+  EXPECT_EQ(world.send_message("1", "COMMAND_LNG").error().hint, "did you mean COMMAND_LONG?");
+  std::vector<tasks::NamedValue> const place{{"command", geo::Wgs84{}}};
+  EXPECT_EQ(world.send_message("1", "COMMAND_LONG", place).error().message,
             "COMMAND_LONG: command takes a number or a text");
-  EXPECT_EQ(world.platform->send_message({"9"}, "COMMAND_LONG", {}).error().kind, base::ErrorKind::lost);
+  EXPECT_EQ(world.send_message("9", "COMMAND_LONG").error().kind, base::ErrorKind::lost);
 }
 
 TEST(FleetPlatform, ListsVehiclesBySystemIdWithWhatPickNeeds) {

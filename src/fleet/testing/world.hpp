@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fleet/mission/platform.hpp"
@@ -41,6 +42,12 @@ struct TestWorld {
   [[nodiscard]] bool comes_to(tasks::TaskRun const& run, std::string_view phase,
                               base::Duration limit = std::chrono::seconds(120)) {
     return run_until([&] { return run.progress().find(phase) != std::string::npos; }, limit);
+  }
+
+  /// What `sendMessage` in a script does.
+  base::Result<> send_message(std::string id, std::string message, std::vector<tasks::NamedValue> const& fields = {}) {
+    std::vector<tasks::Argument> const arguments{std::move(message)};
+    return platform->perform({.name = "sendMessage", .arguments = arguments, .values = fields}, {std::move(id)});
   }
 
   [[nodiscard]] vehicle::VehicleState const& state(std::string id = "1") const {

@@ -56,8 +56,7 @@ std::expected<void, station::StartFailure> ScriptHost::start(std::string name, s
     return std::unexpected(station::StartFailure{{base::ErrorKind::refused, *reason, {}}, {}});
   auto const file = std::make_shared<base::SourceFile const>(name, source);
   base::Diagnostics diagnostics(*file);
-  auto const builders = platform_.builders();
-  auto program = dolphin::load(file, builders, diagnostics);
+  auto program = dolphin::load(file, platform_.vocabulary(), diagnostics);
   auto records = base::to_records(diagnostics);
   rendered_ = base::render(diagnostics);
   if (!program) {

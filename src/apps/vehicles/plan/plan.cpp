@@ -46,8 +46,8 @@ base::Result<dolphin::Needs> read_needs(std::string const& name, std::string con
                                         plan::plausibility::Settings const& settings) {
   auto const source = std::make_shared<base::SourceFile const>(name, text);
   base::Diagnostics diagnostics(*source);
-  auto const builders = missions::vocabulary(settings);
-  auto const program = dolphin::load(source, builders, diagnostics);
+  auto const vocabulary = missions::vocabulary(settings);
+  auto const program = dolphin::load(source, vocabulary, diagnostics);
   fmt::print(stderr, "{}", base::render(diagnostics));
   if (!program) return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not check", name));
   return host::needs_of_text(name, text);

@@ -147,12 +147,12 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
 
 /// Before the first script moves anything, those after it are looked at too. Prints what is wrong with them.
 bool rest_checks(std::vector<host::ScriptText> const& scripts) {
-  auto const builders = missions::vocabulary();
+  auto const vocabulary = missions::vocabulary();
   bool is_good = true;
   for (std::size_t i = 1; i < scripts.size(); ++i) {
     auto const source = std::make_shared<base::SourceFile const>(scripts[i].name, scripts[i].text);
     base::Diagnostics diagnostics(*source);
-    if (dolphin::load(source, builders, diagnostics)) continue;
+    if (dolphin::load(source, vocabulary, diagnostics)) continue;
     fmt::print(stderr, "{}", base::render(diagnostics));
     is_good = false;
   }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "tasks/platform.hpp"
+
 namespace lapwing::dolphin {
 
 namespace {
@@ -27,39 +29,66 @@ Argument stand_in(tasks::Parameter const& parameter) {
     case tasks::Type::boolean: return true;
     case tasks::Type::position: return geo::Wgs84{};
     case tasks::Type::displacement: return geo::Ned{};
+    case tasks::Type::list: return tasks::List{};
+    case tasks::Type::area: return geo::Area(geo::Disc{.center = {}, .radius_m = 1.0});
+    case tasks::Type::layer: return tasks::LayerName{"layer"};
   }
   return {};
 }
 
-/// The constant as the platform wants it, or nothing when it is of another type.
+/// One value that is no list and no area, as the platform wants it, or nothing when it is of another type.
 std::optional<Argument> converted(Argument const& value, tasks::Type type) {
+  auto const as_it_is = [&](bool fits) { return fits ? std::optional(value) : std::nullopt; };
   switch (type) {
     case tasks::Type::number:
       if (auto const* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-      return std::holds_alternative<double>(value) ? std::optional(value) : std::nullopt;
+      return as_it_is(std::holds_alternative<double>(value));
     case tasks::Type::integer:
       if (auto const* decimal = std::get_if<double>(&value)) {
         bool const fits = std::abs(*decimal) < 9e18;  // also false for NaN
         return fits ? std::optional<Argument>(std::int64_t{std::llround(*decimal)}) : std::nullopt;
       }
-      return std::holds_alternative<std::int64_t>(value) ? std::optional(value) : std::nullopt;
-    case tasks::Type::text: return std::holds_alternative<std::string>(value) ? std::optional(value) : std::nullopt;
-    case tasks::Type::boolean: return std::holds_alternative<bool>(value) ? std::optional(value) : std::nullopt;
-    case tasks::Type::position: return std::holds_alternative<geo::Wgs84>(value) ? std::optional(value) : std::nullopt;
-    case tasks::Type::displacement:
-      return std::holds_alternative<geo::Ned>(value) ? std::optional(value) : std::nullopt;
+      return as_it_is(std::holds_alternative<std::int64_t>(value));
+    case tasks::Type::text: return as_it_is(std::holds_alternative<std::string>(value));
+    case tasks::Type::boolean: return as_it_is(std::holds_alternative<bool>(value));
+    case tasks::Type::position: return as_it_is(std::holds_alternative<geo::Wgs84>(value));
+    case tasks::Type::displacement: return as_it_is(std::holds_alternative<geo::Ned>(value));
+    case tasks::Type::layer:
+      if (auto const* name = std::get_if<std::string>(&value)) return tasks::LayerName{*name};
+      return std::nullopt;
+    case tasks::Type::area:
+      if (auto area = tasks::area_from(value)) return *std::move(area);
+      return std::nullopt;
+    case tasks::Type::list: return as_it_is(std::holds_alternative<tasks::List>(value));
   }
   return std::nullopt;
+}
+
+/// The same for any parameter; of a list each item is looked at.
+std::optional<Argument> converted(Argument const& value, tasks::Parameter const& parameter) {
+  auto const* list = std::get_if<tasks::List>(&value);
+  if (parameter.type != tasks::Type::list || !list) return converted(value, parameter.type);
+  tasks::List out;
+  for (auto const& item : *list) {
+    auto const known = converted(tasks::argument_of(item), parameter.items);
+    auto const plain = known ? tasks::item_of(*known) : std::nullopt;
+    if (!plain) return std::nullopt;
+    out.push_back(*plain);
+  }
+  return out;
 }
 
 bool may_take(tasks::Type type, Kinds kinds) {
   switch (type) {
     case tasks::Type::number:
     case tasks::Type::integer: return kinds.meets(Kinds::number());
+    case tasks::Type::layer:
     case tasks::Type::text: return kinds.meets(Kind::text);
     case tasks::Type::boolean: return kinds.meets(Kind::boolean);
     case tasks::Type::position: return kinds.meets(Kind::position);
     case tasks::Type::displacement: return kinds.meets(Kind::displacement);
+    case tasks::Type::list: return kinds.meets(Kind::list);
+    case tasks::Type::area: return kinds.meets(Kinds(Kind::area) | Kind::list);
   }
   return false;
 }
@@ -78,7 +107,7 @@ std::optional<Prepared> prepare(ast::Call const& call, tasks::Overload const& ov
     auto const& expr = *call.arguments[i].value;
     if (call.arguments[i].name || !may_take(parameter.type, inference.facts(expr).kinds)) return std::nullopt;
     auto const constant = inference.constant(expr);
-    auto known = constant ? converted(*constant, parameter.type) : std::nullopt;
+    auto known = constant ? converted(*constant, parameter) : std::nullopt;
     out.is_certain = out.is_certain && known;
     out.arguments.push_back(known ? *known : stand_in(parameter));
   }

@@ -6,6 +6,7 @@
 
 #include "dolphin/check/checker.hpp"
 #include "dolphin/syntax/parser.hpp"
+#include "tasks/platform.hpp"
 
 /// What the checker knows of vehicles and tasks of a platform that is not the fleet: its block `dive { }` suits UUVs
 /// only.
@@ -31,10 +32,11 @@ class DiveSession final : public tasks::BuilderSession {
 std::string complaints(std::string const& script) {
   base::SourceFile const source("t", script);
   base::Diagnostics diagnostics(source);
-  std::array const builders{tasks::BuilderSpec{
-      .name = "dive", .commands = {}, .doc = "Dives.", .begin = [] { return std::make_unique<DiveSession>(); }}};
+  tasks::Vocabulary vocabulary;
+  vocabulary.builders.push_back(
+      {.name = "dive", .commands = {}, .doc = "Dives.", .begin = [] { return std::make_unique<DiveSession>(); }});
   auto const program = parse(diagnostics);
-  check(program, builders, diagnostics);
+  check(program, vocabulary, diagnostics);
   return render(diagnostics);
 }
 

@@ -34,7 +34,8 @@ struct Builder {
 /// One pass over a tree.
 class Checker {
  public:
-  Checker(ast::Program const& program, std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics);
+  /// `vocabulary` outlives it.
+  Checker(ast::Program const& program, tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics);
   void run();
 
  private:
@@ -112,6 +113,10 @@ class Checker {
   [[nodiscard]] std::optional<std::size_t> mismatch(ast::Call const& call, SignatureSpec const& signature);
   void report_mismatch(ast::Call const& call, InstructionSpec const& spec, SignatureSpec const& signature,
                        std::size_t position);
+  void areas(ast::Call const& call, InstructionSpec const& spec);
+  [[nodiscard]] std::optional<std::size_t> wrong_item(ast::Expr const& value, ParameterSpec const& parameter);
+  void report_item(ast::Expr const& item, std::size_t number, InstructionSpec const& spec,
+                   ParameterSpec const& parameter);
   void rehearse(ast::Closure const& body, Builder const& builder, base::Span span);
 
   // ---- behind a point (checks/methods.cpp)

@@ -13,7 +13,7 @@
 #include "dolphin/names/declared_type.hpp"
 #include "dolphin/syntax/ast.hpp"
 #include "dolphin/syntax/codes.hpp"
-#include "tasks/platform.hpp"
+#include "tasks/vocabulary.hpp"
 
 namespace lapwing::dolphin::internal {
 
@@ -29,8 +29,9 @@ struct BlockWords {
 /// One walk over a tree. Functions are compiled as they are met; `function_` is the one being put together.
 class Compilation {
  public:
-  Compilation(Program& program, std::span<tasks::BuilderSpec const> builders, base::Diagnostics& diagnostics)
-      : program_(program), builders_(builders), diagnostics_(diagnostics) {}
+  /// `vocabulary` outlives it.
+  Compilation(Program& program, tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics)
+      : program_(program), vocabulary_(vocabulary), diagnostics_(diagnostics) {}
 
   /// Declares the functions of `tree`, then compiles them and its other statements, whose function is returned.
   [[nodiscard]] std::shared_ptr<Function const> script(ast::Program const& tree, bool is_library);
@@ -120,6 +121,8 @@ class Compilation {
   void method_call(ast::Member const& callee, ast::Call const& node);
   void keyed_call(std::string const& native, ast::Call const& node);
   void native_call(std::string_view name, int arguments, base::Span span);
+  void vehicle_instruction(tasks::VehicleInstruction const& instruction, ast::Call const& node, base::Span span);
+  void check_count(std::string_view name, int least, int most, int count, base::Span span);
   /// Pushes them, named ones gathered into a map that comes first; returns how many values that makes.
   int arguments(std::vector<ast::Argument> const& arguments);
   void named_arguments(std::vector<ast::Argument> const& arguments);
@@ -131,7 +134,7 @@ class Compilation {
   [[nodiscard]] bool is_platform_block(std::string_view name) const;
 
   Program& program_;
-  std::span<tasks::BuilderSpec const> builders_;
+  tasks::Vocabulary const& vocabulary_;
   base::Diagnostics& diagnostics_;
   std::unordered_map<std::string, int>* functions_ = nullptr;  ///< of the program, script's or prelude's
   std::map<std::string, std::vector<Overload>> overloads_;

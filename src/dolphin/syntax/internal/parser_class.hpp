@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,9 @@ struct Operator {
 /// nothing more until the statement ends (`quiet_`), where the statement loop finds its footing again.
 class Parser {
  public:
-  Parser(std::vector<Token> const& tokens, base::Diagnostics& diagnostics)
-      : tokens_(tokens), diagnostics_(diagnostics) {}
+  Parser(std::vector<Token> const& tokens, base::Diagnostics& diagnostics,
+         std::span<std::string_view const> instructions)
+      : tokens_(tokens), diagnostics_(diagnostics), instructions_(instructions) {}
 
   /// The whole script.
   ast::Block script();
@@ -150,6 +152,7 @@ class Parser {
   [[nodiscard]] bool starts_argument(std::size_t ahead) const;
   [[nodiscard]] bool at_bracketed_first_argument(std::size_t ahead) const;
   [[nodiscard]] bool at_argument_name(std::size_t ahead = 0) const;
+  [[nodiscard]] bool is_void_instruction(std::string_view word) const;
   [[nodiscard]] bool at_wrapped_argument() const;
   ast::ExprPtr misplaced_chain_word(ast::ExprPtr left, std::uint32_t begin);
   std::vector<ast::Argument> arguments_until_line_end();
@@ -172,6 +175,7 @@ class Parser {
 
   std::vector<Token> const& tokens_;
   base::Diagnostics& diagnostics_;
+  std::span<std::string_view const> instructions_;  ///< those that a platform adds
   std::size_t next_ = 0;
   bool newlines_matter_ = true;  ///< false inside ( ) and [ ]
   bool quiet_ = false;           ///< a mistake of this statement has been reported
