@@ -42,7 +42,8 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   connection.add_link(std::move(pipe.a));
   pipe.b->start([](link::Peer, link::Bytes) {});
   vehicle::Registry registry(loop);
-  fleet::Fleet fleet(connection, registry, {}, {});
+  vehicle::Authority authority(loop, registry, {});
+  fleet::Fleet fleet(connection, registry, authority, {}, {});
   loop.run_until_done(send(loop, *pipe.b, {data, size}));
   fuzz::require(fleet.all().size() <= 255);
   for (auto const* state : registry.all()) {

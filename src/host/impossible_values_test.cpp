@@ -214,7 +214,8 @@ struct Sky {
   link::PipeHub hub{loop};
   mavlink::Connection connection{loop, {}, base::Logger(log, "mavlink")};
   vehicle::Registry registry{loop};
-  fleet::Fleet fleet{connection, registry, {}, base::Logger(log, "fleet")};
+  vehicle::Authority authority{loop, registry, base::Logger(log, "command")};
+  fleet::Fleet fleet{connection, registry, authority, {}, base::Logger(log, "fleet")};
   station::VehiclesFeed vehicles{registry};
   station::PlansFeed plans{registry};
   station::PicturesFeed pictures{registry};

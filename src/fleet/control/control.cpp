@@ -86,10 +86,12 @@ Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::L
       acknowledgements_(fleet.subscribe(
           [this](Network& network, mavlink::Received const& received) { take_late_arming(network, received); })),
       scope_(fleet.loop()) {
-  fleet_.authority().set_on_loss([this](MavlinkVehicle& craft, Commander const& to) {
-    auto const reason = fmt::format("{} took {} over", to, craft.state.name);
-    if (supersede(craft.id(), reason)) emergency_.resume(craft);
-    platform_.yield(craft.id(), reason);
+  fleet_.authority().add_on_loss([this](VehicleId const& id, Commander const& to) {
+    auto* const craft = fleet_.find(id);
+    if (!craft) return;
+    auto const reason = fmt::format("{} took {} over", to, craft->state.name);
+    if (supersede(id, reason)) emergency_.resume(*craft);
+    platform_.yield(id, reason);
   });
 }
 
@@ -145,11 +147,11 @@ Result<> Control::let_through(MavlinkVehicle& craft, CommandRecord const& record
     return {};
   }
   auto const& has = craft.state.control.commander;
-  if (takes_over || (stops && (has.empty() || has == script_commander))) {
-    authority.take(craft, record.by);
+  if (takes_over || (stops && (has.empty() || has == vehicle::script_commander))) {
+    authority.take(craft.id(), record.by);
     return {};
   }
-  return stops ? Result<>{} : authority.claim(craft, record.by);
+  return stops ? Result<>{} : authority.claim(craft.id(), record.by);
 }
 
 base::Task<> Control::carry(MavlinkVehicle& craft, std::uint64_t number, vehicle::VehicleCommand command,
@@ -222,7 +224,7 @@ void Control::fail_command(MavlinkVehicle& craft, std::uint64_t number, base::Er
   if (may_arm(record->command.action) && error.kind != ErrorKind::refused) expect_late_arming(craft);
   // Who asked for what the vehicle cannot do has not commanded it.
   if (error.kind == ErrorKind::invalid_input && running_[craft.id()].made_commander)
-    (void)fleet_.authority().yield(craft, record->by);
+    (void)fleet_.authority().yield(craft.id(), record->by);
   show(number, craft.id(), state_after(error, was_accepted, fleet_.loop().now() >= expires), error.message);
 }
 
@@ -330,25 +332,21 @@ void Control::release_emergency_stop(Commander by) {
 // ---- who is in command
 
 Result<> Control::request_control(VehicleId const& id, Commander by) {
-  auto* const craft = fleet_.find(id);
-  if (!craft) return fail(ErrorKind::not_found, fmt::format("there is no vehicle {}", id.text));
-  return fleet_.authority().request(*craft, std::move(by), options_.answer_timeout);
+  return fleet_.authority().request(id, std::move(by), options_.answer_timeout);
 }
 
 Result<> Control::yield_control(VehicleId const& id, Commander by) {
-  auto* const craft = fleet_.find(id);
-  if (craft && fleet_.authority().yield(*craft, by)) return {};
+  if (fleet_.authority().yield(id, by)) return {};
   return fail(ErrorKind::refused, fmt::format("vehicle {} is not commanded by {}", id.text, by));
 }
 
 Result<> Control::keep_control(VehicleId const& id, Commander by) {
-  auto* const craft = fleet_.find(id);
-  if (craft && fleet_.authority().keep(*craft, by)) return {};
+  if (fleet_.authority().keep(id, by)) return {};
   return fail(ErrorKind::refused, fmt::format("vehicle {} is not commanded by {}", id.text, by));
 }
 
 void Control::forget(Commander const& by) {
-  for (auto* craft : fleet_.all()) fleet_.authority().forget(*craft, by);
+  for (auto* craft : fleet_.all()) fleet_.authority().forget(craft->id(), by);
 }
 
 }  // namespace lapwing::fleet

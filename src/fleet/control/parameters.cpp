@@ -45,7 +45,7 @@ class Parameters::Loan {
   ~Loan() {
     // None left although this one goes on: its holder has commanded the vehicle since, and keeps it.
     if (!is_lent_ || loans() == 0 || --loans() > 0) return;
-    (void)owner_.fleet_.authority().yield(craft_, by_);
+    (void)owner_.fleet_.authority().yield(craft_.id(), by_);
   }
 
  private:
@@ -150,7 +150,8 @@ base::Task<Result<vehicle::ParameterChange>> Parameters::change(VehicleId id, st
   if (!found) co_return std::unexpected(found.error());
   auto& craft = **found;
   bool const is_lent = craft.state.control.commander.empty() || craft.runs->loans > 0;
-  if (auto const claimed = fleet_.authority().claim(craft, by); !claimed) co_return std::unexpected(claimed.error());
+  if (auto const claimed = fleet_.authority().claim(craft.id(), by); !claimed)
+    co_return std::unexpected(claimed.error());
   Loan const loan(*this, craft, by, is_lent);
   auto const system_id = craft.address.system;
   auto const changed = co_await service_of(craft.connection).change(system_id, name, value);

@@ -14,7 +14,7 @@
 namespace lapwing::fleet {
 
 /// The parameters of a fleet's vehicles: each network has a `parameters::ParameterService`, who may change what is the
-/// `Authority`'s say, as with commands. Thread-bound.
+/// `vehicle::Authority`'s say, as with commands. Thread-bound.
 class Parameters final : public vehicle::VehicleParameters {
  public:
   /// `fleet` outlives this.

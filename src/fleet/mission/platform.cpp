@@ -157,7 +157,7 @@ std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::Plat
   if (!mission)
     return std::make_unique<FailedRun>(
         fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));
-  if (auto claimed = fleet_.authority().claim(*craft, script_commander); !claimed)
+  if (auto claimed = fleet_.authority().claim(id, vehicle::script_commander); !claimed)
     return std::make_unique<FailedRun>(claimed.error().message);
   auto& its_pilot = pilot(*craft);
   return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
@@ -184,7 +184,7 @@ Result<> FleetPlatform::send_message(VehicleId const& id, std::string_view messa
   if (!frame) return std::unexpected(frame.error());
   auto const& has = craft->state.control.commander;
   auto const known = mavlink::decode(*frame);
-  if (!has.empty() && has != script_commander && known && is_moving(*craft, *known))
+  if (!has.empty() && has != vehicle::script_commander && known && is_moving(*craft, *known))
     return base::fail(ErrorKind::refused, fmt::format("{} is commanded by {}", craft->state.name, has));
   auto sent = connection.send(craft->address, *frame);
   if (sent) log_.info(fmt::format("sent {} to {}", message, craft->state.name));
@@ -195,7 +195,7 @@ base::Task<void> FleetPlatform::settle() {
   auto const is_settling = [](auto const& entry) { return entry.second->is_settling(); };
   while (std::ranges::any_of(pilots_, is_settling)) co_await settled_.wait();
   for (auto& [id, its_pilot] : pilots_)
-    if (!its_pilot->is_flying()) (void)fleet_.authority().yield(*fleet_.find(id), script_commander);
+    if (!its_pilot->is_flying()) (void)fleet_.authority().yield(id, vehicle::script_commander);
 }
 
 void FleetPlatform::yield(VehicleId const& id, std::string const& reason) {

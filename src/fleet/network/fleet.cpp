@@ -4,11 +4,12 @@
 
 namespace lapwing::fleet {
 
-Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log)
+Fleet::Fleet(mavlink::Connection& connection, vehicle::Registry& registry, vehicle::Authority& authority,
+             Options options, base::Logger log)
     : registry_(registry),
+      authority_(authority),
       log_(std::move(log)),
       options_(options),
-      authority_(connection.loop(), registry, log_.named("command")),
       alarms_(connection.loop(), registry, options.battery_limits, log_.named("alarm")) {
   open(connection, std::move(options));
 }

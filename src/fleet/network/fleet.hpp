@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fleet/alarms/alarms.hpp"
-#include "fleet/network/authority.hpp"
 #include "fleet/network/network.hpp"
+#include "vehicle/authority.hpp"
 
 namespace lapwing::fleet {
 
@@ -21,8 +21,9 @@ class Fleet {
   /// Asked before anything is sent to a vehicle: an error is what the sender gets.
   using SendGuard = std::function<base::Result<>(MavlinkVehicle const&, mavlink::Message const&)>;
 
-  /// Connections and registry outlive the fleet.
-  Fleet(mavlink::Connection& connection, vehicle::Registry& registry, Options options, base::Logger log);
+  /// Connections, registry and authority, which is that registry's, outlive the fleet.
+  Fleet(mavlink::Connection& connection, vehicle::Registry& registry, vehicle::Authority& authority, Options options,
+        base::Logger log);
   ~Fleet();
   Fleet(Fleet const&) = delete;
   Fleet& operator=(Fleet const&) = delete;
@@ -37,8 +38,8 @@ class Fleet {
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout);
 
   /// Who commands which vehicle.
-  [[nodiscard]] Authority& authority() { return authority_; }
-  /// What operators must be told about any of them.
+  [[nodiscard]] vehicle::Authority& authority() { return authority_; }
+  /// What operators must be told about any vehicle of the registry, whatever platform has it.
   [[nodiscard]] vehicle::VehicleAlarms& alarms() { return alarms_; }
   /// `heard` sees every message of every network, those added later included, as long as the result lives.
   [[nodiscard]] std::shared_ptr<Heard const> subscribe(Heard heard);
@@ -56,9 +57,9 @@ class Fleet {
                                              mavlink::Message const& message) const;
 
   vehicle::Registry& registry_;
+  vehicle::Authority& authority_;
   base::Logger log_;
   Options options_;
-  Authority authority_;
   SendGuard send_guard_;
   std::vector<std::weak_ptr<Heard const>> listeners_;
   std::vector<std::unique_ptr<Network>> networks_;

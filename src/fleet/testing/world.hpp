@@ -19,10 +19,14 @@ namespace lapwing::fleet {
 /// A ground station in virtual time with links in memory, for tests.
 struct TestWorld {
   explicit TestWorld(Fleet::Options fleet_options = {}, FleetPlatform::Options platform_options = {})
-      : hub(loop), connection(loop, {}, base::Logger(log, "mavlink")), registry(loop) {
+      : hub(loop),
+        connection(loop, {}, base::Logger(log, "mavlink")),
+        registry(loop),
+        authority(loop, registry, base::Logger(log, "command")) {
     log.add_sink([this](base::LogRecord const& record) { lines.push_back(record.text); });
     connection.add_link(mavlink::testing::stall(hub.take_server(), way));
-    fleet = std::make_unique<Fleet>(connection, registry, std::move(fleet_options), base::Logger(log, "fleet"));
+    fleet =
+        std::make_unique<Fleet>(connection, registry, authority, std::move(fleet_options), base::Logger(log, "fleet"));
     platform = std::make_unique<FleetPlatform>(*fleet, std::move(platform_options), base::Logger(log, "fleet"));
   }
 
@@ -67,6 +71,7 @@ struct TestWorld {
   link::PipeHub hub;
   mavlink::Connection connection;
   vehicle::Registry registry;
+  vehicle::Authority authority;
   std::unique_ptr<Fleet> fleet;
   std::unique_ptr<FleetPlatform> platform;
   std::vector<std::unique_ptr<TestAutopilot>> vehicles;

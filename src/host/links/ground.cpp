@@ -48,7 +48,8 @@ Ground::Ground(base::Loop& on, base::Logger to, fleet::Fleet::Options options, S
       signing(std::move(keys)),
       connection(made("")),
       registry(on),
-      fleet(connection, registry, std::move(options), log.named("fleet")) {}
+      authority(on, registry, log.named("command")),
+      fleet(connection, registry, authority, std::move(options), log.named("fleet")) {}
 
 base::Result<> Ground::open(std::vector<std::string> const& texts) {
   std::vector<std::pair<std::string, std::unique_ptr<link::ByteLink>>> links;

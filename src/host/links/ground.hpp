@@ -11,6 +11,7 @@
 #include "link/url.hpp"
 #include "mavlink/connection/connection.hpp"
 #include "parameters/cache.hpp"
+#include "vehicle/authority.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::host {
@@ -51,7 +52,8 @@ struct Ground {
   SigningSetup signing;
   std::map<std::string, mavlink::Connection> networks;  ///< by name; the first has none
   mavlink::Connection& connection;                      ///< of that one
-  vehicle::Registry registry;
+  vehicle::Registry registry;                           ///< the vehicles of every platform
+  vehicle::Authority authority;                         ///< who commands them
   fleet::Fleet fleet;
 
  private:

@@ -1,5 +1,3 @@
-#include "fleet/network/authority.hpp"
-
 #include <gtest/gtest.h>
 
 #include "fleet/testing/control.hpp"
@@ -11,8 +9,8 @@ using namespace std::chrono_literals;
 using vehicle::Action;
 using vehicle::VehicleId;
 
-struct AuthorityTest : testing::Test {
-  AuthorityTest() {
+struct WhoCommands : testing::Test {
+  WhoCommands() {
     world.add_ready();
     (void)world.give({.action = Action::set_mode, .mode = "GUIDED"}, {"1"}, "anna");
     world.run_for(3s);
@@ -23,13 +21,13 @@ struct AuthorityTest : testing::Test {
   VehicleId const one{"1"};
 };
 
-TEST_F(AuthorityTest, BelongsToWhoCommandsAVehicleThatNobodyHas) {
+TEST_F(WhoCommands, BelongsToWhoCommandsAVehicleThatNobodyHas) {
   EXPECT_EQ(commander(), "anna");
   auto const number = world.give({.action = Action::arm}, {"1"}, "ben");
   EXPECT_EQ(world.outcome(number).reason, "copter 1 is commanded by anna");
 }
 
-TEST_F(AuthorityTest, IsGrantedWhenNobodyAnswersInTime) {
+TEST_F(WhoCommands, IsGrantedWhenNobodyAnswersInTime) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   EXPECT_EQ(world.state().control.asked_for_by, "ben");
   world.run_for(9s);
@@ -39,20 +37,20 @@ TEST_F(AuthorityTest, IsGrantedWhenNobodyAnswersInTime) {
   EXPECT_EQ(world.state().control.asked_for_by, "");
 }
 
-TEST_F(AuthorityTest, IsHandedOverAtOnceWhenItsHolderAgrees) {
+TEST_F(WhoCommands, IsHandedOverAtOnceWhenItsHolderAgrees) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   EXPECT_TRUE(world.control->yield_control(one, "anna"));
   EXPECT_EQ(commander(), "ben");
 }
 
-TEST_F(AuthorityTest, StaysWhenItsHolderRefuses) {
+TEST_F(WhoCommands, StaysWhenItsHolderRefuses) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   EXPECT_TRUE(world.control->keep_control(one, "anna"));
   world.run_for(20s);
   EXPECT_EQ(commander(), "anna");
 }
 
-TEST_F(AuthorityTest, IsGrantedWhenItsHolderIsGone) {
+TEST_F(WhoCommands, IsGrantedWhenItsHolderIsGone) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   world.control->forget("anna");
   EXPECT_EQ(commander(), "ben");
@@ -62,7 +60,7 @@ TEST_F(AuthorityTest, IsGrantedWhenItsHolderIsGone) {
   EXPECT_EQ(commander(), "anna") << "nobody has to be asked";
 }
 
-TEST_F(AuthorityTest, DoesNotGoToWhoAskedAndIsGone) {
+TEST_F(WhoCommands, DoesNotGoToWhoAskedAndIsGone) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   world.control->forget("ben");
   EXPECT_EQ(world.state().control.asked_for_by, "");
@@ -72,20 +70,20 @@ TEST_F(AuthorityTest, DoesNotGoToWhoAskedAndIsGone) {
   EXPECT_EQ(commander(), "anna");
 }
 
-TEST_F(AuthorityTest, IsAskedForByOneAtATime) {
+TEST_F(WhoCommands, IsAskedForByOneAtATime) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   auto const second = world.control->request_control(one, "carla");
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().message, "ben asks for copter 1 already");
 }
 
-TEST_F(AuthorityTest, AnswersOnlyItsHolder) {
+TEST_F(WhoCommands, AnswersOnlyItsHolder) {
   EXPECT_FALSE(world.control->yield_control(one, "ben"));
   EXPECT_FALSE(world.control->keep_control(one, "ben"));
   EXPECT_FALSE(world.control->request_control(VehicleId{"9"}, "ben"));
 }
 
-TEST_F(AuthorityTest, ForgetsARequestThatWasMadeBeforeAnother) {
+TEST_F(WhoCommands, ForgetsARequestThatWasMadeBeforeAnother) {
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   world.run_for(5s);
   EXPECT_TRUE(world.control->keep_control(one, "anna"));
@@ -96,7 +94,7 @@ TEST_F(AuthorityTest, ForgetsARequestThatWasMadeBeforeAnother) {
   EXPECT_EQ(commander(), "ben");
 }
 
-TEST_F(AuthorityTest, OfAScriptGoesToAnOperatorWhoWaits) {
+TEST_F(WhoCommands, OfAScriptGoesToAnOperatorWhoWaits) {
   world.control->forget("anna");
   auto const run = world.platform->start(task_of(mission_ending_with(mavlink::MavCmd::nav_loiter_unlim)), one);
   ASSERT_TRUE(world.run_until([&] { return run->progress().find("item") != std::string::npos; }));
