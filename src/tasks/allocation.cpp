@@ -21,8 +21,8 @@ using Takers = std::vector<int>;
 
 class Allocator {
  public:
-  explicit Allocator(std::vector<VehicleInfo> const& vehicles)
-      : vehicles_(vehicles), serve_already_(vehicles.size(), false) {}
+  Allocator(std::vector<VehicleInfo> const& vehicles, Unsuited const& unsuited)
+      : vehicles_(vehicles), unsuited_(unsuited), serve_already_(vehicles.size(), false) {}
 
   /// Serves all of `task`; its first platform task is occurrence `first`.
   Result<> serve(TaskTree const& task, int first, Takers& takers) {
@@ -56,6 +56,7 @@ class Allocator {
   [[nodiscard]] std::unexpected<base::Error> failure(PlatformTask const& task, Takers const& takers) const;
 
   std::vector<VehicleInfo> const& vehicles_;
+  Unsuited const& unsuited_;
   std::vector<Restricted const*> restrictions_;  ///< round the task being served, outermost first
   std::vector<bool> serve_already_;              ///< the sequence round the task being served, by vehicle
   Allocation allocation_;
@@ -149,12 +150,13 @@ std::optional<std::string> Allocator::rejection(PlatformTask const& task, std::s
       return "outside the task's vehicle set";
     }
   }
+  if (!info.conflict.empty()) return info.conflict;
   if (!info.connected) return "lost";
   if (int const taker = takers[vehicle]; taker != nobody) {
     auto const taken = std::ranges::find(allocation_.assignments, taker, &Assignment::occurrence);
     return fmt::format("taken by {}", taken->task->name());
   }
-  return task.unsuited(info);
+  return unsuited_(task, info);
 }
 
 std::unexpected<base::Error> Allocator::failure(PlatformTask const& task, Takers const& takers) const {
@@ -177,14 +179,14 @@ std::unexpected<base::Error> Allocator::failure(PlatformTask const& task, Takers
 
 }  // namespace
 
-Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const& available) {
+Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const& available, Unsuited const& unsuited) {
   if (tree->depth > max_task_depth) {
     return fail(ErrorKind::invalid_input, fmt::format("the task is nested deeper than {} levels", max_task_depth));
   }
   if (tree->size > max_task_size) {
     return fail(ErrorKind::invalid_input, fmt::format("the task has more than {} parts", max_task_size));
   }
-  Allocator allocator(available);
+  Allocator allocator(available, unsuited);
   Takers takers(available.size(), nobody);
   if (auto served = allocator.serve(tree, 0, takers); !served) return std::unexpected(served.error());
   return allocator.take();

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/error.hpp"
@@ -20,6 +23,14 @@ struct Allocation {
   std::vector<Assignment> assignments;
 };
 
+/// Why the vehicle cannot carry out the task, or nothing.
+using Unsuited = std::function<std::optional<std::string>(PlatformTask const&, VehicleInfo const&)>;
+/// What the task says of itself.
+[[nodiscard]] inline std::optional<std::string> unsuited_by_itself(PlatformTask const& task,
+                                                                   VehicleInfo const& vehicle) {
+  return task.unsuited(vehicle);
+}
+
 /// Gives every occurrence of a platform task one of the `available` vehicles (language spec, 4.5).
 ///
 /// Of the suitable ones the first is taken; for a task with a reference position the nearest to it, the first of those
@@ -27,6 +38,7 @@ struct Allocation {
 /// the branches of a choice or allOf, share vehicles; parts of a concurrent never do, and those of its
 /// parts that are bound to vehicle sets choose first. On failure nothing is assigned, and the error names the task and
 /// why each vehicle was rejected.
-[[nodiscard]] base::Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const& available);
+[[nodiscard]] base::Result<Allocation> allocate(TaskTree const& tree, std::vector<VehicleInfo> const& available,
+                                                Unsuited const& unsuited = unsuited_by_itself);
 
 }  // namespace lapwing::tasks

@@ -103,6 +103,11 @@ void HarnessPlatform::set_connection_timeout(VehicleId const& id, base::Duration
   if (found != vehicles_.end()) found->connection_timeout = timeout;
 }
 
+std::optional<std::string> HarnessPlatform::unsuited(PlatformTask const& task, VehicleInfo const& vehicle) const {
+  if (auto const length = length_of(task, vehicle); !length) return length.error().message;
+  return task.unsuited(vehicle);
+}
+
 std::unique_ptr<TaskRun> HarnessPlatform::start(std::shared_ptr<PlatformTask const> task, VehicleId const& id) {
   auto const vehicle = find(id);
   if (!vehicle || !vehicle->connected) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,6 +35,8 @@ class HarnessPlatform : public Platform {
   [[nodiscard]] std::optional<VehicleInfo> find(VehicleId const& id) const override;
   [[nodiscard]] base::Notifier& vehicles_changed() override { return changed_; }
   void set_connection_timeout(VehicleId const& id, base::Duration timeout) override;
+  [[nodiscard]] std::optional<std::string> unsuited(PlatformTask const& task,
+                                                    VehicleInfo const& vehicle) const override;
   [[nodiscard]] std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task, VehicleId const& id) override;
   [[nodiscard]] base::Task<void> settle() override;
 

@@ -36,6 +36,7 @@ struct VehicleInfo {
   bool battery_is_awaited = false;  ///< it has not reported on its battery yet, not even that it does not know
   std::string mode = {};            ///< the flight mode by the autopilot's own name; empty while unknown
   std::optional<double> relative_alt_m = {};  ///< above its home; nothing while unknown
+  std::string conflict = {};  ///< which platforms each have a vehicle of this id; empty: it is one vehicle's alone
 };
 
 /// An immutable description of something one vehicle can do. Values of the language: shared, reused, never changed.
@@ -118,6 +119,12 @@ class Platform {
   /// link's errors.
   [[nodiscard]] virtual base::Result<> perform(InstructionCall const& call, VehicleId const& id);
 
+  /// Why `vehicle`, one of this platform's, cannot carry out the task, or nothing: what the task says of itself, and
+  /// that it is a kind of task which the platform does not know.
+  [[nodiscard]] virtual std::optional<std::string> unsuited(PlatformTask const& task,
+                                                            VehicleInfo const& vehicle) const {
+    return task.unsuited(vehicle);
+  }
   /// Starts `task` on the vehicle. Never blocks; every failure shows in the run.
   [[nodiscard]] virtual std::unique_ptr<TaskRun> start(std::shared_ptr<PlatformTask const> task,
                                                        VehicleId const& id) = 0;

@@ -199,7 +199,10 @@ base::Task<Checked<Value>> run(Runtime& runtime, Order order) {
   for (auto const& id : runtime.picked) {
     if (auto info = runtime.platform.find(id)) available.push_back(std::move(*info));
   }
-  auto const allocation = tasks::allocate(order.tree, available);
+  tasks::Unsuited const unsuited = [&runtime](tasks::PlatformTask const& task, tasks::VehicleInfo const& vehicle) {
+    return runtime.platform.unsuited(task, vehicle);
+  };
+  auto const allocation = tasks::allocate(order.tree, available, unsuited);
   if (!allocation) {
     runtime.log.warn(fmt::format("Task {} could not allocate necessary nodes.", tasks::name(order.tree)));
     co_return unallocated(allocation.error().message + order.remarks, available);

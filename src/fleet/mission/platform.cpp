@@ -10,6 +10,7 @@
 #include "missions/mission_task.hpp"
 #include "missions/send_message.hpp"
 #include "missions/vocabulary.hpp"
+#include "tasks/failed_run.hpp"
 
 namespace lapwing::fleet {
 
@@ -45,19 +46,6 @@ class MissionTaskRun final : public tasks::TaskRun {
   Pilot& pilot_;
   OnStop on_stop_;
   std::shared_ptr<RunRecord const> record_;
-};
-
-/// A run that never began.
-class FailedRun final : public tasks::TaskRun {
- public:
-  explicit FailedRun(std::string error) : error_(std::move(error)) {}
-  [[nodiscard]] RunState state() const override { return RunState::failed; }
-  [[nodiscard]] std::string error() const override { return error_; }
-  [[nodiscard]] std::string progress() const override { return {}; }
-  void stop() override {}
-
- private:
-  std::string error_;
 };
 
 VehicleInfo info_of(MavlinkVehicle const& craft) {
@@ -152,15 +140,20 @@ void FleetPlatform::set_connection_timeout(VehicleId const& id, base::Duration t
 std::unique_ptr<tasks::TaskRun> FleetPlatform::start(std::shared_ptr<tasks::PlatformTask const> task,
                                                      VehicleId const& id) {
   auto* const craft = fleet_.find(id);
-  if (!craft) return std::make_unique<FailedRun>(fmt::format("no vehicle {}", id.text));
+  if (!craft) return std::make_unique<tasks::FailedRun>(fmt::format("no vehicle {}", id.text));
   auto const* mission = dynamic_cast<missions::MissionTask const*>(task.get());
   if (!mission)
-    return std::make_unique<FailedRun>(
+    return std::make_unique<tasks::FailedRun>(
         fmt::format("'{}' is no mission: {} cannot fly it", task->name(), craft->state.name));
   if (auto claimed = fleet_.authority().claim(id, vehicle::script_commander); !claimed)
-    return std::make_unique<FailedRun>(claimed.error().message);
+    return std::make_unique<tasks::FailedRun>(claimed.error().message);
   auto& its_pilot = pilot(*craft);
   return std::make_unique<MissionTaskRun>(its_pilot, options_.run.on_stop, its_pilot.start(mission->mission()));
+}
+
+std::optional<std::string> FleetPlatform::unsuited(tasks::PlatformTask const& task, VehicleInfo const& vehicle) const {
+  if (!dynamic_cast<missions::MissionTask const*>(&task)) return fmt::format("{} is no mission", task.name());
+  return task.unsuited(vehicle);
 }
 
 Result<> FleetPlatform::perform(tasks::InstructionCall const& call, VehicleId const& id) {

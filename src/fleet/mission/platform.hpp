@@ -52,6 +52,9 @@ class FleetPlatform final : public tasks::Platform {
   void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
                                                       vehicle::VehicleId const& id) override;
+  /// Missions are what it flies.
+  [[nodiscard]] std::optional<std::string> unsuited(tasks::PlatformTask const& task,
+                                                    tasks::VehicleInfo const& vehicle) const override;
   /// `sendMessage`.
   [[nodiscard]] base::Result<> perform(tasks::InstructionCall const& call, vehicle::VehicleId const& id) override;
   [[nodiscard]] base::Task<void> settle() override;
