@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "tasks/failed_run.hpp"
-#include "vehicle/shared_id.hpp"
+#include "vehicle/joined/shared_id.hpp"
 
 namespace lapwing::tasks {
 

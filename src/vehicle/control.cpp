@@ -68,6 +68,21 @@ bool is_over(CommandState state) {
   return state != CommandState::waiting && state != CommandState::accepted && state != CommandState::under_way;
 }
 
+void make_room(std::deque<CommandRecord>& records) {
+  constexpr std::size_t most = 12;
+  constexpr std::size_t most_with_open_ones = 60;
+  if (records.size() < most) return;
+  auto const is_closed = [](CommandRecord const& record) {
+    return std::ranges::all_of(record.outcomes, [](auto const& outcome) { return is_over(outcome.state); });
+  };
+  auto const closed = std::ranges::find_if(records, is_closed);
+  if (closed != records.end()) {
+    records.erase(closed);
+  } else if (records.size() >= most_with_open_ones) {
+    records.pop_front();
+  }
+}
+
 std::string_view to_string(StopAction action) {
   return word_of(stops, action);
 }

@@ -77,6 +77,9 @@ struct CommandRecord {
   std::vector<CommandOutcome> outcomes = {};
 };
 
+/// Makes room for one more: a dozen are kept, and of those of which something is still expected some dozens.
+void make_room(std::deque<CommandRecord>& records);
+
 /// What an emergency stop does to a vehicle.
 enum class StopAction {
   hold,  ///< flying and swimming machines stay in place; ground vehicles stand and are disarmed
@@ -114,6 +117,9 @@ using Commander = std::string;
 class VehicleControl {
  public:
   virtual ~VehicleControl() = default;
+
+  /// Whether the vehicle is one of its own.
+  [[nodiscard]] virtual bool has(VehicleId const& id) const = 0;
 
   /// Gives the command to each vehicle, and returns its number. Errors: invalid_input (nothing to command, or a
   /// command without what it needs). What is wrong with one vehicle shows in its outcome.

@@ -60,6 +60,9 @@ class VehicleParameters {
  public:
   virtual ~VehicleParameters() = default;
 
+  /// Whether the vehicle is one of its own.
+  [[nodiscard]] virtual bool has(VehicleId const& id) const = 0;
+
   /// All of them. Who asks while they are being fetched gets the same. `old_ones_do`: such as were fetched before, if
   /// there are any, without asking the vehicle.
   [[nodiscard]] virtual base::Task<base::Result<ParameterList>> all(VehicleId id, bool old_ones_do) = 0;

@@ -23,9 +23,6 @@ using vehicle::VehicleId;
 
 namespace {
 
-constexpr std::size_t max_records = 12;
-constexpr std::size_t max_records_with_open_ones = 60;
-
 /// What a command lacks, whatever vehicle it is for.
 Result<> check(vehicle::VehicleCommand const& command) {
   constexpr double highest_m = 10'000.0;
@@ -60,19 +57,6 @@ bool is_final(CommandState state) {
   return vehicle::is_over(state) && state != CommandState::timed_out;
 }
 
-/// Makes room for one more: for those of which something is still expected as long as there is any.
-void drop_oldest(std::deque<CommandRecord>& records) {
-  auto const is_closed = [](CommandRecord const& record) {
-    return std::ranges::all_of(record.outcomes, [](auto const& outcome) { return vehicle::is_over(outcome.state); });
-  };
-  auto const closed = std::ranges::find_if(records, is_closed);
-  if (closed != records.end()) {
-    records.erase(closed);
-  } else if (records.size() >= max_records_with_open_ones) {
-    records.pop_front();
-  }
-}
-
 }  // namespace
 
 Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log)
@@ -102,7 +86,7 @@ Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::spa
   if (vehicles.empty()) return fail(ErrorKind::invalid_input, "no vehicle was named to command");
   if (auto checked = check(command); !checked) return std::unexpected(checked.error());
   if (auto allowed = settings_for(command, options_.plausibility); !allowed) return std::unexpected(allowed.error());
-  if (records_.size() >= max_records) drop_oldest(records_);
+  vehicle::make_room(records_);
   auto& record = records_.emplace_back(CommandRecord{
       .number = ++last_number_, .command = std::move(command), .by = std::move(by), .asked = base::wall_now()});
   log_.info(fmt::format("{} commands {} to {} vehicle{}", record.by, to_string(record.command.action), vehicles.size(),

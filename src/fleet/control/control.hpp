@@ -40,6 +40,7 @@ class Control final : public vehicle::VehicleControl {
     on_latched_ = std::move(on_latched);
   }
 
+  [[nodiscard]] bool has(vehicle::VehicleId const& id) const override { return fleet_.find(id) != nullptr; }
   base::Result<std::uint64_t> command(vehicle::VehicleCommand command, std::span<vehicle::VehicleId const> vehicles,
                                       vehicle::Commander by, bool takes_over) override;
   [[nodiscard]] std::deque<vehicle::CommandRecord> const& commands() const override { return records_; }

@@ -22,6 +22,7 @@ class Parameters final : public vehicle::VehicleParameters {
   Parameters(Parameters const&) = delete;
   Parameters& operator=(Parameters const&) = delete;
 
+  [[nodiscard]] bool has(vehicle::VehicleId const& id) const override { return fleet_.find(id) != nullptr; }
   [[nodiscard]] base::Task<base::Result<vehicle::ParameterList>> all(vehicle::VehicleId id, bool old_ones_do) override;
   [[nodiscard]] std::optional<vehicle::ParameterProgress> progress(vehicle::VehicleId const& id) const override;
   [[nodiscard]] base::Task<base::Result<std::string>> file(vehicle::VehicleId id, bool old_ones_do) override;

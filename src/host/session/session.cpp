@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/assert.hpp"
 #include "host/files/files.hpp"
 #include "host/session/console.hpp"
 #include "host/session/metrics.hpp"
@@ -63,16 +64,19 @@ Session::Session(Options const& options)
       control(ground.fleet, platform, {.stop_action = options.emergency_action, .plausibility = options.plausibility},
               log),
       parameters(ground.fleet, parameter_cache(), log),
+      platforms(loop, log.named("platforms")),
       console(make_console(loop, log)),
       host(
-          loop, platform, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
+          loop, platforms, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
       on_stop_(options.on_stop),
       interrupted_(loop),
       events_(options.events) {
   hub.add_sink(terminal_sink(options.log_level));
+  auto const fleet_fits = join("MAVLink", {platform, &control, &parameters});
+  LAPWING_ASSERT(fleet_fits);  // nothing is there before it
   control.set_on_latched([this](std::string const& reason) { host.halt_for_operator(reason); });
-  host.set_bar([this] { return ground.fleet.authority().barred(); });
+  host.set_bar([this] { return ground.authority.barred(); });
   bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
   if (is_real_time)
     signing_time = std::make_unique<SigningTimeKeeper>(
@@ -80,6 +84,13 @@ Session::Session(Options const& options)
   auto const plans = log.named("plans");
   for (auto const& note : options.plans.notes) plans.info(note);
   for (auto const& mistake : options.plans.mistakes) plans.warn(mistake.message);
+}
+
+base::Result<> Session::join(std::string const& name, Joined const& joined) {
+  if (auto fits = platforms.add(name, joined.platform); !fits) return fits;
+  if (joined.control) all_control.add(name, *joined.control);
+  if (joined.parameters) all_parameters.add(name, *joined.parameters);
+  return {};
 }
 
 base::Result<> Session::simulate(sim::WorldOptions options) {
@@ -138,9 +149,9 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.program_version = LAPWING_VERSION;
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
-  options.control = script ? nullptr : &control;
+  options.control = script ? nullptr : &all_control;
   options.alarms = &ground.fleet.alarms();
-  options.parameters = script ? nullptr : &parameters;
+  options.parameters = script ? nullptr : &all_parameters;
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());

@@ -23,6 +23,9 @@
 #include "route/router.hpp"
 #include "sim/world/world.hpp"
 #include "station/station.hpp"
+#include "tasks/platforms.hpp"
+#include "vehicle/joined/joined_control.hpp"
+#include "vehicle/joined/joined_parameters.hpp"
 
 namespace lapwing::host {
 
@@ -47,6 +50,17 @@ class Session {
     bool listens_only = false;  ///< asks vehicles for nothing
   };
   explicit Session(Options const& options);
+
+  /// One more platform, beside the fleet: for scripts and, where it has them, with an operator's commands and
+  /// parameters. Its vehicles are in `ground.registry`, and it asks `ground.authority` who commands them. Call it
+  /// before anything is opened; they outlive the session. Error: invalid_input when its words have other meanings
+  /// already.
+  struct Joined {
+    tasks::Platform& platform;
+    vehicle::VehicleControl* control = nullptr;
+    vehicle::VehicleParameters* parameters = nullptr;
+  };
+  [[nodiscard]] base::Result<> join(std::string const& name, Joined const& joined);
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
@@ -74,8 +88,11 @@ class Session {
   base::Logger log;
   Ground ground;
   fleet::FleetPlatform platform;
-  fleet::Control control;                           ///< what operators do with the vehicles
-  fleet::Parameters parameters;                     ///< asked for when an operator asks
+  fleet::Control control;              ///< what operators do with the fleet's vehicles
+  fleet::Parameters parameters;        ///< of those, asked for when an operator asks
+  tasks::Platforms platforms;          ///< the fleet and what has joined it, for scripts
+  vehicle::JoinedControl all_control;  ///< the same for operators
+  vehicle::JoinedParameters all_parameters;
   std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
   std::unique_ptr<Recording> recording;
   std::vector<std::unique_ptr<Recording>> network_recordings;

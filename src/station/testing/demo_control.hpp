@@ -17,6 +17,7 @@ class DemoControl : public vehicle::VehicleControl {
  public:
   DemoControl(base::Loop& loop, vehicle::Registry& registry) : loop_(loop), registry_(registry) {}
 
+  [[nodiscard]] bool has(vehicle::VehicleId const& id) const override { return registry_.find(id) != nullptr; }
   base::Result<std::uint64_t> command(vehicle::VehicleCommand command, std::span<vehicle::VehicleId const> vehicles,
                                       vehicle::Commander by, bool takes_over) override {
     bool const stops = vehicle::is_stop(command.action);

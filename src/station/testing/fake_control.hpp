@@ -10,6 +10,7 @@ namespace lapwing::station::testing {
 /// Remembers what it was asked; commands nothing.
 class FakeControl : public vehicle::VehicleControl {
  public:
+  [[nodiscard]] bool has(vehicle::VehicleId const&) const override { return true; }
   base::Result<std::uint64_t> command(vehicle::VehicleCommand command, std::span<vehicle::VehicleId const> vehicles,
                                       vehicle::Commander by, bool takes_over) override {
     if (refusal) return std::unexpected(*refusal);

@@ -20,6 +20,7 @@ class FakeParameters : public vehicle::VehicleParameters {
     for (int i = 1; i <= 16; ++i) values_.push_back({fmt::format("SERVO{}_MIN", i), 1100.0, "int16"});
   }
 
+  [[nodiscard]] bool has(vehicle::VehicleId const& id) const override { return id.text == "2"; }
   base::Task<base::Result<vehicle::ParameterList>> all(vehicle::VehicleId id, bool old_ones_do) override {
     if (auto const known = check(id); !known) co_return std::unexpected(known.error());
     auto& progress = progress_[id];
