@@ -33,7 +33,8 @@ void fill(vehicle::VehicleState& state, base::TimePoint now) {
   state.power.battery.set({.remaining = 0.8, .voltage_v = 15.2, .current_a = 12.0}, now);
   state.positioning.gps.set({3, 14, 0.8}, now);
   state.positioning.estimator.set({0.1, 0.1, 0.1, 0.1}, now);
-  state.links.remote_control.set({.is_lost = false, .channels = 8, .pulses_us = {1500, 1500, 1000, 1500}}, now);
+  state.links.remote_control.set({.is_lost = false, .channels = 8, .pulses_us = {1500, 1500, 1000, 1500}, .rssi = {}},
+                                 now);
   state.mission.progress.set({3, 20, false, "active"}, now);
   state.mission.fence.set({false, 0, ""}, now);
   state.motion.home.set(geo::Wgs84::from_degrees(40, -8, 100), now);
