@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -66,9 +68,10 @@ class Intake {
     double const square = north * north + east * east + down * down;
     if (square <= range.highest * range.highest) [[likely]]
       return geo::Ned{north, east, down};
-    bool const is_one_of_them = note_outside(fields[0], range, north) | note_outside(fields[1], range, east) |
-                                note_outside(fields[2], range, down);
-    if (!is_one_of_them) note(fields[0], range, std::sqrt(square));
+    // Each is noted that is out of range by itself.
+    auto const outside = {note_outside(fields[0], range, north), note_outside(fields[1], range, east),
+                          note_outside(fields[2], range, down)};
+    if (std::ranges::none_of(outside, std::identity{})) note(fields[0], range, std::sqrt(square));
     return std::nullopt;
   }
 
