@@ -26,13 +26,10 @@ struct KnownVehicle {
   FieldChanges fields;
 };
 
-/// The vehicle's object with the fields alone that are news since that revision of the feed.
-Json object_of(VehicleState const& state, KnownVehicle const& known, std::uint64_t since, base::TimePoint now) {
+/// The vehicle's object with the fields that are chosen; without a choice all of them.
+Json object_of(VehicleState const& state, base::TimePoint now, FieldJson::Choose choose = {}) {
   Json object{{"id", state.id.text}};
-  FieldJson writer(object, now, [&](std::string_view key) {
-    auto const news = known.fields.news_of(key, since);
-    return FieldJson::News{.value = news.value, .age = news.age};
-  });
+  FieldJson writer(object, now, std::move(choose));
   internal::vehicle_fields(writer, state);
   writer.finish();
   return object;
@@ -76,7 +73,10 @@ News VehiclesFeed::since(std::uint64_t revision, base::TimePoint now, std::size_
   for (auto const* state : registry_.all()) {
     auto const known = known_->vehicles.find(state->id);
     if (known == known_->vehicles.end() || known->second.told <= revision) continue;
-    vehicles.push_back(object_of(*state, known->second, revision, now));
+    vehicles.push_back(object_of(*state, now, [&fields = known->second.fields, revision](std::string_view key) {
+      auto const news = fields.news_of(key, revision);
+      return FieldJson::News{.value = news.value, .age = news.age};
+    }));
   }
   bool const is_whole = revision == 0;
   if (!is_whole && vehicles.empty()) return {};
@@ -85,13 +85,7 @@ News VehiclesFeed::since(std::uint64_t revision, base::TimePoint now, std::size_
 
 std::string vehicles_message(vehicle::Registry const& registry, base::TimePoint now) {
   Json vehicles = Json::array();
-  for (auto const* state : registry.all()) {
-    Json object{{"id", state->id.text}};
-    FieldJson writer(object, now);
-    internal::vehicle_fields(writer, *state);
-    writer.finish();
-    vehicles.push_back(std::move(object));
-  }
+  for (auto const* state : registry.all()) vehicles.push_back(object_of(*state, now));
   return vehicles_text(std::move(vehicles), true, now);
 }
 
