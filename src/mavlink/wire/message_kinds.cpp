@@ -9,13 +9,18 @@ namespace lapwing::mavlink {
 
 namespace {
 
-/// So that a row names its kinds without their enum's name in front of each.
+/// Several kinds, as bits.
 struct Kinds {
   std::uint16_t bits = 0;
   constexpr Kinds(Kind kind) : bits(std::to_underlying(kind)) {}  // NOLINT(google-explicit-constructor)
-  explicit constexpr Kinds(unsigned of) : bits(static_cast<std::uint16_t>(of)) {}
-  friend constexpr Kinds operator|(Kinds a, Kinds b) { return Kinds(unsigned{a.bits} | unsigned{b.bits}); }
 };
+constexpr Kinds operator|(Kinds some, Kind another) {
+  some.bits = static_cast<std::uint16_t>(some.bits | std::to_underlying(another));
+  return some;
+}
+constexpr Kinds operator|(Kind one, Kind another) {
+  return Kinds(one) | another;
+}
 
 constexpr MessageKinds row(std::uint32_t id, std::string_view name, Kinds kinds) {
   return {id, name, kinds.bits};
@@ -24,50 +29,50 @@ constexpr MessageKinds row(std::uint32_t id, std::string_view name, Kinds kinds)
 constexpr auto make_table() {
   using enum Kind;
   return std::to_array<MessageKinds>({
-      row(0, "HEARTBEAT", Kinds(perishable) | state),
+      row(0, "HEARTBEAT", perishable | state),
       row(1, "SYS_STATUS", state),
-      row(2, "SYSTEM_TIME", Kinds(state) | clock),
+      row(2, "SYSTEM_TIME", state | clock),
       row(11, "SET_MODE", order),
       row(20, "PARAM_REQUEST_READ", asks_for_bulk),
       row(21, "PARAM_REQUEST_LIST", asks_for_bulk),
       row(22, "PARAM_VALUE", single),
       row(23, "PARAM_SET", asks_for_bulk),
-      row(24, "GPS_RAW_INT", Kinds(state) | clock),
+      row(24, "GPS_RAW_INT", state | clock),
       row(25, "GPS_STATUS", state),
       row(26, "SCALED_IMU", state),
-      row(27, "RAW_IMU", Kinds(state) | clock),
+      row(27, "RAW_IMU", state | clock),
       row(28, "RAW_PRESSURE", state),
       row(29, "SCALED_PRESSURE", state),
-      row(30, "ATTITUDE", Kinds(state) | clock),
-      row(31, "ATTITUDE_QUATERNION", Kinds(state) | clock),
-      row(32, "LOCAL_POSITION_NED", Kinds(state) | clock),
-      row(33, "GLOBAL_POSITION_INT", Kinds(state) | clock),
+      row(30, "ATTITUDE", state | clock),
+      row(31, "ATTITUDE_QUATERNION", state | clock),
+      row(32, "LOCAL_POSITION_NED", state | clock),
+      row(33, "GLOBAL_POSITION_INT", state | clock),
       row(34, "RC_CHANNELS_SCALED", state),
       row(35, "RC_CHANNELS_RAW", state),
-      row(36, "SERVO_OUTPUT_RAW", Kinds(state) | clock),
+      row(36, "SERVO_OUTPUT_RAW", state | clock),
       row(42, "MISSION_CURRENT", state),
-      row(46, "MISSION_ITEM_REACHED", Kinds(event) | single),
+      row(46, "MISSION_ITEM_REACHED", event | single),
       row(49, "GPS_GLOBAL_ORIGIN", state),
       row(62, "NAV_CONTROLLER_OUTPUT", state),
       row(65, "RC_CHANNELS", state),
       row(67, "DATA_STREAM", replaced),
       row(69, "MANUAL_CONTROL", perishable),
-      row(70, "RC_CHANNELS_OVERRIDE", Kinds(perishable) | replaced),
+      row(70, "RC_CHANNELS_OVERRIDE", perishable | replaced),
       row(74, "VFR_HUD", state),
       row(75, "COMMAND_INT", order),
       row(76, "COMMAND_LONG", order),
-      row(77, "COMMAND_ACK", Kinds(single) | answer),
+      row(77, "COMMAND_ACK", single | answer),
       row(80, "COMMAND_CANCEL", answer),
-      row(82, "SET_ATTITUDE_TARGET", Kinds(perishable) | setpoint | replaced),
+      row(82, "SET_ATTITUDE_TARGET", perishable | setpoint | replaced),
       row(83, "ATTITUDE_TARGET", state),
-      row(84, "SET_POSITION_TARGET_LOCAL_NED", Kinds(perishable) | setpoint | replaced),
+      row(84, "SET_POSITION_TARGET_LOCAL_NED", perishable | setpoint | replaced),
       row(85, "POSITION_TARGET_LOCAL_NED", state),
-      row(86, "SET_POSITION_TARGET_GLOBAL_INT", Kinds(perishable) | setpoint | replaced),
+      row(86, "SET_POSITION_TARGET_GLOBAL_INT", perishable | setpoint | replaced),
       row(87, "POSITION_TARGET_GLOBAL_INT", state),
       row(105, "HIGHRES_IMU", state),
       row(110, "FILE_TRANSFER_PROTOCOL", bulk),
       row(111, "TIMESYNC", perishable),
-      row(112, "CAMERA_TRIGGER", Kinds(event) | single),
+      row(112, "CAMERA_TRIGGER", event | single),
       row(116, "SCALED_IMU2", state),
       row(117, "LOG_REQUEST_LIST", asks_for_bulk),
       row(118, "LOG_ENTRY", bulk),
@@ -86,7 +91,7 @@ constexpr auto make_table() {
       row(134, "TERRAIN_DATA", bulk),
       row(136, "TERRAIN_REPORT", state),
       row(137, "SCALED_PRESSURE2", state),
-      row(139, "SET_ACTUATOR_CONTROL_TARGET", Kinds(perishable) | setpoint | replaced),
+      row(139, "SET_ACTUATOR_CONTROL_TARGET", perishable | setpoint | replaced),
       row(141, "ALTITUDE", state),
       row(144, "FOLLOW_TARGET", replaced),
       row(147, "BATTERY_STATUS", state),
@@ -100,7 +105,7 @@ constexpr auto make_table() {
       row(168, "WIND", state),
       row(173, "RANGEFINDER", state),
       row(178, "AHRS2", state),
-      row(180, "CAMERA_FEEDBACK", Kinds(event) | single),
+      row(180, "CAMERA_FEEDBACK", event | single),
       row(182, "AHRS3", state),
       row(184, "REMOTE_LOG_DATA_BLOCK", bulk),
       row(185, "REMOTE_LOG_BLOCK_STATUS", bulk),
@@ -109,19 +114,19 @@ constexpr auto make_table() {
       row(230, "ESTIMATOR_STATUS", state),
       row(231, "WIND_COV", state),
       row(232, "GPS_INPUT", perishable),
-      row(233, "GPS_RTCM_DATA", Kinds(bulk) | perishable),
+      row(233, "GPS_RTCM_DATA", bulk | perishable),
       row(241, "VIBRATION", state),
       row(242, "HOME_POSITION", state),
       row(245, "EXTENDED_SYS_STATE", state),
-      row(253, "STATUSTEXT", Kinds(event) | single),
-      row(263, "CAMERA_IMAGE_CAPTURED", Kinds(event) | single),
+      row(253, "STATUSTEXT", event | single),
+      row(263, "CAMERA_IMAGE_CAPTURED", event | single),
       row(266, "LOGGING_DATA", bulk),
       row(267, "LOGGING_DATA_ACKED", bulk),
       row(268, "LOGGING_ACK", bulk),
       row(269, "VIDEO_STREAM_INFORMATION", state),
       row(282, "GIMBAL_MANAGER_SET_ATTITUDE", replaced),
       row(284, "GIMBAL_DEVICE_SET_ATTITUDE", replaced),
-      row(285, "GIMBAL_DEVICE_ATTITUDE_STATUS", Kinds(replaced) | state),
+      row(285, "GIMBAL_DEVICE_ATTITUDE_STATUS", replaced | state),
       row(286, "AUTOPILOT_STATE_FOR_GIMBAL_DEVICE", replaced),
       row(287, "GIMBAL_MANAGER_SET_PITCHYAW", replaced),
       row(288, "GIMBAL_MANAGER_SET_MANUAL_CONTROL", replaced),
@@ -136,7 +141,7 @@ constexpr auto make_table() {
       row(331, "ODOMETRY", state),
       row(340, "UTM_GLOBAL_POSITION", state),
       row(385, "TUNNEL", bulk),
-      row(410, "EVENT", Kinds(event) | single),
+      row(410, "EVENT", event | single),
       row(411, "CURRENT_EVENT_SEQUENCE", single),
       row(412, "RESPONSE_EVENT_ERROR", event),
       row(436, "CURRENT_MODE", state),
