@@ -12,7 +12,7 @@ void print_error(base::Error const& error) {
 int refuse(base::Error const& error) {
   print_error(error);
   bool const is_usage = error.kind == base::ErrorKind::invalid_input || error.kind == base::ErrorKind::not_found;
-  return is_usage ? host::exit_usage : host::exit_halted;
+  return is_usage ? exit_usage : exit_halted;
 }
 
 }  // namespace lapwing::host
