@@ -5,9 +5,9 @@
 
 #include "base/async/scope.hpp"
 #include "dolphin/machine/engine.hpp"
+#include "missions/event_line.hpp"
 #include "missions/mission_harness.hpp"
 #include "scripts.hpp"
-#include "tasks/event_json.hpp"
 
 using namespace lapwing;
 
@@ -53,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
 
   Answers output(text.substr(0, text.find('\n')));
   dolphin::EngineOptions options{.limits = limits};
-  options.on_event = [&](tasks::TaskEvent const& event) { output.written += tasks::to_json_line(event).size(); };
+  options.on_event = [&](tasks::TaskEvent const& event) { output.written += missions::event_line(event).size(); };
   dolphin::Engine engine(loop, platform, output, {}, options);
   base::Scope scope(loop);
   scope.spawn(stop_later(loop, engine));

@@ -8,9 +8,8 @@
 
 #include "base/async/scope.hpp"
 #include "dolphin/machine/engine.hpp"
-#include "missions/items_json.hpp"
+#include "missions/event_line.hpp"
 #include "missions/mission_harness.hpp"
-#include "tasks/event_json.hpp"
 
 /// What the tests of the language need: a script run on the harness platform in virtual time, and everything it did as
 /// one text.
@@ -49,7 +48,7 @@ class Bench {
     options.on_event = [this](tasks::TaskEvent const& event) {
       auto const vehicle = event.vehicle ? platform.find(*event.vehicle) : std::nullopt;
       auto const home = vehicle ? vehicle->position : std::nullopt;
-      transcript.text += tasks::to_json_line(event, missions::items_json(event, {.home = home})) + "\n";
+      transcript.text += missions::event_line(event, {.home = home}) + "\n";
     };
     Engine engine(loop, platform, transcript, {}, options);
     base::Scope scope(loop);

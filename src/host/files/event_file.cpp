@@ -14,7 +14,7 @@ base::Result<EventFile> EventFile::open(std::string const& path) {
 
 void EventFile::write(tasks::TaskEvent const& event, missions::Carrier const& carrier) const {
   if (!file_) return;
-  fmt::print(file_.get(), "{}\n", tasks::to_json_line(event, missions::items_json(event, carrier)));
+  fmt::print(file_.get(), "{}\n", missions::event_line(event, carrier));
   std::fflush(file_.get());
 }
 

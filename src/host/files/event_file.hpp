@@ -5,8 +5,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "missions/items_json.hpp"
-#include "tasks/event_json.hpp"
+#include "missions/event_line.hpp"
 
 namespace lapwing::host {
 
