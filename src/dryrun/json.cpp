@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "base/text/json.hpp"
 #include "dryrun/missions.hpp"
 #include "geo/json.hpp"
 
@@ -130,7 +131,7 @@ std::string to_json(FlightRecord const& record, Analysis const& analysis, plan::
   }
   auto& remarks = json["remarks"] = Json::array();
   for (auto const& remark : record.remarks) remarks.push_back({{"t_s", seconds(remark.time)}, {"text", remark.text}});
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return base::to_text(json) + "\n";
 }
 
 }  // namespace lapwing::dryrun

@@ -29,8 +29,4 @@ std::optional<Position> position(Json const& value) {
   return Position{natural(line), natural(character)};
 }
 
-std::string to_line(Json const& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace lapwing::lsp

@@ -19,7 +19,4 @@ using Json = nlohmann::json;
 [[nodiscard]] std::uint32_t natural(Json const& value);
 [[nodiscard]] std::optional<Position> position(Json const& value);
 
-/// One line, whatever the strings in it hold.
-[[nodiscard]] std::string to_line(Json const& value);
-
 }  // namespace lapwing::lsp

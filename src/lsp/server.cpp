@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "base/text/json.hpp"
 #include "lsp/translate.hpp"
 
 namespace lapwing::lsp {
@@ -122,7 +123,7 @@ bool Server::changes_later(std::string const& uri) const {
 
 void Server::send(Json message) {
   message["jsonrpc"] = "2.0";
-  outgoing_.push_back(to_line(message));
+  outgoing_.push_back(base::to_text(message));
 }
 
 void Server::fail(Json const& id, int code, std::string const& message) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text/json.hpp"
 #include "missions/vocabulary.hpp"
 
 namespace lapwing::lsp {
@@ -22,7 +23,7 @@ class Talk {
     if (!script.empty()) open(script);
   }
 
-  void queue(Json const& message) { server.receive(to_line(message)); }
+  void queue(Json const& message) { server.receive(base::to_text(message)); }
   std::vector<Json> step() {
     std::vector<Json> out;
     for (auto const& one : server.work(now)) out.push_back(Json::parse(one));

@@ -6,6 +6,7 @@
 
 #include "apps/verb.hpp"
 #include "base/text/diagnostic.hpp"
+#include "base/text/json.hpp"
 #include "dolphin/machine/engine.hpp"
 #include "host/files/files.hpp"
 #include "host/files/plans.hpp"
@@ -70,7 +71,7 @@ int check(CheckOptions const& options) {
     }
   }
   if (options.json) {
-    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", base::to_text(all, 2));
   } else if (errors + warnings == 0) {
     fmt::print("{}: no mistakes found\n", fmt::join(options.scripts, ", "));
   } else {

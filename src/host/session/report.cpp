@@ -3,6 +3,8 @@
 #include <fmt/chrono.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text/json.hpp"
+
 namespace lapwing::host {
 
 using nlohmann::json;
@@ -65,7 +67,7 @@ std::string to_json(RunReport const& report) {
   for (auto const& error : report.errors) {
     errors.push_back({{"file", error.file}, {"line", error.line}, {"message", error.message}});
   }
-  return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+  return base::to_text(value, 2) + "\n";
 }
 
 }  // namespace lapwing::host

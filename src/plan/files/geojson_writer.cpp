@@ -25,7 +25,7 @@ Ordered item_feature(mavlink::MissionItem const& item, std::size_t number) {
   bool const has_place = is_placed(item);
   auto params = Ordered::array();
   std::size_t const count = has_place ? item.params.size() : values.params.size();
-  for (std::size_t i = 0; i < count; ++i) params.push_back(Ordered(param_json(values.params[i])));
+  for (std::size_t i = 0; i < count; ++i) params.push_back(base::json_number<Ordered>(values.params[i]));
   Ordered properties{{"seq", number},
                      {"name", to_string(item.command)},
                      {"command", static_cast<int>(item.command)},
@@ -109,7 +109,7 @@ std::string write_geojson(Plan const& plan) {
     features.push_back(
         feature(point(rally.place, true), {{"role", "rally"}, {"frame", static_cast<int>(rally.frame)}}));
   json["features"] = std::move(features);
-  return json.dump(1, ' ', false, Ordered::error_handler_t::replace) + "\n";  // names can come from anywhere
+  return base::to_text(json, 1) + "\n";
 }
 
 }  // namespace lapwing::plan::internal

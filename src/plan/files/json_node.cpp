@@ -79,12 +79,6 @@ Result<geo::Wgs84> Node::place(char const* key) const {
   return found->place();
 }
 
-Json param_json(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  if (value == std::trunc(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
-  return value;
-}
-
 namespace {
 
 /// "a.plan:3:7", from the number of bytes read.

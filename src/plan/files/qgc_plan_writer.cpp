@@ -6,7 +6,7 @@ namespace {
 
 Json place_json(geo::Wgs84 const& place, bool has_height) {
   auto json = Json::array({file_degrees(place.lat_deg()), file_degrees(place.lon_deg())});
-  if (has_height) json.push_back(param_json(place.alt_m));
+  if (has_height) json.push_back(base::json_number<Json>(place.alt_m));
   return json;
 }
 
@@ -20,7 +20,7 @@ void write_item(mavlink::MissionItem const& item, std::size_t number, Json& into
   into["doJumpId"] = number;
   into.erase("coordinate");
   auto& params = into["params"] = Json::array();
-  for (double const value : values.params) params.push_back(param_json(value));
+  for (double const value : values.params) params.push_back(base::json_number<Json>(value));
 }
 
 Json items_json(Plan const& plan) {
@@ -50,8 +50,8 @@ Json mission_json(Plan const& plan) {
             {"globalPlanAltitudeMode", above_home},
             {"plannedHomePosition", place_json(plan.mission.planned_home.value_or(geo::Wgs84{}), true)},
             {"items", items_json(plan)}};
-  if (plan.cruise_speed_m_s) json["cruiseSpeed"] = param_json(*plan.cruise_speed_m_s);
-  if (plan.hover_speed_m_s) json["hoverSpeed"] = param_json(*plan.hover_speed_m_s);
+  if (plan.cruise_speed_m_s) json["cruiseSpeed"] = base::json_number<Json>(*plan.cruise_speed_m_s);
+  if (plan.hover_speed_m_s) json["hoverSpeed"] = base::json_number<Json>(*plan.hover_speed_m_s);
   return json;
 }
 
@@ -62,7 +62,8 @@ Json fence_json(GeoFence const& fence) {
     bool const is_inclusion = zone.kind == Zone::Kind::inclusion;
     if (auto const* circle = std::get_if<GeoCircle>(&zone.area)) {
       circles.push_back(
-          {{"circle", {{"center", place_json(circle->center, false)}, {"radius", param_json(circle->radius_m)}}},
+          {{"circle",
+            {{"center", place_json(circle->center, false)}, {"radius", base::json_number<Json>(circle->radius_m)}}},
            {"inclusion", is_inclusion},
            {"version", 1}});
       continue;

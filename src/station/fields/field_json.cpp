@@ -23,10 +23,8 @@ bool FieldJson::wants(Member const& member) {
 
 void FieldJson::number(Member const& member, std::optional<double> value, Unit const& unit) {
   if (!value || !std::isfinite(*value)) return (void)put(member, nullptr);
-  constexpr double exact_up_to = 9e15;
   double const near = rounded(*value, unit);
-  if (unit.decimals <= 0 && std::abs(near) < exact_up_to) return (void)put(member, static_cast<std::int64_t>(near));
-  put(member, near);
+  put(member, unit.decimals <= 0 ? base::json_number<Json>(near) : Json(near));
 }
 
 void FieldJson::flag(Member const& member, bool value) {

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text/json.hpp"
+
 namespace lapwing::station {
 namespace {
 
@@ -92,9 +94,7 @@ std::string_view reason_phrase(int status) {
 HttpResponse problem(int status, std::string_view detail, std::string_view hint) {
   nlohmann::ordered_json body{{"title", reason_phrase(status)}, {"status", status}, {"detail", detail}};
   if (!hint.empty()) body["hint"] = hint;
-  // Bytes that are no UTF-8 come back from paths and headers: replaced, never an exception.
-  constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
-  return {status, "application/problem+json", body.dump(-1, ' ', false, replace), {}};
+  return {status, "application/problem+json", base::to_text(body), {}};
 }
 
 HttpResponse problem(base::Error const& error) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/text/json.hpp"
 #include "geo/json.hpp"
 
 /// For the .cpp files that write JSON; no header includes this one.
@@ -11,9 +12,9 @@ using geo::Json;
 using geo::position_json;
 using geo::rounded;
 
-/// As text on one line. Names and texts come from vehicles: bytes that are no UTF-8 are replaced.
+/// As text on one line.
 [[nodiscard]] inline std::string dump(Json const& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return base::to_text(json);
 }
 
 }  // namespace lapwing::station

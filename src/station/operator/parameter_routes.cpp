@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,11 +16,10 @@ using vehicle::VehicleParameters;
 
 namespace {
 
-/// A number as the vehicle holds it: 0.1, not the double that is nearest to that float. JSON has no infinities.
+/// A number as the vehicle holds it: 0.1, not the double that is nearest to that float.
 Json number(vehicle::Parameter const& parameter) {
-  if (!std::isfinite(parameter.value)) return nullptr;
   if (parameter.type != "real32") return parameter.value;
-  return Json::parse(fmt::format("{}", static_cast<float>(parameter.value)));
+  return base::json_number<Json>(base::shortest(static_cast<float>(parameter.value)));
 }
 
 Json to_json(vehicle::Parameter const& parameter) {

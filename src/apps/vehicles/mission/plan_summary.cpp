@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text/json.hpp"
 #include "geo/json.hpp"
 #include "plan/estimate.hpp"
 
@@ -136,7 +137,7 @@ std::string to_json(fleet::MavlinkVehicle const* craft, std::vector<ListReport> 
   json["fence_zones"] = plan.fence.zones.size();
   json["rally_points"] = plan.rally.size();
   json["estimate_m"] = geo::rounded(plan::estimate(plan.mission, plan.mission.planned_home).path_m, 1);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace);  // errors may hold a vehicle's words
+  return base::to_text(json, 1);
 }
 
 }  // namespace lapwing::apps

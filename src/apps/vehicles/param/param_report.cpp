@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text/json.hpp"
+
 namespace lapwing::apps {
 
 namespace {
@@ -18,17 +20,14 @@ std::string utc_text(base::UtcTime time) {
                      fmt::gmtime(std::chrono::time_point_cast<std::chrono::seconds>(time).time_since_epoch().count()));
 }
 
-/// Numbers as the vehicle holds them: 0.1, not the double that is nearest to that float.
-/// Names come from vehicles and need not be UTF-8.
 std::string written(ordered_json const& json) {
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return base::to_text(json, 2) + "\n";
 }
 
+/// As the vehicle holds it: 0.1, not the double that is nearest to that float.
 ordered_json number(Parameter const& parameter) {
   if (mavlink::is_integer(parameter.type)) return parameter.value;
-  return ordered_json::parse(value_text(parameter), nullptr, false).is_number()
-             ? ordered_json::parse(value_text(parameter))
-             : ordered_json(nullptr);
+  return base::json_number<ordered_json>(base::shortest(static_cast<float>(parameter.value)));
 }
 
 ordered_json to_json(Parameter const& parameter) {

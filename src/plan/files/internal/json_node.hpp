@@ -8,15 +8,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text/json.hpp"
 #include "plan/files/internal/plan_reader.hpp"
 
 namespace lapwing::plan::internal {
 
+/// Sorted by key, as QGroundControl writes its files; files of strangers with very many keys are read without delay.
 using Json = nlohmann::json;
 
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
-/// A value of a file with its path for messages: "a.plan: mission.items[3]".
+/// A value of a file with its path for messages, which JSON's own values do not know: "a.plan: mission.items[3]".
 class Node {
  public:
   Node(Json const& value, std::string path, bool is_root = false)
@@ -59,8 +61,5 @@ class Node {
 
 /// What the pattern was drawn from, with the mission's items in it.
 [[nodiscard]] Json pattern_json(Plan const& plan, Pattern const& pattern);
-
-/// A parameter as JSON: the shortest number that is the same float, null for what is no number.
-[[nodiscard]] Json param_json(double value);
 
 }  // namespace lapwing::plan::internal
