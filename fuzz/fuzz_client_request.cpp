@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "require.hpp"
+#include "station/messages/client_request.hpp"
 #include "station/messages/messages.hpp"
 
 using namespace lapwing;
@@ -21,11 +22,16 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     fuzz::require(!request.error().message.empty());
     fuzz::require(!station::refused_message("1", {request.error(), {}}).empty());
   }
-  auto const start = station::parse_start_script(text);
-  if (!start) {
-    fuzz::require(!station::start_failure_body(422, "wrong", {start.error(), {}}).empty());
+  for (auto const* type : {"command", "emergency_stop", "keep_control", "acknowledge_alarms"}) {
+    auto const body = station::parse_request_body(type, text);
+    fuzz::require(body || !body.error().message.empty());
+  }
+  auto const body = station::parse_request_body("start_script", text);
+  if (!body) {
+    fuzz::require(!station::start_failure_body(422, "wrong", {body.error(), {}}).empty());
   } else {
-    station::ScriptStatus const status{.name = start->name, .source = start->source, .message = {}, .diagnostics = {}};
+    auto const& start = std::get<station::StartScript>(*body);
+    station::ScriptStatus const status{.name = start.name, .source = start.source, .message = {}, .diagnostics = {}};
     fuzz::require(!station::script_message(status).empty());
   }
   return 0;

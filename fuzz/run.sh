@@ -40,6 +40,10 @@ case $target in
     printf '{"type":"stop_script","id":"2"}' | seed stop
     printf '{"type":"subscribe","id":"3","feeds":["vehicles","log"],"run":"5d1c","revisions":{"log":88}}' | seed subscribe
     printf '{"type":"start_script","id":"3","name":"a.dolphin","source":"message \\"\\u00e9\\ud83d\\ude00\\""}' | seed start
+    printf '{"type":"command","id":"4","vehicles":["1"],"action":"go_to","lat_deg":41,"lon_deg":-8,"height_m":20,"mode":"","take_over":true,"allow":{"too_far":"area B"},"operator":"anna"}' | seed command
+    printf '{"type":"emergency_stop","action":"land"}' | seed emergency
+    printf '{"type":"keep_control","vehicle":"3"}' | seed keep
+    printf '{"type":"acknowledge_alarms","numbers":[3,5]}' | seed alarms
     ;;
   http)
     printf 'GET\n/\nHost: 127.0.0.1:8080\n' | seed page

@@ -17,6 +17,8 @@
 #include "station/feeds/tasks_feed.hpp"
 #include "station/feeds/vehicles_feed.hpp"
 #include "station/http/openapi.hpp"
+#include "station/messages/alarm_messages.hpp"
+#include "station/messages/control_messages.hpp"
 #include "station/operator/control_routes.hpp"
 #include "station/operator/parameter_routes.hpp"
 #include "station/operator/script_folder.hpp"
@@ -205,10 +207,11 @@ HttpResponse Station::get_status() const {
 }
 
 HttpResponse Station::post_script(HttpRequest const& request) {
-  auto asked = parse_start_script(request.body);
-  if (!asked) return problem(400, asked.error().message, asked.error().hint);
-  log_.info(fmt::format("start asked for over HTTP script={}", asked->name));
-  auto const started = script_.start(std::move(asked->name), std::move(asked->source));
+  auto body = parse_request_body("start_script", request.body);
+  if (!body) return problem(body.error());
+  auto& asked = std::get<StartScript>(*body);
+  log_.info(fmt::format("start asked for over HTTP script={}", asked.name));
+  auto const started = script_.start(std::move(asked.name), std::move(asked.source));
   if (!started) return start_failure(started.error());
   return {.status = 202, .body = script_message(script_.status())};
 }

@@ -13,6 +13,7 @@
 #include "base/log.hpp"
 #include "station/feeds/feed.hpp"
 #include "station/http/http_server.hpp"
+#include "station/messages/client_request.hpp"
 #include "station/messages/log_history.hpp"
 #include "station/messages/messages.hpp"
 #include "station/operator/script_control.hpp"

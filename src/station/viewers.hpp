@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "station/feeds/feed.hpp"
 #include "station/http/http_server.hpp"
+#include "station/messages/client_request.hpp"
 #include "station/messages/messages.hpp"
 
 namespace lapwing::station {

@@ -1,20 +1,13 @@
 #include "host/session/report.hpp"
 
-#include <fmt/chrono.h>
 #include <nlohmann/json.hpp>
 
 #include "base/text/json.hpp"
+#include "base/text/utc_text.hpp"
 
 namespace lapwing::host {
 
 using nlohmann::json;
-
-std::string to_iso8601(base::UtcTime time) {
-  auto const millis = std::chrono::floor<std::chrono::milliseconds>(time);
-  auto const seconds = std::chrono::floor<std::chrono::seconds>(millis);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
-                     (millis - seconds).count());
-}
 
 namespace {
 
@@ -57,8 +50,8 @@ json to_json_value(VehicleReport const& vehicle) {
 std::string to_json(RunReport const& report) {
   json value{{"script", report.script},
              {"outcome", report.outcome},
-             {"started", to_iso8601(report.started)},
-             {"ended", to_iso8601(report.ended)}};
+             {"started", base::to_iso8601(report.started)},
+             {"ended", base::to_iso8601(report.ended)}};
   auto& vehicles = value["vehicles"] = json::array();
   for (auto const& vehicle : report.vehicles) vehicles.push_back(to_json_value(vehicle));
   auto& tasks = value["tasks"] = json::array();

@@ -38,7 +38,5 @@ struct RunReport {
 };
 
 [[nodiscard]] std::string to_json(RunReport const& report);
-/// UTC as ISO 8601 with milliseconds: 2026-11-21T10:12:52.123Z.
-[[nodiscard]] std::string to_iso8601(base::UtcTime time);
 
 }  // namespace lapwing::host

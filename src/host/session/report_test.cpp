@@ -38,16 +38,6 @@ RunReport example() {
   return report;
 }
 
-TEST(Iso8601, HasMillisecondsAndTheZoneUtc) {
-  EXPECT_EQ(to_iso8601(utc(0ms)), "1970-01-01T00:00:00.000Z");
-  EXPECT_EQ(to_iso8601(utc(1'000'000'000'007ms)), "2001-09-09T01:46:40.007Z");
-}
-
-TEST(Iso8601, CountsForwardsBefore1970) {
-  EXPECT_EQ(to_iso8601(utc(-1ms)), "1969-12-31T23:59:59.999Z");
-  EXPECT_EQ(to_iso8601(utc(-1'000ms)), "1969-12-31T23:59:59.000Z");
-}
-
 TEST(Report, HasEveryKeyOfTheContract) {
   auto const report = json::parse(to_json(example()));
   EXPECT_EQ(report["script"], "a.dolphin");

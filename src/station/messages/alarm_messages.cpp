@@ -2,8 +2,9 @@
 
 #include <utility>
 
-#include "station/messages/control_messages.hpp"
-#include "station/messages/json_parts.hpp"
+#include "base/text/utc_text.hpp"
+#include "station/messages/client_request.hpp"
+#include "station/messages/json.hpp"
 
 namespace lapwing::station {
 
@@ -15,30 +16,13 @@ Json to_json(vehicle::Alarm const& alarm, base::TimePoint now) {
             {"severity", vehicle::to_string(alarm.severity)},
             {"vehicle", alarm.vehicle.text},
             {"text", alarm.words},
-            {"raised", internal::to_text(alarm.raised)},
+            {"raised", base::to_iso8601(alarm.raised)},
             {"age_s", rounded(base::to_seconds(now - alarm.since), 3)}};
   if (!alarm.acknowledged_by.empty()) json["acknowledged_by"] = alarm.acknowledged_by;
   return json;
 }
 
 }  // namespace
-
-base::Result<AcknowledgeAlarms> parse_acknowledge_alarms(std::string_view text) {
-  constexpr std::size_t most = 10'000;
-  auto const object = internal::parse_object(text);
-  if (!object) return std::unexpected(object.error());
-  auto by = internal::operator_member(*object);
-  if (!by) return std::unexpected(by.error());
-  auto const found = object->find("numbers");
-  if (found == object->end() || !found->is_array() || found->empty() || found->size() > most)
-    return internal::wrong("\"numbers\" must be a list of alarms' numbers.");
-  AcknowledgeAlarms request{{}, *std::move(by)};
-  for (auto const& number : *found) {
-    if (!number.is_number_unsigned()) return internal::wrong("\"numbers\" must be a list of alarms' numbers.");
-    request.numbers.push_back(number.get<std::uint64_t>());
-  }
-  return request;
-}
 
 std::string alarms_message(vehicle::VehicleAlarms const* alarms, base::TimePoint now) {
   Json list = Json::array();
@@ -54,10 +38,10 @@ void add_alarm_routes(Router& router, vehicle::VehicleAlarms* alarms, base::Loop
   auto const all = [alarms, &loop] { return alarms_message(alarms, loop.now()); };
   router.add("GET", "/api/v1/alarms", [all](HttpRequest const&) { return HttpResponse{.body = all()}; });
   router.add("POST", "/api/v1/alarms/acknowledge", [alarms, all](HttpRequest const& request) {
-    auto asked = parse_acknowledge_alarms(request.body);
-    if (!asked) return problem(asked.error());
-    auto by = asked->by.empty() ? vehicle::Commander(unnamed_client) : std::move(asked->by);
-    if (alarms) (void)alarms->acknowledge(asked->numbers, std::move(by));
+    auto const body = parse_request_body("acknowledge_alarms", request.body);
+    if (!body) return problem(body.error());
+    auto const& asked = std::get<AcknowledgeAlarms>(*body);
+    if (alarms) (void)alarms->acknowledge(asked.numbers, asked.by.empty() ? unnamed_client : asked.by);
     return HttpResponse{.body = all()};
   });
 }

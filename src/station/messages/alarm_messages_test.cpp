@@ -32,17 +32,5 @@ TEST(AlarmMessages, TellOfNoneWhereThereAreNone) {
   EXPECT_TRUE(json::parse(alarms_message(nullptr, base::TimePoint{}))["alarms"].empty());
 }
 
-TEST(AlarmMessages, ReadWhatIsAcknowledgedByWhom) {
-  auto const read = parse_acknowledge_alarms(R"({"numbers":[3,5],"operator":"desk"})");
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->numbers, (std::vector<std::uint64_t>{3, 5}));
-  EXPECT_EQ(read->by, "desk");
-  EXPECT_FALSE(parse_acknowledge_alarms(R"({})"));
-  EXPECT_FALSE(parse_acknowledge_alarms(R"({"numbers":[]})"));
-  EXPECT_FALSE(parse_acknowledge_alarms(R"({"numbers":[-1]})"));
-  EXPECT_FALSE(parse_acknowledge_alarms(R"({"numbers":["all"]})"));
-  EXPECT_FALSE(parse_acknowledge_alarms(R"([1])"));
-}
-
 }  // namespace
 }  // namespace lapwing::station

@@ -1,16 +1,12 @@
 #include "station/messages/messages.hpp"
 
-#include <fmt/format.h>
-
-#include "station/messages/json_parts.hpp"
+#include "base/text/utc_text.hpp"
+#include "station/messages/json.hpp"
 
 namespace lapwing::station {
 namespace {
 
-using internal::parse_object;
-using internal::text_member;
-using internal::to_text;
-using internal::wrong;
+using base::to_iso8601;
 
 Json to_json(std::vector<base::DiagnosticRecord> const& records);
 
@@ -47,46 +43,10 @@ Json to_json(tasks::TaskView const& task) {
 void add_hello(Json& json, Hello const& hello) {
   json["protocol"] = protocol_version;
   json["version"] = hello.program_version;
-  json["server_time"] = to_text(hello.server_time);
+  json["server_time"] = to_iso8601(hello.server_time);
   json["site"] = {{"name", hello.site.name}};
   if (hello.site.origin) json["site"]["origin"] = position_json(*hello.site.origin);
   if (!hello.site.tiles.empty()) json["site"]["tiles"] = hello.site.tiles;
-}
-
-base::Result<StartScript> start_script_from(Json const& object) {
-  if (!object.contains("source")) return wrong("\"source\", the script's text, is missing.");
-  auto source = text_member(object, "source", "");
-  if (!source) return std::unexpected(source.error());
-  auto name = text_member(object, "name", StartScript{}.name);
-  if (!name) return std::unexpected(name.error());
-  return StartScript{std::move(*name), std::move(*source)};
-}
-
-/// `"feeds": ["vehicles"], "run": "4f1c", "revisions": {"vehicles": 12}`
-base::Result<Subscribe> subscribe_from(Json const& object) {
-  constexpr std::size_t most = 100;
-  constexpr std::size_t longest = 100;
-  auto const feeds = object.find("feeds");
-  bool const is_list = feeds != object.end() && feeds->is_array() && feeds->size() <= most;
-  if (!is_list) return wrong("\"feeds\" must be a list of feeds' names.");
-  Subscribe wanted;
-  for (auto const& name : *feeds) {
-    if (!name.is_string() || name.get_ref<std::string const&>().size() > longest)
-      return wrong("\"feeds\" must be a list of feeds' names.");
-    wanted.feeds.push_back(name.get<std::string>());
-  }
-  auto run = text_member(object, "run", "");
-  if (!run) return std::unexpected(run.error());
-  wanted.run = std::move(*run);
-  auto const revisions = object.find("revisions");
-  if (revisions == object.end()) return wanted;
-  if (!revisions->is_object() || revisions->size() > most)
-    return wrong("\"revisions\" must give a number for each feed that it names.");
-  for (auto const& [name, revision] : revisions->items()) {
-    if (!revision.is_number_unsigned()) return wrong("\"revisions\" must give a number for each feed that it names.");
-    wanted.revisions.emplace(name, revision.get<std::uint64_t>());
-  }
-  return wanted;
 }
 
 Json reply(std::string_view request_id, bool ok) {
@@ -125,7 +85,7 @@ std::string log_message(std::span<LogLine const> lines) {
   Json list = Json::array();
   for (auto const& line : lines) {
     list.push_back({{"seq", line.sequence},
-                    {"time", to_text(line.record.utc)},
+                    {"time", to_iso8601(line.record.utc)},
                     {"level", base::to_string(line.record.level)},
                     {"source", line.record.source},
                     {"text", line.record.text}});
@@ -134,7 +94,7 @@ std::string log_message(std::span<LogLine const> lines) {
 }
 
 std::string pong_message(std::string_view request_id, base::UtcTime server_time) {
-  return dump({{"type", "pong"}, {"id", request_id}, {"server_time", to_text(server_time)}});
+  return dump({{"type", "pong"}, {"id", request_id}, {"server_time", to_iso8601(server_time)}});
 }
 
 std::string accepted_message(std::string_view request_id) {
@@ -173,42 +133,6 @@ std::string start_failure_body(int http_status, std::string_view title, StartFai
   if (!failure.error.hint.empty()) json["hint"] = failure.error.hint;
   json["diagnostics"] = to_json(failure.diagnostics);
   return dump(json);
-}
-
-base::Result<ClientRequest> parse_client_request(std::string_view text) {
-  auto const object = parse_object(text);
-  if (!object) return std::unexpected(object.error());
-  auto id = text_member(*object, "id", "");
-  if (!id) return std::unexpected(id.error());
-  auto const type = text_member(*object, "type", "");
-  if (!type) return std::unexpected(type.error());
-  if (*type == "ping") return ClientRequest{std::move(*id), Ping{}};
-  if (*type == "stop_script") return ClientRequest{std::move(*id), StopScript{}};
-  if (is_control_request(*type)) {
-    auto control = parse_control_request(*type, text);
-    if (!control) return std::unexpected(control.error());
-    return ClientRequest{std::move(*id), std::move(*control)};
-  }
-  if (*type == "acknowledge_alarms") {
-    auto acknowledge = parse_acknowledge_alarms(text);
-    if (!acknowledge) return std::unexpected(acknowledge.error());
-    return ClientRequest{std::move(*id), std::move(*acknowledge)};
-  }
-  if (*type == "subscribe") {
-    auto subscribe = subscribe_from(*object);
-    if (!subscribe) return std::unexpected(subscribe.error());
-    return ClientRequest{std::move(*id), *std::move(subscribe)};
-  }
-  if (*type != "start_script") return wrong(fmt::format("There is no request of type \"{}\".", *type));
-  auto start = start_script_from(*object);
-  if (!start) return std::unexpected(start.error());
-  return ClientRequest{std::move(*id), std::move(*start)};
-}
-
-base::Result<StartScript> parse_start_script(std::string_view body) {
-  auto const object = parse_object(body);
-  if (!object) return std::unexpected(object.error());
-  return start_script_from(*object);
 }
 
 }  // namespace lapwing::station

@@ -1,24 +1,21 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "geo/position.hpp"
-#include "station/messages/alarm_messages.hpp"
-#include "station/messages/control_messages.hpp"
 #include "station/operator/script_control.hpp"
 #include "tasks/task_view.hpp"
 
-/// The JSON that the station speaks over WebSocket and HTTP, protocol 1. docs/reference/station-messages.md describes
-/// it for programs; it changes only by addition as long as the number stays.
+/// The JSON that the station speaks over WebSocket and HTTP, protocol 1; client_request.hpp reads what it is asked.
+/// docs/reference/station-messages.md describes it for programs; it changes only by addition as long as the number
+/// stays.
 ///
 /// SI units and radians, as everywhere; only latitude and longitude are in degrees. A unit is in every key that has
 /// one. Every function returns one complete message.
@@ -58,7 +55,7 @@ struct Hello {
   FeedList feeds = {};         ///< none over HTTP
 };
 
-// ---- station to client
+// ---- over WebSocket
 [[nodiscard]] std::string hello_message(Hello const& hello);
 [[nodiscard]] std::string script_message(ScriptStatus const& status);
 [[nodiscard]] std::string tasks_message(std::span<tasks::TaskView const> trees);
@@ -84,28 +81,5 @@ struct StationStatus {
 [[nodiscard]] std::string script_text_body(std::string_view name, std::string_view source);
 /// `application/problem+json` with the diagnostics beside the usual members.
 [[nodiscard]] std::string start_failure_body(int http_status, std::string_view title, StartFailure const& failure);
-
-// ---- client to station
-struct StartScript {
-  std::string name = "script";
-  std::string source;
-};
-struct StopScript {};
-struct Ping {};
-struct Subscribe {
-  std::vector<std::string> feeds;
-  std::string run = {};  ///< of which the revisions are
-  std::map<std::string, std::uint64_t> revisions = {};
-};
-
-struct ClientRequest {
-  std::string id;  ///< chosen by the client, comes back in the answer; may be empty
-  std::variant<StartScript, StopScript, Ping, Subscribe, ControlRequest, AcknowledgeAlarms> what;
-};
-
-/// Reads what a client sent; says what is wrong with it.
-[[nodiscard]] base::Result<ClientRequest> parse_client_request(std::string_view text);
-/// Reads the body of `POST /api/v1/script`: {"name": ..., "source": ...}.
-[[nodiscard]] base::Result<StartScript> parse_start_script(std::string_view body);
 
 }  // namespace lapwing::station

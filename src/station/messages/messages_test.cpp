@@ -56,64 +56,6 @@ TEST(Messages, AnswerRequests) {
   EXPECT_EQ(refused["error"], json({{"message", "one runs"}, {"hint", "stop it"}}));
 }
 
-TEST(Messages, ReadRequests) {
-  auto const start = parse_client_request(R"({"type":"start_script","id":"a","name":"n","source":"text"})");
-  ASSERT_TRUE(start);
-  EXPECT_EQ(start->id, "a");
-  EXPECT_EQ(std::get<StartScript>(start->what).name, "n");
-  EXPECT_EQ(std::get<StartScript>(start->what).source, "text");
-  EXPECT_TRUE(std::holds_alternative<StopScript>(parse_client_request(R"({"type":"stop_script"})")->what));
-  EXPECT_TRUE(std::holds_alternative<Ping>(parse_client_request(R"({"type":"ping","more":[1,2]})")->what));
-}
-
-TEST(Messages, SayWhatIsWrongWithARequest) {
-  auto const message_of = [](std::string_view text) {
-    auto const request = parse_client_request(text);
-    return request ? std::string("accepted") : request.error().message;
-  };
-  EXPECT_EQ(message_of("rubbish"), "This is no JSON object.");
-  EXPECT_EQ(message_of("[]"), "This is no JSON object.");
-  EXPECT_EQ(message_of(std::string(100'000, '[')), "This is no JSON object.");
-  EXPECT_EQ(message_of(R"({"a":)" + std::string(100'000, '[')), "This is no JSON object.");
-  EXPECT_EQ(message_of("{\"type\":\"\xff\"}"), "This is no JSON object.");
-  EXPECT_EQ(message_of(R"({})"), "There is no request of type \"\".");
-  EXPECT_EQ(message_of(R"({"type":"fly"})"), "There is no request of type \"fly\".");
-  EXPECT_EQ(message_of(R"({"type":3})"), "\"type\" must be text.");
-  EXPECT_EQ(message_of(R"({"type":"ping","id":5})"), "\"id\" must be text.");
-  EXPECT_EQ(message_of(R"({"type":"start_script"})"), "\"source\", the script's text, is missing.");
-  EXPECT_EQ(message_of(R"({"type":"start_script","source":null})"), "\"source\" must be text.");
-  EXPECT_EQ(message_of(R"({"type":"start_script","source":"","name":[]})"), "\"name\" must be text.");
-}
-
-TEST(Messages, ReadSubscriptions) {
-  auto const request =
-      parse_client_request(R"({"type":"subscribe","id":"a","feeds":["log","map"],"run":"4f","revisions":{"log":12}})");
-  ASSERT_TRUE(request);
-  auto const& subscribe = std::get<Subscribe>(request->what);
-  EXPECT_EQ(subscribe.feeds, (std::vector<std::string>{"log", "map"}));
-  EXPECT_EQ(subscribe.run, "4f");
-  EXPECT_EQ(subscribe.revisions, (std::map<std::string, std::uint64_t>{{"log", 12}}));
-  EXPECT_TRUE(std::get<Subscribe>(parse_client_request(R"({"type":"subscribe","feeds":[]})")->what).feeds.empty());
-  auto const message_of = [](std::string_view members) {
-    auto const wrong = parse_client_request(fmt::format(R"({{"type":"subscribe"{}}})", members));
-    return wrong ? std::string("accepted") : wrong.error().message;
-  };
-  std::string const no_feeds = "\"feeds\" must be a list of feeds' names.";
-  for (auto const* members : {"", R"(,"feeds":"log")", R"(,"feeds":{"log":1})", R"(,"feeds":[1])"})
-    EXPECT_EQ(message_of(members), no_feeds) << members;
-  EXPECT_EQ(message_of(fmt::format(R"(,"feeds":["{}"])", std::string(101, 'x'))), no_feeds);
-  std::string const no_revisions = "\"revisions\" must give a number for each feed that it names.";
-  for (auto const* revisions : {"12", "[12]", R"({"log":-1})", R"({"log":1.5})", R"({"log":"1"})"})
-    EXPECT_EQ(message_of(fmt::format(R"(,"feeds":[],"revisions":{})", revisions)), no_revisions) << revisions;
-  EXPECT_EQ(message_of(R"(,"feeds":[],"run":1)"), "\"run\" must be text.");
-}
-
-TEST(Messages, ReadTheBodyThatStartsAScript) {
-  EXPECT_EQ(parse_start_script(R"({"source":"x"})")->name, "script");
-  EXPECT_FALSE(parse_start_script(""));
-  EXPECT_FALSE(parse_start_script(R"({"name":"x"})"));
-}
-
 TEST(Messages, ListDiagnosticsOfAFailedStart) {
   base::DiagnosticRecord const note{"f", {5, 6}, {5, 7}, "note", "first defined here", "", {}, ""};
   StartFailure const failure{{base::ErrorKind::invalid_input, "2 mistakes", ""},

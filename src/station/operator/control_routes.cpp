@@ -16,10 +16,10 @@ using vehicle::VehicleControl;
 template <class Answer>
 HttpResponse obey_post(VehicleControl* control, base::Logger const& log, std::string_view type,
                        HttpRequest const& request, Answer answer) {
-  auto asked = parse_control_request(type, request.body);
+  auto asked = parse_request_body(type, request.body);
   if (!asked) return problem(asked.error());
   log.warn(fmt::format("{} asked for over HTTP", type));
-  auto const done = obey(control, *std::move(asked), unnamed_client);
+  auto const done = obey(control, std::get<ControlRequest>(*std::move(asked)), unnamed_client);
   if (!done) return problem(done.error());
   return {.status = 202, .body = answer()};
 }

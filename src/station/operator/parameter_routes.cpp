@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "station/messages/control_messages.hpp"
-#include "station/messages/json_parts.hpp"
+#include "base/text/utc_text.hpp"
+#include "station/messages/client_request.hpp"
+#include "station/messages/json.hpp"
+#include "station/messages/request_reader.hpp"
 
 namespace lapwing::station {
 
@@ -31,7 +33,7 @@ std::string list_body(VehicleId const& id, vehicle::ParameterList const& list) {
   for (auto const& parameter : list.parameters) all.push_back(to_json(parameter));
   return dump({{"vehicle", id.text},
                {"confirmed", to_string(list.confirmed)},
-               {"taken", internal::to_text(list.taken)},
+               {"taken", base::to_iso8601(list.taken)},
                {"parameters", std::move(all)}});
 }
 
@@ -105,15 +107,13 @@ base::Result<Which> which(HttpRequest const& request, bool is_one) {
 }
 
 Reply begin_change(VehicleParameters& parameters, Which of, std::string_view body) {
-  auto const object = internal::parse_object(body);
-  if (!object) return problem(object.error());
-  auto const value = internal::number_member(*object, "value");
-  if (!value) return problem(value.error());
-  if (!*value) return problem(400, "\"value\", the number that the parameter is to have, is missing.");
-  auto by = internal::operator_member(*object);
+  internal::RequestReader request(body);
+  auto const value = request.number("value");
+  if (!value) request.refuse("\"value\", the number that the parameter is to have, is missing.");
+  auto by = request.result(request.operator_name());
   if (!by) return problem(by.error());
   if (by->empty()) *by = unnamed_client;
-  return put_one(parameters, std::move(of.vehicle), std::move(of.name), **value, *std::move(by));
+  return put_one(parameters, std::move(of.vehicle), std::move(of.name), *value, *std::move(by));
 }
 
 }  // namespace
