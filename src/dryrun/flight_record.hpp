@@ -63,7 +63,8 @@ struct FlightRecord {
   std::string reason;                    ///< why, unless done
   std::vector<std::string> waiting_for;  ///< what was still running when an unfinished flight was cut off
   geo::Wgs84 home;
-  geo::Ned wind_m_s;
+  geo::Ned wind_m_s;      ///< where the air goes
+  double gust_m_s = 0.0;  ///< standard deviation
   std::uint64_t seed = 1;
   base::Duration duration{};
   base::Duration sample_period{};

@@ -100,10 +100,15 @@ Json item_table(FlightRecord const& record) {
 
 std::string to_json(FlightRecord const& record, Analysis const& analysis, plan::Fence const& fence) {
   Places const places(record.home);
-  Json json{{"script", record.script}, {"outcome", record.outcome},
-            {"error", record.reason},  {"duration_s", seconds(record.duration)},
-            {"home", places.at({})},   {"wind_m_s", {record.wind_m_s.north, record.wind_m_s.east}},
-            {"seed", record.seed},     {"sample_period_s", seconds(record.sample_period)}};
+  Json json{{"script", record.script},
+            {"outcome", record.outcome},
+            {"error", record.reason},
+            {"duration_s", seconds(record.duration)},
+            {"home", places.at({})},
+            {"wind_m_s", {record.wind_m_s.north, record.wind_m_s.east}},
+            {"gust_m_s", record.gust_m_s},
+            {"seed", record.seed},
+            {"sample_period_s", seconds(record.sample_period)}};
   auto& vehicles = json["vehicles"] = Json::array();
   for (std::size_t i = 0; i < record.vehicles.size(); ++i)
     vehicles.push_back(vehicle_json(record.vehicles[i], analysis.vehicles[i], places));

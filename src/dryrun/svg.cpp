@@ -110,9 +110,9 @@ std::string to_svg(FlightRecord const& record, Analysis const& analysis, plan::F
   draw_map(canvas, subject, map);
   draw_time_line(canvas, subject, lanes);
   canvas.words({margin, height - 12.0},
-               fmt::format("simulated by Lapwing on level ground at {} m, home {:.6f}, {:.6f}, wind {} m/s, seed {}",
+               fmt::format("simulated by Lapwing on level ground at {} m, home {:.6f}, {:.6f}, {}, seed {}",
                            number_text(record.home.alt_m, 0), record.home.lat_deg(), record.home.lon_deg(),
-                           number_text(std::hypot(record.wind_m_s.north, record.wind_m_s.east), 1), record.seed),
+                           wind_text(record.wind_m_s, record.gust_m_s), record.seed),
                "class=\"soft tiny\"");
   canvas.raw("</svg>\n");
   return canvas.take();

@@ -176,9 +176,8 @@ void write_head(Out out, FlightRecord const& record) {
   fmt::format_to(out, "{}: {} after {} of flight{}{}\n", record.script, record.outcome, clock_text(record.duration),
                  record.reason.empty() ? "" : ": ", record.reason);
   for (auto const& waiting : record.waiting_for) fmt::format_to(out, "  at the end: {}\n", waiting);
-  double const wind = std::hypot(record.wind_m_s.north, record.wind_m_s.east);
   fmt::format_to(out, "home {:.7f},{:.7f} at {:.1f} m, {}, seed {}\n", record.home.lat_deg(), record.home.lon_deg(),
-                 record.home.alt_m, wind > 0.0 ? fmt::format("wind {:.1f} m/s", wind) : "no wind", record.seed);
+                 record.home.alt_m, wind_text(record.wind_m_s, record.gust_m_s), record.seed);
   fmt::format_to(out, "terrain is not known: the ground is level at the altitude of home\n");
 }
 

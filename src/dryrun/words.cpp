@@ -1,6 +1,7 @@
 #include "dryrun/words.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -34,6 +35,14 @@ std::string place_text(geo::Ned place) {
   if (north != 0.0 && east != 0.0) text += " and ";
   if (east != 0.0) text += fmt::format("{:.0f} m {}", std::abs(east), east < 0.0 ? "west" : "east");
   return text.empty() ? "at home" : text + " of home";
+}
+
+std::string wind_text(geo::Ned air_m_s, double gust_m_s) {
+  double const speed = std::hypot(air_m_s.north, air_m_s.east);
+  auto const from = std::llround(std::atan2(-air_m_s.east, -air_m_s.north) * 180.0 / std::numbers::pi + 360.0) % 360;
+  auto text = speed > 0.0 ? fmt::format("wind {:.1f} m/s from {}°", speed, from) : std::string("no wind");
+  if (gust_m_s > 0.0) text += fmt::format(", gusts {:.1f} m/s", gust_m_s);
+  return text;
 }
 
 std::string difference_text(double reference, double value) {

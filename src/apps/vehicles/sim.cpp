@@ -57,12 +57,7 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   world.impairment.delay = base::from_seconds(options.delay_s);
   world.impairment.duplication = options.duplication;
   world.impairment.jitter = base::from_seconds(options.jitter_s);
-  if (!options.wind.empty()) {
-    auto const wind = host::parse_wind(options.wind);
-    if (!wind) return std::unexpected(wind.error());
-    world.wind_m_s = wind->air_m_s;
-    world.gust_m_s = wind->gust_m_s;
-  }
+  if (auto const blows = host::set_wind(world, options.wind); !blows) return std::unexpected(blows.error());
   for (auto const& text : options.parameters) {
     auto const parameter = sim::parse_parameter(text);
     if (!parameter) return std::unexpected(parameter.error());
@@ -111,7 +106,7 @@ void add_sim(CLI::App& program, int& exit_code) {
       ->check(CLI::Range(0.0, 1.0));
   verb->add_option("--jitter", options->jitter_s, "Up to so many seconds later still: packets overtake each other")
       ->check(CLI::Range(0.0, 60.0));
-  verb->add_option("--wind", options->wind, "SPEED,FROM[,GUST]: m/s, degrees from which it blows, strength of gusts");
+  verb->add_option("--wind", options->wind, host::wind_help);
   verb->add_option("--seed", options->seed, "The same seed gives the same noise and losses")
       ->check(not_negative())
       ->capture_default_str();

@@ -32,6 +32,12 @@ std::optional<std::vector<double>> numbers(std::string const& text) {
   return values;
 }
 
+/// "5,127": the wind that moves the air by so much.
+std::string as_blown(double north_m_s, double east_m_s) {
+  auto const from_deg = std::llround(std::atan2(-east_m_s, -north_m_s) * 180.0 / std::numbers::pi);
+  return fmt::format("{:.3g},{}", std::hypot(north_m_s, east_m_s), (from_deg + 360) % 360);
+}
+
 }  // namespace
 
 base::Result<HomePlace> parse_home(std::string const& text) {
@@ -48,19 +54,27 @@ base::Result<HomePlace> parse_home(std::string const& text) {
   return HomePlace{geo::Wgs84::from_degrees(values[0], values[1], values[2]), values[3] * std::numbers::pi / 180.0};
 }
 
-base::Result<SimulatedWind> parse_wind(std::string const& text) {
+base::Result<> set_wind(sim::WorldOptions& world, std::string const& text) {
   constexpr double strongest_m_s = 50.0;
+  if (text.empty()) return {};
   auto const read = numbers(text);
-  bool const is_wind = read && (read->size() == 2 || read->size() == 3) && read->front() >= 0.0 &&
-                       read->front() <= strongest_m_s && read->back() >= 0.0 && (*read)[1] <= 360.0;
-  if (!is_wind || (read->size() == 3 && read->back() > strongest_m_s)) {
-    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no wind", text),
-                      "write SPEED,FROM or SPEED,FROM,GUST in m/s (up to 50) and degrees: 6,270 or 6,270,2");
+  auto const count = read ? read->size() : 0;
+  double const speed = count > 0 ? (*read)[0] : 0.0;
+  double const from_deg = count > 1 ? (*read)[1] : 0.0;
+  double const gust = count > 2 ? (*read)[2] : 0.0;
+  auto const is_strength = [](double value) { return value >= 0.0 && value <= strongest_m_s; };
+  bool const has_sense = count == 3 || speed > 0.0 || from_deg == 0.0;
+  bool const is_wind = (count == 2 || count == 3) && is_strength(speed) && is_strength(gust) && from_deg >= 0.0 &&
+                       from_deg <= 360.0 && has_sense;
+  if (!is_wind) {
+    std::string hint = "write SPEED,FROM or SPEED,FROM,GUST in m/s (up to 50) and degrees: 6,270 or 6,270,2";
+    if (count == 2) hint += fmt::format("; NORTH,EAST of earlier versions is {} now", as_blown(speed, from_deg));
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no wind", text), std::move(hint));
   }
-  double const from = (*read)[1] * std::numbers::pi / 180.0;
-  SimulatedWind wind{.air_m_s = {-read->front() * std::cos(from), -read->front() * std::sin(from), 0.0}};
-  if (read->size() == 3) wind.gust_m_s = read->back();
-  return wind;
+  double const from = from_deg * std::numbers::pi / 180.0;
+  world.wind_m_s = {-speed * std::cos(from), -speed * std::sin(from), 0.0};
+  world.gust_m_s = gust;
+  return {};
 }
 
 base::Result<std::unique_ptr<sim::World>> start_simulation(Ground& ground, sim::WorldOptions options,

@@ -16,13 +16,10 @@ struct HomePlace {
 };
 [[nodiscard]] base::Result<HomePlace> parse_home(std::string const& text);
 
-/// How the air moves at each vehicle.
-struct SimulatedWind {
-  geo::Ned air_m_s;       ///< where the air goes
-  double gust_m_s = 0.0;  ///< standard deviation of each component
-};
-/// "SPEED,FROM[,GUST]": m/s, degrees clockwise from north from which it blows, m/s. Errors: invalid_input.
-[[nodiscard]] base::Result<SimulatedWind> parse_wind(std::string const& text);
+/// "SPEED,FROM[,GUST]": m/s, degrees clockwise from north from which it blows, standard deviation of each component in
+/// m/s; empty for still air. Errors: invalid_input.
+[[nodiscard]] base::Result<> set_wind(sim::WorldOptions& world, std::string const& text);
+inline constexpr auto wind_help = "SPEED,FROM[,GUST]: m/s, degrees from which it blows, strength of gusts";
 
 /// For --swap-batteries of every verb that simulates.
 inline constexpr auto swap_help =

@@ -1,5 +1,7 @@
 #include "host/simulation/simulation.hpp"
 
+#include <cmath>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -37,24 +39,33 @@ TEST(ParseHome, RefusesWhatIsNoPlace) {
   }
 }
 
-TEST(ParseWind, BlowsFromWhereItIsSaid) {
-  auto const west = parse_wind("6,270");
-  ASSERT_TRUE(west);
-  EXPECT_NEAR(west->air_m_s.north, 0.0, 1e-9);
-  EXPECT_NEAR(west->air_m_s.east, 6.0, 1e-9);
-  EXPECT_EQ(west->gust_m_s, 0.0);
-  auto const north = parse_wind("3,0,1.5");
-  ASSERT_TRUE(north);
-  EXPECT_NEAR(north->air_m_s.north, -3.0, 1e-9);
-  EXPECT_EQ(north->gust_m_s, 1.5);
+TEST(SetWind, BlowsFromWhereItIsSaid) {
+  sim::WorldOptions world;
+  ASSERT_TRUE(set_wind(world, "6,270"));
+  EXPECT_NEAR(world.wind_m_s.north, 0.0, 1e-9);
+  EXPECT_NEAR(world.wind_m_s.east, 6.0, 1e-9);
+  EXPECT_EQ(world.gust_m_s, 0.0);
+  ASSERT_TRUE(set_wind(world, "3,0,1.5"));
+  EXPECT_NEAR(world.wind_m_s.north, -3.0, 1e-9);
+  EXPECT_EQ(world.gust_m_s, 1.5);
 }
 
-TEST(ParseWind, RefusesWhatIsNone) {
-  for (auto const* text : {"", "6", "6,", "-1,0", "6,400", "60,0", "6,0,-1", "6,0,80", "6,0,1,2", "a,b"}) {
-    auto const wind = parse_wind(text);
+TEST(SetWind, RefusesWhatIsNone) {
+  for (auto const* text : {"6", "6,", "-1,0", "0,5", "6,400", "60,0", "6,0,-1", "6,0,80", "6,0,1,2", "a,b"}) {
+    sim::WorldOptions world;
+    auto const wind = set_wind(world, text);
     ASSERT_FALSE(wind) << text;
     EXPECT_NE(wind.error().hint.find("SPEED,FROM"), std::string::npos);
+    EXPECT_EQ(std::hypot(world.wind_m_s.north, world.wind_m_s.east), 0.0);
   }
+}
+
+TEST(SetWind, TellsWhatNorthAndEastAreNow) {
+  sim::WorldOptions world;
+  for (auto const& [old, now] :
+       std::map<std::string, std::string>{{"0,5", "5,270"}, {"-3,4", "5,307"}, {"-2.5,0", "2.5,0"}})
+    EXPECT_TRUE(set_wind(world, old).error().hint.ends_with(" is " + now + " now"))
+        << set_wind(world, old).error().hint;
 }
 
 TEST(PaceFor, TakesZeroForAsFastAsPossible) {

@@ -85,9 +85,12 @@ with tempfile.TemporaryDirectory() as name:
     expect(err, "script.dolphin:1", "--vehicles")
     _, err = harness.expect_exit(2, "plan", script("v = pick { type 'Balloon' }"))
     expect(err, "UUV", "copters")
-    for wrong in (["--wind", "5"], ["--wind", "1,99"], ["--home", "1"], ["--vehicles", "ship"], ["--timeout", "0"]):
+    for wrong in (["--wind", "5"], ["--wind", "-5,0"], ["--home", "1"], ["--vehicles", "ship"], ["--timeout", "0"]):
         _, err = harness.expect_exit(2, "plan", script(SQUARE), *wrong)
         expect(err, wrong[1])
+    expect(harness.expect_exit(2, "plan", script(SQUARE), "--wind", "0,5")[1], "SPEED,FROM", "5,270")
+    out, _ = harness.expect_exit(0, "plan", script(SQUARE), "--wind", "5,270,1")
+    expect(out, "wind 5.0 m/s from 270°, gusts 1.0 m/s")
 
     # Questions are answered from a file.
     asking = "who = ask('who? ')\nmessage who"

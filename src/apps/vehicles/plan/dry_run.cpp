@@ -187,6 +187,7 @@ dryrun::FlightRecord DryRun::record() const {
   record.waiting_for = waiting_for_;
   record.home = options_.world.home;
   record.wind_m_s = options_.world.wind_m_s;
+  record.gust_m_s = options_.world.gust_m_s;
   record.seed = options_.world.seed;
   return record;
 }

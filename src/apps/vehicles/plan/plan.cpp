@@ -1,4 +1,3 @@
-#include <cmath>
 #include <memory>
 #include <sstream>
 
@@ -53,29 +52,6 @@ base::Result<dolphin::Needs> read_needs(std::string const& name, std::string con
   return host::needs_of_text(name, text);
 }
 
-base::Result<geo::Ned> parse_wind(std::string const& text) {
-  geo::Ned wind;
-  char comma = 0;
-  std::istringstream stream(text);
-  bool const is_read = stream >> wind.north >> comma >> wind.east && comma == ',' && stream.peek() == EOF;
-  constexpr double strongest_m_s = 50.0;
-  if (!is_read || std::hypot(wind.north, wind.east) > strongest_m_s) {
-    return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no wind", text),
-                      "write NORTH,EAST: how fast the air moves that way in m/s, up to 50, for example --wind 0,5");
-  }
-  return wind;
-}
-
-base::Result<> place_world(PlanOptions const& options, dolphin::Needs const& needs, sim::WorldOptions& world) {
-  if (auto placed = host::place(world, options.home, needs.home); !placed) return std::unexpected(placed.error());
-  if (!options.wind.empty()) {
-    auto const wind = parse_wind(options.wind);
-    if (!wind) return std::unexpected(wind.error());
-    world.wind_m_s = *wind;
-  }
-  return {};
-}
-
 base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::string const& text) {
   auto plausibility = host::plausibility_of(options.plausibility);
   if (!plausibility) return std::unexpected(plausibility.error());
@@ -96,7 +72,8 @@ base::Result<DryRun::Options> dry_run_options(PlanOptions const& options, std::s
                             : sim::parse_vehicles(options.vehicles);
   if (!vehicles) return std::unexpected(vehicles.error());
   world.vehicles = *vehicles;
-  if (auto placed = place_world(options, *needs, world); !placed) return std::unexpected(placed.error());
+  if (auto placed = host::place(world, options.home, needs->home); !placed) return std::unexpected(placed.error());
+  if (auto const blows = host::set_wind(world, options.wind); !blows) return std::unexpected(blows.error());
   if (!options.answers.empty()) {
     auto const answers = host::read_script(options.answers);
     if (!answers) return std::unexpected(answers.error());
@@ -160,7 +137,7 @@ void add_plan(CLI::App& program, int& exit_code) {
   verb->add_option("--fence", options->fence,
                    "File of the areas to stay in or out of (GeoJSON, .plan, KML); a breach exits with 1");
   verb->add_option("--plans", options->plans, host::plans_help);
-  verb->add_option("--wind", options->wind, "How the air moves: NORTH,EAST in m/s");
+  verb->add_option("--wind", options->wind, host::wind_help);
   host::add_plausibility_options(*verb, options->plausibility);
   verb->add_option("--svg", options->svg, "Draw the flight, map and time lines, to this file");
   verb->add_option("--json", options->json, "Write everything, tracks included, to this file");
