@@ -1,7 +1,6 @@
 #include "dryrun/svg.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,24 +12,10 @@ namespace lapwing::dryrun {
 
 using namespace internal;
 
-namespace internal {
-
-namespace {
-constexpr std::size_t colours = 7;
-}
-
-std::string colour_of(std::size_t vehicle) {
+std::string internal::colour_of(std::size_t vehicle) {
+  constexpr std::size_t colours = 7;
   return fmt::format("v{}", vehicle % colours);
 }
-
-double round_step(double least) {
-  double const power = std::pow(10.0, std::floor(std::log10(least)));
-  for (double const factor : {1.0, 2.0, 5.0})
-    if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
-  return 10.0 * power;
-}
-
-}  // namespace internal
 
 namespace {
 
@@ -53,10 +38,9 @@ text{fill:var(--ink)}.soft{fill:var(--soft)}.small{font-size:11px}.tiny{font-siz
 .bar{fill:var(--c);opacity:.92}.onbar{font-size:11px;font-weight:600;fill:var(--ground)}.area{fill:var(--c);opacity:.2;stroke:none}.curve{fill:none;stroke:var(--c);stroke-width:1.5}
 .battery{fill:none;stroke:var(--ink);stroke-width:1.2;stroke-dasharray:4 3}.alarm{fill:var(--alarm)}.alarmline{stroke:var(--alarm);stroke-width:1.8;fill:none}
 .inside{stroke:var(--fence);stroke-width:1.6;stroke-dasharray:7 4;fill:var(--fence);fill-opacity:.05}.fencename{fill:var(--fence);font-size:11px}
-.outside{stroke:var(--alarm);stroke-width:1.4;fill:url(#hatch)}.ink{fill:var(--ink)}.inkline{stroke:var(--ink);fill:none}.said{stroke:var(--soft);stroke-dasharray:1 3;fill:none}
+.outside{stroke:var(--alarm);stroke-width:1.4;fill:url(#hatch)}.ink{fill:var(--ink)}.onhome{fill:var(--panel);font-weight:700;text-anchor:middle}.inkline{stroke:var(--ink);fill:none}.said{stroke:var(--soft);stroke-dasharray:1 3;fill:none}
 </style>
-<defs><pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><path d="M0 0V7" style="stroke:var(--alarm);stroke-width:1.6;opacity:.45"/></pattern></defs>
-)svg";
+<defs><pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)"><path d="M0 0V7" style="stroke:var(--alarm);stroke-width:1.6;opacity:.45"/></pattern></defs>)svg";
 
 std::string summary(Subject const& subject) {
   auto const& [record, analysis, fence] = subject;
@@ -71,23 +55,21 @@ std::string summary(Subject const& subject) {
                      clock_text(record.duration), count, count == 1 ? "" : "s", length_text(path_m), energy_wh);
 }
 
-void draw_head(Canvas& canvas, Subject const& subject) {
+void draw_head(Drawing& drawing, Subject const& subject) {
   auto const& [record, analysis, fence] = subject;
   double const right = width - margin;
-  canvas.words({margin, 34.0}, fitted(record.script, 19.0, 560.0), "class=\"title\"");
-  canvas.words({margin, 56.0}, summary(subject), "class=\"soft\"");
-  constexpr auto to_the_right = "text-anchor=\"end\"";
+  drawing.add(R"(<text x="{0}" y="34" class="title">{1}</text><text x="{0}" y="56" class="soft">{2}</text>)", margin,
+              fitted(record.script, 19.0, 560.0), summary(subject));
   if (!analysis.pairs.empty()) {
     auto const& nearest = analysis.pairs.front();
-    auto const words = fmt::format("closest approach {} · {} and {} at {}", length_text(nearest.approach.distance_m),
-                                   record.vehicles[nearest.first].name, record.vehicles[nearest.second].name,
-                                   clock_text(nearest.approach.time));
-    canvas.words({right, 34.0}, words, to_the_right);
+    drawing.add(R"(<text x="{}" y="34" text-anchor="end">closest approach {} · {} and {} at {}</text>)", right,
+                length_text(nearest.approach.distance_m), record.vehicles[nearest.first].name,
+                record.vehicles[nearest.second].name, clock_text(nearest.approach.time));
   }
   if (fence.zones.empty()) return;
   auto const count = analysis.breaches.size();
-  auto const words = count == 0 ? "fence kept" : fmt::format("{} fence breach{}", count, count == 1 ? "" : "es");
-  canvas.words({right, 56.0}, words, fmt::format("{}{}", to_the_right, count == 0 ? "" : " class=\"alarm\""));
+  drawing.add(R"(<text x="{}" y="56" text-anchor="end" class="{}">{}</text>)", right, count == 0 ? "" : "alarm",
+              count == 0 ? "fence kept" : fmt::format("{} fence breach{}", count, count == 1 ? "" : "es"));
 }
 
 }  // namespace
@@ -97,25 +79,24 @@ std::string to_svg(FlightRecord const& record, Analysis const& analysis, plan::F
   double const inner = width - 2.0 * margin;
   Box const map{{margin, head_height}, inner, std::round(std::clamp(inner * map_shape(subject), 260.0, 640.0))};
   Box const lanes{{margin, map.bottom() + 18.0}, inner, time_line_height(subject)};
-  double const height = lanes.bottom() + 34.0;
+  double const height = std::round(lanes.bottom() + 34.0);
 
-  Canvas canvas;
-  canvas.raw(
-      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-                  "height=\"{1:.0f}\" role=\"img\">\n<title>{2}</title>\n",
-                  width, height, escaped(fmt::format("Dry run of {}: {}", record.script, summary(subject)))));
-  canvas.raw(style);
-  canvas.rect({{0.0, 0.0}, width, height}, "class=\"ground\"");
-  draw_head(canvas, subject);
-  draw_map(canvas, subject, map);
-  draw_time_line(canvas, subject, lanes);
-  canvas.words({margin, height - 12.0},
-               fmt::format("simulated by Lapwing on level ground at {} m, home {:.6f}, {:.6f}, {}, seed {}",
-                           number_text(record.home.alt_m, 0), record.home.lat_deg(), record.home.lon_deg(),
-                           wind_text(record.wind_m_s, record.gust_m_s), record.seed),
-               "class=\"soft tiny\"");
-  canvas.raw("</svg>\n");
-  return canvas.take();
+  Drawing drawing;
+  drawing.add(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img">)"
+              "\n<title>Dry run of {2}: {3}</title>",
+              width, height, record.script, summary(subject));
+  drawing.add_whole(style);
+  drawing.add(R"(<rect width="{}" height="{}" class="ground"/>)", width, height);
+  draw_head(drawing, subject);
+  draw_map(drawing, subject, map);
+  draw_time_line(drawing, subject, lanes);
+  drawing.add(
+      R"(<text x="{}" y="{}" class="soft tiny">simulated by Lapwing on level ground at {} m, home {}, {}, seed {}</text>)",
+      margin, height - 12.0, number_text(record.home.alt_m, 0),
+      fmt::format("{:.6f}, {:.6f}", record.home.lat_deg(), record.home.lon_deg()),
+      wind_text(record.wind_m_s, record.gust_m_s), record.seed);
+  drawing.add("</svg>");
+  return drawing.take();
 }
 
 }  // namespace lapwing::dryrun

@@ -1,6 +1,7 @@
 #include "dryrun/svg.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -8,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dryrun/internal/canvas.hpp"
-#include "dryrun/internal/labels.hpp"
+#include "dryrun/internal/drawing.hpp"
 #include "dryrun/recorder.hpp"
 #include "missions/mission_task.hpp"
 
@@ -19,16 +19,23 @@ namespace {
 using namespace internal;
 using namespace std::chrono_literals;
 
-TEST(Canvas, EscapesForeignText) {
+TEST(Drawing, EscapesForeignText) {
   EXPECT_EQ(escaped("a<b>&c"), "a&lt;b&gt;&amp;c");
   EXPECT_EQ(escaped("zoë ▁"), "zoë ▁");
   EXPECT_EQ(escaped(std::string_view("a\0b\x1b[1m", 7)), "a b [1m");
   EXPECT_EQ(escaped("\xff\xc3"), "\uFFFD\uFFFD");
   EXPECT_EQ(escaped("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a surrogate pair
-  EXPECT_EQ(escaped("\xef\xbf\xbf"), "\uFFFD\uFFFD\uFFFD");  // no character of XML
+  EXPECT_EQ(escaped("\xef\xbf\xbf"), "\uFFFD");              // no character of XML
 }
 
-TEST(Canvas, CutsTextsToTheirRoom) {
+TEST(Drawing, WritesValuesIntoItsMarkup) {
+  Drawing drawing;
+  drawing.add("<a b=\"{}\" c=\"{}\" d=\"{}\" e=\"{}\">{}</a>", 1.26, Point{-0.01, 2}, Line{{1, 2}, {3, 4.5}},
+              std::vector<Line>{{{1, 2}, {3, 4}}, {{5, 6}}}, "<&>");
+  EXPECT_EQ(drawing.take(), "<a b=\"1.3\" c=\"0 2\" d=\"M1 2L3 4.5\" e=\"M1 2L3 4ZM5 6Z\">&lt;&amp;&gt;</a>\n");
+}
+
+TEST(Drawing, CutsTextsToTheirRoom) {
   EXPECT_EQ(fitted("short", 10.0, 100.0), "short");
   auto const cut = fitted("a rather long naïve name", 10.0, 60.0);
   EXPECT_TRUE(cut.ends_with("…"));
@@ -36,11 +43,11 @@ TEST(Canvas, CutsTextsToTheirRoom) {
   EXPECT_EQ(fitted("anything", 10.0, 3.0), "");
 }
 
-TEST(Canvas, SimplifiesLinesWithinTheTolerance) {
+TEST(Drawing, SimplifiesLinesWithinTheTolerance) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> step(-3.0, 3.0);
   for (int round = 0; round < 50; ++round) {
-    std::vector<Point> line{{0, 0}};
+    Line line{{0, 0}};
     for (int i = 0; i < 200; ++i) line.push_back({line.back().x + step(random), line.back().y + step(random)});
     auto const fewer = simplified(line, 2.0);
     EXPECT_LT(fewer.size(), line.size());
@@ -67,15 +74,20 @@ TEST(Labels, DoNotOverlapAndStayInside) {
   std::vector<Box> placed;
   int refused = 0;
   for (int i = 0; i < 40; ++i) {
-    auto const at = labels.place({100, 50}, "label", 10.0, 2.0);
-    if (!at) ++refused;
-    if (at) placed.push_back({{at->x, at->y - 8.0}, text_width("label", 10.0), 10.0});
+    Drawing drawing;
+    refused += labels.write(drawing, {100, 50}, "label", 10.0, 2.0, "") ? 0 : 1;
+    auto const text = drawing.take();
+    Point at;
+    if (std::sscanf(text.c_str(), "<text x=\"%lf\" y=\"%lf\"", &at.x, &at.y) == 2)
+      placed.push_back({{at.x, at.y - 8.0}, text_width("label", 10.0), 10.0});
   }
+  EXPECT_EQ(refused + static_cast<int>(placed.size()), 40);
   EXPECT_GT(refused, 0);
   ASSERT_GT(placed.size(), 3U);
   for (std::size_t i = 0; i < placed.size(); ++i)
     for (std::size_t k = i + 1; k < placed.size(); ++k) EXPECT_FALSE(placed[i].meets(placed[k]));
-  EXPECT_FALSE(labels.place({199, 99}, "far too long for the corner it is in, whichever side", 10.0, 2.0));
+  Drawing drawing;
+  EXPECT_FALSE(labels.write(drawing, {199, 99}, "far too long for the corner it is in, whichever side", 10.0, 2.0, ""));
 }
 
 mavlink::MissionItem waypoint(geo::Wgs84 place) {
@@ -170,7 +182,8 @@ TEST(Svg, IsClosedEverywhere) {
     for (auto at = svg.find(words); at != std::string::npos; at = svg.find(words, at + 1)) ++found;
     return found;
   };
-  EXPECT_EQ(count("<g "), count("</g>"));
+  EXPECT_EQ(count("<g ") + count("<g>"), count("</g>"));
+  EXPECT_EQ(count("<svg "), count("</svg>"));
   EXPECT_EQ(count("<text "), count("</text>"));
   EXPECT_EQ(count("<title>"), count("</title>"));
   EXPECT_EQ(count("Square <1>"), 0U);
