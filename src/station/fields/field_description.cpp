@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "station/fields/vehicle_fields.hpp"
 
@@ -14,11 +15,13 @@ namespace lapwing::station::internal {
 
 namespace {
 
-/// What is said of a value: its type in TypeScript, the expression that reads it, the words of the reference for it.
+/// What is said of a value: its type in TypeScript, the expression that reads it, the words of the reference for it,
+/// its schema in YAML without the braces.
 struct Said {
   std::string type;
   std::string parser;
   std::string about;
+  std::string schema;
 };
 
 struct Line {
@@ -57,8 +60,26 @@ std::string entry_text(std::string_view key, std::string_view value, std::string
   return key == value ? fmt::format("{}{},\n", indent, key) : fmt::format("{}{}: {},\n", indent, key, value);
 }
 
+/// As messages write them: see `FieldJson`.
+std::string number_schema(Unit const& unit, bool may_be_null) {
+  auto const* const type = unit.decimals > 0 ? "number" : "integer";
+  return fmt::format("type: {}, minimum: {}, maximum: {}", may_be_null ? fmt::format("[{}, \"null\"]", type) : type,
+                     number_text(unit.low), number_text(unit.high));
+}
+
+/// What JSON quotes is quoted for YAML, too.
+std::string property(std::string_view key, std::string_view schema, std::string_view doc) {
+  auto const description = doc.empty() ? "" : fmt::format(", description: {}", nlohmann::json(doc).dump());
+  return fmt::format("        {}: {{{}{}}}\n", key, schema, description);
+}
+
+std::string schema_head(std::string_view name, std::string_view doc) {
+  auto const description = doc.empty() ? "" : fmt::format("      description: {}\n", nlohmann::json(doc).dump());
+  return fmt::format("    {}:\n      type: object\n{}", name, description);
+}
+
 std::string quoted(std::vector<std::string> const& words) {
-  return fmt::format("[{}]", fmt::join(words, ", "));
+  return words.empty() ? "[]" : fmt::format("['{}']", fmt::join(words, "', '"));
 }
 
 /// Collects the types that the lines need, each once, in the order in which they are needed.
@@ -69,18 +90,23 @@ class Describer : public FieldVisitor {
   void number(Member const& member, std::optional<double> value, Unit const& unit) override {
     auto parser = fmt::format("number({}, {})", number_text(unit.low), number_text(unit.high));
     if (member.key.empty() && !value)
-      return add(member, {"number | null", fmt::format("orNull({})", parser), about_unit(unit)});
-    add(member, {"number", std::move(parser), about_unit(unit)});
+      return add(member,
+                 {"number | null", fmt::format("orNull({})", parser), about_unit(unit), number_schema(unit, true)});
+    add(member, {"number", std::move(parser), about_unit(unit), number_schema(unit, false)});
   }
-  void flag(Member const& member, bool) override { add(member, {"boolean", "flag", "true or false"}); }
-  void text(Member const& member, std::string_view) override { add(member, {"string", "text", "text"}); }
+  void flag(Member const& member, bool) override { add(member, {"boolean", "flag", "true or false", "type: boolean"}); }
+  void text(Member const& member, std::string_view) override {
+    add(member, {"string", "text", "text", "type: string"});
+  }
   void word(Member const& member, std::string_view, Words const& words) override {
     std::vector<std::string> all;
-    for (auto const word : words.words) all.push_back(fmt::format("'{}'", word));
-    note_type(std::string(words.type), fmt::format("export type {} = {};\n", words.type, fmt::join(all, " | ")), "");
+    for (auto const word : words.words) all.emplace_back(word);
+    note_type(std::string(words.type), fmt::format("export type {} = '{}';\n", words.type, fmt::join(all, "' | '")), "",
+              "");
     auto const otherwise = words.otherwise.empty() ? std::string() : fmt::format(", '{}'", words.otherwise);
     auto const about = fmt::format("`{}`", fmt::join(words.words, "`, `"));
-    add(member, {std::string(words.type), fmt::format("word({}{})", quoted(all), otherwise), about});
+    add(member, {std::string(words.type), fmt::format("word({}{})", quoted(all), otherwise), about,
+                 fmt::format("enum: [{}]", fmt::join(words.words, ", "))});
   }
   void begin_object(Member const& member, Type const& type) override {
     open_.push_back({.line = member, .key = std::string(member.key), .type = type, .is_list = false});
@@ -97,6 +123,7 @@ class Describer : public FieldVisitor {
   [[nodiscard]] std::vector<Line> const& lines() const { return lines_; }
   [[nodiscard]] std::string types() const;
   [[nodiscard]] std::string parsers() const;
+  [[nodiscard]] std::string schemas() const;
   [[nodiscard]] std::vector<std::string> names() const;
 
  private:
@@ -111,16 +138,17 @@ class Describer : public FieldVisitor {
   struct NamedType {
     std::string name;
     std::string definition;
-    std::string parser;  ///< empty for words
+    std::string parser;  ///< empty for words, as the schema
+    std::string schema;
   };
 
   void add(Member const& member, Said said) {
     auto& lines = open_.empty() ? lines_ : open_.back().lines;
     lines.push_back({member, std::string(member.key), std::move(said)});
   }
-  void note_type(std::string name, std::string definition, std::string parser) {
+  void note_type(std::string name, std::string definition, std::string parser, std::string schema) {
     if (std::ranges::find(types_, name, &NamedType::name) == types_.end())
-      types_.push_back({std::move(name), std::move(definition), std::move(parser)});
+      types_.push_back({std::move(name), std::move(definition), std::move(parser), std::move(schema)});
   }
   static Said list_of(Open const& done);
   Said object_of(Open const& done);
@@ -142,26 +170,32 @@ Said Describer::list_of(Open const& done) {
   }
   return {is_union ? fmt::format("({})[]", entry.type) : entry.type + "[]", fmt::format("list({}{})", entry.parser, by),
           entry.about.empty() ? "list of numbers"
-                              : fmt::format("list of {}", entry.about == "text" ? "texts" : entry.about)};
+                              : fmt::format("list of {}", entry.about == "text" ? "texts" : entry.about),
+          fmt::format("type: array, items: {{{}}}", entry.schema)};
 }
 
 Said Describer::object_of(Open const& done) {
   std::string definition = fmt::format("{}export interface {} {{\n", doc_comment(done.type.doc, ""), done.type.name);
   std::string parser = fmt::format("const {} = object<{}>(\n  {{\n", constant_name(done.type.name), done.type.name);
+  std::string properties;
   std::vector<std::string> needed;
   std::vector<std::string> about;
   for (auto const& [member, key, said] : done.lines) {
     definition += doc_comment(member.doc, "  ");
     definition += fmt::format("  {}{}: {};\n", key, member.is_optional ? "?" : "", said.type);
     parser += entry_text(key, said.parser, "    ");
-    if (!member.is_optional) needed.push_back(fmt::format("'{}'", key));
+    properties += property(key, said.schema, member.doc);
+    if (!member.is_optional) needed.push_back(key);
     about.push_back(member.is_optional ? key + "?" : key);
   }
   definition += "}\n";
   parser += fmt::format("  }},\n  {},\n);\n", quoted(needed));
   std::string const name(done.type.name);
-  note_type(name, std::move(definition), std::move(parser));
-  return {name, constant_name(name), fmt::format("`{{{}}}`", fmt::join(about, ", "))};
+  auto const required = needed.empty() ? "" : fmt::format("      required: [{}]\n", fmt::join(needed, ", "));
+  note_type(name, std::move(definition), std::move(parser),
+            schema_head(name, done.type.doc) + required + "      properties:\n" + properties);
+  return {name, constant_name(name), fmt::format("`{{{}}}`", fmt::join(about, ", ")),
+          fmt::format("$ref: \"#/components/schemas/{}\"", name)};
 }
 
 std::string Describer::types() const {
@@ -174,6 +208,12 @@ std::string Describer::parsers() const {
   std::string text;
   for (auto const& type : types_)
     if (!type.parser.empty()) text += type.parser + "\n";
+  return text;
+}
+
+std::string Describer::schemas() const {
+  std::string text;
+  for (auto const& type : types_) text += type.schema;
   return text;
 }
 
@@ -229,6 +269,14 @@ std::string vehicle_table() {
   for (auto const& [member, key, said] : fields.lines())
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", key, said.about.empty() ? "number" : said.about,
                         member.has_age ? "yes" : "", member.doc, member.from);
+  return text;
+}
+
+std::string vehicle_schemas() {
+  auto const fields = described();
+  auto text =
+      fields.schemas() + schema_head("VehicleFields", "What may be known about a vehicle.") + "      properties:\n";
+  for (auto const& [member, key, said] : fields.lines()) text += property(key, said.schema, member.doc);
   return text;
 }
 

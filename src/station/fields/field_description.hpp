@@ -4,7 +4,7 @@
 #include <string_view>
 
 /// What is made of the table of a vehicle's fields for others: types and parsers of the web app, a table of the
-/// reference.
+/// reference, schemas of the API's description.
 namespace lapwing::station::internal {
 
 /// `web/src/lib/wire/vehicle_fields.ts`.
@@ -13,5 +13,7 @@ namespace lapwing::station::internal {
 [[nodiscard]] std::string vehicle_parsers();
 /// The lines of the table in docs/reference/station-messages.md.
 [[nodiscard]] std::string vehicle_table();
+/// Schemas of docs/reference/openapi.yaml: of each object among the fields, and `VehicleFields`.
+[[nodiscard]] std::string vehicle_schemas();
 
 }  // namespace lapwing::station::internal

@@ -17,28 +17,34 @@ namespace {
 
 using namespace lapwing::station::internal;
 
-constexpr std::string_view begin_mark = "<!-- made from src/station/fields/vehicle_fields.cpp -->\n";
-constexpr std::string_view end_mark = "<!-- end -->";
+/// Between which what is made stands in a file that says more.
+struct Marks {
+  std::string_view begin;
+  std::string_view end;
+};
+constexpr Marks in_page{"<!-- made from src/station/fields/vehicle_fields.cpp -->\n", "<!-- end -->"};
+constexpr Marks in_yaml{"    # made from src/station/fields/vehicle_fields.cpp\n", "    # end\n"};
 
 std::string contents_of(std::filesystem::path const& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The page with the lines between the marks; nothing when it lacks them.
-std::optional<std::string> with_table(std::string page, std::string const& table) {
-  auto const begin = page.find(begin_mark);
-  auto const end = page.find(end_mark, begin);
+/// The file with the lines between the marks; nothing when it lacks them.
+std::optional<std::string> with_lines(std::filesystem::path const& path, Marks marks, std::string const& lines) {
+  auto text = contents_of(path);
+  auto const begin = text.find(marks.begin);
+  auto const end = text.find(marks.end, begin);
   if (begin == std::string::npos || end == std::string::npos) return std::nullopt;
-  auto const from = begin + begin_mark.size();
-  return page.replace(from, end - from, table);
+  auto const from = begin + marks.begin.size();
+  return text.replace(from, end - from, lines);
 }
 
 /// True when the file is as it should be, or has been made so.
 bool settle(bool writes, std::filesystem::path const& path, std::optional<std::string> const& wanted) {
   if (!wanted) {
-    fmt::print(stderr, "{} lacks the lines \"{}\" and \"{}\" between which the table stands.\n", path.string(),
-               begin_mark.substr(0, begin_mark.size() - 1), end_mark);
+    fmt::print(stderr, "{} lacks the lines \"made from src/station/fields/vehicle_fields.cpp\" and \"end\".\n",
+               path.string());
     return false;
   }
   if (contents_of(path) == *wanted) return true;
@@ -66,6 +72,8 @@ int main(int argc, char** argv) {
   auto const page = root / "docs/reference/station-messages.md";
   bool const types = settle(writes, root / "web/src/lib/wire/vehicle_fields.ts", vehicle_types());
   bool const parsers = settle(writes, root / "web/src/lib/wire/vehicle_parsers.ts", vehicle_parsers());
-  bool const table = settle(writes, page, with_table(contents_of(page), vehicle_table()));
-  return types && parsers && table ? 0 : 1;
+  bool const table = settle(writes, page, with_lines(page, in_page, vehicle_table()));
+  auto const description = root / "docs/reference/openapi.yaml";
+  bool const schemas = settle(writes, description, with_lines(description, in_yaml, vehicle_schemas()));
+  return types && parsers && table && schemas ? 0 : 1;
 }

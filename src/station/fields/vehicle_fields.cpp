@@ -148,9 +148,9 @@ static void members(FieldTable& m, vehicle::MissionProgress const& mission) {
 
 static void members(FieldTable& m, vehicle::Gimbal const& gimbal) {
   m.number("roll_rad", gimbal.roll_rad, radians(3));
-  m.number("pitch_rad", gimbal.pitch_rad, radians(3));
+  m.number("pitch_rad", gimbal.pitch_rad, radians(3), "Negative is down.");
   m.number("yaw_rad", gimbal.yaw_rad, radians(3));
-  m.flag("yaw_is_from_north", gimbal.yaw_is_from_north);
+  m.flag("yaw_is_from_north", gimbal.yaw_is_from_north, "Otherwise from the vehicle's nose.");
 }
 
 static void members(FieldTable& m, vehicle::Component const& component) {
@@ -181,8 +181,8 @@ static void members(FieldTable& m, LinkShown const& shown) {
   m.number("loss", loss, share(2), "Missing while nothing is heard on it.");
   m.number("messages_per_s", link.messages_per_s, a_second(0).within(0, 1e6));
   m.number("bytes_per_s", link.bytes_per_s, a_second(-1));
-  m.number("round_trip_s", link.round_trip, seconds(2));
-  m.flag("alive", link.is_alive);
+  m.number("round_trip_s", link.round_trip, seconds(2), "By TIMESYNC; missing until it was measured.");
+  m.flag("alive", link.is_alive, "Not silent for longer than is usual for it.");
   m.flag("used", link.is_used, "Commands go over it.");
 }
 
@@ -196,8 +196,8 @@ static void members(FieldTable& m, vehicle::StatusText const& text) {
 static void members(FieldTable& m, vehicle::ControlState const& control) {
   bool const is_asked_for = !control.asked_for_by.empty();
   auto const granted = is_asked_for ? std::optional(control.granted_at.time_since_epoch()) : std::nullopt;
-  m.text("commander", control.commander, "Empty: nobody.");
-  m.text("asked_for_by", unless_empty(control.asked_for_by));
+  m.text("commander", control.commander, "An operator, `script`, or nobody: empty.");
+  m.text("asked_for_by", unless_empty(control.asked_for_by), "Who asks him for it.");
   m.number("granted_at_s", granted, seconds(3), "By the clock of the message's `time_s`.");
 }
 

@@ -133,6 +133,14 @@ TEST(VehicleFields, AreDescribedAsTheyAreTold) {
   EXPECT_NE(types.find("  pulses_us: (number | null)[];\n"), std::string::npos);
   EXPECT_EQ(types.find("export interface Battery"), types.rfind("export interface Battery")) << "once";
   EXPECT_NE(vehicle_parsers().find("    lat_deg: number(-90, 90),\n"), std::string::npos);
+  auto const schemas = vehicle_schemas();
+  EXPECT_NE(schemas.find("    Battery:\n      type: object\n      required: [remaining]\n      properties:\n"),
+            std::string::npos);
+  EXPECT_NE(schemas.find("        remaining: {type: number, minimum: 0, maximum: 1}\n"), std::string::npos);
+  EXPECT_NE(schemas.find("        further_batteries: {type: array, items: {$ref: \"#/components/schemas/Battery\"}, "),
+            std::string::npos);
+  EXPECT_NE(schemas.find("        family: {enum: [copter, "), std::string::npos);
+  EXPECT_NE(schemas.find("        pulses_us: {type: array, items: {type: [integer, \"null\"], "), std::string::npos);
   EXPECT_NE(vehicle_table().find("| `relative_alt_m` | m, 2 decimals | yes | Above home. | GLOBAL_POSITION_INT |\n"),
             std::string::npos);
 }

@@ -12,8 +12,9 @@ export interface Said {
 
 /** Who commands a vehicle, and who wants to. */
 export interface Control {
-  /** Empty: nobody. */
+  /** An operator, `script`, or nobody: empty. */
   commander: string;
+  /** Who asks him for it. */
   asked_for_by?: string;
   /** By the clock of the message's `time_s`. */
   granted_at_s?: number;
@@ -28,7 +29,9 @@ export interface LinkQuality {
   loss?: number;
   messages_per_s: number;
   bytes_per_s: number;
+  /** By TIMESYNC; missing until it was measured. */
   round_trip_s?: number;
+  /** Not silent for longer than is usual for it. */
   alive: boolean;
   /** Commands go over it. */
   used: boolean;
@@ -149,8 +152,10 @@ export interface Fence {
 
 export interface Gimbal {
   roll_rad: number;
+  /** Negative is down. */
   pitch_rad: number;
   yaw_rad: number;
+  /** Otherwise from the vehicle's nose. */
   yaw_is_from_north: boolean;
 }
 
