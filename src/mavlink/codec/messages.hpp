@@ -15,7 +15,7 @@
 /// MAVLink messages as values in SI units and radians. What the wire marks as unknown is `nullopt` here, and so is what
 /// cannot be (limits.hpp): nobody behind this room has to ask whether a latitude is one. Angles are
 /// clockwise from true north where they are headings; altitudes named `alt_m` are above mean sea level. `target` is who
-/// is meant; `Connection::send` fills it in. Wire units and sentinels are known to codec_*.cpp alone.
+/// is meant; `Connection::send` fills it in. Wire units and sentinels are known to fields_*.hpp alone.
 namespace lapwing::mavlink {
 
 using base::Duration;

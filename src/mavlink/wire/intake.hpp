@@ -32,10 +32,6 @@ class Intake {
     note(field, range, value);
     return std::nullopt;
   }
-  [[nodiscard]] std::optional<double> operator()(std::string_view field, Range const& range,
-                                                 std::optional<double> value) {
-    return value ? (*this)(field, range, *value) : std::nullopt;
-  }
 
   /// Zero: the vehicle does not know.
   [[nodiscard]] std::optional<std::chrono::microseconds> utc(std::string_view field, std::uint64_t wire) {
