@@ -75,32 +75,28 @@ auto constexpr blimp_modes = std::to_array<Mode>({
     {6, "HOLD"},
 });
 
-constexpr std::uint32_t px4(std::uint32_t main, std::uint32_t sub = 0) {
-  return main << 16U | sub << 24U;
-}
-
 auto constexpr px4_modes = std::to_array<Mode>({
-    {px4(1), "MANUAL"},
-    {px4(2), "ALTCTL"},
-    {px4(3), "POSCTL"},
-    {px4(3, 1), "ORBIT"},
-    {px4(3, 2), "POSITION_SLOW"},
-    {px4(4, 1), "AUTO.READY"},
-    {px4(4, 2), "AUTO.TAKEOFF"},
-    {px4(4, 3), "AUTO.LOITER"},
-    {px4(4, 4), "AUTO.MISSION"},
-    {px4(4, 5), "AUTO.RTL"},
-    {px4(4, 6), "AUTO.LAND"},
-    {px4(4, 7), "AUTO.RTGS"},
-    {px4(4, 8), "AUTO.FOLLOW_TARGET"},
-    {px4(4, 9), "AUTO.PRECLAND"},
-    {px4(4, 10), "AUTO.VTOL_TAKEOFF"},
-    {px4(5), "ACRO"},
-    {px4(6), "OFFBOARD"},
-    {px4(7), "STABILIZED"},
-    {px4(8), "RATTITUDE"},
-    {px4(10), "TERMINATION"},
-    {px4(11), "ALTITUDE_CRUISE"},
+    {px4_mode(1), "MANUAL"},
+    {px4_mode(2), "ALTCTL"},
+    {px4_mode(3), "POSCTL"},
+    {px4_mode(3, 1), "ORBIT"},
+    {px4_mode(3, 2), "POSITION_SLOW"},
+    {px4_mode(4, 1), "AUTO.READY"},
+    {px4_mode(4, 2), "AUTO.TAKEOFF"},
+    {px4_mode(4, 3), "AUTO.LOITER"},
+    {px4_mode(4, 4), "AUTO.MISSION"},
+    {px4_mode(4, 5), "AUTO.RTL"},
+    {px4_mode(4, 6), "AUTO.LAND"},
+    {px4_mode(4, 7), "AUTO.RTGS"},
+    {px4_mode(4, 8), "AUTO.FOLLOW_TARGET"},
+    {px4_mode(4, 9), "AUTO.PRECLAND"},
+    {px4_mode(4, 10), "AUTO.VTOL_TAKEOFF"},
+    {px4_mode(5), "ACRO"},
+    {px4_mode(6), "OFFBOARD"},
+    {px4_mode(7), "STABILIZED"},
+    {px4_mode(8), "RATTITUDE"},
+    {px4_mode(10), "TERMINATION"},
+    {px4_mode(11), "ALTITUDE_CRUISE"},
 });
 
 std::span<Mode const> modes_of(Autopilot autopilot, Family family) {

@@ -15,6 +15,14 @@ namespace lapwing::mavlink {
 using vehicle::Autopilot;
 using vehicle::Family;
 
+/// PX4's number of a mode.
+[[nodiscard]] constexpr std::uint32_t px4_mode(std::uint32_t main, std::uint32_t sub = 0) {
+  return main << 16U | sub << 24U;
+}
+inline constexpr std::uint32_t px4_auto = px4_mode(4);  ///< asked for without a sub mode it is the mission's
+inline constexpr std::uint32_t px4_auto_mission = px4_mode(4, 4);
+inline constexpr std::uint32_t px4_offboard = px4_mode(6);
+
 /// What moves, from the heartbeat. `unknown` for what is no vehicle: ground stations, gimbals, cameras, trackers,
 /// ADS-B.
 [[nodiscard]] Family family_of(MavType type);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/model/px4_modes.hpp"
+#include "mavlink/wire/modes.hpp"
 
 namespace lapwing::sim {
 
@@ -139,7 +139,7 @@ std::optional<std::string_view> Autopilot::px4_objection(FlightMode const& mode)
   if (mode.behaviour == Behaviour::manual) return "no manual control";
   if (mode.behaviour == Behaviour::mission && plans_.mission.size() <= 1) return "no valid mission";
   bool const guided_from_outside = setpoint_heard_ && now_ - *setpoint_heard_ <= tuning_.guided_timeout;
-  if (mode.number == px4_offboard && !guided_from_outside) return "no offboard signal";
+  if (mode.number == mavlink::px4_offboard && !guided_from_outside) return "no offboard signal";
   return std::nullopt;
 }
 

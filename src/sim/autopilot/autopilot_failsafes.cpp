@@ -5,8 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "mavlink/wire/modes.hpp"
 #include "sim/autopilot/autopilot.hpp"
-#include "sim/model/px4_modes.hpp"
 
 namespace lapwing::sim {
 
@@ -40,7 +40,7 @@ void Autopilot::watch_health() {
 
 /// PX4 leaves OFFBOARD when nobody guides it any more.
 void Autopilot::watch_setpoints() {
-  if (mode_->number != px4_offboard || !kind_.is_px4() || !setpoint_heard_) return;
+  if (mode_->number != mavlink::px4_offboard || !kind_.is_px4() || !setpoint_heard_) return;
   if (now_ - *setpoint_heard_ <= tuning_.guided_timeout) return;
   outbox_.say(MavSeverity::warning, "Failsafe activated: no offboard signal");
   change_mode(mode_for(kind_, Behaviour::hold).number);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "mavlink/wire/modes.hpp"
 #include "sim/mavlink/flight_controller.hpp"
-#include "sim/model/px4_modes.hpp"
 
 namespace lapwing::sim {
 
@@ -58,9 +58,9 @@ MavResult FlightController::px4_set_mode(CommandInt const& command) {
   auto const base = static_cast<unsigned>(command.params[0]);
   if ((base & mode_flag::custom_mode_enabled) == 0) return MavResult::temporarily_rejected;
   auto const main = static_cast<std::uint32_t>(command.params[1]);
-  auto sub = static_cast<std::uint32_t>(command.params[2]);
-  if (main == px4_auto && sub == 0) sub = px4_auto_mission;
-  return for_now(autopilot_.set_mode(px4_mode(main, sub)));
+  auto const sub = static_cast<std::uint32_t>(command.params[2]);
+  auto const number = px4_mode(main, sub);
+  return for_now(autopilot_.set_mode(number == px4_auto ? px4_auto_mission : number));
 }
 
 /// p7 is an altitude above sea level; without one it climbs to MIS_TAKEOFF_ALT above home.

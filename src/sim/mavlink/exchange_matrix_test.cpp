@@ -12,7 +12,7 @@
 #include "mavlink/exchange/command.hpp"
 #include "mavlink/exchange/mission_transfer.hpp"
 #include "mavlink/exchange/param.hpp"
-#include "sim/model/px4_modes.hpp"
+#include "mavlink/wire/modes.hpp"
 #include "sim/testing/ground.hpp"
 
 namespace lapwing::sim {

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "mavlink/wire/modes.hpp"
 #include "sim/mavlink/sensors.hpp"
-#include "sim/model/px4_modes.hpp"
 
 namespace lapwing::sim {
 

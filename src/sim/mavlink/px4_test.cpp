@@ -4,7 +4,7 @@
 #include <set>
 
 #include "mavlink/exchange/mission_transfer.hpp"
-#include "sim/model/px4_modes.hpp"
+#include "mavlink/wire/modes.hpp"
 #include "sim/testing/ground.hpp"
 
 namespace lapwing::sim {

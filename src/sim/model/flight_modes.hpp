@@ -31,7 +31,6 @@ enum class Entry {
 
 /// One row of an autopilot's mode table.
 struct FlightMode {
-  std::uint32_t number;  ///< HEARTBEAT.custom_mode
   std::string_view name;
   Behaviour behaviour;
   bool armable;
@@ -39,6 +38,7 @@ struct FlightMode {
   std::uint8_t base_mode;  ///< HEARTBEAT.base_mode while disarmed
   Entry entry = Entry::open;
   std::string_view lacks = {};  ///< what is said of a closed mode before the refusal
+  std::uint32_t number = 0;     ///< HEARTBEAT.custom_mode, as `mavlink::mode_number` knows it
 };
 
 /// The modes of a copter, plane, rover, boat or underwater vehicle that this build of the autopilot knows.
