@@ -239,7 +239,7 @@ Checked<void> set_member(Runtime& runtime, Value const& object, std::string_view
   return {};
 }
 
-Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name, Native::Arguments arguments) {
+Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name, Arguments arguments) {
   auto const point = name.find('.');
   auto const type = name.substr(0, point);
   auto const method = name.substr(point + 1);
@@ -265,8 +265,7 @@ Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name
     auto const index = find_native(method);
     if (index && natives()[static_cast<std::size_t>(*index)].is_pure) {
       auto const& native = natives()[static_cast<std::size_t>(*index)];
-      auto const count = static_cast<int>(arguments.size());
-      if (count >= native.least && count <= native.most) return native.call(runtime, fiber, arguments);
+      if (argument_count(native).allows(arguments.size())) return native.call(runtime, fiber, arguments);
     }
   }
   if ((type == "Integer" || type == "Long" || type == "Double" || type == "Float") && method.starts_with("parse") &&
@@ -279,7 +278,7 @@ Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name
                "MissingMethodException");
 }
 
-Checked<Value> construct(Runtime& runtime, std::string_view type, Native::Arguments arguments, int line) {
+Checked<Value> construct(Runtime& runtime, std::string_view type, Arguments arguments, int line) {
   auto& heap = runtime.heap;
   if (is_error_type(type)) {
     std::string message = arguments.empty() ? "null" : to_text(arguments.front());

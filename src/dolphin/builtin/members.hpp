@@ -13,16 +13,15 @@ namespace lapwing::dolphin {
 
 /// Nothing when values of this kind have no such method here; the prelude may have it.
 [[nodiscard]] std::optional<Checked<Value>> call_method(Runtime& runtime, Value const& object, std::string_view name,
-                                                        Native::Arguments arguments);
+                                                        Arguments arguments);
 
 /// The type of the value, as `getClass()` and, but for maps, `class` give it.
 [[nodiscard]] Value type_of(Heap& heap, Value const& value);
 
 /// "Math.abs", "System.currentTimeMillis", "Position.fromDegrees".
-[[nodiscard]] Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name,
-                                         Native::Arguments arguments);
+[[nodiscard]] Checked<Value> call_static(Runtime& runtime, Fiber& fiber, std::string_view name, Arguments arguments);
 /// `new T(arguments)`
-[[nodiscard]] Checked<Value> construct(Runtime& runtime, std::string_view type, Native::Arguments arguments, int line);
+[[nodiscard]] Checked<Value> construct(Runtime& runtime, std::string_view type, Arguments arguments, int line);
 /// `x as T`
 [[nodiscard]] Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type);
 /// `x instanceof T`; of exceptions also `catch (T e)`.

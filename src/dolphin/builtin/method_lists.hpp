@@ -20,7 +20,7 @@ struct MethodCall {
   Heap& heap;
   Patterns& patterns;
   std::string_view name;
-  Native::Arguments arguments;
+  Arguments arguments;
 
   [[nodiscard]] bool is(std::string_view wanted, std::size_t count) const {
     return name == wanted && arguments.size() == count;
@@ -42,6 +42,6 @@ struct MethodCall {
 [[nodiscard]] MethodResult range_method(MethodCall const& call, Range& range);
 
 /// As java.util.Formatter: "%.2f m, %5d, %-8s, %x, %%".
-[[nodiscard]] Checked<std::string> formatted(std::string_view pattern, Native::Arguments arguments);
+[[nodiscard]] Checked<std::string> formatted(std::string_view pattern, Arguments arguments);
 
 }  // namespace lapwing::dolphin::internal

@@ -168,7 +168,7 @@ bool is_getter(std::string_view name) {
 }  // namespace
 
 std::optional<Checked<Value>> call_method(Runtime& runtime, Value const& object, std::string_view name,
-                                          Native::Arguments arguments) {
+                                          Arguments arguments) {
   Call const call{runtime.heap, runtime.patterns, name, arguments};
   if (auto result = kind_method(call, object)) return result;
   if (auto result = common_method(call, object)) return result;

@@ -6,14 +6,13 @@
 #include "dolphin/code/compiler.hpp"
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
+#include "dolphin/names/parameters.hpp"
 #include "dolphin/syntax/characters.hpp"
 #include "dolphin/value/text.hpp"
 
-/// Program control (language spec, 3.3) and signals (3.5).
+/// Program control (language spec, 3.3).
 namespace lapwing::dolphin::internal {
 namespace {
-
-using Arguments = Native::Arguments;
 
 /// Computations in an answer to `ask` end here.
 constexpr int answer_budget = 100'000;
@@ -73,60 +72,39 @@ base::Task<Checked<Value>> ask(Runtime& runtime, Fiber& /*fiber*/, std::vector<V
   co_return answer_value(runtime, answer);
 }
 
-Checked<Signals::Wanted> wanted(Value const& value, std::string_view what) {
-  auto const* map = value.as<Map>();
-  if (!map)
-    return fault(fmt::format("{} takes names with values: {} ready: 1", what, what), "IllegalArgumentException");
-  Signals::Wanted pairs;
-  for (auto const& [name, held] : map->items()) pairs.emplace_back(to_text(name), held);
-  return pairs;
-}
-
-std::string as_log_text(Signals::Wanted const& pairs) {
-  std::string text;
-  for (auto const& [name, value] : pairs)
-    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", name, to_text(value));
-  return "{" + text + "}";
-}
-
-Checked<Value> post(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  auto const pairs = wanted(arguments[0], "post");
-  if (!pairs) return std::unexpected(pairs.error());
-  for (auto const& [name, value] : *pairs) {
-    if (auto const posted = runtime.signals.post(name, value); !posted) return std::unexpected(posted.error());
-  }
-  runtime.log.info(fmt::format("Posting '{}'", as_log_text(*pairs)));
-  return Value();
-}
-
-Checked<Value> consume(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  auto const pairs = wanted(arguments[0], "consume");
-  if (!pairs) return std::unexpected(pairs.error());
-  bool const is_consumed = runtime.signals.consume(*pairs);
-  if (is_consumed) runtime.log.info(fmt::format("Consumed '{}'", as_log_text(*pairs)));
-  return Value::boolean(is_consumed);
-}
-
-/// What `poll` of the prelude looks at.
-Checked<Value> signal_values(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  return Value(runtime.heap.make<List>(runtime.signals.values(to_text(arguments[0]))));
-}
-
 }  // namespace
 
-std::span<Native const> control_natives() {
-  static std::array const table = {
-      Native{.name = "message", .least = 1, .most = 1, .call = message},
-      Native{.name = "print", .least = 0, .most = 1, .call = print},
-      Native{.name = "println", .least = 0, .most = 1, .call = print_line},
-      Native{.name = "halt", .least = 0, .most = 1, .call = halt},
-      Native{.name = "pause", .least = 1, .most = 1, .start = pause},
-      Native{.name = "ask", .least = 0, .most = 1, .start = ask},
-      Native{.name = "post", .least = 1, .most = 1, .call = post},
-      Native{.name = "consume", .least = 1, .most = 1, .call = consume},
-      Native{.name = "signalValues", .least = 1, .most = 1, .call = signal_values},
+std::vector<InstructionSpec> control_words() {
+  using namespace rows;
+  return {
+      {.name = "message",
+       .signatures = {takes({plain("value", any)})},
+       .doc = "Prints the value for the operator, behind `Program message:`.",
+       .example = "message 'Survey begins'",
+       .call = message},
+      {.name = "ask",
+       .signatures = {takes({plain("prompt", any)})},
+       .result = any,
+       .doc = "Prints the prompt and reads one line: the value of the expression in it (literals, variables, functions "
+              "of numbers), or its text when it is none. Throws an IOException when there is no more input.",
+       .example = "n = ask 'How many vehicles? '",
+       .start = ask},
+      {.name = "halt",
+       .signatures = {takes({maybe(plain("reason", any))})},
+       .doc = "Ends the script with exit code 3 and makes all vehicles safe. Cannot be caught; `finally` runs.",
+       .example = "halt 'the wind is too strong'",
+       .call = halt},
+      {.name = "pause",
+       .signatures = {takes({seconds("time")})},
+       .doc = "Waits. In an action it holds up nobody else; in a guard it is an error.",
+       .example = "pause 5.seconds",
+       .start = pause},
+      {.name = "println",
+       .signatures = {takes({maybe(plain("value", any))})},
+       .doc = "Prints the value and ends the line.",
+       .call = print_line},
+      {.name = "print", .signatures = {takes({plain("value", any)})}, .doc = "Prints the value.", .call = print},
   };
-  return table;
 }
 
 }  // namespace lapwing::dolphin::internal

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "dolphin/builtin/internal/native_lists.hpp"
+#include "dolphin/names/parameters.hpp"
 #include "dolphin/value/equality.hpp"
 #include "dolphin/value/operators.hpp"
 #include "dolphin/value/text.hpp"
@@ -12,8 +13,6 @@
 /// java.lang.Math without its prefix.
 namespace lapwing::dolphin::internal {
 namespace {
-
-using Arguments = Native::Arguments;
 
 std::unexpected<Fault> not_a_number(Value const& value) {
   return fault(fmt::format("expected a number, not {}", kind_name(value)), "IllegalArgumentException");
@@ -61,44 +60,70 @@ Checked<Value> rounded(Runtime& /*runtime*/, Fiber& /*fiber*/, Arguments argumen
 
 template <bool is_least>
 Checked<Value> extreme(Runtime& /*runtime*/, Fiber& /*fiber*/, Arguments arguments) {
-  auto const order = compare(arguments[0], arguments[1]);
-  if (!order) return std::unexpected(order.error());
-  if (*order == std::partial_ordering::unordered) return Value::real(std::nan(""));
-  return (*order <= 0) == is_least ? arguments[0] : arguments[1];
+  Value best = arguments[0];
+  for (auto const& one : arguments.subspan(1)) {
+    auto const order = compare(best, one);
+    if (!order) return std::unexpected(order.error());
+    if (*order == std::partial_ordering::unordered) return Value::real(std::nan(""));
+    if ((*order <= 0) != is_least) best = one;
+  }
+  return best;
+}
+
+/// A function of numbers as in java.lang.Math.
+InstructionSpec maths(std::string_view name, std::size_t count, std::string_view doc, NativeFunction call) {
+  using namespace rows;
+  std::vector<ParameterSpec> parameters(count, plain("x", number));
+  if (count == 2) parameters[1].name = "y";
+  return {.name = name,
+          .signatures = {takes(std::move(parameters))},
+          .result = number,
+          .doc = doc,
+          .call = call,
+          .is_pure = true};
 }
 
 }  // namespace
 
-std::span<Native const> math_natives() {
-  static constexpr auto pure = [](std::string_view name, int count, auto function) {
-    return Native{.name = name, .least = count, .most = count, .call = function, .is_pure = true};
+std::vector<InstructionSpec> maths_words() {
+  using namespace rows;
+  return {
+      maths("abs", 1, "Without its sign.", absolute),
+      maths("sqrt", 1, "Square root.", unary<std::sqrt>),
+      maths("cbrt", 1, "Cube root.", unary<std::cbrt>),
+      maths("sin", 1, "Sine of radians.", unary<std::sin>),
+      maths("cos", 1, "Cosine of radians.", unary<std::cos>),
+      maths("tan", 1, "Tangent of radians.", unary<std::tan>),
+      maths("asin", 1, "Arc sine, radians.", unary<std::asin>),
+      maths("acos", 1, "Arc cosine, radians.", unary<std::acos>),
+      maths("atan", 1, "Arc tangent, radians.", unary<std::atan>),
+      maths("atan2", 2, "The angle of the point (y, x), radians.", binary<std::atan2>),
+      maths("exp", 1, "e to the power of x.", unary<std::exp>),
+      maths("log", 1, "Natural logarithm.", unary<std::log>),
+      maths("log10", 1, "Decimal logarithm.", unary<std::log10>),
+      maths("pow", 2, "x to the power of y.", binary<std::pow>),
+      maths("hypot", 2, "Length of (x, y).", binary<std::hypot>),
+      maths("floor", 1, "Rounded down.", unary<std::floor>),
+      maths("ceil", 1, "Rounded up.", unary<std::ceil>),
+      maths("round", 1, "Rounded to the nearest integer.", rounded),
+      maths("signum", 1, "-1, 0 or 1.", unary<signum>),
+      maths("toRadians", 1, "Degrees to radians.", unary<to_radians>),
+      maths("toDegrees", 1, "Radians to degrees.", unary<to_degrees>),
+      {.name = "min",
+       .signatures = {takes_many(plain("x", any))},
+       .result = any,
+       .doc = "The smallest.",
+       .example = "message min(3, 1, 2)",
+       .call = extreme<true>,
+       .is_pure = true},
+      {.name = "max",
+       .signatures = {takes_many(plain("x", any))},
+       .result = any,
+       .doc = "The largest.",
+       .example = "message max(3, 1, 2)",
+       .call = extreme<false>,
+       .is_pure = true},
   };
-  static std::array const table = {
-      pure("abs", 1, absolute),
-      pure("round", 1, rounded),
-      pure("min", 2, extreme<true>),
-      pure("max", 2, extreme<false>),
-      pure("sqrt", 1, unary<std::sqrt>),
-      pure("cbrt", 1, unary<std::cbrt>),
-      pure("sin", 1, unary<std::sin>),
-      pure("cos", 1, unary<std::cos>),
-      pure("tan", 1, unary<std::tan>),
-      pure("asin", 1, unary<std::asin>),
-      pure("acos", 1, unary<std::acos>),
-      pure("atan", 1, unary<std::atan>),
-      pure("exp", 1, unary<std::exp>),
-      pure("log", 1, unary<std::log>),
-      pure("log10", 1, unary<std::log10>),
-      pure("floor", 1, unary<std::floor>),
-      pure("ceil", 1, unary<std::ceil>),
-      pure("toRadians", 1, unary<to_radians>),
-      pure("toDegrees", 1, unary<to_degrees>),
-      pure("signum", 1, unary<signum>),
-      pure("atan2", 2, binary<std::atan2>),
-      pure("pow", 2, binary<std::pow>),
-      pure("hypot", 2, binary<std::hypot>),
-  };
-  return table;
 }
 
 }  // namespace lapwing::dolphin::internal

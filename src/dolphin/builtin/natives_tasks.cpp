@@ -8,14 +8,13 @@
 #include "dolphin/builtin/internal/native_lists.hpp"
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
+#include "dolphin/names/parameters.hpp"
 #include "dolphin/value/operators.hpp"
 #include "dolphin/value/text.hpp"
 
 /// Task constructors and `execute` (language spec, 3.4 and 4.2).
 namespace lapwing::dolphin::internal {
 namespace {
-
-using Arguments = Native::Arguments;
 
 std::unexpected<Fault> wrong_argument(std::string_view what, std::string_view wanted, Value const& given) {
   return fault(fmt::format("{} takes {}, not {}", what, wanted, kind_name(given)), "IllegalArgumentException");
@@ -49,7 +48,7 @@ Checked<Value> named_task(Runtime& runtime, Fiber& fiber, Arguments arguments) {
   return task_value(runtime.heap, tasks::performed(std::move(*task), origin(fiber)));
 }
 
-Checked<base::Duration> seconds(Value const& value, std::string_view what) {
+Checked<base::Duration> duration_of(Value const& value, std::string_view what) {
   if (!value.is_number()) return wrong_argument(what, "seconds", value);
   if (!(value.number() >= 0.0) || value.number() > 1e9) {
     return fault(fmt::format("{} takes seconds, 0 or more", what), "IllegalArgumentException");
@@ -59,7 +58,7 @@ Checked<base::Duration> seconds(Value const& value, std::string_view what) {
 
 Checked<Value> idle(Runtime& runtime, Fiber& fiber, Arguments arguments) {
   if (arguments.empty()) return task_value(runtime.heap, tasks::idle(std::nullopt, origin(fiber)));
-  auto const length = seconds(arguments[0], "idle");
+  auto const length = duration_of(arguments[0], "idle");
   if (!length) return std::unexpected(length.error());
   return task_value(runtime.heap, tasks::idle(*length, origin(fiber)));
 }
@@ -94,7 +93,7 @@ Checked<Value> until(Runtime& runtime, Fiber& fiber, Arguments arguments) {
 }
 
 Checked<Value> during(Runtime& runtime, Fiber& fiber, Arguments arguments) {
-  auto const limit = seconds(arguments[0], "during");
+  auto const limit = duration_of(arguments[0], "during");
   if (!limit) return std::unexpected(limit.error());
   auto const* body = arguments[1].as<TaskValue>();
   if (!body) return wrong_argument("run", "a task", arguments[1]);
@@ -248,23 +247,90 @@ base::Task<Checked<Value>> execute_keyed(Runtime& runtime, Fiber& fiber, std::ve
 
 }  // namespace
 
-std::span<Native const> task_natives() {
-  static std::array const table = {
-      Native{.name = "task", .least = 1, .most = 1, .call = named_task},
-      Native{.name = "imcPlan", .least = 1, .most = 1, .call = named_task},
-      Native{.name = "idle", .least = 0, .most = 1, .call = idle},
-      Native{.name = "action", .least = 1, .most = 1, .call = action},
-      Native{.name = "condition", .least = 1, .most = 1, .call = condition},
-      Native{.name = "waitFor", .least = 2, .most = 2, .call = wait_for},
-      Native{.name = "until", .least = 2, .most = 2, .call = until},
-      Native{.name = "duringSeconds", .least = 2, .most = 2, .call = during},
-      Native{.name = "watch", .least = 2, .most = 2, .call = watch},
-      Native{.name = "ignore", .least = 0, .most = 0, .call = decide<true>},
-      Native{.name = "propagate", .least = 0, .most = 0, .call = decide<false>},
-      Native{.name = "execute", .least = 1, .most = 1, .start = execute},
-      Native{.name = "execute keyed", .least = 0, .most = any_number, .start = execute_keyed},
+std::vector<InstructionSpec> task_words() {
+  using namespace rows;
+  return {
+      {.name = "task",
+       .signatures = {takes({plain("name", text)})},
+       .result = task,
+       .doc = "The mission of this script that has the name, or the plan file of `--plans DIR`: north.plan or "
+              "north.waypoints for 'north'. On the test platform 'A:3' is a task of 3 s and 'fail:3' one that fails.",
+       .example = "north = mission { name 'north'; home 41.178, -8.598, 90; move 50, 0 }\nv = pick {}\nexecute v: "
+                  "task('north')",
+       .call = named_task},
+      {.name = "imcPlan",
+       .signatures = {takes({plain("name", text)})},
+       .result = task,
+       .doc = "The same as `task`; also written `imcPlan['north']`.",
+       .call = named_task},
+      {.name = "idle",
+       .signatures = {takes({maybe(seconds("time"))})},
+       .result = task,
+       .doc = "Does nothing for that long; without a time it never ends by itself. Needs no vehicle.",
+       .example = "execute idle(10.seconds)",
+       .call = idle},
+      {.name = "action",
+       .signatures = {takes({plain("body", closure)})},
+       .result = task,
+       .doc = "Runs the closure once. Needs no vehicle. An exception in it is an error of the task.",
+       .example = "execute idle(1) >> action { message 'a second later' }",
+       .call = action},
+      {.name = "condition",
+       .signatures = {takes({plain("test", closure)})},
+       .result = task,
+       .doc = "Done when the closure is true; tested at every step. Needs no vehicle.",
+       .example = "v = pick {}\nexecute condition { battery(v) > 95.percent }",
+       .call = condition},
+      {.name = "oneOf",
+       .signatures = {takes({plain("branches", closure)})},
+       .result = task,
+       .doc =
+           "Tests the guards of its branches in order, at every step; the first that is true decides which one runs.",
+       .block = BlockKind::choice,
+       .example =
+           "v = pick {}\nexecute oneOf {\n  when { battery(v) < 0.5 } then idle(60)\n  when { true } then idle(1)\n}"},
+      {.name = "choose",
+       .signatures = {takes({plain("branches", closure)})},
+       .result = task,
+       .doc = "The same as `oneOf`.",
+       .block = BlockKind::choice},
+      {.name = "allOf",
+       .signatures = {takes({plain("branches", closure)})},
+       .result = task,
+       .doc = "Runs every branch, one at a time, each when its guard is true; done when all have run.",
+       .block = BlockKind::choice,
+       .example =
+           "execute allOf {\n  when { poll 'ready' } then idle(1)\n  when { true } then action { post ready: 1 }\n}"},
+      {.name = "execute",
+       .signatures = {takes({plain("task", task)})},
+       .result = Kind::other,
+       .doc = "Runs the task to its end; `execute v1: a, v2: b` runs several at once, each on its vehicles, `_` on "
+              "any. Gives a result with `done`, `error` and `vehicles`; a task that fails throws a TaskError.",
+       .named = NamedArguments::vehicles,
+       .example = "v = pick {}\nr = execute v: idle(1), _: action { message 'begun' }\nmessage r.done",
+       .start = execute},
   };
-  return table;
+}
+
+std::vector<InstructionSpec> task_helpers() {
+  return {
+      {.name = "waitFor", .call = wait_for},
+      {.name = "until", .call = until},
+      {.name = "duringSeconds", .call = during},
+      {.name = "watch", .call = watch},
+      {.name = "execute keyed", .start = execute_keyed},
+  };
+}
+
+std::vector<InstructionSpec> handler_words() {
+  using namespace rows;
+  return {
+      {.name = "ignore", .signatures = {takes({})}, .doc = "The watched task counts as done.", .call = decide<true>},
+      {.name = "propagate",
+       .signatures = {takes({})},
+       .doc = "The watched task counts as failed (the default).",
+       .call = decide<false>},
+  };
 }
 
 }  // namespace lapwing::dolphin::internal

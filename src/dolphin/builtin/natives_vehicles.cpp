@@ -10,14 +10,14 @@
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
 #include "dolphin/names/foreign_words.hpp"
+#include "dolphin/names/parameters.hpp"
 #include "dolphin/value/platform_arguments.hpp"
 #include "dolphin/value/text.hpp"
 
-/// Vehicles and geometry (language spec, 3.1 and 3.2).
+/// Vehicles (language spec, 3.1).
 namespace lapwing::dolphin::internal {
 namespace {
 
-using Arguments = Native::Arguments;
 using tasks::VehicleId;
 using tasks::VehicleInfo;
 
@@ -292,57 +292,73 @@ Checked<Value> vehicle_instruction(Runtime& runtime, Fiber& /*fiber*/, Arguments
   return Value();
 }
 
-// ---- geometry
-
-Checked<Value> location(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  if (arguments.size() < 2 || arguments.size() > 3 || !std::ranges::all_of(arguments, &Value::is_number)) {
-    return fault("location takes latitude and longitude in degrees, and a height in metres",
-                 "IllegalArgumentException");
-  }
-  double const lat = arguments[0].number();
-  double const lon = arguments[1].number();
-  if (!(lat >= -90 && lat <= 90 && lon >= -180 && lon <= 360)) {
-    return fault(fmt::format("({}, {}) is no latitude and longitude in degrees", lat, lon), "IllegalArgumentException");
-  }
-  double const height = arguments.size() == 3 ? arguments[2].number() : 0.0;
-  return Value(runtime.heap.make<Position>(geo::Wgs84::from_degrees(lat, lon, height)));
-}
-
-Checked<Value> area(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  auto const* center = arguments[0].as<Position>();
-  if (!center || !arguments[1].is_number() || !(arguments[1].number() >= 0)) {
-    return fault("area takes a position and a radius", "IllegalArgumentException");
-  }
-  return Value(runtime.heap.make<Area>(geo::Disc{center->value, arguments[1].number()}));
-}
-
-Checked<Value> move(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
-  auto const* from = arguments[0].as<Position>();
-  auto const* by = arguments[1].as<Displacement>();
-  if (!from || !by)
-    return fault("move takes a position and a displacement: move(p, { north 10 })", "IllegalArgumentException");
-  return Value(runtime.heap.make<Position>(geo::displaced(from->value, by->value)));
-}
-
 }  // namespace
 
-std::span<Native const> vehicle_natives() {
-  static std::array const table = {
-      Native{.name = "pick", .least = 1, .most = 1, .start = pick},
-      Native{.name = "release", .least = 1, .most = 1, .call = release},
-      Native{.name = "position", .least = 1, .most = 1, .call = position, .start = position_when_reported},
-      Native{.name = "battery", .least = 1, .most = 1, .call = battery, .start = battery_when_reported},
-      Native{.name = "relativeHeight", .least = 1, .most = 1, .call = relative_height},
-      Native{.name = "mode", .least = 1, .most = 1, .call = mode},
-      Native{.name = "connected", .least = 1, .most = 1, .call = connected},
-      Native{.name = "setConnectionTimeout", .least = 1, .most = 1, .call = set_connection_timeout},
-      Native{.name = "setConnectionTimeout keyed", .least = 0, .most = any_number, .call = set_connection_timeouts},
-      Native{.name = "vehicle instruction", .least = 2, .most = any_number, .call = vehicle_instruction},
-      Native{.name = "location", .least = 2, .most = 3, .call = location, .is_pure = true},
-      Native{.name = "area", .least = 2, .most = 2, .call = area, .is_pure = true},
-      Native{.name = "move", .least = 2, .most = 2, .call = move},
+std::vector<InstructionSpec> vehicle_words() {
+  using namespace rows;
+  return {
+      {.name = "pick",
+       .signatures = {takes({plain("fields", closure)})},
+       .result = vehicles,
+       .doc = "Takes vehicles that are connected, free, and fit the fields, waiting for them up to `timeout`. They "
+              "stay picked until `release` or the end of the script. When there are not enough, none is taken and a "
+              "VehicleError is thrown, which halts the script unless it is caught.",
+       .block = BlockKind::pick,
+       .example = "v = pick { type 'UAV'; count 2; timeout 30.seconds }",
+       .start = pick},
+      {.name = "release",
+       .signatures = {takes({plain("vehicles", vehicles)})},
+       .doc = "Stops what runs on the vehicles and gives them back; they may be picked again.",
+       .example = "v = pick {}\nrelease v",
+       .call = release},
+      {.name = "position",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = place,
+       .doc = "Where the one vehicle of the set is. Waits for the first report, except in guards, up to the connection "
+              "timeout. Unknown in a guard: every comparison with it is false.",
+       .example = "v = pick {}\nmessage position(v).distanceTo(location(41.178, -8.598))",
+       .call = position,
+       .start = position_when_reported},
+      {.name = "battery",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = number,
+       .doc = "What is left in the battery of the one vehicle of the set, 0 to 1. Waits for the first report, except "
+              "in guards, up to the connection timeout. Unknown: NaN, and every comparison is false.",
+       .dimension = Dimension::ratio,
+       .example = "v = pick {}\nexecute waitFor { battery(v) >= 90.percent } then idle(1)",
+       .call = battery,
+       .start = battery_when_reported},
+      {.name = "relativeHeight",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = number,
+       .doc = "Metres of the one vehicle of the set above its home. Unknown: NaN, and every comparison is false.",
+       .dimension = Dimension::length,
+       .call = relative_height},
+      {.name = "mode",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = text,
+       .doc = "The flight mode of the one vehicle of the set, as its autopilot calls it: 'AUTO'.",
+       .call = mode},
+      {.name = "connected",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = Kind::boolean,
+       .doc = "Whether the one vehicle of the set has been heard within its connection timeout.",
+       .call = connected},
+      {.name = "setConnectionTimeout",
+       .signatures = {takes({seconds("timeout")})},
+       .doc = "After how long a silence a vehicle counts as lost, 5 s to 1 h: for all picked ones and later picks, or "
+              "`v1: 30.seconds` for some. 20 s until it is set.",
+       .named = NamedArguments::vehicles,
+       .example = "v = pick {}\nsetConnectionTimeout 60.seconds\nsetConnectionTimeout v: 2.minutes",
+       .call = set_connection_timeout},
   };
-  return table;
+}
+
+std::vector<InstructionSpec> vehicle_helpers() {
+  return {
+      {.name = "setConnectionTimeout keyed", .call = set_connection_timeouts},
+      {.name = "vehicle instruction", .call = vehicle_instruction},
+  };
 }
 
 }  // namespace lapwing::dolphin::internal

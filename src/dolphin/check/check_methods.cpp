@@ -150,10 +150,7 @@ void Checker::method_call(ast::Call const& call) {
   auto const positional = static_cast<std::size_t>(
       std::ranges::count_if(call.arguments, [](ast::Argument const& one) { return !one.name; }));
   auto const count = positional + (positional < call.arguments.size() ? 1 : 0);  // all named ones are one map
-  auto const takes = [&](MethodSpec const* one) {
-    auto const wanted = argument_count(*one);
-    return !one->is_property && count >= wanted.least && count <= wanted.most;
-  };
+  auto const takes = [&](MethodSpec const* one) { return !one->is_property && argument_count(*one).allows(count); };
   if (std::ranges::any_of(found, takes)) return;
   auto const& method = **std::ranges::find_if(found, is_method);
   diagnostics_.report(code("argument-count"), name.span,

@@ -22,7 +22,7 @@ bool has_names(ast::Call const& node) {
 }
 
 /// Named arguments are gathered into one.
-std::size_t argument_count(ast::Call const& node) {
+std::size_t given_count(ast::Call const& node) {
   auto const named =
       std::ranges::count_if(node.arguments, [](auto const& argument) { return argument.name.has_value(); });
   return node.arguments.size() - static_cast<std::size_t>(named > 0 ? named - 1 : 0);
@@ -67,7 +67,7 @@ void Compilation::call(ast::Call const& node, base::Span span) {
 
 void Compilation::named_call(std::string const& name, ast::Call const& node, base::Span span) {
   if (block_command(name, node)) return;
-  if (auto const function = function_for(name, argument_count(node))) {
+  if (auto const function = function_for(name, given_count(node))) {
     int const count = arguments(node.arguments);
     function_->emit(Op::call_function, *function, count);
     return;
@@ -206,7 +206,7 @@ void Compilation::keyed_call(std::string const& native, ast::Call const& node) {
 void Compilation::native_call(std::string_view name, int count, base::Span span) {
   int const index = find_native(name).value();
   auto const& native = natives()[static_cast<std::size_t>(index)];
-  check_count(name, native.least, native.most, count, span);
+  if (!native.signatures.empty()) check_count(name, argument_count(native), count, span);
   function_->emit(Op::call_native, index, count);
 }
 
@@ -216,15 +216,16 @@ void Compilation::vehicle_instruction(tasks::VehicleInstruction const& instructi
   text(std::string(instruction.name));
   int const count = arguments(node.arguments);
   auto const is_needed = [](tasks::Parameter const& parameter) { return !parameter.fallback; };
-  auto const needed = static_cast<int>(std::ranges::count_if(instruction.parameters, is_needed));
-  auto const known = static_cast<int>(instruction.parameters.size());
-  check_count(instruction.name, 1 + needed, 1 + known + (instruction.takes_values ? 1 : 0), count, span);
+  auto const needed = static_cast<std::size_t>(std::ranges::count_if(instruction.parameters, is_needed));
+  auto const known = instruction.parameters.size();
+  check_count(instruction.name, {1 + needed, 1 + known + (instruction.takes_values ? 1 : 0)}, count, span);
   function_->emit(Op::call_native, find_native("vehicle instruction").value(), 1 + count);
 }
 
-void Compilation::check_count(std::string_view name, int least, int most, int count, base::Span span) {
-  if (count >= least && (most == any_number || count <= most)) return;
-  auto const expected = least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+void Compilation::check_count(std::string_view name, ArgumentCount takes, int count, base::Span span) {
+  if (takes.allows(static_cast<std::size_t>(count))) return;
+  auto const expected =
+      takes.least == takes.most ? fmt::format("{}", takes.least) : fmt::format("{} to {}", takes.least, takes.most);
   diagnostics_.report(code("argument-count"), span,
                       fmt::format("{} takes {} arguments, not {}", name, expected, count));
 }

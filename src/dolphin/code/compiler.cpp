@@ -112,7 +112,7 @@ std::shared_ptr<Program const> compile(ast::Program const& tree, std::shared_ptr
                                        tasks::Vocabulary const& vocabulary, base::Diagnostics& diagnostics) {
   auto program = std::make_shared<Program>();
   program->source = std::move(source);
-  base::SourceFile const prelude_source("prelude", std::string(prelude()));
+  base::SourceFile const prelude_source("prelude", prelude());
   base::Diagnostics prelude_diagnostics(prelude_source);
   auto const prelude_tree = parse(prelude_diagnostics);
   internal::Compilation library(*program, vocabulary, prelude_diagnostics);

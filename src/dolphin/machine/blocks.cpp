@@ -13,7 +13,7 @@
 namespace lapwing::dolphin {
 namespace {
 
-Checked<double> number_argument(std::string_view word, Native::Arguments arguments) {
+Checked<double> number_argument(std::string_view word, Arguments arguments) {
   if (arguments.size() == 1 && arguments[0].is_number()) return arguments[0].number();
   return fault(fmt::format("{} takes one number", word), "IllegalArgumentException");
 }
@@ -25,7 +25,7 @@ class PickBlock final : public Block {
   [[nodiscard]] std::string_view name() const override { return "pick"; }
   [[nodiscard]] Checked<Value> finish() override { return Value(fields_); }
 
-  Checked<void> command(std::string_view word, Native::Arguments arguments) override {
+  Checked<void> command(std::string_view word, Arguments arguments) override {
     if (word == "count") return count(arguments);
     if (word == "timeout") return timeout(arguments);
     if (word == "region") return region(arguments);
@@ -43,21 +43,21 @@ class PickBlock final : public Block {
     fields_->set(Value(heap_.make<Text>(std::string(field))), std::move(value));
   }
 
-  Checked<void> count(Native::Arguments arguments) {
+  Checked<void> count(Arguments arguments) {
     if (arguments.size() != 1 || !arguments[0].is(ValueKind::integer))
       return fault("count takes one integer", "IllegalArgumentException");
     if (arguments[0].integer() <= 0) return halting("count must be greater than 0");
     set("count", arguments[0]);
     return {};
   }
-  Checked<void> timeout(Native::Arguments arguments) {
+  Checked<void> timeout(Arguments arguments) {
     auto const seconds = number_argument("timeout", arguments);
     if (!seconds) return std::unexpected(seconds.error());
     if (!(*seconds >= 0.0) || *seconds > 1e9) return halting("timeout must not be negative");
     set("timeout", arguments[0]);
     return {};
   }
-  Checked<void> region(Native::Arguments arguments) {
+  Checked<void> region(Arguments arguments) {
     if (arguments.size() == 1 && arguments[0].is(ValueKind::area)) {
       set("region", arguments[0]);
       return {};
@@ -67,7 +67,7 @@ class PickBlock final : public Block {
     set("region", Value(heap_.make<Area>(geo::Disc{arguments[0].as<Position>()->value, arguments[1].number()})));
     return {};
   }
-  Checked<void> payload(Native::Arguments arguments) {
+  Checked<void> payload(Arguments arguments) {
     auto names = heap_.make<List>();
     for (auto const& argument : arguments) {
       if (!argument.is(ValueKind::text)) return fault("payload takes texts", "IllegalArgumentException");
@@ -89,7 +89,7 @@ class PositionBlock final : public Block {
   [[nodiscard]] Checked<Value> finish() override {
     return Value(heap_.make<Position>(geo::Wgs84::from_degrees(lat_, lon_, height_)));
   }
-  Checked<void> command(std::string_view word, Native::Arguments arguments) override {
+  Checked<void> command(std::string_view word, Arguments arguments) override {
     auto const number = number_argument(word, arguments);
     if (!number) return std::unexpected(number.error());
     (word == "lat" ? lat_ : word == "lon" ? lon_ : height_) = *number;
@@ -108,7 +108,7 @@ class DisplacementBlock final : public Block {
   explicit DisplacementBlock(Heap& heap) : heap_(heap) {}
   [[nodiscard]] std::string_view name() const override { return "moveDistance"; }
   [[nodiscard]] Checked<Value> finish() override { return Value(heap_.make<Displacement>(offset_)); }
-  Checked<void> command(std::string_view word, Native::Arguments arguments) override {
+  Checked<void> command(std::string_view word, Arguments arguments) override {
     auto const number = number_argument(word, arguments);
     if (!number) return std::unexpected(number.error());
     (word == "north" ? offset_.north : word == "east" ? offset_.east : offset_.down) = *number;
@@ -125,7 +125,7 @@ class ChoiceBlock final : public Block {
  public:
   ChoiceBlock(Runtime& runtime, bool is_all, int line) : runtime_(runtime), is_all_(is_all), line_(line) {}
   [[nodiscard]] std::string_view name() const override { return "choice"; }
-  Checked<void> command(std::string_view /*word*/, Native::Arguments arguments) override {
+  Checked<void> command(std::string_view /*word*/, Arguments arguments) override {
     auto* guard = arguments[0].as<Closure>();
     auto const* body = arguments[1].as<TaskValue>();
     if (!guard)
@@ -181,7 +181,7 @@ class PlatformBlock final : public Block {
       : runtime_(runtime), spec_(spec), session_(spec.begin()), line_(line) {}
   [[nodiscard]] std::string_view name() const override { return spec_.name; }
 
-  Checked<void> command(std::string_view word, Native::Arguments arguments) override {
+  Checked<void> command(std::string_view word, Arguments arguments) override {
     auto const known = std::ranges::find(spec_.commands, word, &tasks::CommandSpec::name);
     for (std::size_t i = 0; i < known->overloads.size(); ++i) {
       auto const given = fitted(known->overloads[i].parameters, arguments);
@@ -206,13 +206,12 @@ class PlatformBlock final : public Block {
   }
 
  private:
-  static std::string kinds(Native::Arguments arguments) {
+  static std::string kinds(Arguments arguments) {
     std::string text;
     for (auto const& argument : arguments) text += fmt::format("{}{}", text.empty() ? "" : ", ", kind_name(argument));
     return text;
   }
-  void warn_of_rounding(tasks::CommandSpec const& command, tasks::Overload const& overload,
-                        Native::Arguments arguments) const {
+  void warn_of_rounding(tasks::CommandSpec const& command, tasks::Overload const& overload, Arguments arguments) const {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
       if (overload.parameters[i].type != tasks::Type::integer || !arguments[i].is(ValueKind::real)) continue;
       if (arguments[i].real() == std::round(arguments[i].real())) continue;

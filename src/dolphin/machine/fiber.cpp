@@ -142,7 +142,7 @@ Value Fiber::pop() {
   return value;
 }
 
-Native::Arguments Fiber::arguments(int count) const {
+Arguments Fiber::arguments(int count) const {
   return {stack_.data() + stack_.size() - static_cast<std::size_t>(count), static_cast<std::size_t>(count)};
 }
 

@@ -16,7 +16,7 @@ class Block {
  public:
   virtual ~Block() = default;
   [[nodiscard]] virtual std::string_view name() const = 0;
-  virtual Checked<void> command(std::string_view word, Native::Arguments arguments) = 0;
+  virtual Checked<void> command(std::string_view word, Arguments arguments) = 0;
   [[nodiscard]] virtual Checked<Value> finish() = 0;
 };
 
@@ -109,7 +109,7 @@ class Fiber {
   Value pop();
   Value& top(std::size_t below = 0) { return stack_[stack_.size() - 1 - below]; }
   void drop(std::size_t count) { stack_.resize(stack_.size() - count); }
-  [[nodiscard]] Native::Arguments arguments(int count) const;
+  [[nodiscard]] Arguments arguments(int count) const;
   [[nodiscard]] Frame& frame() { return frames_.back(); }
   Value& local(int index) { return stack_[frames_.back().base + static_cast<std::size_t>(index)]; }
   [[nodiscard]] std::string const& name(int index) const;
@@ -123,7 +123,7 @@ class Fiber {
   std::vector<Frame> frames_;
   std::vector<std::unique_ptr<Block>> blocks_;
   Value result_;
-  Native const* waits_for_ = nullptr;
+  InstructionSpec const* waits_for_ = nullptr;
   std::vector<Value> wait_arguments_;
 };
 

@@ -64,6 +64,10 @@ TEST(Collections, PrintAsTheyAreWritten) {
   EXPECT_EQ(value_of("(1..3).collect { it * 2 }"), "[2, 4, 6]");
 }
 
+TEST(Numbers, HaveTheSmallestAndTheLargestOfAny) {
+  EXPECT_EQ(value_of("[max(3, 1, 2), Math.min(3, 1, 2), max(7), min('b', 'a'), max(1, NaN, 2)]"), "[3, 1, 7, a, NaN]");
+}
+
 TEST(Collections, HaveMethodsWithClosures) {
   EXPECT_EQ(value_of("[3, 1, 2].sort()"), "[1, 2, 3]");
   EXPECT_EQ(value_of("['bb', 'a'].sort { it.length() }"), "[a, bb]");

@@ -1,9 +1,12 @@
 #include "dolphin/names/prelude.hpp"
 
+#include "dolphin/names/signatures.hpp"
+
 namespace lapwing::dolphin {
 
-std::string_view prelude() {
-  return R"dolphin(
+namespace {
+
+constexpr std::string_view common = R"dolphin(
 def each(items, f) {
   for (x in items) { f(x) }
   return items
@@ -214,16 +217,14 @@ def eachMatch(text, pattern, f) {
 def during(limit, t) {
   return duringSeconds(limit instanceof Closure ? limit() : limit, t)
 }
-def poll(wanted) {
-  if (!(wanted instanceof Map)) { return signalValues(wanted).size() > 0 }
-  for (pair in wanted) {
-    def test = pair.value
-    def posted = signalValues(pair.key)
-    if (test instanceof Closure ? !posted.any(test) : !(test in posted)) { return false }
-  }
-  return true
-}
 )dolphin";
+
+}  // namespace
+
+std::string prelude() {
+  std::string out(common);
+  for (auto const& instruction : instructions()) out += instruction.source;
+  return out;
 }
 
 }  // namespace lapwing::dolphin

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <expected>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,11 +10,28 @@
 
 #include "tasks/vocabulary.hpp"
 
+namespace lapwing::base {
+template <class T>
+class Task;
+}
+
 /// What the language knows by name: instructions, fields of blocks, units, methods, constants, types. One table for the
-/// checker, hover texts, completion and the reference; what a platform adds comes as a `tasks::Vocabulary` beside it.
+/// checker, hover texts, completion, the reference and the machine; what a platform adds comes as a `tasks::Vocabulary`
+/// beside it. The rows stand beside the functions that carry them out, in builtin/.
 namespace lapwing::dolphin {
 
 using tasks::Dimension;
+
+// The machine, known here by its names alone: whoever only reads a row needs none of it.
+class Fiber;
+class Value;
+struct Fault;
+struct Runtime;
+using Arguments = std::span<Value const>;
+/// Carries an instruction out at once.
+using NativeFunction = std::expected<Value, Fault> (*)(Runtime&, Fiber&, Arguments);
+/// Suspends the calling fiber until the task has ended.
+using WaitingNative = base::Task<std::expected<Value, Fault>> (*)(Runtime&, Fiber&, std::vector<Value>);
 
 /// Kinds of values, one bit each so that a parameter can take several.
 enum class Kind : std::uint16_t {
@@ -85,15 +103,21 @@ enum class NamedArguments {
 /// Words that are instructions only within the block of one instruction: the fields of `pick`, `when`, `ignore()`.
 enum class BlockKind { none, pick, position, displacement, choice, handler, platform };
 
+/// An instruction: what it is called and given, what is said of it, and what carries it out: `call`, `start` or both,
+/// of which guards, which cannot wait, get `call`. Blocks have neither where the machine opens them.
 struct InstructionSpec {
   std::string_view name;
-  std::vector<SignatureSpec> signatures;
-  Kinds result = Kinds::none();  ///< none: used for what it does
-  std::string_view doc;
+  std::vector<SignatureSpec> signatures = {};  ///< none, for what the compiler alone calls: any arguments
+  Kinds result = Kinds::none();                ///< none: used for what it does
+  std::string_view doc = {};
   NamedArguments named = NamedArguments::none;
   BlockKind block = BlockKind::none;      ///< what is known inside its closure
   Dimension dimension = Dimension::none;  ///< of a number it gives
   std::string_view example = {};          ///< a script that checks
+  NativeFunction call = nullptr;
+  WaitingNative start = nullptr;
+  std::string_view source = {};  ///< its function where it is written in the language itself
+  bool is_pure = false;          ///< depends on its arguments alone: allowed in the answer to `ask`
 };
 
 struct UnitSpec {
@@ -113,12 +137,15 @@ struct MethodSpec {
   std::string_view example = {};    ///< an expression whose value shows what it does
 };
 
-/// How many arguments a method takes.
+/// How many arguments a method or instruction takes.
 struct ArgumentCount {
   std::size_t least = 0;
   std::size_t most = 0;
+  [[nodiscard]] bool allows(std::size_t count) const { return count >= least && count <= most; }
 };
 [[nodiscard]] ArgumentCount argument_count(MethodSpec const& method);
+/// Over all its signatures.
+[[nodiscard]] ArgumentCount argument_count(InstructionSpec const& instruction);
 
 struct NameSpec {
   std::string_view name;
@@ -126,6 +153,8 @@ struct NameSpec {
 };
 
 [[nodiscard]] std::span<InstructionSpec const> instructions();
+/// What stands in the closure of onError.
+[[nodiscard]] std::span<InstructionSpec const> handler_words();
 /// The words that are known only inside a block of that kind.
 [[nodiscard]] std::span<InstructionSpec const> block_words(BlockKind kind);
 [[nodiscard]] std::span<UnitSpec const> units();

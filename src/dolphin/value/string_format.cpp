@@ -297,7 +297,7 @@ Checked<void> fitting(Field const& field) {
 
 }  // namespace
 
-Checked<std::string> formatted(std::string_view pattern, Native::Arguments arguments) {
+Checked<std::string> formatted(std::string_view pattern, Arguments arguments) {
   std::string out;
   std::size_t next = 0;
   std::optional<std::size_t> before;

@@ -122,7 +122,7 @@ class Compilation {
   void keyed_call(std::string const& native, ast::Call const& node);
   void native_call(std::string_view name, int arguments, base::Span span);
   void vehicle_instruction(tasks::VehicleInstruction const& instruction, ast::Call const& node, base::Span span);
-  void check_count(std::string_view name, int least, int most, int count, base::Span span);
+  void check_count(std::string_view name, ArgumentCount takes, int count, base::Span span);
   /// Pushes them, named ones gathered into a map that comes first; returns how many values that makes.
   int arguments(std::vector<ast::Argument> const& arguments);
   void named_arguments(std::vector<ast::Argument> const& arguments);
