@@ -111,7 +111,7 @@ class UdpLink final : public ByteLink {
     while (!is_aimed()) {
       bool has_answer = false;
       resolver_.async_resolve(udp::v4(), url_.host, std::to_string(url_.port_or_baud),
-                              [this, &has_answer, alive = std::weak_ptr(alive_)](Error error, auto found) {
+                              [this, &has_answer, alive = std::weak_ptr(alive_)](Error error, auto const& found) {
                                 if (alive.expired()) return;
                                 if (error || found.empty())
                                   last_error_ = fmt::format("cannot find host '{}'", url_.host);

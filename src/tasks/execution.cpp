@@ -8,7 +8,7 @@ namespace lapwing::tasks {
 
 using internal::Context;
 
-Execution::Execution(TaskTree tree, Allocation allocation, Platform& platform, Observer observer)
+Execution::Execution(TaskTree const& tree, Allocation allocation, Platform& platform, Observer observer)
     : context_(std::make_unique<Context>(
           Context{.platform = platform, .observer = std::move(observer), .vehicles = {}, .withdrawn = {}})),
       allocation_(std::move(allocation)) {

@@ -35,7 +35,7 @@ class Execution {
   using Observer = std::function<void(TaskEvent const&)>;
 
   /// `platform` and what `observer` refers to outlive the execution. `allocation` is that of `tree`.
-  Execution(TaskTree tree, Allocation allocation, Platform& platform, Observer observer = {});
+  Execution(TaskTree const& tree, Allocation allocation, Platform& platform, Observer observer = {});
   /// Stops what still runs.
   ~Execution();
   Execution(Execution const&) = delete;
