@@ -66,6 +66,7 @@ struct CommandOutcome {
   CommandState state = CommandState::waiting;
   std::string reason = {};            ///< "at 7 of 20 m", "arming refused: ..."
   std::optional<double> left_m = {};  ///< to go or to climb, while it is under way and that is known
+  std::string rule = {};              ///< of plausibility that refused it: what `allow` of a command names
 };
 
 /// One command as it was given, and what each vehicle made of it.

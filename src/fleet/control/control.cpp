@@ -147,11 +147,15 @@ base::Task<> Control::carry(MavlinkVehicle& craft, std::uint64_t number, vehicle
     show(number, id, CommandState::accepted, "");
   };
   ActionOptions const how{.not_after = expires, .is_urgent = is_stop(command.action), .on_accepted = on_accepted};
+  Doubts doubts;
   auto ended = co_await heed_command(craft, command, *settings_for(command, options_.plausibility),
-                                     platform_.neighbours(), log_);
+                                     platform_.neighbours(), doubts, log_);
   if (ended) ended = co_await carry_out(craft.connection, craft, command, how);
   if (!ended) emergency_.resume(craft);
   if (!ended) fail_command(craft, number, ended.error(), expires);
+  auto const rule = doubts.refused_by();
+  if (auto* const shown = outcome_of(number, id); rule && shown && shown->state == CommandState::refused)
+    shown->rule = to_string(*rule);
   running_[id].is_sent = true;
   // An arming that comes late is taken back.
   if (!ended && may_arm(command.action) && (command.action == Action::arm || craft.asked->may_arm_late_until))

@@ -70,10 +70,10 @@ Result<plausibility::Settings> settings_for(vehicle::VehicleCommand const& comma
 }
 
 Task<Result<>> heed_command(MavlinkVehicle& craft, vehicle::VehicleCommand const& command,
-                            plausibility::Settings settings, Neighbours const& neighbours, base::Logger const& log) {
+                            plausibility::Settings settings, Neighbours const& neighbours, Doubts& doubts,
+                            base::Logger const& log) {
   auto const action = command.action;
   auto const findings = co_await findings_of(craft, command, std::move(settings), neighbours, log);
-  Doubts doubts;
   co_return doubts.heed(findings, fmt::format("{} of {}", to_string(action), craft.state.name), log);
 }
 

@@ -9,6 +9,7 @@ namespace lapwing::fleet {
 base::Result<> Doubts::heed(plan::plausibility::Findings const& findings, std::string_view subject,
                             base::Logger const& log) {
   auto const* refused = refusal(findings);
+  refused_by_ = refused ? std::optional(refused->rule) : std::nullopt;
   for (auto const& finding : findings) {
     if (&finding == refused || !said_.insert(finding.rule).second) continue;
     auto const text = fmt::format("{}: {}", subject, to_text(finding));

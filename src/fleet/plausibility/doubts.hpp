@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -16,8 +17,11 @@ class Doubts {
   /// `subject`: "copter 1: 'West'".
   [[nodiscard]] base::Result<> heed(plan::plausibility::Findings const& findings, std::string_view subject,
                                     base::Logger const& log);
+  /// The rule of that finding, at the last look.
+  [[nodiscard]] std::optional<plan::plausibility::Rule> refused_by() const { return refused_by_; }
 
  private:
+  std::optional<plan::plausibility::Rule> refused_by_;
   std::set<plan::plausibility::Rule> said_;
 };
 

@@ -157,6 +157,7 @@ TEST(OperatorsCommand, StartsNoMissionOfAnotherPlace) {
   auto const number = world.give({.action = Action::start_mission});
   EXPECT_EQ(world.end_of(number), CommandState::refused);
   EXPECT_NE(world.outcome(number).reason.find("[too_far]"), std::string::npos) << world.outcome(number).reason;
+  EXPECT_EQ(world.outcome(number).rule, "too_far");
   EXPECT_EQ(copter.commands_heard(MavCmd::component_arm_disarm), 0);
 }
 

@@ -17,6 +17,7 @@ Json to_json(vehicle::CommandRecord const& record) {
     Json one{{"vehicle", outcome.vehicle.text}, {"state", vehicle::to_string(outcome.state)}};
     if (!outcome.reason.empty()) one["reason"] = outcome.reason;
     if (outcome.left_m) one["left_m"] = rounded(*outcome.left_m, 1);
+    if (!outcome.rule.empty()) one["rule"] = outcome.rule;
     vehicles.push_back(std::move(one));
   }
   Json json{{"number", record.number},

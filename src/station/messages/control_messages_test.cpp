@@ -26,12 +26,14 @@ TEST(ControlMessages, ShowHowFarACommandHasCome) {
        .asked = base::UtcTime{},
        .outcomes = {{{"1"}, CommandState::confirmed, "at 12 m", {}},
                     {{"2"}, CommandState::waiting, "", {}},
+                    {{"5"}, CommandState::refused, "12 km away [too_far]", {}, "too_far"},
                     {{"3"}, CommandState::under_way, "at 7 of 12 m", 4.96},
                     {{"4"}, CommandState::cut_short, "emergency stop by anna, at 3 of 12 m", {}}}}};
   EXPECT_EQ(json::parse(commands_message(records)),
             json::parse(R"({"type":"commands","commands":[{"number":7,"action":"take_off","height_m":12.0,
               "by":"operator 1","asked":"1970-01-01T00:00:00.000Z","vehicles":[
               {"vehicle":"1","state":"confirmed","reason":"at 12 m"},{"vehicle":"2","state":"waiting"},
+              {"vehicle":"5","state":"refused","reason":"12 km away [too_far]","rule":"too_far"},
               {"vehicle":"3","state":"under_way","reason":"at 7 of 12 m","left_m":5.0},
               {"vehicle":"4","state":"cut_short","reason":"emergency stop by anna, at 3 of 12 m"}]}]})"));
 }

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { objectionsTo, ruleOf, RULES } from './plausibility';
+import { objectionsTo, RULES } from './plausibility';
 import type { Command } from './protocol';
 
 const REFUSED = 'the place is 12 km away; 5.0 km is the limit [too_far]';
@@ -9,7 +9,7 @@ const goTo = (rest: Partial<Command> = {}): Command => ({
   action: 'go_to',
   by: 'me',
   asked: '',
-  vehicles: [{ vehicle: '1', state: 'refused', reason: REFUSED }],
+  vehicles: [{ vehicle: '1', state: 'refused', reason: REFUSED, rule: 'too_far' }],
   ...rest,
 });
 
@@ -19,21 +19,15 @@ describe('rules of plausibility', () => {
     expect([...RULES.keys()]).toEqual([...table.matchAll(/^\| `(\w+)` \|/gm)].map(([, rule]) => rule));
   });
 
-  it('are named at the end of a refusal, and nowhere else', () => {
-    expect(ruleOf(REFUSED)).toBe('too_far');
-    expect(ruleOf('arming refused: Arm: Throttle too high')).toBeUndefined();
-    expect(ruleOf('[too_far] of what')).toBeUndefined();
-    expect(ruleOf('PreArm: check [battery2]')).toBeUndefined();
-    expect(ruleOf(undefined)).toBeUndefined();
-  });
-
   it('stand against the vehicles that were refused by them', () => {
     const vehicles: Command['vehicles'] = [
-      { vehicle: '1', state: 'refused', reason: REFUSED },
-      { vehicle: '2', state: 'under_way', reason: REFUSED },
-      { vehicle: '3', state: 'refused', reason: REFUSED },
-      { vehicle: '4', state: 'refused', reason: 'it would end in the ground [below_ground]' },
+      { vehicle: '1', state: 'refused', reason: REFUSED, rule: 'too_far' },
+      { vehicle: '2', state: 'under_way', reason: REFUSED, rule: 'too_far' },
+      { vehicle: '3', state: 'refused', reason: REFUSED, rule: 'too_far' },
+      { vehicle: '4', state: 'refused', reason: 'it would end in the ground', rule: 'below_ground' },
       { vehicle: '5', state: 'refused', reason: 'vehicle 5 is commanded by ben' },
+      { vehicle: '6', state: 'refused', reason: 'PreArm: check [too_far]' },
+      { vehicle: '7', state: 'refused', reason: 'by a rule of a later station', rule: 'too_bright' },
     ];
     expect(objectionsTo(goTo({ vehicles }), [], 'me')).toEqual([
       { rule: 'too_far', vehicles: ['1', '3'] },

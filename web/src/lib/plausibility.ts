@@ -1,8 +1,8 @@
 import type { Command } from './protocol';
 
 /**
- * What the station asks of a command before anything is sent, by the names under which an operator can allow it. A refusal ends with the
- * name of the rule that refused it: "... 6 km away [too_far]". docs/reference/plausibility.md has limits and cases.
+ * What the station asks of a command before anything is sent, by the names under which an operator can allow it.
+ * docs/reference/plausibility.md has limits and cases.
  */
 export const RULES: ReadonlyMap<string, string> = new Map([
   ['home_moved', 'home would be moved far from where the vehicle stands'],
@@ -19,12 +19,6 @@ export const RULES: ReadonlyMap<string, string> = new Map([
   ['shared_pad', 'another vehicle stands or lands there'],
 ]);
 
-/** The rule that refused, if it was one. */
-export function ruleOf(reason: string | undefined): string | undefined {
-  const rule = /\[(\w+)\]$/.exec(reason ?? '')?.[1];
-  return rule !== undefined && RULES.has(rule) ? rule : undefined;
-}
-
 /** A rule in the way of a command, and the vehicles that it was refused for. */
 export interface Objection {
   rule: string;
@@ -38,9 +32,9 @@ export function objectionsTo(command: Command, commands: readonly Command[], me:
     commands.filter(({ number }) => number > command.number).flatMap(({ vehicles }) => vehicles.map((one) => one.vehicle)),
   );
   const refused = new Map<string, string[]>();
-  for (const { vehicle, state, reason } of command.vehicles) {
-    const rule = state === 'refused' && !later.has(vehicle) ? ruleOf(reason) : undefined;
-    if (rule) refused.set(rule, [...(refused.get(rule) ?? []), vehicle]);
+  for (const { vehicle, state, rule } of command.vehicles) {
+    if (state === 'refused' && !later.has(vehicle) && rule !== undefined && RULES.has(rule))
+      refused.set(rule, [...(refused.get(rule) ?? []), vehicle]);
   }
   return [...refused].map(([rule, vehicles]) => ({ rule, vehicles }));
 }

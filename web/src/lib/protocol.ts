@@ -98,6 +98,8 @@ export interface CommandOutcome {
   reason?: string;
   /** To go or to climb, while it is under way. */
   left_m?: number;
+  /** Of plausibility, that refused it. */
+  rule?: string;
 }
 
 export type StopAction = 'hold' | 'land' | 'rtl' | 'terminate';

@@ -14,7 +14,7 @@ const refused: Command = {
   place: { lat_deg: 41.25, lon_deg: -8.6, alt_m: 0 },
   allow: { ceiling: 'permission of the tower' },
   vehicles: [
-    { vehicle: '1', state: 'refused', reason: 'the place is 12 km away [too_far]' },
+    { vehicle: '1', state: 'refused', reason: 'the place is 12 km away [too_far]', rule: 'too_far' },
     { vehicle: '2', state: 'under_way' },
   ],
 };

@@ -242,7 +242,7 @@ const SAMPLES: Record<string, unknown>[] = [
         place: { lat_deg: 1, lon_deg: 1, alt_m: 1 },
         mode: '',
         allow: { ceiling: 'x' },
-        vehicles: [{ vehicle: '1', state: 'refused', reason: 'x [too_far]' }],
+        vehicles: [{ vehicle: '1', state: 'refused', reason: 'x [too_far]', rule: 'too_far' }],
       },
     ],
   },

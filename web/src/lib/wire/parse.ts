@@ -131,10 +131,10 @@ const logLine = object<LogLine>({ seq: count, time: text, level: word(['debug', 
   'text',
 ]);
 
-const outcome = object<Command['vehicles'][number]>({ vehicle: text, state: text as Parse<never>, reason: text, left_m: metres }, [
-  'vehicle',
-  'state',
-]);
+const outcome = object<Command['vehicles'][number]>(
+  { vehicle: text, state: text as Parse<never>, reason: text, left_m: metres, rule: text },
+  ['vehicle', 'state'],
+);
 const command = object<Command>(
   {
     number: count,
