@@ -105,12 +105,13 @@ class TcpOut final : public ByteLink {
   }
 
   void begin_to_connect() {
-    resolver_.async_resolve(bare_host(url_.host), std::to_string(url_.port_or_baud),
-                            [this, alive = std::weak_ptr(alive_)](Error error, tcp::resolver::results_type const& found) {
-                              if (alive.expired()) return;
-                              if (error) return failed(fmt::format("cannot find host '{}'", url_.host));
-                              connect(found);
-                            });
+    resolver_.async_resolve(
+        bare_host(url_.host), std::to_string(url_.port_or_baud),
+        [this, alive = std::weak_ptr(alive_)](Error error, tcp::resolver::results_type const& found) {
+          if (alive.expired()) return;
+          if (error) return failed(fmt::format("cannot find host '{}'", url_.host));
+          connect(found);
+        });
   }
 
   void connect(tcp::resolver::results_type const& found) {
