@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/time.hpp"
+#include "map/features/contents.hpp"
+#include "map/features/layer_kind.hpp"
+
+namespace lapwing::map {
+
+/// Whose account something is, and of when. Writers are many and their clocks differ: what each layer makes of two
+/// accounts of one thing is its merge rule (`map/live/merge.hpp`).
+struct Account {
+  std::string writer = {};  ///< vehicle id, "operator 2", "import plan.kml"
+  base::UtcTime at = {};    ///< when it was so, not when it was heard of
+
+  friend bool operator==(Account const&, Account const&) = default;
+};
+
+/// One thing on the map, by whom it was put there.
+struct Feature {
+  std::string id = {};     ///< unique in its layer
+  std::string site = {};   ///< its site's id
+  std::string floor = {};  ///< its floor's id; empty: the site's ground
+  Account account = {};
+  Content content = {};
+};
+
+[[nodiscard]] LayerKind layer_of(Content const& content);
+/// Where it lies: of a picture the footprint where there is one, else the place that it was taken from.
+[[nodiscard]] Geometry geometry_of(Content const& content);
+/// Why it is none ("a slot's probability is 1.3, not from 0 to 1"); nothing for a sound one. Whatever outsiders give is
+/// asked this before it is written.
+[[nodiscard]] std::optional<std::string> feature_fault(Feature const& feature);
+
+}  // namespace lapwing::map
