@@ -21,6 +21,7 @@ using Ring = std::vector<Point<Frame>>;
 template <class Frame>
 struct Polygon {
   std::vector<Ring<Frame>> rings;
+  friend bool operator==(Polygon const&, Polygon const&) = default;
 };
 
 namespace detail {
@@ -44,6 +45,12 @@ template <class Frame>
 }
 
 }  // namespace detail
+
+/// Seen from above; neither way for a ring without extent.
+template <class Frame>
+[[nodiscard]] bool is_counterclockwise(Ring<Frame> const& ring) {
+  return detail::doubled_area_m2(ring) > 0.0;
+}
 
 /// Why it is no area ("its edges cross or touch each other"): fewer than three corners, numbers that are not
 /// finite, rings that cross, holes outside, no extent. Nothing for a sound one. Costs n log n. (OGC Simple Features,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -18,6 +19,7 @@ using SitePolygon = geo::Polygon<geo::SiteFrame>;
 /// The points of a line in order, at least two.
 struct LineString {
   std::vector<SitePoint> points;
+  friend bool operator==(LineString const&, LineString const&) = default;
 };
 
 /// Where a feature lies on the ground, in metres in the frame of its site (OGC Simple Features: point, line string,
@@ -26,6 +28,8 @@ using Geometry = std::variant<SitePoint, LineString, SitePolygon>;
 
 /// Limits of what outsiders may give: more is refused before anything is computed.
 inline constexpr std::size_t most_points = 100'000;
+/// Of a polygon, all rings together: whether edges cross costs more than a look at each.
+inline constexpr std::size_t most_corners = 10'000;
 inline constexpr double farthest_m = 100'000.0;  ///< from the anchor: beyond that the plane is no map any more
 
 /// Why it cannot lie on the map ("its edges cross or touch each other"); nothing for a sound one.

@@ -23,11 +23,14 @@ struct Property {
   PropertyKind kind;
   std::string_view doc;
   PropertyValue (*get)(Content const&);
-  /// Errors, invalid_input: another kind of value, a word that is none of those that it may be.
+  /// Nothing takes it away. Properties may be set in any order. Errors, invalid_input: another kind of value, a word
+  /// that is none of those that it may be; the message goes on after the name of the property ("takes a number").
   base::Result<> (*set)(Content&, PropertyValue const&);
+  std::span<std::string_view const> words = {};  ///< what a text may be; empty: any
 };
 
 [[nodiscard]] std::span<Property const> properties_of(LayerKind layer);
+[[nodiscard]] std::string_view name_of(PropertyKind kind);
 /// Null when the layer has none of that name.
 [[nodiscard]] Property const* property_named(LayerKind layer, std::string_view name);
 /// A content of that layer with this geometry and nothing else. Error, invalid_input: a geometry of another kind.
