@@ -22,7 +22,7 @@ struct Slot {
   SitePolygon outline = {};
   SlotState state = SlotState::unknown;
   std::optional<double> taken_probability = {};  ///< 0..1, calibrated: of ten slots at 0.9 nine are taken
-  std::optional<base::UtcTime> seen_at = {};     ///< when a camera had it in view last
+  std::optional<base::UtcTime> seen_at = {};     ///< when a camera had it in view last; not after its account
   std::string seen_by = {};                      ///< vehicle id
   std::string name = {};                         ///< what is painted on it
   friend bool operator==(Slot const&, Slot const&) = default;
@@ -79,7 +79,8 @@ struct Track {
     friend bool operator==(Sample const&, Sample const&) = default;
   };
   std::string vehicle = {};
-  std::vector<Sample> samples = {};  ///< in the order of time, no two of one moment; at least two
+  std::vector<Sample> samples =
+      {};  ///< in the order of time, no two of one moment, none after its account; at least two
   /// How coarse it has become: 0 with all samples, else with the first of each 2^(thinning - 4) seconds, and the last.
   int thinning = 0;
   friend bool operator==(Track const&, Track const&) = default;

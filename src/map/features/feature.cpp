@@ -136,6 +136,19 @@ Fault account_fault(Account const& account) {
   return any_of({of("writer", id_fault(account.writer)), time_fault("at", account.at)});
 }
 
+/// Whoever tells something tells what was before. Else a removal could not tell what it takes away.
+Fault future_fault(Feature const& feature) {
+  auto const& at = feature.account.at;
+  if (auto const* slot = std::get_if<Slot>(&feature.content); slot && slot->seen_at > at)
+    return fmt::format("seen_at is {}, after the account's own time, {}", base::utc_text(*slot->seen_at),
+                       base::utc_text(at));
+  auto const* track = std::get_if<Track>(&feature.content);
+  if (track && !track->samples.empty() && track->samples.back().at > at)
+    return fmt::format("the track ends at {}, after the account's own time, {}",
+                       base::utc_text(track->samples.back().at), base::utc_text(at));
+  return std::nullopt;
+}
+
 Fault held_over_fault(Feature const& feature) {
   constexpr std::string_view name = "held_over";
   if (feature.held_over.size() > properties_of(layer_of(feature.content)).size())
@@ -144,6 +157,7 @@ Fault held_over_fault(Feature const& feature) {
     if (!property_named(layer_of(feature.content), held.property))
       return fmt::format("{} names a property that the layer does not have", name);
     if (auto wrong = account_fault(held.account)) return fmt::format("{}: {}", name, *wrong);
+    if (held.account > feature.account) return fmt::format("{} has a newer account than the feature", name);
   }
   return std::nullopt;
 }
@@ -186,7 +200,7 @@ std::optional<std::string> feature_fault(Feature const& feature) {
                            of("floor", text_fault(feature.floor, most_id_bytes)), account_fault(feature.account)}))
     return wrong;
   if (auto wrong = std::visit([](auto const& content) { return fault(content); }, feature.content)) return wrong;
-  if (auto wrong = held_over_fault(feature)) return wrong;
+  if (auto wrong = any_of({future_fault(feature), held_over_fault(feature)})) return wrong;
   return geometry_fault(geometry_of(feature.content));
 }
 

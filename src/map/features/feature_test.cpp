@@ -76,6 +76,8 @@ TEST(Feature, HasNumbersWithinBounds) {
             "taken_probability is nan, not from 0 to 1");
   EXPECT_EQ(fault_of(with(Slot{.outline = square(), .seen_at = base::UtcTime(1s)})),
             "seen_at is 1970-01-01T00:00:01.000Z, not from 1990 to 2200");
+  EXPECT_EQ(fault_of(with(Slot{.outline = square(), .seen_at = now + 1ms})),
+            "seen_at is 2026-11-21T10:12:52.001Z, after the account's own time, 2026-11-21T10:12:52.000Z");
   EXPECT_EQ(fault_of(with(Wall{.line = {{{}, {1.0, 0.0}}}, .thickness_m = -1.0})),
             "thickness_m is -1, not from 0 to 100000");
   EXPECT_EQ(fault_of(with(Area{.outline = square(), .lowest_m = 5.0, .highest_m = 4.0})),
@@ -137,23 +139,28 @@ TEST(Feature, IsAPictureThatWasTaken) {
 }
 
 TEST(Feature, IsATrackInTheOrderOfTime) {
-  Track track{.samples = {{.position = {}, .at = now}, {.position = {}, .at = now}}};
+  Track track{.samples = {{.position = {}, .at = now - 1s}, {.position = {}, .at = now - 1s}}};
   EXPECT_EQ(fault_of(with(track)), "point 2 of the track is not later than the one before it");
   track.samples.back().at += 1ns;
   EXPECT_EQ(fault_of(with(track)), "none");
   track.samples.back().up_m = nan;
   EXPECT_EQ(fault_of(with(track)), "point 2 of the track: its height is nan, not from -100000 to 100000");
+  track.samples.back() = {.position = {}, .at = now + 1s};
+  EXPECT_EQ(fault_of(with(track)),
+            "the track ends at 2026-11-21T10:12:53.000Z, after the account's own time, 2026-11-21T10:12:52.000Z");
   EXPECT_EQ(fault_of(with(Track())), "a line takes two points, and this has 0");
 }
 
 TEST(Feature, HoldsOverWhatItsLayerHas) {
   auto feature = with(Slot{.outline = square(), .name = "12"});
-  feature.held_over = {{"name", {"drone 2", now}}};
+  feature.held_over = {{"name", {"drone 2", now - 1s}}};
   EXPECT_EQ(fault_of(feature), "none");
   feature.held_over = {{"height_m", {"drone 2", now}}};
   EXPECT_EQ(fault_of(feature), "held_over names a property that the layer does not have");
   feature.held_over = {{"name", {"", now}}};
   EXPECT_EQ(fault_of(feature), "held_over: writer is empty");
+  feature.held_over = {{"name", {"drone 2", now + 1s}}};
+  EXPECT_EQ(fault_of(feature), "held_over has a newer account than the feature");
 }
 
 TEST(Account, IsInAnOrderThatAllAgreeOn) {

@@ -87,7 +87,8 @@ class OccupancyGrid {
 
   using Tiles = std::map<TileKey, std::shared_ptr<GridTile const>>;
   [[nodiscard]] Tiles const& tiles() const { return tiles_; }
-  /// Null: nothing is known there any more.
+  /// Null: nothing is known there any more. Precondition: not made as a constant, as it may be written to once no
+  /// other grid has it.
   void set_tile(TileKey key, std::shared_ptr<GridTile const> tile);
   /// To write many cells of a tile: made or copied where needed. Valid until the grid is copied or destroyed.
   [[nodiscard]] GridTile& tile_to_write(TileKey key);

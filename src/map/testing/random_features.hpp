@@ -28,11 +28,11 @@ class RandomFeatures {
     return {};
   }
 
-  /// On the ground of the site.
+  /// On the ground of the site, told in 2027 of what was in 2026.
   [[nodiscard]] Feature feature(LayerKind layer, std::string id, std::string site) {
     return {.id = std::move(id),
             .site = std::move(site),
-            .account = {.writer = fmt::format("writer {}", number(3)), .at = time()},
+            .account = {.writer = fmt::format("writer {}", number(3)), .at = time() + std::chrono::days(365)},
             .content = content(layer)};
   }
 
