@@ -52,6 +52,18 @@ case $target in
     printf 'GET\n/api/v1/log?after=12&token=a%%20b\nHost: station.example\nAuthorization: Bearer token\n' | seed log
     printf 'POST\n/api/v1/script\nHost: localhost\nOrigin: http://localhost:8080\nContent-Type: application/json\n' | seed post
     ;;
+  features)
+    # Its first letter says which layer: the six in turn, beginning with a letter that six divides, f.
+    feature='{"type":"Feature","id":"1","geometry":{"type":"%s","coordinates":%s},"properties":{"at":"2026-01-01T00:00:00Z",%s}}'
+    ring='[[[179.999,41],[-179.999,41],[180,41.001],[179.999,41]]]'
+    line='[[179.999,41],[180.0001,41]]'
+    printf "f$feature" Polygon "$ring" '"state":"taken","seen_at":"2025-12-31T23:00:00+01:00","taken_probability":0.5,"held_over":[{"property":"name","writer":"a","at":"2025-01-01T00:00:00Z"}]' | seed slots
+    printf "g$feature" LineString "$line" '"height_m":3' | seed walls
+    printf "h$feature" Point '[179.999,41]' '"kind":"door","covariance_xx_m2":1,"covariance_xy_m2":0,"covariance_yy_m2":1' | seed points_of_interest
+    printf "i$feature" Polygon '[[[180,41],[180.0001,41],[180.0001,41.0001],[180,41.0001],[180,41]]]' '"image":"'"$(printf '%064d' 0)"'","taken_at":"2025-01-01T00:00:00Z","camera_x_m":1,"camera_qw":1,"camera_qx":0,"camera_qy":0,"camera_qz":0' | seed pictures
+    printf "j$feature" LineString "$line" '"began_at":"2025-12-31T00:00:00Z","times_s":"0 1.5","ups_m":"3 4"' | seed tracks
+    printf 'k{"type":"FeatureCollection","features":['"$feature"']}' MultiPolygon "[$ring]" '"purpose":"no_go","lowest_m":1,"highest_m":2,"floor":null' | seed areas
+    ;;
   geojson)
     cp "$root"/examples/*.geojson "$seeds"
     printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"keep":"out"},"geometry":{"type":"MultiPolygon","coordinates":[[[[-8,41],[-7.9,41],[-8,41.1],[-8,41]]]]}}]}' |
