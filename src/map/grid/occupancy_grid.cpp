@@ -21,10 +21,8 @@ std::size_t index_of(Cell cell) {
 }  // namespace
 
 Evidence Evidence::of_log_odds(double log_odds) {
-  Evidence evidence;
-  evidence.steps_ =
-      static_cast<std::int16_t>(std::lround(std::clamp(log_odds, -most_log_odds, most_log_odds) * steps_a_unit));
-  return evidence;
+  static_assert(most_steps == most_log_odds * steps_a_unit);
+  return of_steps(static_cast<int>(std::lround(std::clamp(log_odds, -most_log_odds, most_log_odds) * steps_a_unit)));
 }
 
 Evidence Evidence::of_probability(double probability) {
@@ -42,10 +40,7 @@ double Evidence::probability() const {
 Evidence Evidence::and_also(Evidence other) const {
   if (!is_seen()) return other;
   if (!other.is_seen()) return *this;
-  constexpr int most = static_cast<int>(most_log_odds * steps_a_unit);
-  Evidence sum;
-  sum.steps_ = static_cast<std::int16_t>(std::clamp(steps_ + other.steps_, -most, most));
-  return sum;
+  return of_steps(std::clamp(steps_ + other.steps_, -most_steps, most_steps));
 }
 
 OccupancyGrid::OccupancyGrid(double resolution_m, geo::Transform<geo::SiteFrame, GridFrame> site_from_grid)

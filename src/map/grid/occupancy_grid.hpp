@@ -49,6 +49,15 @@ class Evidence {
 
   static constexpr double most_log_odds = 20.0;
 
+  /// In steps of 1/256, from -`most_steps` to `most_steps`: what is kept and sent. Precondition: one of these; seen.
+  [[nodiscard]] static constexpr Evidence of_steps(int steps) {
+    Evidence evidence;
+    evidence.steps_ = static_cast<std::int16_t>(steps);
+    return evidence;
+  }
+  [[nodiscard]] constexpr int steps() const { return steps_; }
+  static constexpr int most_steps = 5120;
+
  private:
   static constexpr std::int16_t unseen = INT16_MIN;
   std::int16_t steps_ = unseen;
