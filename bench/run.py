@@ -320,6 +320,18 @@ def pool() -> dict:
     return took
 
 
+def live_map() -> dict:
+    """Milliseconds of processor time for each job of the map."""
+    done = subprocess.run([BENCH_BIN / "bench_map", "--benchmark_format=json", "--benchmark_repetitions=3",
+                           "--benchmark_report_aggregates_only=true"], capture_output=True, text=True, check=True)
+    to_ms = {"ms": 1.0, "us": 1e-3, "ns": 1e-6}
+    took = {row["run_name"]: row["cpu_time"] * to_ms[row["time_unit"]]
+            for row in json.loads(done.stdout)["benchmarks"] if row["aggregate_name"] == "median"}
+    for name, ms in took.items():
+        say(f"map     {name:32} {ms:9.3f} ms")
+    return took
+
+
 def language() -> dict:
     import language as beside_the_original
 
@@ -348,12 +360,12 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "pool", "feed", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page"]
+    wanted = sys.argv[1:] or ["decode", "pool", "feed", "map", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
-        results[name] = {"decode": decode, "pool": pool, "feed": feed, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
+        results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
                          "params": params, "router": router, "language": language, "page": page}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")

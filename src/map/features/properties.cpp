@@ -29,7 +29,8 @@ constexpr std::array slot_properties = {
 };
 
 constexpr std::array wall_properties = {
-    Property{"thickness_m", real, "", get_optional<&Wall::thickness_m>, set_optional<&Wall::thickness_m>},
+    Property{"thickness_m", real, "From face to face; its line runs in the middle.", get_optional<&Wall::thickness_m>,
+             set_optional<&Wall::thickness_m>},
     Property{"height_m", real, "Above the floor.", get_optional<&Wall::height_m>, set_optional<&Wall::height_m>},
 };
 
@@ -59,11 +60,11 @@ constexpr std::array picture_properties = {
     Property{"image", text, "Hash of the picture in the store.", get_text<&Picture::image>, set_text<&Picture::image>},
     Property{"thumbnail", text, "Hash of a small one in the store.", get_text<&Picture::thumbnail>,
              set_text<&Picture::thumbnail>},
-    Property{"media_type", text, "Of the picture.", get_text<&Picture::media_type>, set_text<&Picture::media_type>,
-             picture_media_types},
+    Property{"media_type", text, "What kind of file the picture is.", get_text<&Picture::media_type>,
+             set_text<&Picture::media_type>, picture_media_types},
     Property{"width_px", integer, "0: not known.", get_integer<&Picture::width_px>, set_integer<&Picture::width_px>},
     Property{"height_px", integer, "0: not known.", get_integer<&Picture::height_px>, set_integer<&Picture::height_px>},
-    Property{"taken_at", time, "", get_time<&Picture::taken_at>, set_time<&Picture::taken_at>},
+    Property{"taken_at", time, "When the shutter opened.", get_time<&Picture::taken_at>, set_time<&Picture::taken_at>},
     Property{"vehicle", text, "Which took it.", get_text<&Picture::vehicle>, set_text<&Picture::vehicle>},
     Property{"camera_x_m", real, "East of the site's anchor; only where the geometry is the footprint.", get_camera<0>,
              set_camera<0>},
@@ -75,8 +76,8 @@ constexpr std::array picture_properties = {
              "Unit quaternion from the camera's frame (x right, y down, z ahead) to the site's (east, north, up); all "
              "four or none.",
              get_quaternion<0>, set_quaternion<0>},
-    Property{"camera_qy", real, "", get_quaternion<1>, set_quaternion<1>},
-    Property{"camera_qz", real, "", get_quaternion<2>, set_quaternion<2>},
+    Property{"camera_qy", real, "As above.", get_quaternion<1>, set_quaternion<1>},
+    Property{"camera_qz", real, "As above.", get_quaternion<2>, set_quaternion<2>},
     Property{"camera_qw", real, "The real part.", get_quaternion<3>, set_quaternion<3>},
 };
 
@@ -96,7 +97,7 @@ constexpr std::array track_properties = {
 constexpr std::array area_properties = {
     Property{"purpose", text, "wanted: look here; fence: stay within; no_go: stay out.",
              get_word<&Area::purpose, area_purposes>, set_word<&Area::purpose, area_purposes>, area_purposes},
-    Property{"name", text, "", get_text<&Area::name>, set_text<&Area::name>},
+    Property{"name", text, "What people call it.", get_text<&Area::name>, set_text<&Area::name>},
     Property{"lowest_m", real, "Above the site's anchor; it counts from there up.", get_optional<&Area::lowest_m>,
              set_optional<&Area::lowest_m>},
     Property{"highest_m", real, "Above the site's anchor; it counts up to there.", get_optional<&Area::highest_m>,
