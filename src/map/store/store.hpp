@@ -15,8 +15,8 @@
 
 namespace lapwing::map {
 
-/// Where the map is kept: a folder (a GeoPackage and pictures by their hash) or a PostGIS database, with pictures
-/// beside it.
+/// Where the map is kept: a folder (a GeoPackage, and pictures in files by their hash) or a PostGIS database, which
+/// several stations share, pictures and all. docs/reference/store.md has what is kept, and how.
 ///
 /// One connection writes, on a thread of its own; nothing here waits for the disk on the loop. What is told to be
 /// accepted has been committed. A store that cannot take any more (disk full, database away) refuses before it accepts,
@@ -35,9 +35,11 @@ class Store {
   [[nodiscard]] static base::Result<std::unique_ptr<Store>> open(base::Loop& loop, Options options);
   virtual ~Store() = default;
 
-  /// Everything that is kept of the map, into an empty one: for the start.
+  /// Everything that is kept of the map, into an empty one: for the start. What cannot be read is left out, and told by
+  /// `health`.
   [[nodiscard]] virtual base::Task<base::Result<>> load(LiveMap& into) = 0;
-  /// Writes what changes in the map from now on; ends with the store.
+  /// Writes the map's sites, and what changes in it from now on; and of a shared store puts into it what other stations
+  /// write. Ends with the store, which the map outlives, and which writes what is left to be written.
   virtual void follow(LiveMap& map) = 0;
   /// All that has changed so far is committed, or the error says what is not.
   [[nodiscard]] virtual base::Task<base::Result<>> flush() = 0;
@@ -63,6 +65,8 @@ class Store {
   /// Takes it at once and writes it with the next batch; frames are lost rather than that memory grows without bound,
   /// and the number of lost ones is told.
   virtual void record(Shown shown) = 0;
+  /// For people; a session that has no name is called by its id.
+  virtual void name_session(std::string id, std::string name) = 0;
   struct Session {
     std::string id;
     std::string name;
@@ -79,8 +83,8 @@ class Store {
 
   struct Health {
     bool is_writing = true;
-    std::string trouble = {};  ///< what is wrong and what to do about it; empty: nothing
-    std::uint64_t bytes = 0;
+    std::string trouble = {};   ///< what is wrong and what to do about it; empty: nothing
+    std::uint64_t bytes = 0;    ///< of the database and the pictures, some seconds ago
     std::uint64_t waiting = 0;  ///< changes that are not committed yet
     std::uint64_t lost_frames = 0;
   };
