@@ -69,6 +69,13 @@ case $target in
     printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{"keep":"out"},"geometry":{"type":"MultiPolygon","coordinates":[[[[-8,41],[-7.9,41],[-8,41.1],[-8,41]]]]}}]}' |
       seed collection
     ;;
+  pmtiles)
+    # A header, a root of one tile and one leaf, and bytes for both, all unpacked: PMTiles 3.
+    { printf 'PMTiles\3'
+      for number in 127 12 139 2 141 6 147 8 1 1 1; do printf "\\x$(printf %02x "$number")\0\0\0\0\0\0\0"; done
+      printf '\1\1\1\2\0\5'; head -c 25 /dev/zero
+      printf '\2\0\1\1\0\4\6\1\1\0\0\0{}\1\1\1\4\5\0zerofive'; } | seed archive
+    ;;
   key_store)
     printf '[keys]\nfleet = "%064d"\nnext = "%064d"\n[use]\neverybody = "fleet"\n[use.vehicles]\n7 = ["next", "fleet"]\n[use.links]\n"udpin://0.0.0.0:14550" = "next"\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages = ["ADSB_VEHICLE", 0]\n' 1 2 | seed store
     ;;
