@@ -10,6 +10,7 @@ namespace lapwing::apps {
 namespace {
 
 constexpr std::string_view vehicles = "lapwing-vehicles";
+constexpr std::string_view maps = "lapwing-map";
 
 /// In the order in which help shows them.
 constexpr std::array table{
@@ -23,6 +24,7 @@ constexpr std::array table{
     Verb{"sim", "Simulated vehicles that speak MAVLink, for any ground station", vehicles},
     Verb{"replay", "Play a recording of vehicles into the map", vehicles},
     Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
+    Verb{"basemap", "Make map tiles of a picture that knows where it lies, such as a GeoTIFF", maps},
     Verb{"param", "Parameters of vehicles: list, get, set, save, load, compare, copy", vehicles},
     Verb{"signing", "Keys that sign MAVLink: new, setup, rotate, off, drop, show", vehicles},
     Verb{"route", "Pass MAVLink on between links, with filters, rate limits and metrics", vehicles},

@@ -22,6 +22,9 @@ void add_check(CLI::App& program, int& exit_code);
 void add_fmt(CLI::App& program, int& exit_code);
 void add_lsp(CLI::App& program, int& exit_code);
 
+// Those of lapwing-map:
+void add_basemap(CLI::App& program, int& exit_code);
+
 // Those of lapwing-vehicles:
 void add_run(CLI::App& program, int& exit_code);
 void add_demo(CLI::App& program, int& exit_code);
