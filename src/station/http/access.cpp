@@ -1,6 +1,7 @@
 #include "station/http/access.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace lapwing::station {
@@ -39,10 +40,18 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
   return false;
 }
 
-bool is_json(std::string_view content_type) {
-  auto const media_type = content_type.substr(0, content_type.find(';'));
-  auto const end = media_type.find_last_not_of(" \t");
-  return equal_ignoring_case(media_type.substr(0, end == std::string_view::npos ? 0 : end + 1), "application/json");
+/// What another site's page cannot send unasked: browsers ask first for any type but those of forms. (Fetch standard,
+/// "CORS-safelisted request-header".) A DELETE has no body, and browsers ask before each.
+bool asks_first(HttpRequest const& request) {
+  if (request.method == "DELETE" && request.header("Content-Type").empty()) return true;
+  constexpr std::array<std::string_view, 5> known = {"application/json", "application/geo+json", "image/jpeg",
+                                                     "image/png", "image/webp"};
+  auto const type = media_type(request.header("Content-Type"));
+  return std::ranges::any_of(known, [&](auto one) { return equal_ignoring_case(type, one); });
+}
+
+bool is_guarded(std::string_view path) {
+  return path.starts_with("/api/") || path == "/metrics" || path == "/ogc" || path.starts_with("/ogc/");
 }
 
 /// Takes as long for a nearly right token as for a wrong one: as long as `given` is, whatever `token` is.
@@ -90,11 +99,11 @@ std::optional<HttpResponse> refusal(AccessPolicy const& policy, HttpRequest cons
   if ((is_upgrade || changes_state) && !origin.empty() && !is_own_origin(origin, host)) {
     return problem(403, "Another web site's page may not use this station.");
   }
-  if (changes_state && !is_json(request.header("Content-Type"))) {
-    return problem(415, "A request that changes something must be JSON.", "Send Content-Type: application/json.");
+  if (changes_state && !asks_first(request)) {
+    return problem(415, "A request that changes something must be JSON, or a picture.",
+                   "Send Content-Type: application/json.");
   }
-  bool const is_guarded = request.path.starts_with("/api/") || request.path == "/metrics";
-  if (!policy.token.empty() && is_guarded && !carries_token(policy, request)) {
+  if (!policy.token.empty() && is_guarded(request.path) && !carries_token(policy, request)) {
     auto response = problem(401, "This station asks for its token.", "Send Authorization: Bearer TOKEN.");
     response.headers.push_back({"WWW-Authenticate", "Bearer"});
     return response;

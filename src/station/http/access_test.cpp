@@ -58,6 +58,18 @@ TEST(Access, TakesOnlyJsonForWhatChangesState) {
   EXPECT_EQ(status({}, post({host, {"Content-Type", "application/JSON ; charset=utf-8"}})), 200);
 }
 
+TEST(Access, TakesPicturesAndDeletionsThatBrowsersAskAboutFirst) {
+  HttpHeader const host{"Host", "localhost"};
+  EXPECT_EQ(status({}, post({host, {"Content-Type", "application/geo+json"}})), 200);
+  EXPECT_EQ(status({}, post({host, {"Content-Type", "image/jpeg"}})), 200);
+  EXPECT_EQ(status({}, post({host, {"Content-Type", "image/svg+xml"}})), 415) << "it can hold scripts";
+  auto request = post({host});
+  request.method = "DELETE";
+  EXPECT_EQ(status({}, request), 200);
+  request.headers.push_back({"Content-Type", "text/plain"});
+  EXPECT_EQ(status({}, request), 415);
+}
+
 TEST(Access, AsksForTheTokenOnTheApiOnly) {
   AccessPolicy const policy{.loopback_only = true, .host_names = {}, .token = "secret"};
   HttpHeader const host{"Host", "localhost"};
@@ -67,6 +79,8 @@ TEST(Access, AsksForTheTokenOnTheApiOnly) {
   EXPECT_EQ(refused->status, 401);
   EXPECT_EQ(refused->headers.at(0).value, "Bearer");
   EXPECT_EQ(status(policy, get("/metrics", {host})), 401);
+  EXPECT_EQ(status(policy, get("/ogc", {host})), 401);
+  EXPECT_EQ(status(policy, get("/ogc/collections", {host})), 401);
   EXPECT_EQ(status(policy, get("/metrics", {host, {"Authorization", "Bearer secret"}})), 200);
   EXPECT_EQ(status(policy, get("/api/v1/status", {host, {"Authorization", "Bearer wrong!"}})), 401);
   EXPECT_EQ(status(policy, get("/api/v1/status", {host, {"Authorization", "Bearer secret"}})), 200);

@@ -20,6 +20,12 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
+std::string_view media_type(std::string_view content_type) {
+  auto const type = content_type.substr(0, content_type.find(';'));
+  auto const end = type.find_last_not_of(" \t");
+  return type.substr(0, end == std::string_view::npos ? 0 : end + 1);
+}
+
 std::string_view HttpRequest::header(std::string_view name) const {
   auto const found = std::ranges::find_if(headers, [&](auto const& h) { return equal_ignoring_case(h.name, name); });
   return found == headers.end() ? std::string_view{} : std::string_view{found->value};
@@ -66,6 +72,13 @@ std::optional<HttpRequest> request_for(std::string_view method, std::string_view
   auto path = percent_decoded(target.substr(0, question));
   if (!path || !path->starts_with('/')) return std::nullopt;
   HttpRequest request{.method = std::string(method), .path = std::move(*path)};
+  auto rest = target.substr(1, question == std::string_view::npos ? question : question - 1);
+  for (bool is_last = false; !is_last;) {
+    auto const part = rest.substr(0, rest.find('/'));
+    is_last = part.size() == rest.size();
+    request.segments.push_back(percent_decoded(part).value_or(""));
+    if (!is_last) rest.remove_prefix(part.size() + 1);
+  }
   if (question != std::string_view::npos) request.query = target.substr(question + 1);
   return request;
 }
@@ -73,7 +86,9 @@ std::optional<HttpRequest> request_for(std::string_view method, std::string_view
 std::string_view reason_phrase(int status) {
   switch (status) {
     case 200: return "OK";
+    case 201: return "Created";
     case 202: return "Accepted";
+    case 204: return "No Content";
     case 304: return "Not Modified";
     case 400: return "Bad Request";
     case 401: return "Unauthorized";
@@ -81,12 +96,15 @@ std::string_view reason_phrase(int status) {
     case 404: return "Not Found";
     case 405: return "Method Not Allowed";
     case 409: return "Conflict";
+    case 412: return "Precondition Failed";
     case 413: return "Content Too Large";
     case 415: return "Unsupported Media Type";
     case 422: return "Unprocessable Content";
     case 431: return "Request Header Fields Too Large";
+    case 502: return "Bad Gateway";
     case 503: return "Service Unavailable";
     case 504: return "Gateway Timeout";
+    case 507: return "Insufficient Storage";
     default: return "Error";
   }
 }

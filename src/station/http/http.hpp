@@ -18,7 +18,9 @@ struct HttpHeader {
 struct HttpRequest {
   std::string method = {};  ///< upper case, "GET"
   std::string path = {};    ///< percent-decoded, begins with '/'
-  std::string query = {};   ///< what follows '?', not decoded
+  /// The path between its slashes, each part decoded by itself: an id that holds a slash stays whole.
+  std::vector<std::string> segments = {};
+  std::string query = {};  ///< what follows '?', not decoded
   std::vector<HttpHeader> headers = {};
   std::string body = {};
   bool opens_websocket = false;  ///< a whole upgrade of the server's WebSocket endpoint
@@ -49,6 +51,8 @@ struct HttpResponse {
 
 /// `text` with every %XX replaced; nothing when an escape is cut short or is no hexadecimal number.
 [[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text);
+/// "image/png" of "image/png ; charset=x", as it was written.
+[[nodiscard]] std::string_view media_type(std::string_view content_type);
 /// Letters of ASCII compare equal in either case, as header names and host names do.
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b);
 

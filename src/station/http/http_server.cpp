@@ -224,7 +224,7 @@ void HttpServer::Core::close() {
 
 Reply HttpServer::Core::answer(HttpRequest const& request) const {
   bool const is_api = request.path.starts_with("/api/");
-  if (is_api || router.knows(request.path)) return router.answer(request);
+  if (is_api || router.knows(request)) return router.answer(request);
   if (request.method != "GET" && request.method != "HEAD") {
     auto response = problem(405, fmt::format("{} does not work on files.", request.method));
     response.headers.push_back({"Allow", "GET, HEAD"});
@@ -290,7 +290,7 @@ asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection
   auto& transport = connection->transport();
   http::request_parser<http::string_body> parser;
   parser.header_limit(static_cast<std::uint32_t>(options.max_header_bytes));
-  parser.body_limit(options.max_body_bytes);
+  parser.body_limit(std::max(options.max_body_bytes, router.largest_body_bytes()));
   transport.expires_after(connection->is_known ? options.request_timeout : options.first_request_timeout);
   error_code error;
   co_await http::async_read_header(transport, buffer, parser, redirect_error(use_awaitable, error));
@@ -312,6 +312,9 @@ asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection
       co_return false;
     }
     transport.expires_after(options.request_timeout);
+    auto const longest = response ? 0 : router.max_body_bytes(*asked).value_or(options.max_body_bytes);
+    if (!response && parser.content_length().value_or(0) > longest) response = problem(413, "The body is too long.");
+    parser.body_limit(longest);
     if (!response && !parser.is_done())
       co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
   }

@@ -46,7 +46,7 @@ class HttpServer {
     std::size_t max_strangers_per_address = 64;  ///< connections that have shown no token; with none set, no request
     std::size_t max_sessions = 64;               ///< WebSockets among them
     std::size_t max_header_bytes = 16 * 1024;
-    std::size_t max_body_bytes = 1024 * 1024;    ///< of a request and of a WebSocket message
+    std::size_t max_body_bytes = 1024 * 1024;    ///< of a WebSocket message, and of a request whose route says nothing
     std::size_t max_backlog_bytes = 512 * 1024;  ///< unsent bytes of a WebSocket's lane 0 above which `send` refuses
     std::chrono::milliseconds first_request_timeout{5'000};  ///< for the head of a connection's first request
     std::chrono::milliseconds request_timeout{15'000};       ///< for all of a request, and to keep an idle connection

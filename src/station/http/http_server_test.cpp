@@ -33,6 +33,9 @@ class HttpServerTest : public ::testing::Test {
     router.add("GET", "/api/v1/hello",
                [](auto const& request) { return HttpResponse{.body = "hello " + request.query}; });
     router.add("POST", "/api/v1/echo", [](auto const& request) { return HttpResponse{.body = request.body}; });
+    router.add(
+        "POST", "/api/v1/pictures/{name}",
+        [](HttpRequest const& request, PathArguments const&) { return HttpResponse{.body = request.body}; }, 1000);
     router.add("GET", "/api/v1/slow", [this](auto const&) { return answer_later(); });
     router.add("GET", "/api/v1/quick", [this](auto const&) { return answer_at_once(); });
     server->set_router(std::move(router));
@@ -138,6 +141,23 @@ TEST_F(HttpServerTest, HoldsItsLimits) {
             413);
   EXPECT_EQ(ask(loop, server->port(), {.target = "/api/v1/hello", .headers = {{"X", std::string(2000, 'x')}}}).status,
             431);
+}
+
+TEST_F(HttpServerTest, TakesLongerBodiesWhereARouteSaysSo) {
+  serve({.max_body_bytes = 100});
+  HttpHeader const type{"Content-Type", "image/png"};
+  auto const post = [&](std::string target, std::size_t size) {
+    return ask(loop, server->port(),
+               {.method = "POST", .target = std::move(target), .headers = {type}, .body = std::string(size, 'x')});
+  };
+  EXPECT_EQ(post("/api/v1/pictures/a", 1000).body.size(), 1000U);
+  EXPECT_EQ(post("/api/v1/pictures/a", 1001).status, 413);
+  EXPECT_EQ(post("/api/v1/echo", 101).status, 413) << "elsewhere the server's own limit holds";
+  std::string const chunked =
+      "POST /api/v1/echo HTTP/1.1\r\nHost: localhost\r\nContent-Type: image/png\r\n"
+      "Transfer-Encoding: chunked\r\nConnection: close\r\n\r\nc8\r\n";
+  EXPECT_TRUE(
+      ask_raw(loop, server->port(), chunked + std::string(200, 'x') + "\r\n0\r\n\r\n").starts_with("HTTP/1.1 413"));
 }
 
 TEST_F(HttpServerTest, AnswersRubbishWithAnError) {

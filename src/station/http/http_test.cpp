@@ -60,6 +60,29 @@ TEST(Router, AnswersByMethodAndPath) {
   EXPECT_EQ(wrong_method.headers.at(0).value, "GET, HEAD, POST");
 }
 
+TEST(Router, FindsWhatPathsName) {
+  Router router;
+  router.add("GET", "/layers/{layer}/features/{id}", [](HttpRequest const&, PathArguments const& arguments) {
+    return HttpResponse{.body = arguments["layer"] + "|" + arguments["id"]};
+  });
+  router.add("GET", "/tiles/{z}/{y}.png",
+             [](HttpRequest const&, PathArguments const& arguments) { return HttpResponse{.body = arguments["y"]}; });
+  auto const get = [&](std::string_view target) {
+    return std::get<HttpResponse>(router.answer(request_for("GET", target).value()));
+  };
+  EXPECT_EQ(get("/layers/slots/features/7?x=/y").body, "slots|7");
+  EXPECT_EQ(get("/layers/slots/features/north%2F1").body, "slots|north/1") << "an id with a slash is one part";
+  EXPECT_EQ(get("/layers/slots/features/north/1").status, 404);
+  EXPECT_EQ(get("/layers/slots/features/").status, 404) << "a name is never empty";
+  EXPECT_EQ(get("/layers/slots/features").status, 404);
+  EXPECT_EQ(get("/layers%2Fslots/features/7").status, 404);
+  EXPECT_EQ(get("/tiles/3/17.png").body, "17");
+  EXPECT_EQ(get("/tiles/3/.png").status, 404);
+  EXPECT_EQ(get("/tiles/3/17.jpg").status, 404);
+  EXPECT_TRUE(router.knows(*request_for("POST", "/tiles/3/17.png")));
+  EXPECT_EQ(std::get<HttpResponse>(router.answer(*request_for("PUT", "/tiles/3/17.png"))).status, 405);
+}
+
 class StaticFiles : public ::testing::Test {
  protected:
   StaticFiles() {
