@@ -1,6 +1,5 @@
 #include "base/text/utc_text.hpp"
 
-#include <charconv>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -24,7 +23,7 @@ class Cutter {
       fits_ = false;
       return 0;
     }
-    std::from_chars(rest_.data(), rest_.data() + digits, value);
+    for (char const digit : rest_.substr(0, digits)) value = value * 10 + (digit - '0');
     rest_.remove_prefix(digits);
     return value;
   }

@@ -29,7 +29,10 @@ std::string shown(std::string text) {
   return base::printable(std::move(text));
 }
 
-std::string shown(Json const& json) {
+/// Sorted by key: one that keeps its order looks at all members before it adds another, and outsiders send many.
+using Given = nlohmann::json;
+
+std::string shown(Given const& json) {
   if (json.is_string()) return fmt::format("\"{}\"", shown(json.get_ref<std::string const&>()));
   if (json.is_structured()) return json.is_array() ? "a list" : "an object";
   return shown(json.dump());
@@ -42,9 +45,9 @@ std::unexpected<base::Error> wrong(std::string const& message, std::string hint 
 /// A value with its place in the document: "features[3].geometry".
 class Node {
  public:
-  explicit Node(Json const& json, std::string path = {}) : json_(&json), path_(std::move(path)) {}
+  explicit Node(Given const& json, std::string path = {}) : json_(&json), path_(std::move(path)) {}
 
-  [[nodiscard]] Json const& json() const { return *json_; }
+  [[nodiscard]] Given const& json() const { return *json_; }
   [[nodiscard]] std::size_t size() const { return json_->size(); }
   /// For messages: "features[3].geometry", "the document".
   [[nodiscard]] std::string name() const { return path_.empty() ? "the document" : path_; }
@@ -75,7 +78,7 @@ class Node {
   }
 
  private:
-  Json const* json_;
+  Given const* json_;
   std::string path_;
 };
 
@@ -122,7 +125,7 @@ class GeometryReader {
     if (kind == "Point") return as_geometry(point(*coordinates));
     if (kind == "LineString") return as_geometry(line(*coordinates));
     if (kind == "Polygon") return as_geometry(polygon(*coordinates));
-    return wrong(fmt::format("{} is {}, not a Point, LineString or Polygon", node.name(), shown(Json(*type))));
+    return wrong(fmt::format("{} is {}, not a Point, LineString or Polygon", node.name(), shown(Given(*type))));
   }
 
  private:
@@ -226,7 +229,7 @@ class FeatureReader {
   Result<Feature> feature(Node const& node) const {
     if (node.text_or("type", "").value_or("") != "Feature")
       return wrong(fmt::format("{} is no GeoJSON Feature", node.name()));
-    static Json const none = Json::object();
+    static Given const none = Given::object();
     auto const properties = node.member("properties").value_or(Node(none, node.name() + ".properties"));
     if (!properties.json().is_object())
       return wrong(fmt::format("{} is {}, not an object", properties.name(), shown(properties.json())));
@@ -325,14 +328,14 @@ class FeatureReader {
 };
 
 /// Nothing for what is no JSON, or is nested deeper than any feature.
-std::optional<Json> parsed(std::string_view text) {
+std::optional<Given> parsed(std::string_view text) {
   constexpr int deepest = 12;
   bool is_too_deep = false;
-  auto const look = [&](int depth, Json::parse_event_t, Json const&) {
+  auto const look = [&](int depth, Given::parse_event_t, Given const&) {
     is_too_deep = is_too_deep || depth > deepest;
     return !is_too_deep;
   };
-  auto json = Json::parse(text.begin(), text.end(), look, false);
+  auto json = Given::parse(text.begin(), text.end(), look, false);
   return is_too_deep || json.is_discarded() ? std::nullopt : std::optional(std::move(json));
 }
 

@@ -77,7 +77,7 @@ class Store {
   /// What leads to the state of each feed at `at`: from its last whole before it on, in the order of time.
   [[nodiscard]] virtual base::Task<base::Result<std::vector<Shown>>> state_at(std::string session,
                                                                               base::UtcTime at) = 0;
-  /// In [from, to), in the order of time, at most `most`.
+  /// In [from, to), in the order of time: at most `most`, and then the rest of those that share the last one's time.
   [[nodiscard]] virtual base::Task<base::Result<std::vector<Shown>>> shown(std::string session, base::UtcTime from,
                                                                            base::UtcTime to, std::size_t most) = 0;
 

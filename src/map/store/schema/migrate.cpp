@@ -135,7 +135,11 @@ base::Result<> prepare(sql::Database& database, std::string const& name) {
                       "name another place; `lapwing store import` takes in other files");
   auto const done = *found ? bring_up(database, **found) : make_all(database);
   if (!done) return done;
-  return transaction->commit();
+  if (auto committed = transaction->commit(); !committed) return committed;
+  if (database.dialect() != sql::Dialect::geopackage) return {};
+  // Programs that look at the first bytes of a GeoPackage, as GDAL does, must find its mark there and not in the log
+  // beside it.
+  return database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
 base::Result<> check(sql::Database& database, std::string const& name) {
