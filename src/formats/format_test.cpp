@@ -1,5 +1,6 @@
 // The table of formats, and that the page about them is what it says.
 #include "formats/format.hpp"
+#include "map/store/testing/temporary_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -39,17 +40,16 @@ TEST(Formats, AreKnownByNameAndByFile) {
 }
 
 struct ExportTest : ::testing::Test {
-  files::path folder = files::path(::testing::TempDir()) / "exports";
+  map::testing::TemporaryFolder temporary;
+  files::path folder = temporary.path();
   MapContents contents;
   void SetUp() override {
-    files::create_directories(folder);
     contents.sites.emplace("yard", geo::Site::make("yard", geo::Wgs84::from_degrees(41.0, -8.0)).value());
     contents.features.push_back({.id = "w",
                                  .site = "yard",
                                  .account = {.writer = "1", .at = base::UtcTime(std::chrono::hours(500'000))},
                                  .content = map::Wall{.line = {{map::SitePoint(0, 0), map::SitePoint(5, 0)}}}});
   }
-  void TearDown() override { files::remove_all(folder); }
 };
 
 TEST_F(ExportTest, EveryFormatIsWrittenAndThoseThatAreReadComeBack) {

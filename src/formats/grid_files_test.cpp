@@ -6,6 +6,7 @@
 
 #include "formats/grid_geotiff.hpp"
 #include "formats/ros_map.hpp"
+#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::formats {
 namespace {
@@ -16,13 +17,9 @@ using map::OccupancyGrid;
 namespace files = std::filesystem;
 
 struct GridFilesTest : ::testing::Test {
-  files::path folder = files::path(::testing::TempDir()) / "grids";
+  map::testing::TemporaryFolder temporary;
+  files::path folder = temporary.path();
   geo::Site site = geo::Site::make("office", geo::Wgs84::from_degrees(41.1784, -8.5981, 120.0)).value();
-  void SetUp() override {
-    files::remove_all(folder);
-    files::create_directories(folder);
-  }
-  void TearDown() override { files::remove_all(folder); }
 
   /// A turned room of odd size on both sides of the grid's origin, with a hole that was never seen.
   static OccupancyGrid room() {

@@ -9,6 +9,7 @@
 #include "formats/internal/gdal.hpp"
 #include "formats/picture_geotiff.hpp"
 #include "map/basemaps/tile_archive.hpp"
+#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::formats {
 namespace {
@@ -16,14 +17,11 @@ namespace {
 namespace files = std::filesystem;
 
 struct PicturesTest : ::testing::Test {
-  files::path folder = files::path(::testing::TempDir()) / "pictures";
+  map::testing::TemporaryFolder temporary;
+  files::path folder = temporary.path();
   geo::Site site = geo::Site::make("yard", geo::Wgs84::from_degrees(41.1784, -8.5981, 120.0)).value();
 
-  void SetUp() override {
-    internal::start_gdal();
-    files::create_directories(folder);
-  }
-  void TearDown() override { files::remove_all(folder); }
+  void SetUp() override { internal::start_gdal(); }
 
   /// A PNG whose left half is red and right half blue.
   [[nodiscard]] std::string two_halves(int width, int height) const {

@@ -1,5 +1,6 @@
 // Prints have their true size on paper, and every layer on them.
 #include "formats/print.hpp"
+#include "map/store/testing/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,18 +14,17 @@ namespace {
 namespace files = std::filesystem;
 
 struct PrintTest : ::testing::Test {
-  files::path folder = files::path(::testing::TempDir()) / "prints";
+  map::testing::TemporaryFolder temporary;
+  files::path folder = temporary.path();
   MapContents contents;
 
   void SetUp() override {
-    files::create_directories(folder);
     contents.sites.emplace("office", geo::Site::make("office", geo::Wgs84::from_degrees(41.0, -8.0),
                                                      {{.id = "0"}, {.id = "1", .up_m = 3.0}})
                                          .value());
     put(map::Wall{.line = {{map::SitePoint(0, 0), map::SitePoint(20, 0), map::SitePoint(20, 10)}}, .thickness_m = 0.2});
     put(map::PointOfInterest{.position = map::SitePoint(5, 0), .kind = "door", .name = "221"});
   }
-  void TearDown() override { files::remove_all(folder); }
 
   void put(map::Content content, std::string floor = "1") {
     contents.features.push_back({.id = std::to_string(contents.features.size()),

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "formats/testing/same_map.hpp"
+#include "map/store/testing/temporary_folder.hpp"
 #include "map/testing/random_features.hpp"
 
 namespace lapwing::formats {
@@ -15,12 +16,8 @@ using map::LayerKind;
 namespace files = std::filesystem;
 
 struct VectorFilesTest : ::testing::Test {
-  files::path folder = files::path(::testing::TempDir()) / "vectors";
-  void SetUp() override {
-    files::remove_all(folder);
-    files::create_directories(folder);
-  }
-  void TearDown() override { files::remove_all(folder); }
+  map::testing::TemporaryFolder temporary;
+  files::path folder = temporary.path();
 
   static geo::Site yard(double lon_deg = -8.5981) {
     return geo::Site::make("yard", geo::Wgs84::from_degrees(41.1784, lon_deg, 120.0),
@@ -51,6 +48,7 @@ struct VectorFilesTest : ::testing::Test {
 struct Case {
   VectorFormat format;
   std::string file;
+  friend void PrintTo(Case const& one, std::ostream* out) { *out << one.file; }
 };
 
 struct RoundTrip : VectorFilesTest, ::testing::WithParamInterface<Case> {};

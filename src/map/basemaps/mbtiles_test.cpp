@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "map/store/testing/temporary_folder.hpp"
+
 namespace lapwing::map {
 namespace {
 
 struct MbTilesTest : ::testing::Test {
-  std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "archive.mbtiles";
-  void SetUp() override { std::filesystem::remove(file); }
-  void TearDown() override { std::filesystem::remove(file); }
+  testing::TemporaryFolder temporary;
+  std::filesystem::path file = temporary.path() / "archive.mbtiles";
 
   void write(std::string const& sql) const {
     sqlite3* database = nullptr;
