@@ -52,6 +52,17 @@ case $target in
     printf 'GET\n/api/v1/log?after=12&token=a%%20b\nHost: station.example\nAuthorization: Bearer token\n' | seed log
     printf 'POST\n/api/v1/script\nHost: localhost\nOrigin: http://localhost:8080\nContent-Type: application/json\n' | seed post
     ;;
+  map_request)
+    door='{"type":"Feature","geometry":{"type":"Point","coordinates":[179.9999,41]},"properties":{"kind":"door","at":"2026-01-01T00:00:00Z"}}'
+    printf 'GET\n/ogc/collections/slots/items?bbox=179,40,-179,42&datetime=2026-01-01T00:00:00Z/..&limit=1&offset=0&state=free' | seed items
+    printf 'GET\n/api/v1/layers/points_of_interest/features/north%%2F1' | seed feature
+    printf 'GET\n/ogc/collections/grid:yard:0:floor/map/tiles/WebMercatorQuad' | seed tileset
+    printf 'GET\n/api/v1/grids/yard/0/floor/tiles/18/262143/98300.png?revision=a-1' | seed picture
+    printf 'PUT\n/api/v1/layers/points_of_interest/features/d?floor=1&writer=me\n%s' "$door" | seed put
+    printf 'POST\n/api/v1/layers/points_of_interest/features\n{"type":"FeatureCollection","features":[%s]}' "$door" | seed post
+    printf 'PUT\n/api/v1/sites/office\n{"anchor":{"lat_deg":1,"lon_deg":2,"alt_m":3},"floors":[{"id":"0","name":"G","up_m":1,"x_m":2,"y_m":3,"yaw_rad":4}]}' | seed site
+    printf 'POST\n/api/v1/blobs\n\211PNG' | seed blob
+    ;;
   features)
     # Its first letter says which layer: the six in turn, beginning with a letter that six divides, f.
     feature='{"type":"Feature","id":"1","geometry":{"type":"%s","coordinates":%s},"properties":{"at":"2026-01-01T00:00:00Z",%s}}'

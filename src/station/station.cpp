@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/open_metrics.hpp"
+#include "station/basemaps/base_map_routes.hpp"
 #include "station/feeds/alarms_feed.hpp"
 #include "station/feeds/control_feed.hpp"
 #include "station/feeds/log_feed.hpp"
@@ -16,6 +17,7 @@
 #include "station/feeds/script_feed.hpp"
 #include "station/feeds/tasks_feed.hpp"
 #include "station/feeds/vehicles_feed.hpp"
+#include "station/history/history_routes.hpp"
 #include "station/http/openapi.hpp"
 #include "station/messages/alarm_messages.hpp"
 #include "station/messages/control_messages.hpp"
@@ -46,6 +48,13 @@ HttpResponse start_failure(StartFailure const& failure) {
   return {status, "application/problem+json", start_failure_body(status, reason_phrase(status), failure), {}};
 }
 
+/// What a station shows to those who ask for it.
+std::vector<std::unique_ptr<Feed>> further_feeds(MapFace const& map, std::vector<std::unique_ptr<Feed>> of_others) {
+  auto feeds = map.feeds();
+  for (auto& feed : of_others) feeds.push_back(std::move(feed));
+  return feeds;
+}
+
 }  // namespace
 
 base::Result<std::unique_ptr<Station>> Station::open(base::Loop& loop, vehicle::Registry const& vehicles,
@@ -63,7 +72,10 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       options_(std::move(options)),
       log_(hub, "station"),
       history_(keep_log(hub, options_.log_history)),
-      viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_), std::move(options_.feeds)),
+      own_map_(options_.map ? nullptr : std::make_unique<map::LiveMap>([&loop] { return loop.utc_now(); })),
+      map_face_(loop, options_.map ? *options_.map : *own_map_, options_.blobs),
+      viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_),
+               further_feeds(map_face_, std::move(options_.feeds))),
       server_(std::move(server)) {
   server_->set_router(make_router());
   server_->set_websocket({
@@ -73,6 +85,12 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       .closed = [this](SessionId session) { close_session(session); },
   });
   server_->every(options_.period, [this] { viewers_.send_news(); });
+  if (options_.store) {
+    if (!options_.site.name.empty()) options_.store->name_session(viewers_.run(), options_.site.name);
+    recorder_ = std::make_unique<Recorder>(loop, viewers_.all_feeds(), *options_.store,
+                                           Recorder::Options{.session = viewers_.run()});
+    server_->every(options_.record_period, [this] { recorder_->keep(); });
+  }
   watch_ = watch_membership();
   watch_.start();
 }
@@ -181,6 +199,9 @@ Router Station::make_router() {
   add_control_routes(router, options_.control, log_);
   add_alarm_routes(router, options_.alarms, loop_);
   add_parameter_routes(router, options_.parameters);
+  map_face_.add_routes(router);
+  add_base_map_routes(router, loop_, options_.base_maps);
+  add_history_routes(router, options_.store);
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });
   router.add("GET", "/api/openapi.yaml", [](auto const&) {
     return HttpResponse{.content_type = "application/yaml", .body = std::string(openapi_description())};

@@ -11,8 +11,13 @@
 #include "base/async/task.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "map/live/live_map.hpp"
+#include "map/store/store.hpp"
+#include "station/basemaps/base_map.hpp"
 #include "station/feeds/feed.hpp"
+#include "station/history/recorder.hpp"
 #include "station/http/http_server.hpp"
+#include "station/map/map_face.hpp"
 #include "station/messages/client_request.hpp"
 #include "station/messages/log_history.hpp"
 #include "station/messages/messages.hpp"
@@ -41,9 +46,15 @@ class Station {
     vehicle::VehicleControl* control = nullptr;        ///< outlives the station; null: vehicles are only shown
     vehicle::VehicleAlarms* alarms = nullptr;          ///< outlives the station; null: there are none
     vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
+    map::LiveMap* map = nullptr;                       ///< outlives the station; null: an empty one of its own
+    BlobStore* blobs = nullptr;                        ///< outlives the station; null: no pictures are kept
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
-    /// Further things to show, beside vehicles, plans, pictures, script, tasks, log, control and alarms. What they look
-    /// at outlives the station.
+    std::vector<BaseMap> base_maps = {};               ///< that viewers may choose from
+    map::Store* store = nullptr;  ///< outlives the station; keeps what is shown; null: nothing is kept
+    /// Between two looks at what is new, for the store: half a second is what a person who looks back can tell apart.
+    std::chrono::milliseconds record_period{500};
+    /// Further things to show, beside vehicles, plans, pictures, script, tasks, log, control, alarms and the map. What
+    /// they look at outlives the station.
     std::vector<std::unique_ptr<Feed>> feeds = {};
   };
 
@@ -89,9 +100,12 @@ class Station {
   Options options_;
   base::Logger log_;
   std::shared_ptr<LogHistory const> history_;
+  std::unique_ptr<map::LiveMap> own_map_;
+  MapFace map_face_;
   int sessions_ = 0;                                   ///< ever opened: numbers the operators
   std::map<SessionId, vehicle::Commander> operators_;  ///< "operator 3", where vehicles are commanded
   Viewers viewers_;
+  std::unique_ptr<Recorder> recorder_;  ///< null without a store
   base::Task<> watch_;
   std::unique_ptr<HttpServer> server_;  // last: ends first, so that no call-back finds half a station
 };

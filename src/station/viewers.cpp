@@ -82,6 +82,12 @@ FeedList Viewers::feeds() const {
   return list;
 }
 
+std::vector<Feed*> Viewers::all_feeds() const {
+  std::vector<Feed*> all;
+  for (auto const& channel : channels_) all.push_back(channel.feed.get());
+  return all;
+}
+
 Viewers::Channel const* Viewers::find(std::string_view name) const {
   auto const found = std::ranges::find_if(channels_, [&](auto const& channel) { return channel.feed->name() == name; });
   return found == channels_.end() ? nullptr : &*found;

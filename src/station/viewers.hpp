@@ -30,6 +30,10 @@ class Viewers {
   [[nodiscard]] std::size_t size() const { return viewers_.size(); }
   /// What a viewer may subscribe to, for `hello`.
   [[nodiscard]] FeedList feeds() const;
+  /// All of them, for whoever keeps what is shown; they live as long as this.
+  [[nodiscard]] std::vector<Feed*> all_feeds() const;
+  /// Of this run of the station, by which its revisions, and what is kept of it, are known.
+  [[nodiscard]] std::string const& run() const { return run_; }
 
   /// Sends it the usual feeds; one that waits gets nothing before it has subscribed.
   void open(SessionId session, bool waits);

@@ -30,6 +30,12 @@ struct HttpRequest {
   [[nodiscard]] std::size_t header_count(std::string_view name) const;
   /// Decoded value of a query parameter; nothing when it is absent or badly encoded.
   [[nodiscard]] std::optional<std::string> parameter(std::string_view name) const;
+  struct Parameter {
+    std::string name;
+    std::string value;
+  };
+  /// All query parameters, decoded, in their order; nothing when one is badly encoded.
+  [[nodiscard]] std::optional<std::vector<Parameter>> parameters() const;
 };
 
 struct HttpResponse {
@@ -51,6 +57,8 @@ struct HttpResponse {
 
 /// `text` with every %XX replaced; nothing when an escape is cut short or is no hexadecimal number.
 [[nodiscard]] std::optional<std::string> percent_decoded(std::string_view text);
+/// As one part of an address.
+[[nodiscard]] std::string percent_encoded(std::string_view text);
 /// "image/png" of "image/png ; charset=x", as it was written.
 [[nodiscard]] std::string_view media_type(std::string_view content_type);
 /// Letters of ASCII compare equal in either case, as header names and host names do.

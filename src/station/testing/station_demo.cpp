@@ -11,6 +11,7 @@
 #include "geo/position.hpp"
 #include "station/station.hpp"
 #include "station/testing/demo_control.hpp"
+#include "station/testing/demo_map.hpp"
 #include "station/testing/fake_alarms.hpp"
 #include "station/testing/fake_parameters.hpp"
 
@@ -305,7 +306,10 @@ int run(int port, std::filesystem::path const& web_folder, std::string token) {
   testing::FakeAlarms alarms;
   alarms.raise(vehicle::AlarmKind::battery_low, "2", loop.now());
   alarms.list.back().words = "copter 2 battery low: 27 % left";
+  map::LiveMap live_map([&loop] { return loop.utc_now(); });
+  testing::DemoMap const content(live_map, origin, loop.utc_now());
   Station::Options options;
+  options.map = &live_map;
   options.alarms = &alarms;
   options.control = &control;
   options.parameters = &parameters;

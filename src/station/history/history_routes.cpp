@@ -1,0 +1,137 @@
+#include "station/history/history_routes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/time.hpp"
+#include "station/messages/json.hpp"
+
+namespace lapwing::station {
+
+namespace {
+
+using map::Store;
+
+constexpr std::size_t most_frames = 5000;
+/// Of an answer: beyond it a slow page would wait for long before it can show anything.
+constexpr std::size_t most_bytes = std::size_t{8} * 1024 * 1024;
+/// The years 1970 to 2200: what else comes is a mistake, and would not fit into the clock's nanoseconds.
+constexpr std::int64_t latest_ms = 7'258'118'400'000;
+
+std::int64_t milliseconds_of(base::UtcTime time) {
+  return std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch()).count();
+}
+
+base::Result<base::UtcTime> time_parameter(HttpRequest const& request, std::string_view name) {
+  auto const text = request.parameter(name);
+  if (!text)
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("The parameter \"{}\" is missing.", name),
+                      "Give milliseconds since 1970, UTC.");
+  std::int64_t value = 0;
+  auto const [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc{} || end != text->data() + text->size() || value < 0 || value > latest_ms)
+    return base::fail(base::ErrorKind::invalid_input, fmt::format("\"{}\" is no time.", name),
+                      "Give milliseconds since 1970, UTC.");
+  return base::UtcTime(std::chrono::milliseconds(value));
+}
+
+/// A message is JSON text already: parsing it to write it again would cost more than all the rest.
+std::string frame_text(Store::Shown const& shown) {
+  return fmt::format(R"({{"at_ms":{},"feed":{},"whole":{},"message":{}}})", milliseconds_of(shown.at), dump(shown.feed),
+                     shown.is_whole, shown.content);
+}
+
+/// Some frames as JSON, those of one time together, and the time before which none is missing.
+struct Part {
+  std::string text;
+  base::UtcTime complete_to;
+};
+
+/// As many moments as fit into an answer, but one at least: a page that asks again must get on.
+Part part_of(std::vector<Store::Shown> const& frames, base::UtcTime complete_to) {
+  Part part{.text = {}, .complete_to = complete_to};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    bool const begins_moment = i == 0 || frames[i].at != frames[i - 1].at;
+    if (begins_moment && part.text.size() > most_bytes) {
+      part.complete_to = frames[i].at;
+      break;
+    }
+    if (frames[i].is_binary) continue;
+    if (!part.text.empty()) part.text += ',';
+    part.text += frame_text(frames[i]);
+  }
+  return part;
+}
+
+base::Task<HttpResponse> list_sessions(Store& store) {
+  auto sessions = co_await store.sessions();
+  if (!sessions) co_return problem(sessions.error());
+  std::ranges::sort(*sessions, std::greater{}, &Store::Session::began);
+  Json list = Json::array();
+  for (auto const& session : *sessions) {
+    list.push_back({{"id", session.id},
+                    {"name", session.name},
+                    {"began_ms", milliseconds_of(session.began)},
+                    {"ended_ms", milliseconds_of(session.ended)}});
+  }
+  co_return HttpResponse{.body = dump({{"sessions", std::move(list)}})};
+}
+
+base::Task<HttpResponse> state(Store& store, std::string session, base::UtcTime at) {
+  auto frames = co_await store.state_at(std::move(session), at);
+  if (!frames) co_return problem(frames.error());
+  std::string text;
+  for (auto const& shown : *frames) {
+    if (shown.is_binary) continue;
+    if (!text.empty()) text += ',';
+    text += frame_text(shown);
+  }
+  co_return HttpResponse{.body = fmt::format(R"({{"at_ms":{},"frames":[{}]}})", milliseconds_of(at), text)};
+}
+
+base::Task<HttpResponse> frames(Store& store, std::string session, base::UtcTime from, base::UtcTime to) {
+  auto const found = co_await store.shown(std::move(session), from, to, most_frames);
+  if (!found) co_return problem(found.error());
+  bool const is_all = found->size() < most_frames;
+  auto const part = part_of(*found, is_all ? to : found->back().at + std::chrono::milliseconds(1));
+  co_return HttpResponse{
+      .body = fmt::format(R"({{"complete_to_ms":{},"frames":[{}]}})", milliseconds_of(part.complete_to), part.text)};
+}
+
+HttpResponse no_store() {
+  return problem(404, "This station keeps no history.", "Start it with --store FOLDER.");
+}
+
+}  // namespace
+
+void add_history_routes(Router& router, Store* store) {
+  router.add("GET", "/api/v1/history", [store](HttpRequest const&) -> Reply {
+    if (!store) return no_store();
+    return list_sessions(*store);
+  });
+  router.add("GET", "/api/v1/history/{session}/state",
+             [store](HttpRequest const& request, PathArguments const& path) -> Reply {
+               if (!store) return no_store();
+               auto const at = time_parameter(request, "at_ms");
+               if (!at) return problem(at.error());
+               return state(*store, path["session"], *at);
+             });
+  router.add("GET", "/api/v1/history/{session}/frames",
+             [store](HttpRequest const& request, PathArguments const& path) -> Reply {
+               if (!store) return no_store();
+               auto const from = time_parameter(request, "from_ms");
+               if (!from) return problem(from.error());
+               auto const to = time_parameter(request, "to_ms");
+               if (!to) return problem(to.error());
+               if (*to <= *from) return problem(400, "\"to_ms\" is not later than \"from_ms\".");
+               return frames(*store, path["session"], *from, *to);
+             });
+}
+
+}  // namespace lapwing::station
