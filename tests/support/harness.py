@@ -1,16 +1,23 @@
 """What the tests of the whole program share: starting Lapwing, free ports, deadlines. Not a test itself."""
 
+import atexit
 import contextlib
 import itertools
 import os
 import pathlib
+import shutil
 import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# A station keeps its map in its user's folder: no test may find there what another one has left.
+if "LAPWING_TESTS_DATA" not in os.environ:
+    os.environ["LAPWING_TESTS_DATA"] = os.environ["XDG_DATA_HOME"] = tempfile.mkdtemp(prefix="lapwing-tests-")
+    atexit.register(shutil.rmtree, os.environ["XDG_DATA_HOME"], ignore_errors=True)
 LAPWING = os.environ.get("LAPWING", str(ROOT / "build/release/bin/lapwing"))
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 

@@ -1,6 +1,8 @@
 // Starts a station to test against and a browser to look at it with.
 import { spawn } from 'node:child_process';
 import { createSocket } from 'node:dgram';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from '@playwright/test';
@@ -8,6 +10,13 @@ import config from '../playwright.config.js';
 
 const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
+
+/** Where a station keeps its map: no test may find there what another one has left. */
+function dataHome() {
+  const folder = mkdtempSync(path.join(tmpdir(), 'lapwing-e2e-'));
+  process.once('exit', () => rmSync(folder, { recursive: true, force: true }));
+  return folder;
+}
 
 const freeUdpPort = () =>
   new Promise((resolve) => {
@@ -44,7 +53,7 @@ export async function startFleet(vehicles, speedup = 5) {
   const program = path.join(build, 'bin', 'lapwing');
   const link = `127.0.0.1:${await freeUdpPort()}`;
   const start = (...words) =>
-    spawn(program, words, { env: { ...process.env, LAPWING_HOME: path.dirname(web) }, stdio: ['ignore', 'ignore', 'pipe'] });
+    spawn(program, words, { env: { ...process.env, LAPWING_HOME: path.dirname(web), XDG_DATA_HOME: dataHome() }, stdio: ['ignore', 'ignore', 'pipe'] });
   const [station, sim] = [
     start('station', '--link', `udpin://${link}`, '--port', '0'),
     start('sim', '--vehicles', vehicles, '--home', '47.3977,8.5456,488', '--speedup', String(speedup), '--out', `udpout://${link}`),

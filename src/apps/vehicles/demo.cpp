@@ -65,7 +65,13 @@ int demo(DemoOptions const& options) {
   if (!options.headless) {
     host::WebAccess access;
     host::apply(options.web, access);
-    auto const opened = session.open_map(access, {.home = world.home, .scripts = host::home_directory() / "examples"});
+    auto ground = host::base_map_of(host::home_directory() / "examples/ground/car-park.geojson");
+    if (!ground) return host::refuse(ground.error());
+    ground->name = "Car park and office";
+    auto const opened = session.open_map(access, {.home = world.home,
+                                                  .base_maps = {*std::move(ground)},
+                                                  .store = {.place = host::StoreSettings::Place::temporary},
+                                                  .scripts = host::home_directory() / "examples"});
     if (!opened) return host::refuse(opened.error());
   }
   if (auto simulated = session.simulate(std::move(world)); !simulated) return host::refuse(simulated.error());

@@ -113,7 +113,9 @@ int replay(ReplayOptions const& options) {
   if (!options.headless) {
     host::WebAccess access;
     host::apply(options.web, access);
-    if (auto opened = session.open_map(access, {}, &script); !opened) return host::refuse(opened.error());
+    if (auto opened = session.open_map(access, {.store = {.place = host::StoreSettings::Place::temporary}}, &script);
+        !opened)
+      return host::refuse(opened.error());
   }
   bool was_interrupted = false;
   Played played;

@@ -29,6 +29,7 @@ struct StationArguments {
   std::optional<std::string> record;
   std::optional<std::string> signing_key;
   std::optional<std::string> tiles;
+  std::optional<std::string> store;
   host::PlausibilityArguments plausibility;
   host::WebArguments web;
 };
@@ -65,6 +66,10 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
     auto forward = host::forward_to(arguments.forward);
     if (!forward) return std::unexpected(forward.error());
     config->forward = *std::move(forward);
+  }
+  if (arguments.store) {
+    config->map.store.place = host::StoreSettings::Place::named;
+    config->map.store.address = *arguments.store;
   }
   if (arguments.scripts) config->map.scripts = *arguments.scripts;
   if (arguments.signing_key) config->signing_key = *arguments.signing_key;
@@ -122,6 +127,8 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--signing-key", arguments->signing_key, host::signing_key_help);
   verb->add_option("--record", arguments->record, host::record_help);
   verb->add_option("--plans", arguments->plans, host::plans_help);
+  verb->add_option("--store", arguments->store,
+                   "Where the map and its past are kept: a folder, or postgresql://USER@HOST/DATABASE");
   verb->add_option("--tiles", arguments->tiles, "Base map for the browsers: https://tiles.example/{z}/{x}/{y}.png");
   verb->add_option("--on-stop", arguments->on_stop,
                    "What a vehicle does when its task is stopped: loiter (default), rtl or land");

@@ -69,6 +69,7 @@ Session::Session(Options const& options)
       host(
           loop, platforms, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
+      live_map([this] { return loop.utc_now(); }),
       on_stop_(options.on_stop),
       interrupted_(loop),
       events_(options.events) {
@@ -149,9 +150,19 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.program_version = LAPWING_VERSION;
   options.site = {content.site_name, content.home, content.tiles};
   options.scripts = content.scripts;
+  options.base_maps = content.base_maps;
   options.control = script ? nullptr : &all_control;
   options.alarms = &ground.fleet.alarms();
   options.parameters = script ? nullptr : &all_parameters;
+  auto kept = StationMap::open(loop, live_map, content.store, log.named("map"));
+  if (!kept) return std::unexpected(kept.error());
+  station_map = *std::move(kept);
+  options.store = &station_map->store();
+  options.blobs = station_map.get();
+  if (content.home && live_map.sites().empty())
+    if (auto site = geo::Site::make("default", *content.home)) live_map.put_site(*std::move(site));
+  options.map = &live_map;
+  tracks = std::make_unique<TrackWriter>(loop, ground.registry, live_map);
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());

@@ -16,9 +16,12 @@
 #include "host/links/forward.hpp"
 #include "host/links/ground.hpp"
 #include "host/links/recording.hpp"
+#include "host/map/station_map.hpp"
+#include "host/map/track_writer.hpp"
 #include "host/session/script_host.hpp"
 #include "host/station/station_config.hpp"
 #include "host/station/web_access.hpp"
+#include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "route/router.hpp"
 #include "sim/world/world.hpp"
@@ -99,6 +102,9 @@ class Session {
   std::unique_ptr<dolphin::Output> console;
   ScriptHost host;
   std::unique_ptr<sim::World> world;
+  lapwing::map::LiveMap live_map;           ///< what lies on the map
+  std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
+  std::unique_ptr<TrackWriter> tracks;      ///< where there is a station to show them
   std::unique_ptr<station::Station> map;
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 

@@ -114,6 +114,7 @@ void read_map(ConfigReader map, base::SourceFile const& source, Diagnostics& dia
     }
     content.tiles = tiles->value;
   }
+  content.base_maps = read_base_maps(map, fs::path(source.name()).parent_path());
   if (auto const scripts = map.text("scripts")) {
     content.scripts = beside(source, scripts->value);
     if (!fs::is_directory(content.scripts)) {
@@ -123,6 +124,20 @@ void read_map(ConfigReader map, base::SourceFile const& source, Diagnostics& dia
     }
   }
   map.refuse_unknown();
+}
+
+void read_store(ConfigReader store, base::SourceFile const& source, StoreSettings& settings) {
+  if (auto const place = store.text("place")) {
+    settings.place = StoreSettings::Place::named;
+    bool const is_server = place->value.starts_with("postgresql://") || place->value.starts_with("postgres://");
+    settings.address = is_server ? place->value : beside(source, place->value).string();
+  }
+  constexpr std::int64_t most_mb = 1'000'000'000;
+  constexpr std::int64_t most_days = 36'500;
+  if (auto const size = store.integer("most_mb", 10, most_mb))
+    settings.most_bytes = static_cast<std::uint64_t>(size->value) * 1024 * 1024;
+  if (auto const days = store.integer("days", 1, most_days)) settings.longest = std::chrono::days(days->value);
+  store.refuse_unknown();
 }
 
 void read_alarms(ConfigReader alarms, Diagnostics& diagnostics, vehicle::BatteryLimits& limits) {
@@ -141,20 +156,6 @@ void read_alarms(ConfigReader alarms, Diagnostics& diagnostics, vehicle::Battery
 
 }  // namespace
 
-base::Result<> check_tiles(std::string const& address) {
-  for (auto const* part : {"{z}", "{x}", "{y}"}) {
-    if (address.find(part) == std::string::npos) {
-      return base::fail(base::ErrorKind::invalid_input, fmt::format("the address of map tiles must contain {}", part),
-                        "https://tiles.example/{z}/{x}/{y}.png");
-    }
-  }
-  for (auto const* start : {"https://", "http://127.0.0.1:", "http://localhost:"}) {
-    if (address.starts_with(start)) return {};
-  }
-  return base::fail(base::ErrorKind::invalid_input, "map tiles must come over https:// or from this machine",
-                    "https://tiles.example/{z}/{x}/{y}.png or http://127.0.0.1:PORT/{z}/{x}/{y}.png");
-}
-
 StationConfig read_station_config(base::SourceFile const& source, Diagnostics& diagnostics) {
   StationConfig config;
   auto const entries = base::parse_config(source, diagnostics);
@@ -169,6 +170,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   if (auto const folder = root.text("record")) config.record = beside(source, folder->value).string();
   if (auto table = root.table("plausibility")) config.plausibility = read_plausibility(std::move(*table));
   if (auto web = root.table("web")) read_web(std::move(*web), source, diagnostics, config.web);
+  if (auto store = root.table("store")) read_store(std::move(*store), source, config.map.store);
   if (auto map = root.table("map")) read_map(std::move(*map), source, diagnostics, config.map);
   if (auto alarms = root.table("alarms")) read_alarms(std::move(*alarms), diagnostics, config.battery_limits);
   root.refuse_unknown();

@@ -10,6 +10,8 @@
 #include "geo/position.hpp"
 #include "host/links/equipment.hpp"
 #include "host/links/forward.hpp"
+#include "host/map/station_map.hpp"
+#include "host/station/base_maps.hpp"
 #include "host/station/web_access.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "vehicle/alarm.hpp"
@@ -20,9 +22,11 @@ namespace lapwing::host {
 /// What the map shows and offers.
 struct MapContent {
   std::string site_name = {};
-  std::optional<geo::Wgs84> home = {};  ///< what it looks at before a vehicle is heard
-  std::string tiles = {};               ///< XYZ address of a base map; empty: a plain grid
-  std::filesystem::path scripts = {};   ///< folder whose scripts it offers; empty: none
+  std::optional<geo::Wgs84> home = {};           ///< what it looks at before a vehicle is heard
+  std::string tiles = {};                        ///< XYZ address of a base map; empty: a plain grid
+  std::vector<station::BaseMap> base_maps = {};  ///< that viewers may choose from
+  StoreSettings store = {};                      ///< where the map and its past are kept
+  std::filesystem::path scripts = {};            ///< folder whose scripts it offers; empty: none
 };
 
 /// A ground station as its file describes it: docs/reference/station-config.md.
@@ -43,8 +47,5 @@ struct StationConfig {
 /// Reads the file's text; paths in it count from the file's folder. Everything wrong is reported; the result is to be
 /// used only when nothing was.
 [[nodiscard]] StationConfig read_station_config(base::SourceFile const& source, base::Diagnostics& diagnostics);
-
-/// What browsers let this program's pages load tiles from. Error: invalid_input.
-[[nodiscard]] base::Result<> check_tiles(std::string const& address);
 
 }  // namespace lapwing::host

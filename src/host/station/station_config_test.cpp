@@ -188,5 +188,42 @@ TEST(StationConfig, TakesLinksOfSeveralNetworks) {
             std::string::npos);
 }
 
+TEST(StationConfig, BaseMapsAreReadInTheirOrder) {
+  Read const read(
+      "[map]\n[[map.base]]\ntiles = \"https://tiles.example/{z}/{x}/{y}.png\"\nname = \"Streets\"\nmax_zoom = 17\n"
+      "[[map.base]]\ntiles = \"https://other.example/{z}/{x}/{y}.png\"\nattribution = \"others\"\n");
+  ASSERT_EQ(read.config.map.base_maps.size(), 2U);
+  auto const& streets = read.config.map.base_maps[0];
+  EXPECT_EQ(streets.name, "Streets");
+  EXPECT_EQ(std::get<station::TileAddressTemplate>(streets.source).greatest_zoom, 17U);
+  auto const& other = read.config.map.base_maps[1];
+  EXPECT_EQ(other.name, "other.example");
+  EXPECT_EQ(other.attribution, "others");
+  EXPECT_NE(other.id, streets.id);
+}
+
+TEST(StationConfig, BaseMapsThatCannotBeShownAreRefusedWithTheWayOut) {
+  EXPECT_NE(first_complaint("[[map.base]]\nname = \"x\"").find("a `file` or an address"), std::string::npos);
+  EXPECT_NE(first_complaint("[[map.base]]\nfile = \"a.tif\"").find("lapwing basemap"), std::string::npos);
+  EXPECT_NE(first_complaint("[[map.base]]\nfile = \"none.mbtiles\"").find("2:8"), std::string::npos);
+  EXPECT_NE(first_complaint("[[map.base]]\nfile = \"none.geojson\"").find("there is no file"), std::string::npos);
+  EXPECT_NE(first_complaint("[[map.base]]\ntiles = \"http://far.example/{z}/{x}/{y}\"").find("https://"),
+            std::string::npos);
+}
+
+TEST(StationConfig, SaysWhereTheMapIsKeptAndForHowLong) {
+  Read const read("[store]\nplace = \"maps\"\nmost_mb = 100\ndays = 7\n");
+  EXPECT_EQ(read.complaints(), "");
+  auto const& store = read.config.map.store;
+  EXPECT_EQ(store.place, StoreSettings::Place::named);
+  EXPECT_EQ(store.address, "/etc/lapwing/maps") << "beside the file";
+  EXPECT_EQ(store.most_bytes, 100U * 1024 * 1024);
+  EXPECT_EQ(store.longest, std::chrono::hours(168));
+  EXPECT_EQ(Read("[store]\nplace = \"postgresql://map@db/lapwing\"").config.map.store.address,
+            "postgresql://map@db/lapwing");
+  EXPECT_NE(first_complaint("[store]\nmost_mb = 1"), "");
+  EXPECT_NE(first_complaint("[store]\npalce = \"x\""), "");
+}
+
 }  // namespace
 }  // namespace lapwing::host
