@@ -4,6 +4,6 @@
 
 int main(int argc, char** argv) {
   using namespace lapwing::apps;
-  OwnVerb const own[] = {{"basemap", add_basemap}};
+  OwnVerb const own[] = {{"basemap", add_basemap}, {"store", add_store}};
   return run_program("lapwing-map", own, argc, argv);
 }
