@@ -49,7 +49,7 @@ KeptMap::~KeptMap() {
   pending_.give_back({});
   while (!pending_.is_empty()) {
     auto batch = pending_.take(map_, {.tiles = true, .frames = true});
-    pending_.committed();
+    pending_.committed({});
     writer_.give([batch = std::move(batch)](write::Writer& writer) { (void)writer.write(batch); });
   }
 }
@@ -253,10 +253,9 @@ base::Task<> KeptMap::write_once() {
   if (with_tiles && !pending_.has_tiles()) tiles_from_ = then + tiles_interval;
   if (with_frames) frames_from_ = then + frames_interval;
   if (written) {
-    pending_.committed();
+    pending_.committed(written->passed_over);
     trouble_.clear();
     if (written->news) apply(*written->news);
-    for (auto const& key : written->passed_over) pending_.note(key);
   } else {
     pending_.give_back(std::move(*batch));
     has_failed(written.error());

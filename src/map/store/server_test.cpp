@@ -205,6 +205,10 @@ TEST_F(Server, LetsNoOlderAccountCoverANewerOne) {
   }
   ASSERT_TRUE(flush(*our_store));
   ASSERT_TRUE(flush(*their_store));
+  EXPECT_EQ(
+      number(
+          "SELECT count(*) FROM lapwing.areas WHERE writer = CASE WHEN id::int % 2 = 1 THEN 'ours' ELSE 'theirs' END"),
+      500);
   auto const agree = [&] {
     for (int i = 0; i < 500; ++i) {
       auto const* const winner = i % 2 == 1 ? "ours" : "theirs";
@@ -214,10 +218,6 @@ TEST_F(Server, LetsNoOlderAccountCoverANewerOne) {
     return our_store->health().waiting == 0 && their_store->health().waiting == 0;
   };
   ASSERT_TRUE(comes(agree));
-  EXPECT_EQ(
-      number(
-          "SELECT count(*) FROM lapwing.areas WHERE writer = CASE WHEN id::int % 2 = 1 THEN 'ours' ELSE 'theirs' END"),
-      500);
   // And then it is quiet: nobody writes what the other has.
   auto const revision = number("SELECT revision FROM lapwing.lapwing_revision");
   auto const pause = [&]() -> base::Task<bool> {
@@ -226,6 +226,33 @@ TEST_F(Server, LetsNoOlderAccountCoverANewerOne) {
   };
   loop.run_until_done(pause());
   EXPECT_EQ(number("SELECT revision FROM lapwing.lapwing_revision"), revision);
+}
+
+TEST_F(Server, HasWhatWasFlushedWhateverTheOthersWrote) {
+  auto const ours = empty_map(), theirs = empty_map();
+  auto const our_store = open(), their_store = open();
+  our_store->follow(*ours);
+  their_store->follow(*theirs);
+  ours->put_site(car_park());
+  ASSERT_TRUE(flush(*our_store));
+  ASSERT_TRUE(comes([&] { return theirs->site("car park") != nullptr; }));
+  GridKey const key{"car park", "0", "parking"};
+  OccupancyGrid grid(0.05);
+  grid.set({5, -5}, Evidence::of_log_odds(2.0));
+  for (int i = 0; i < 10; ++i) {
+    auto const at = noon - 1h + std::chrono::seconds(2 * i);
+    // They move the site and write the same tile just before: what we have is written once it has been merged.
+    theirs->put_site(geo::Site::make("car park", geo::Wgs84::from_degrees(47.5 + 0.1 * i, 8.5, 420.0)).value());
+    ASSERT_TRUE(theirs->put_tiles(key, grid, {tile_of({5, -5})}, {"their robot", at + 1s}));
+    ASSERT_TRUE(flush(*their_store));
+    ASSERT_TRUE(ours->put(feature(LayerKind::walls, fmt::format("{}", i), noon - 1h)));
+    ASSERT_TRUE(ours->put_tiles(key, grid, {tile_of({5, -5})}, {"our robot", at}));
+    ASSERT_TRUE(flush(*our_store));
+    EXPECT_EQ(number("SELECT count(*) FROM lapwing.walls"), i + 1);
+    EXPECT_EQ(number("SELECT at_ns FROM lapwing.grid_tiles"), sql::nanoseconds(at + 1s)) << "theirs is newer";
+    EXPECT_EQ(ours->grids().at(key).tile_times.begin()->second, at + 1s);
+    ASSERT_TRUE(comes([&] { return theirs->size(LayerKind::walls) == static_cast<std::size_t>(i + 1); }));
+  }
 }
 
 TEST_F(Server, IsReachedAgainAfterTheConnectionWasLost) {

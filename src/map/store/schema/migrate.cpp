@@ -136,10 +136,9 @@ base::Result<> prepare(sql::Database& database, std::string const& name) {
   auto const done = *found ? bring_up(database, **found) : make_all(database);
   if (!done) return done;
   if (auto committed = transaction->commit(); !committed) return committed;
-  if (database.dialect() != sql::Dialect::geopackage) return {};
-  // Programs that look at the first bytes of a GeoPackage, as GDAL does, must find its mark there and not in the log
-  // beside it.
-  return database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  // Other programs look for the marks of a GeoPackage in the file itself, not in the log beside it.
+  if (database.dialect() == Dialect::geopackage) return database.execute("PRAGMA wal_checkpoint(PASSIVE)");
+  return {};
 }
 
 base::Result<> check(sql::Database& database, std::string const& name) {

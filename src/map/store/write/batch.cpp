@@ -40,12 +40,52 @@ base::Result<> write_frames(sql::Database& database, Batch const& batch) {
   return rows::write_shown(database, batch.frames);
 }
 
-base::Result<> write_map(sql::Database& database, Batch const& batch, std::vector<FeatureRecord> const& features,
-                         Revision revision) {
+/// What can be written now, as a part of the batch.
+struct Ours {
+  std::vector<FeatureRecord> features;
+  std::map<GridKey, rows::GridPart> grids;
+};
+
+bool lies_alike(rows::GridPart const& a, rows::GridPart const& b) {
+  return a.resolution_m == b.resolution_m && a.site_from_grid.origin() == b.site_from_grid.origin() &&
+         a.site_from_grid.yaw_rad() == b.site_from_grid.yaw_rad();
+}
+
+void pass_over_tiles(Ours& ours, News const& news, std::set<TileName>& passed_over) {
+  for (auto const& [key, theirs] : news.grids) {
+    auto const part = ours.grids.find(key);
+    if (part == ours.grids.end()) continue;
+    bool const is_another = !lies_alike(part->second, theirs);
+    std::erase_if(part->second.tiles, [&](auto const& tile) {
+      if (!is_another && !theirs.tiles.contains(tile.first)) return false;
+      passed_over.emplace(key, tile.first);
+      return true;
+    });
+    if (part->second.tiles.empty()) ours.grids.erase(part);
+  }
+}
+
+Ours without(News const& news, Batch const& batch, PassedOver& passed_over) {
+  Ours ours{.features = {}, .grids = batch.grids};
+  auto const theirs = keys_of(news);
+  for (auto const& record : batch.features) {
+    FeatureKey key(layer_of(record.feature.content), record.feature.id);
+    // What lies in a site that they have moved would be written at its old place.
+    if (theirs.contains(key) || news.sites.contains(record.feature.site)) {
+      passed_over.features.insert(std::move(key));
+    } else {
+      ours.features.push_back(record);
+    }
+  }
+  pass_over_tiles(ours, news, passed_over.tiles);
+  return ours;
+}
+
+base::Result<> write_map(sql::Database& database, Batch const& batch, Ours const& ours, Revision revision) {
   for (auto const& site : batch.changed_sites)
     if (auto written = rows::write_site(database, batch.sites.at(site), revision); !written) return written;
-  if (auto written = rows::write_features(database, features, batch.sites, revision); !written) return written;
-  for (auto const& [key, part] : batch.grids)
+  if (auto written = rows::write_features(database, ours.features, batch.sites, revision); !written) return written;
+  for (auto const& [key, part] : ours.grids)
     if (auto written = rows::write_grid(database, key, part, revision); !written) return written;
   return {};
 }
@@ -61,21 +101,11 @@ base::Result<> write_changes(sql::Database& database, Batch const& batch, Revisi
   auto const revision = next_revision(database);
   if (!revision) return std::unexpected(revision.error());
   written.seen = *revision;
-  if (*revision - 1 == seen) return write_map(database, batch, batch.features, *revision);
+  if (*revision - 1 == seen) return write_map(database, batch, {batch.features, batch.grids}, *revision);
   auto news = news_since(database, seen);
   if (!news) return std::unexpected(news.error());
   for (auto const& site : batch.changed_sites) news->sites.erase(site);  // the last word is ours
-  auto const theirs = keys_of(*news);
-  std::vector<FeatureRecord> ours;
-  for (auto const& record : batch.features) {
-    FeatureKey key(layer_of(record.feature.content), record.feature.id);
-    // What lies in a site that they have moved would be written at its old place.
-    if (theirs.contains(key) || news->sites.contains(record.feature.site)) {
-      written.passed_over.insert(std::move(key));
-    } else {
-      ours.push_back(record);
-    }
-  }
+  auto const ours = without(*news, batch, written.passed_over);
   written.news = std::move(*news);
   return write_map(database, batch, ours, *revision);
 }

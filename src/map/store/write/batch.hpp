@@ -17,6 +17,7 @@
 namespace lapwing::map::write {
 
 using FeatureKey = std::pair<LayerKind, std::string>;
+using TileName = std::pair<GridKey, TileKey>;
 
 /// What is written together: copies, for another thread.
 struct Batch {
@@ -38,11 +39,16 @@ struct News {
   std::map<GridKey, rows::GridPart> grids = {};
 };
 
+/// Others have written these since we looked: what we have is not written before it has been merged with theirs.
+struct PassedOver {
+  std::set<FeatureKey> features = {};
+  std::set<TileName> tiles = {};
+};
+
 struct Written {
   Revision seen = 0;  ///< all up to here has been read or written by us
   std::optional<News> news = {};
-  /// Others have written these since we looked: what we have is not written before it has been merged with theirs.
-  std::set<FeatureKey> passed_over = {};
+  PassedOver passed_over = {};
 };
 
 /// Writes all of it or, with an error, nothing. `seen`: what this station knows of the store.

@@ -113,7 +113,11 @@ void Pending::take_tiles(Batch& batch, LiveMap const& map) {
   }
 }
 
-void Pending::committed() {
+void Pending::committed(PassedOver const& passed_over) {
+  for (auto& [number, key] : way_.features)
+    if (passed_over.features.contains(key)) features_.note(std::move(key), number);
+  for (auto& [number, tile] : way_.tiles)
+    if (passed_over.tiles.contains(tile)) tiles_.note(std::move(tile), number);
   way_ = {};
 }
 

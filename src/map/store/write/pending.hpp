@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -21,7 +22,14 @@ template <class Key>
 class Changed {
  public:
   void note(Key key, std::uint64_t number) {
-    if (numbers_.emplace(key, number).second) in_order_.emplace(number, std::move(key));
+    auto const [known, is_new] = numbers_.emplace(key, number);
+    if (!is_new) {
+      if (known->second <= number) return;
+      auto const [first, last] = in_order_.equal_range(known->second);
+      in_order_.erase(std::find_if(first, last, [&](auto const& entry) { return entry.second == key; }));
+      known->second = number;
+    }
+    in_order_.emplace(number, std::move(key));
   }
   /// The oldest, at most so many.
   std::vector<std::pair<std::uint64_t, Key>> take(std::size_t most) {
@@ -61,7 +69,8 @@ class Pending {
   };
   /// The next batch, with what the map says now. Until `committed` or `give_back` there is no other.
   [[nodiscard]] Batch take(LiveMap const* map, Slow with);
-  void committed();
+  /// But for these, which go on waiting as the changes that they were.
+  void committed(PassedOver const& passed_over);
   /// It was not written. Frames come back if there is room.
   void give_back(Batch batch);
 
@@ -78,7 +87,6 @@ class Pending {
   [[nodiscard]] std::optional<std::uint64_t> oldest() const;
 
  private:
-  using TileName = std::pair<GridKey, TileKey>;
   struct OnTheirWay {
     std::vector<std::pair<std::uint64_t, std::string>> sites;
     std::vector<std::pair<std::uint64_t, FeatureKey>> features;
