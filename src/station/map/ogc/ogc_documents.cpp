@@ -202,17 +202,28 @@ Json ogc_web_mercator_quad(std::string const& origin) {
   for (int zoom = 0; zoom <= map::highest_zoom; ++zoom) {
     double const tiles = std::exp2(zoom);
     double const cell_m = 2.0 * half_side_m / picture_px / tiles;
+    auto const corner = Json::array({-half_side_m, half_side_m});
     matrices.push_back({{"id", fmt::format("{}", zoom)},
+                        {"identifier", fmt::format("{}", zoom)},
                         {"scaleDenominator", cell_m / pixel_of_scale_m},
                         {"cellSize", cell_m},
                         {"cornerOfOrigin", "topLeft"},
-                        {"pointOfOrigin", {-half_side_m, half_side_m}},
+                        {"pointOfOrigin", corner},
+                        {"topLeftCorner", corner},
                         {"tileWidth", 256},
                         {"tileHeight", 256},
                         {"matrixWidth", std::int64_t{1} << zoom},
                         {"matrixHeight", std::int64_t{1} << zoom}});
   }
+  // The second edition of the standard (17-083r4), and beside it the words of the first: GDAL before 3.7 knows no
+  // others.
   return {{"id", web_mercator_quad},
+          {"identifier", web_mercator_quad},
+          {"supportedCRS", web_mercator},
+          {"boundingBox",
+           {{"crs", web_mercator},
+            {"lowerCorner", Json::array({-half_side_m, -half_side_m})},
+            {"upperCorner", Json::array({half_side_m, half_side_m})}}},
           {"title", "Google Maps Compatible for the World"},
           {"uri", quad_uri},
           {"crs", web_mercator},
