@@ -1,13 +1,15 @@
 // Keyboards, screen readers, colours and small screens.
 import assert from 'node:assert/strict';
 import { test } from './fixtures.js';
-import { row } from './page.js';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { openPanel, row, selectedRow } from './page.js';
 
 test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
   const page = await open();
   await row(page, 'copter 1').waitFor();
   const names = [];
-  for (let i = 0; i < 7; ++i) {
+  for (let i = 0; i < 6; ++i) {
     await page.keyboard.press('Tab');
     names.push(
       await page.evaluate(() => (document.activeElement.ariaLabel || document.activeElement.textContent).trim().replace(/\s+/g, ' ')),
@@ -15,16 +17,17 @@ test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
     const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
     assert.notEqual(outline, 'none', `focus is not visible on ${names.at(-1)}`);
   }
-  assert.equal(names[0], 'Skip to the vehicle table');
-  assert.deepEqual(names.slice(2, 6), ['Settings', 'Help and keys', '■ STOP', 'E-STOP']);
+  assert.equal(names[0], 'Skip to the list of vehicles');
+  assert.equal(names[1], '■ STOP');
+  assert.deepEqual(names.slice(3, 6), ['Settings', 'Help and keys', 'E-STOP']);
   await page.keyboard.press('?');
   await page.getByRole('dialog', { name: 'Help' }).waitFor();
   await page.keyboard.press('Escape');
   await page.getByRole('dialog', { name: 'Help' }).waitFor({ state: 'hidden' });
   await page.keyboard.press('2');
-  await page.locator('#vehicles tr.selected', { hasText: 'copter 2' }).waitFor();
+  await selectedRow(page, 'copter 2').waitFor();
   await page.keyboard.press('Escape');
-  await page.waitForFunction(() => !document.querySelector('#vehicles tr.selected'));
+  await selectedRow(page, '').waitFor({ state: 'detached' });
 });
 
 test('has landmarks, names and one heading of each kind for screen readers', async ({ open }) => {
@@ -53,8 +56,8 @@ test('tells the state of the script on a phone', async ({ open }) => {
   const page = await open({ size: { width: 390, height: 844 } });
   await page.locator('header .state', { hasText: 'running' }).waitFor();
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
-  for (const tab of ['Command', 'Params', 'Tasks', 'Script', 'Log', 'Vehicles']) {
-    await page.getByRole('button', { name: tab, exact: true }).click();
+  for (const tab of ['Vehicle', 'Params', 'Tasks', 'Script', 'Log', 'Layers']) {
+    await openPanel(page, tab);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390, tab);
   }
 });
@@ -89,16 +92,13 @@ test('works 360 px wide', async ({ open }) => {
   const page = await open({ size: { width: 360, height: 740 } });
   await row(page, 'copter 1').waitFor();
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 360);
-  const cut = await page.evaluate(() => {
-    const body = document.querySelector('#vehicles .body');
-    return body.scrollWidth - body.clientWidth;
-  });
-  assert.ok(cut <= 0, `the table is ${cut} px too wide`);
+  const cut = await row(page, 'copter 1').evaluate((card) => card.scrollWidth - card.clientWidth);
+  assert.ok(cut <= 0, `the card is ${cut} px too wide for what it tells`);
   const stop = await page.getByRole('button', { name: 'STOP', exact: true }).boundingBox();
   assert.ok(stop.x + stop.width <= 360 && stop.height >= 44, 'STOP is in sight and large enough for a finger');
-  await page.getByRole('button', { name: 'Script' }).click();
+  await openPanel(page, 'Script');
   await page.locator('#script li', { hasText: 'north = mission' }).waitFor();
-  assert.ok(!(await page.locator('#vehicles').isVisible()));
+  assert.ok(await row(page, 'copter 1').isVisible(), 'the vehicles stay in sight');
 });
 
 test('keeps the colours that were chosen', async ({ open }) => {
@@ -108,4 +108,60 @@ test('keeps the colours that were chosen', async ({ open }) => {
   await page.locator('html[data-theme=light]').waitFor();
   await page.reload();
   await page.locator('html[data-theme=light]').waitFor();
+});
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+/** What axe finds wrong with the page as it is. */
+const violations = (page) =>
+  page.evaluate(async () => {
+    const { violations } = await window.axe.run(document, { rules: { 'label-content-name-mismatch': { enabled: true } } });
+    return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(' | ')}`);
+  });
+
+for (const size of [
+  { width: 1440, height: 900 },
+  { width: 390, height: 844 },
+]) {
+  test(`is found without fault by axe, whatever is open, at ${size.width} px`, async ({ open }) => {
+    const page = await open({ size });
+    await row(page, 'link lost').waitFor();
+    await page.evaluate(axe);
+    assert.deepEqual(await violations(page), [], 'at first');
+    await page.keyboard.press('1');
+    await page.locator('#selected .details').waitFor();
+    assert.deepEqual(await violations(page), [], 'with a vehicle selected');
+    for (const title of ['Script', 'Tasks', 'Log', 'Layers']) {
+      await openPanel(page, title);
+      assert.deepEqual(await violations(page), [], title);
+    }
+    await page.keyboard.press('Control+Shift+S');
+    await page.getByRole('region', { name: 'Emergency stop' }).waitFor();
+    assert.deepEqual(await violations(page), [], 'in an emergency stop');
+  });
+}
+
+test.describe('for fingers', () => {
+  test.use({ hasTouch: true, isMobile: true });
+  for (const size of [
+    { width: 390, height: 844 },
+    { width: 320, height: 568 },
+    { width: 1024, height: 768 },
+  ]) {
+    test(`has everything large enough at ${size.width} px`, async ({ open }) => {
+      const page = await open({ size });
+      await row(page, 'copter 1').tap();
+      await page.locator('#selected .details').waitFor();
+      const small = () =>
+        page.evaluate(() =>
+          [...document.querySelectorAll('button, [role=tab], [role=option], select, input:not([type=checkbox], [type=range])')]
+            .filter((control) => !control.closest('.visually-hidden, dialog') && control.checkVisibility())
+            .map((control) => [control, control.getBoundingClientRect()])
+            .filter(([, { width, height }]) => width > 0 && (height < 43.5 || width < 32))
+            .map(([control, { width, height }]) => `${control.ariaLabel ?? control.textContent.trim()}: ${width} x ${height}`),
+        );
+      assert.deepEqual(await small(), []);
+      await openPanel(page, 'Log');
+      assert.deepEqual(await small(), []);
+    });
+  }
 });

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { expect } from '@playwright/test';
 import { test } from './fixtures.js';
-import { moves, row } from './page.js';
+import { drawn, moves, placeOnMap, row, selectedRow } from './page.js';
 
 const alarms = (page) => page.getByRole('region', { name: 'Alarms' });
 
@@ -26,7 +26,7 @@ const staysSilent = (message) => {
   ];
 };
 
-test('tells of a silent vehicle: in a banner, the table, the map, the tab and to screen readers', async ({ open }) => {
+test('tells of a silent vehicle: in a banner, the list, the map, the tab and to screen readers', async ({ open }) => {
   const page = await open({ station: staysSilent });
   const line = alarms(page).getByRole('listitem').filter({ hasText: 'rover 5 silent' });
   await line.waitFor();
@@ -35,10 +35,10 @@ test('tells of a silent vehicle: in a banner, the table, the map, the tab and to
   const told = await row(page, 'rover 5').innerText();
   assert.match(told, /\? silent[\s\S]*last known[\s\S]*loss unknown/);
   assert.doesNotMatch(told, /0 % lost/);
-  await page.locator('.vehicle.lost[aria-label^="rover 5"][aria-label$="silent"]').waitFor();
+  await drawn(page, 'rover 5');
   assert.match(await page.title(), /^▲ 2 alarms · Lapwing$/);
   await line.getByRole('button', { name: 'rover 5 silent' }).first().click();
-  await row(page, 'rover 5').locator('xpath=self::tr[contains(@class, "selected")]').waitFor();
+  await selectedRow(page, 'rover 5').waitFor();
 });
 
 test('keeps an acknowledged alarm in sight quietly, for every viewer, and the others as they are', async ({ open }) => {
@@ -184,18 +184,21 @@ test('survives what cannot be, and shows the others as ever', async ({ open }) =
   };
   const page = await open({ station: (message) => (message.type === 'vehicles' ? [message, ...hostile()] : [message]) });
   await row(page, 'copter 1').waitFor();
-  await page.locator('#vehicles tbody tr').nth(5).waitFor(); // the odd one, too
+  await page.locator('#vehicles [role=option]').nth(5).waitFor(); // the odd one, too
   await moves(page, 'copter 1');
-  assert.equal(await page.locator('.vehicle').count(), 5, 'who has no possible position has no place on the map');
+  await drawn(page, 'rover 5');
+  assert.equal(await placeOnMap(page, '9'), undefined, 'who has no possible position has no place on the map');
   await page.keyboard.press('6');
-  await page.locator('#vehicles .details').waitFor();
+  await page.locator('#selected .details').waitFor();
   const all = turn + 2 * odd.length;
   await expect.poll(() => turn, 'each odd value was told').toBeGreaterThan(all);
-  assert.doesNotMatch(await page.locator('#vehicles').innerText(), /NaN|undefined|-?2.?147|Infinity|-128/);
+  for (const part of ['#vehicles', '#selected'])
+    assert.doesNotMatch(await page.locator(part).innerText(), /NaN|undefined|-?2.?147|Infinity|-128/);
   await page.keyboard.press('Escape'); // or F shows where the odd one might be
   await page.keyboard.press('f');
   await page.waitForFunction(() => {
-    const { x, y } = document.querySelector('.vehicle[aria-label^="copter 1"]').getBoundingClientRect();
-    return x > 400 && x < innerWidth - 380 && y > 60 && y < innerHeight;
+    const { x, y } = document.querySelector('.map').placeOf('1');
+    const { left, right, top, bottom } = document.querySelector('.map').getBoundingClientRect();
+    return x > left && x < right && y > top && y < bottom;
   });
 });

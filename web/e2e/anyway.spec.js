@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { expect } from '@playwright/test';
 import { test } from './fixtures.js';
-import { row } from './page.js';
+import { openPanel, row } from './page.js';
 
 /** Held by a key: what a vehicle tells about itself at first moves the buttons about. */
 async function hold(page, button, shown) {
@@ -16,6 +16,7 @@ test('takes off above the ceiling when somebody has told why', async ({ fleet, o
   const page = await open({ url: fleet.url });
   const panel = page.locator('#command');
   await row(page, 'copter 1').click();
+  await openPanel(page, 'Log');
   await page.locator('#log').getByText('EKF3 IMU0 is using GPS').waitFor(); // or it refuses to be armed
   await page.getByLabel('Height to take off to').fill('130');
   const offer = panel.getByRole('button', { name: 'Do it anyway…' });

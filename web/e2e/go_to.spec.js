@@ -1,7 +1,7 @@
 // Sending vehicles to a place on the map.
 import assert from 'node:assert/strict';
 import { test } from './fixtures.js';
-import { hold, row } from './page.js';
+import { hold, placeOnMap, row, selectedRow } from './page.js';
 
 const chosen = (page) => page.getByRole('img', { name: 'the chosen place' });
 const cross = (page) => page.getByRole('application', { name: 'The place to go to' });
@@ -15,7 +15,7 @@ test('sends a vehicle to a place on the map', async ({ open }) => {
   const page = await open();
   await row(page, 'copter 2').click();
   await page.getByRole('button', { name: 'Go to…' }).click();
-  await page.locator('.maplibregl-canvas').click({ position: { x: 700, y: 700 } });
+  await page.locator('.maplibregl-canvas').click({ position: { x: 500, y: 420 } });
   await chosen(page).waitFor();
   assert.equal(await cross(page).count(), 0);
   await hold(page, page.getByRole('button', { name: 'Go there' }));
@@ -43,7 +43,7 @@ test('keeps the height on the way to a place unless another one is given', async
   assert.equal(sentHeights, undefined);
   for (const given of ['', '35']) {
     await page.getByRole('button', { name: 'Go to…' }).click();
-    await page.locator('.maplibregl-canvas').click({ position: { x: 700, y: 700 } });
+    await page.locator('.maplibregl-canvas').click({ position: { x: 500, y: 420 } });
     await height.fill(given);
     await hold(page, page.getByRole('button', { name: 'Go there' }));
   }
@@ -90,13 +90,13 @@ test('leaves the choice of a place with Escape, and keeps the cross in sight', a
   await goTo.press('Enter');
   for (let i = 0; i < 8; ++i) await page.keyboard.press('Shift+ArrowRight');
   const { x } = await middleOf(cross(page));
-  const { x: edge } = await page.locator('#script').boundingBox();
+  const { x: edge } = await page.locator('#selected').boundingBox();
   assert.ok(x < edge, `the cross is at ${x}, below the panel that begins at ${edge}`);
   await page.keyboard.press('Escape');
   await cross(page).waitFor({ state: 'detached' });
   await page.waitForFunction(() => document.activeElement.textContent.includes('Go to…'));
   assert.equal(await chosen(page).count(), 0);
-  await row(page, 'copter 2').locator('xpath=self::tr[contains(@class, "selected")]').waitFor();
+  await selectedRow(page, 'copter 2').waitFor();
 
   await goTo.click();
   await page.keyboard.press('Control+Shift+S');
@@ -107,7 +107,8 @@ test('chooses the place of a vehicle, too, with a click at it', async ({ open })
   const page = await open();
   await row(page, 'copter 2').click();
   await page.getByRole('button', { name: 'Go to…' }).click();
-  await page.locator('.vehicle[aria-label^="rover 5"]').click();
+  const { x, y } = await placeOnMap(page, 'rover 5');
+  await page.mouse.click(x, y);
   await chosen(page).waitFor();
-  await row(page, 'copter 2').locator('xpath=self::tr[contains(@class, "selected")]').waitFor();
+  await selectedRow(page, 'copter 2').waitFor();
 });

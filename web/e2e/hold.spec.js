@@ -44,11 +44,11 @@ for (const [by, press] of Object.entries({ mouse: byMouse, keyboard: byKey })) {
     assert.deepEqual(await sentBy(page), ['arm']);
   });
   const ends = {
-    'means another vehicle': { key: '3', then: (page) => page.locator('#command', { hasText: 'plane 3' }) },
-    'is gone': { key: 'Escape', then: (page) => page.getByText('Select a vehicle in the table') },
+    'means another vehicle': { key: '3', then: (page) => page.locator('#selected h2', { hasText: 'plane 3' }).waitFor() },
+    'is gone': { key: 'Escape', then: (page) => page.locator('#selected').waitFor({ state: 'detached' }) },
     'is disabled': {
       key: 'Control+Shift+S',
-      then: (page) => page.locator('#command button:disabled', { hasText: 'Arm' }),
+      then: (page) => page.locator('#command button:disabled', { hasText: 'Arm' }).first().waitFor(),
       sends: ['emergency_stop'],
     },
   };
@@ -56,7 +56,7 @@ for (const [by, press] of Object.entries({ mouse: byMouse, keyboard: byKey })) {
     test(`confirms nothing when the button held by ${by} ${what}`, async ({ open }) => {
       const page = await held(open, press);
       await page.keyboard.press(key);
-      await then(page).waitFor();
+      await then(page);
       await passTime(page);
       assert.deepEqual(await sentBy(page), sends);
       assert.equal(await page.locator('.held').count(), 0);

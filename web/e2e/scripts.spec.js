@@ -1,11 +1,12 @@
 // The script, its tasks and its log.
 import assert from 'node:assert/strict';
 import { test } from './fixtures.js';
-import { live, row, scriptState } from './page.js';
+import { live, openPanel, row, scriptState } from './page.js';
 
 test('shows the task tree and the line that runs', async ({ open }) => {
   const page = await open();
-  await page.locator('#tasks li.running', { hasText: 'north' }).first().waitFor();
+  await (await openPanel(page, 'Tasks')).locator('li.running', { hasText: 'north' }).first().waitFor();
+  await openPanel(page, 'Script');
   await page.locator('#script li.current', { hasText: 'north = mission' }).waitFor();
 });
 
@@ -69,9 +70,10 @@ test('opens a script of the station and starts it', async ({ open }) => {
   await page.locator('header .name', { hasText: 'listing2.dolphin' }).waitFor();
 });
 
-test('keeps some lines of the log in sight, however long the script', async ({ open }) => {
+test('has some lines of the log in sight at once', async ({ open }) => {
   const page = await open({ size: { width: 1280, height: 800 } });
   await live(page);
+  await openPanel(page, 'Log');
   const log = await page.locator('#log .lines').boundingBox();
   assert.ok(log.height > 80, `only ${log.height} px`);
 });

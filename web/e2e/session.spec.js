@@ -1,7 +1,7 @@
 // A station that goes, comes back, or asks for a token.
 import assert from 'node:assert/strict';
 import { test } from './fixtures.js';
-import { live, row } from './page.js';
+import { drawn, live, row } from './page.js';
 
 test('says that the station is lost, and finds it again', async ({ complaints, open, station, restart }) => {
   complaints.areDue = true;
@@ -33,9 +33,7 @@ for (const size of [
     const covered = await page.evaluate(() => {
       const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
       const within = document.querySelector('.banner').getBoundingClientRect();
-      const panels = [...document.querySelectorAll('.panel:not([hidden]), header')].filter((panel) =>
-        overlap(panel.getBoundingClientRect(), within),
-      );
+      const panels = [...document.querySelectorAll('.panel, header')].filter((panel) => overlap(panel.getBoundingClientRect(), within));
       const icons = [...document.querySelectorAll('header .icon')]
         .map((icon) => icon.getBoundingClientRect())
         .filter((icon) => icon.width > 0);
@@ -84,6 +82,6 @@ test('asks nobody but the station for anything', async ({ open, station }) => {
   );
   await page.reload();
   await row(page, 'copter 1').waitFor();
-  await page.waitForFunction(() => document.querySelectorAll('.vehicle').length === 5);
+  await drawn(page, 'copter 1');
   assert.deepEqual(foreign, []);
 });

@@ -9,7 +9,9 @@ const LINES_A_SIDE = 12;
 /** Metres from the origin of the field; in wide views the graticule. */
 export const grid: MakeLayer = ({ layers: content }) => ({
   id: 'grid',
-  legend: [],
+  name: 'Grid',
+  group: 'Ground',
+  legend: [{ sign: 'grid', text: 'metres north and east of home; in wide views degrees' }],
   sources: { grid: EMPTY },
   layers: (colours, hasTiles) => [lines(colours, hasTiles), labels(colours)],
   update({ generation, view, source }) {

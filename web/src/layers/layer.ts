@@ -1,13 +1,19 @@
 import type { GeoJSONSource, GeoJSONSourceSpecification, LayerSpecification, Map as MapLibreMap } from 'maplibre-gl';
-import type { Bounds } from '../map/geometry';
+import type { Bounds, LonLat } from '../map/geometry';
 import type { MapColours } from '../map/colours';
+import type { Paper } from '../map/overlay';
+import type { Position } from '../lib/protocol';
 import type { StoresToRead } from '../stores/stores';
 
-/** How something looks on the map, in words for Help. */
+/** How something looks on the map, in words for Help and for the list of layers. */
 export interface Legend {
-  sign: 'line' | 'dashes' | 'dot' | 'ring' | 'letter' | 'shape';
+  sign: 'line' | 'dashes' | 'dot' | 'ring' | 'letter' | 'shape' | 'flag' | 'grid';
   text: string;
 }
+
+/** Under which heads the list of layers has them, the topmost first. Tools are not listed: they come and go with their button. */
+export const GROUPS = ['Vehicles', 'Paths', 'Found', 'Ground'] as const;
+export type Group = (typeof GROUPS)[number] | 'Tools';
 
 /** What a layer draws on, and what it must know of the page besides the stores. */
 export interface Drawing {
@@ -16,26 +22,44 @@ export interface Drawing {
   readonly generation: number;
   /** What is in sight, once the map has come to rest. */
   readonly view: Bounds;
+  /** Of the map at rest, in steps of a half. */
+  readonly zoom: number;
   readonly selected: readonly string[];
-  /** Whether the next click chooses a place, not a vehicle. */
-  readonly isPicking: boolean;
+  /** The places that the measure goes along. */
+  readonly measured: readonly Position[];
   /** The colour by which a vehicle's paths are told apart. */
   readonly colourOf: (vehicle: string) => string;
-  readonly select: (vehicle: string, adds: boolean) => void;
   readonly source: (id: string) => GeoJSONSource | undefined;
+  /** What the layer paints has changed. */
+  readonly wantsPaint: () => void;
+}
+
+/** What lies at a place on the screen. */
+export interface Hit {
+  vehicles: readonly string[];
+  at: LonLat;
+  /** From the place, in px. */
+  distance: number;
 }
 
 /** One kind of thing on the map. It keeps what it has drawn, so each map has layers of its own. */
 export interface MapLayer {
   readonly id: string;
+  /** In the list of layers. */
+  readonly name: string;
+  readonly group: Group;
   readonly legend: readonly Legend[];
   readonly sources: Readonly<Record<string, GeoJSONSourceSpecification>>;
-  /** How the sources look, the lowest first. */
+  /** How the sources look, the lowest first. Opacities must not depend on the zoom: they are multiplied by the operator's. */
   layers(colours: MapColours, hasTiles: boolean): LayerSpecification[];
   /** Draws what the stores tell now. It is called again whenever anything that it read of them, or of the drawing, has changed. */
   update(drawing: Drawing): void;
-  /** The map moves: what lies beside it on the screen follows. */
-  moved?(drawing: Drawing): void;
+  /** Draws what moves, on the sheet above the map; whether it moves on by itself, and wants the next frame, too. */
+  paint?(paper: Paper, now: number): boolean;
+  /** Takes away what it has beside its sources, while the operator does not want to see it. */
+  hide?(): void;
+  /** What of it lies nearest to a place on the screen, not further away than so many px. */
+  hit?(place: { x: number; y: number }, within: number, drawing: Drawing): Hit | undefined;
 }
 
 export type MakeLayer = (stores: StoresToRead) => MapLayer;
@@ -45,3 +69,7 @@ export const EMPTY: GeoJSONSourceSpecification = { type: 'geojson', data: { type
 
 /** What a vehicle's things on the map are coloured by. */
 export const COLOUR = ['get', 'colour'] as unknown as string;
+
+/** Of a text on the map: drawn with the browser's own fonts. The first name of the bold ones gives the weight; no font is called so. */
+export const FONT = ['system-ui', 'sans-serif'];
+export const BOLD = ['Semibold', ...FONT];

@@ -16,6 +16,8 @@ export const pictures: MakeLayer = ({ feeds }) => {
   const taken = feeds.follow<Pictures>('pictures', new Map(), withMore);
   return {
     id: 'pictures',
+    name: 'Pictures taken',
+    group: 'Found',
     legend: [{ sign: 'ring', text: 'a picture was taken here' }],
     sources: { pictures: EMPTY },
     layers: ({ ground }) => [

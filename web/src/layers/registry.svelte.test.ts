@@ -2,14 +2,16 @@ import { validateStyleMin } from '@maplibre/maplibre-gl-style-spec';
 import { beforeAll, describe, expect, it, vi } from 'vitest';
 import { DARK } from '../map/colours';
 import { TestStation } from '../testing/station';
-import type { Drawing, MapLayer } from './layer';
+import { GROUPS, type Drawing, type MapLayer } from './layer';
 
 let layers: MapLayer[];
+let makeLayers: (typeof import('./registry'))['makeLayers'];
 let style: (typeof import('../map/style'))['mapStyle'];
 beforeAll(async () => {
   URL.createObjectURL = () => ''; // MapLibre asks for it as soon as it is loaded
   const [registry, { mapStyle }] = await Promise.all([import('./registry'), import('../map/style')]);
-  layers = registry.makeLayers(TestStation.live().stores);
+  makeLayers = registry.makeLayers;
+  layers = makeLayers(TestStation.live().stores);
   style = mapStyle;
 });
 
@@ -30,18 +32,42 @@ describe('the layers of the map', () => {
     }
   });
 
-  it('send a source nothing while nothing of it has changed', async () => {
-    const station = TestStation.live([{ id: '1', position: { lat_deg: 1, lon_deg: 2, alt_m: 3 } }]);
-    const { trails } = await import('./trails');
-    const layer = trails(station.stores);
-    const [setData, updateData] = [vi.fn(), vi.fn()];
-    const drawing = { generation: 1, colourOf: () => 'red', source: () => ({ setData, updateData }) } as unknown as Drawing;
-    layer.update(drawing);
-    layer.update(drawing);
-    expect(setData).toHaveBeenCalledTimes(1);
-    station.tell({ type: 'vehicles', time_s: 2, full: false, vehicles: [{ id: '1', position: { lat_deg: 1.1, lon_deg: 2, alt_m: 3 } }] });
-    layer.update(drawing);
-    expect(setData).toHaveBeenCalledTimes(2);
-    expect(updateData).toHaveBeenCalledTimes(1);
+  it('are named and grouped for the list of layers', () => {
+    for (const { id, name, group } of layers) expect([...GROUPS, 'Tools'], `${id}: ${name}`).toContain(group);
+    expect(layers.map(({ name }) => name)).not.toContain('');
+  });
+
+  it('are as clear as they are wanted, whatever clearness they have by themselves', () => {
+    const all = style(layers, DARK, '', (id) => ({ visible: id !== 'grid', opacity: id === 'plans' ? 0.5 : 1 })).layers;
+    const of = (id: string) => all.find((layer) => layer.id === id)!;
+    expect(of('grid').layout?.visibility).toBe('none');
+    expect(of('plans').paint).toMatchObject({ 'line-opacity': 0.45 });
+    expect(of('plan-points').paint).toMatchObject({ 'circle-opacity': 0.425, 'circle-stroke-opacity': 0.5 });
+    const plain = style(layers, DARK, '').layers.find((layer) => layer.id === 'plans')!;
+    expect(plain.paint).toMatchObject({ 'line-opacity': 0.9 });
+  });
+
+  it('neither send a source anything nor want to be painted while nothing of them has changed', () => {
+    const position = { lat_deg: 1, lon_deg: 2, alt_m: 3 };
+    const station = TestStation.live([{ id: '1', name: 'copter 1', position, home: position, heading_rad: 1 }]);
+    const told = { setData: vi.fn(), updateData: vi.fn() };
+    const wantsPaint = vi.fn();
+    const drawing = {
+      ...{ generation: 1, zoom: 15, selected: ['1'], measured: [], colourOf: () => 'red', source: () => told, wantsPaint },
+      view: { west: 0, east: 1, south: 0, north: 1 },
+    } as unknown as Drawing;
+    const sentBy = (layer: MapLayer): number => {
+      for (const { mock } of [told.setData, told.updateData, wantsPaint]) mock.calls.length = 0;
+      layer.update(drawing);
+      return [told.setData, told.updateData, wantsPaint].reduce((sum, { mock }) => sum + mock.calls.length, 0);
+    };
+    const mine = makeLayers(station.stores).filter(({ id }) =>
+      ['trails', 'vehicles', 'intents', 'homes', 'destinations', 'measure'].includes(id),
+    );
+    for (const layer of mine) sentBy(layer);
+    station.tell({ type: 'vehicles', time_s: 2, full: false, vehicles: [{ id: '1', age_s: { position: 0 }, position: { ...position } }] });
+    for (const layer of mine) expect(sentBy(layer), layer.id).toBe(0);
+    station.tell({ type: 'vehicles', time_s: 3, full: false, vehicles: [{ id: '1', position: { ...position, lat_deg: 1.1 } }] });
+    for (const layer of mine) expect(sentBy(layer) > 0, layer.id).toBe(['trails', 'vehicles', 'intents'].includes(layer.id));
   });
 });

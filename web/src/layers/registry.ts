@@ -3,13 +3,15 @@ import type { StoresToRead } from '../stores/stores';
 import { destinations } from './destinations';
 import { grid } from './grid';
 import { homes } from './homes';
+import { intents } from './intents';
+import { measure } from './measure';
 import { pictures } from './pictures';
 import { plans } from './plans';
 import { trails } from './trails';
 import { vehicles } from './vehicles';
 
 /** Everything that the map shows, the lowest first. Whoever adds a kind of thing writes its file and names it here. */
-const LAYERS: readonly MakeLayer[] = [grid, plans, trails, pictures, destinations, homes, vehicles];
+const LAYERS: readonly MakeLayer[] = [grid, plans, trails, pictures, destinations, intents, homes, vehicles, measure];
 
 export function makeLayers(stores: StoresToRead): MapLayer[] {
   return LAYERS.map((make) => make(stores));

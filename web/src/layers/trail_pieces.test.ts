@@ -9,7 +9,7 @@ const colour = (): string => 'red';
 /** A map as far as trails go: what its two sources hold. */
 class Sources {
   readonly settled = new Map<number, Feature>();
-  ends: Feature[] = [];
+  ends: ReturnType<TrailPieces['ends']> = [];
   /** Points that were sent to it. */
   sent = 0;
 
@@ -20,14 +20,15 @@ class Sources {
     this.sent += add.reduce((sum, feature) => sum + pointsOf(feature).length, 0);
   }
 
-  show(features: Feature[]): void {
-    this.ends = features;
-    this.sent += features.reduce((sum, feature) => sum + pointsOf(feature).length, 0);
+  show(ends: ReturnType<TrailPieces['ends']>): void {
+    this.ends = ends.filter(({ line }) => line.length > 1);
+    this.sent += ends.reduce((sum, { line }) => sum + line.length, 0);
   }
 
   /** The whole trail of a vehicle, each point once; throws where pieces do not meet. */
   trailOf(id: string): number[] {
-    const mine = [...this.settled.values(), ...this.ends].filter(({ properties }) => properties?.id === id).map(pointsOf);
+    const settled = [...this.settled.values()].filter(({ properties }) => properties?.id === id).map(pointsOf);
+    const mine = [...settled, ...this.ends.filter((end) => end.id === id).map(({ line }) => line.map(([, lat]) => lat))];
     return mine.reduce((whole, piece) => {
       if (whole.length === 0) return piece;
       expect(piece[0]).toBe(whole.at(-1));
@@ -49,7 +50,7 @@ describe('the pieces of trails', () => {
   const draw = (pieces: TrailPieces, sources: Sources, trails: Trails): void => {
     const all = [...trails.entries()];
     if (pieces.wantSettling(all)) sources.apply(pieces.settle(all, colour, false));
-    sources.show(pieces.ends(all, colour).features);
+    sources.show(pieces.ends(all, colour));
   };
 
   it('are the whole trail together, however long it grows', () => {
@@ -87,6 +88,6 @@ describe('the pieces of trails', () => {
     sources.apply(pieces.settle([...trails.entries()], () => 'blue', true));
     expect(sources.settled.size).toBe(1);
     expect([...sources.settled.values()][0]!.properties!.colour).toBe('blue');
-    expect(pieces.ends([...trails.entries()], colour).features).toEqual([]);
+    expect(pieces.ends([...trails.entries()], colour).filter(({ line }) => line.length > 1)).toEqual([]);
   });
 });

@@ -1,7 +1,7 @@
-import type { FeatureCollection } from 'geojson';
 import type { GeoJSONSourceDiff } from 'maplibre-gl';
 import type { Trail } from '../lib/trails';
-import { featureOf, featuresOf, lonLat, type Mark } from './features';
+import type { LonLat } from '../map/geometry';
+import { featureOf, lonLat, type Mark } from './features';
 
 /** So many points may gather at the ends, and so many more a vehicle: below it, sending them all is cheaper than a new piece of each. */
 const FEW = 1000;
@@ -43,8 +43,8 @@ export class TrailPieces {
   }
 
   /** What is not in any piece yet, each joined to the last of them. */
-  ends(trails: [string, Trail][], colourOf: (id: string) => string): FeatureCollection {
-    return featuresOf(trails.map(([id, trail]) => this.endOf(id, trail, colourOf)));
+  ends(trails: [string, Trail][], colourOf: (id: string) => string): { id: string; colour: string; line: readonly LonLat[] }[] {
+    return trails.map(([id, trail]) => ({ id, colour: colourOf(id), line: this.endOf(id, trail, colourOf).line ?? [] }));
   }
 
   private endOf(id: string, trail: Trail, colourOf: (id: string) => string): Mark {

@@ -1,42 +1,67 @@
 import type { LayerSpecification } from 'maplibre-gl';
+import type { LonLat } from '../map/geometry';
 import { TrailPieces } from './trail_pieces';
 import { COLOUR, EMPTY, type MakeLayer } from './layer';
+import { paintLine } from './paths';
+
+const WIDTH_PX = 2.6;
 
 /**
- * Where the vehicles have been. A map takes a source as a whole and draws it anew, so what grows by a point must not lie in one with
- * 150,000 others: the ends of the trails, which grow, have a small source of their own, and what has gathered there moves over to
- * the large one now and then, in pieces that are sent once.
+ * Where the vehicles have been. The map takes a source as a whole and is drawn anew for it, so what grows by a point must not lie in one
+ * with 150,000 others: the ends of the trails, which grow, are painted above the map, and what has gathered there moves over to it now
+ * and then, in pieces that are sent once.
  */
 export const trails: MakeLayer = ({ layers: content }) => {
   const pieces = new TrailPieces();
+  let ends: { colour: string; line: readonly LonLat[] }[] = [];
   let drawn = '';
   let drawnOn = '';
   return {
     id: 'trails',
+    name: 'Trails',
+    group: 'Paths',
     legend: [{ sign: 'line', text: 'where a vehicle has been' }],
-    sources: { trails: { ...EMPTY, tolerance: 0.1 }, 'trail-ends': EMPTY },
-    layers: () => ['trails', 'trail-ends'].map(line),
-    update({ generation, colourOf, source }) {
+    sources: { trails: { ...EMPTY, tolerance: 0.1 } },
+    layers: ({ ground }) => [casing(ground), line()],
+    update({ generation, colourOf, source, wantsPaint }) {
       const known = [...content.trails.entries()];
       const ground = [generation, ...known.map(([id]) => colourOf(id))].join();
       const now = `${content.trailRevision} ${ground}`;
-      const [settled, ends] = [source('trails'), source('trail-ends')];
-      if (!settled || !ends || now === drawn) return;
+      const settled = source('trails');
+      if (!settled || now === drawn) return;
       const isAnew = ground !== drawnOn;
       [drawn, drawnOn] = [now, ground];
       if (isAnew || pieces.wantSettling(known)) settled.updateData(pieces.settle(known, colourOf, isAnew));
-      ends.setData(pieces.ends(known, colourOf));
+      ends = pieces.ends(known, colourOf);
+      wantsPaint();
+    },
+    paint(paper) {
+      for (const { colour, line } of ends) paintLine(paper, line, { colour, width: WIDTH_PX, opacity: 0.9 });
+      return false;
     },
   };
 };
 
-function line(source: string): LayerSpecification {
+// No round ends: where two pieces meet they would lie on each other, and be seen as a dot.
+const layout = { 'line-join': 'round' } as const;
+
+/** Below the line, to be seen on pictures, too. */
+function casing(ground: string): LayerSpecification {
   return {
-    id: source,
+    id: 'trail-casings',
     type: 'line',
-    source,
-    // No round ends: where two pieces meet they would lie on each other, and be seen as a dot.
-    layout: { 'line-join': 'round' },
-    paint: { 'line-color': COLOUR, 'line-width': 3, 'line-opacity': 0.55 },
+    source: 'trails',
+    layout,
+    paint: { 'line-color': ground, 'line-width': WIDTH_PX + 2.4, 'line-opacity': 0.65 },
+  };
+}
+
+function line(): LayerSpecification {
+  return {
+    id: 'trails',
+    type: 'line',
+    source: 'trails',
+    layout,
+    paint: { 'line-color': COLOUR, 'line-width': WIDTH_PX, 'line-opacity': 0.9 },
   };
 }

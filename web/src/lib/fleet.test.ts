@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { addPictures, ageOf, compareIds, groundSpeed, mergeUpdates, type Vehicle } from './fleet';
+import { addPictures, ageOf, compareIds, groundSpeed, mergeUpdates, summaryOfKinds, type Vehicle } from './fleet';
 
 describe('mergeUpdates', () => {
   const first = mergeUpdates(new Map(), [{ id: '1', mode: 'AUTO', armed: true, age_s: { mode: 0.5, armed: 0 } }], true, 10_000);
@@ -57,4 +57,9 @@ it('adds pictures behind those that it has, each once', () => {
   expect(known.get('1')!.map(({ number }) => number)).toEqual([1, 2, 3]);
   known = addPictures(known, '1', [picture(1)], true); // the station was started anew
   expect(known.get('1')).toHaveLength(1);
+});
+
+it('tells of many by their kinds', () => {
+  const of = (family?: 'copter' | 'rover'): Vehicle => ({ id: '1', fields: family ? { family } : {}, heardAt: {} });
+  expect(summaryOfKinds([of('copter'), of('rover'), of('copter'), of()])).toBe('2 copters, 1 rover, 1 vehicle');
 });

@@ -23,3 +23,33 @@ export function progressOf(trees: Task[]): { ended: number; total: number } {
   }
   return { ended, total };
 }
+
+/** What kinds of tasks do, in words; others are told by their own. */
+const KINDS = new Map([
+  ['sequence', 'one after the other'],
+  ['concurrent', 'at the same time'],
+  ['choice', 'whichever comes first'],
+  ['allOf', 'all that come true'],
+  ['waitFor', 'wait, then'],
+  ['until', 'until'],
+  ['during', 'for a time'],
+  ['watch', 'whenever'],
+  ['action', 'do'],
+  ['condition', 'wait until it holds'],
+  ['idle', 'wait'],
+]);
+/** Names that the language prints for tasks that have none. */
+const NAMELESS = new Map([
+  ['<action>', 'an action'],
+  ['<choice>', 'a choice'],
+  ['<allOf>', 'all of several'],
+  ['<condition>', 'a condition'],
+]);
+
+/** A task in words: what it does, and its own name or text if it has one. */
+export function wordsOf({ kind, label }: Task): { kind: string; label: string } {
+  const words = KINDS.get(kind) ?? kind;
+  if (NAMELESS.has(label)) return { kind: words, label: '' };
+  const named = label.replace(/watcher<(.*)>/g, 'watching $1').replace(/<\w+>/g, (name) => NAMELESS.get(name) ?? name);
+  return { kind: words, label: named };
+}

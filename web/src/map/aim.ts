@@ -16,6 +16,8 @@ export interface Sides {
 }
 
 export interface AimEvents {
+  /** What the place is for, to screen readers. */
+  purpose: string;
   /** How far panels cover the map. */
   covered(): Sides;
   /** What to say of the place, beside the cross and to screen readers. */
@@ -35,7 +37,7 @@ export function aimMarker(map: MapLibreMap, start: LonLat, events: AimEvents): M
   element.setAttribute('role', 'application');
   element.setAttribute(
     'aria-label',
-    'The place to go to. Arrow keys move it, with Shift further; plus and minus zoom; Enter chooses it, Escape leaves.',
+    `${events.purpose}. Arrow keys move it, with Shift further; plus and minus zoom; Enter chooses it, Escape leaves.`,
   );
   const label = document.createElement('span');
   label.className = 'label';

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { boundsOf, contains, cover, gridLines, niceStep, placeText, rowsWithoutOverlap } from './geometry';
+import { boundsOf, contains, cover, gridLines, isInside, niceStep, placeText, widenedBy } from './geometry';
 
 const origin = { lat_deg: -35.363262, lon_deg: 149.165237, alt_m: 584 };
 
@@ -69,12 +69,20 @@ describe('cover and contains', () => {
   });
 });
 
-describe('rowsWithoutOverlap', () => {
-  const box = (left: number, top: number) => ({ left, top, width: 10, height: 5 });
-  it('leaves boxes alone that are apart', () => expect(rowsWithoutOverlap([box(0, 0), box(10, 0), box(0, 5)])).toEqual([0, 0, 0]));
-  it('stacks those on one spot', () => expect(rowsWithoutOverlap([box(0, 0), box(0, 0), box(0, 0)])).toEqual([0, 1, 2]));
-  it('keeps the topmost in its place', () => expect(rowsWithoutOverlap([box(0, 3), box(4, 0)])).toEqual([1, 0]));
-  it('is nothing for nothing', () => expect(rowsWithoutOverlap([])).toEqual([]));
+it('widens to each side, not beyond the map', () => {
+  expect(widenedBy({ west: 0, south: 0, east: 10, north: 20 }, 0.1)).toEqual({ west: -1, south: -2, east: 11, north: 22 });
+  expect(widenedBy({ west: 0, south: 0, east: 10, north: 84 }, 0.5).north).toBe(85);
+});
+
+describe('isInside', () => {
+  const hook: [number, number][] = [[0, 0], [10, 0], [10, 10], [6, 10], [6, 4], [0, 4]]; // prettier-ignore
+  it('follows the outline', () => {
+    expect(isInside([2, 2], hook)).toBe(true);
+    expect(isInside([8, 8], hook)).toBe(true);
+    expect(isInside([2, 8], hook)).toBe(false);
+    expect(isInside([12, 2], hook)).toBe(false);
+  });
+  it('is nowhere in nothing', () => expect(isInside([0, 0], [])).toBe(false));
 });
 
 describe('placeText', () => {

@@ -35,37 +35,25 @@ export function cover(a: Bounds, b: Bounds): Bounds {
   };
 }
 
+/** Wider and higher by that share on each side. */
+export function widenedBy({ west, south, east, north }: Bounds, share: number): Bounds {
+  const [across, up] = [(east - west) * share, (north - south) * share];
+  return { west: west - across, south: Math.max(-MAP_END_DEG, south - up), east: east + across, north: Math.min(MAP_END_DEG, north + up) };
+}
+
 export function contains(outer: Bounds, inner: Bounds): boolean {
   return outer.west <= inner.west && outer.south <= inner.south && outer.east >= inner.east && outer.north >= inner.north;
 }
 
-export interface Box {
-  left: number;
-  top: number;
-  width: number;
-  height: number;
-}
-
-/** How many rows each box must move down, one row its own height, so that none covers another; the topmost stay. */
-export function rowsWithoutOverlap(boxes: Box[]): number[] {
-  const rows = boxes.map(() => 0);
-  const placed: Box[] = [];
-  const order = boxes.map((_, index) => index).sort((a, b) => boxes[a]!.top - boxes[b]!.top || a - b);
-  for (const index of order) {
-    const box = { ...boxes[index]! };
-    for (let blocked = true; blocked && rows[index]! <= boxes.length;) {
-      blocked = placed.some((other) => overlap(box, other));
-      if (!blocked) continue;
-      rows[index] = rows[index]! + 1;
-      box.top += box.height;
-    }
-    placed.push(box);
+/** Whether the point lies within the polygon, which may cross itself: then by the rule of even and odd. */
+export function isInside([x, y]: LonLat, polygon: readonly LonLat[]): boolean {
+  let inside = false;
+  for (let i = 0, j = polygon.length - 1; i < polygon.length; j = i++) {
+    const [ax, ay] = polygon[i]!;
+    const [bx, by] = polygon[j]!;
+    if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) inside = !inside;
   }
-  return rows;
-}
-
-function overlap(a: Box, b: Box): boolean {
-  return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height && b.top < a.top + a.height;
+  return inside;
 }
 
 function widened(low: number, high: number, least: number): [number, number] {

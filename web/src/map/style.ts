@@ -1,9 +1,15 @@
 import type { LayerSpecification, StyleSpecification } from 'maplibre-gl';
 import type { MapLayer } from '../layers/layer';
+import type { LayerLook } from '../stores/map_layers.svelte';
 import type { MapColours } from './colours';
 
 /** The map as its layers want it, on a ground of one colour, or on tiles. Text is drawn with the browser's own fonts. */
-export function mapStyle(layers: readonly MapLayer[], colours: MapColours, tiles: string): StyleSpecification {
+export function mapStyle(
+  layers: readonly MapLayer[],
+  colours: MapColours,
+  tiles: string,
+  lookOf: (layer: string) => LayerLook = () => ({ visible: true, opacity: 1 }),
+): StyleSpecification {
   const tileLayer: LayerSpecification[] = tiles ? [{ id: 'tiles', type: 'raster', source: 'tiles' }] : [];
   return {
     version: 8,
@@ -14,7 +20,28 @@ export function mapStyle(layers: readonly MapLayer[], colours: MapColours, tiles
     layers: [
       { id: 'ground', type: 'background', paint: { 'background-color': colours.ground } },
       ...tileLayer,
-      ...layers.flatMap((layer) => layer.layers(colours, tiles !== '')),
+      ...layers.flatMap((layer) => layer.layers(colours, tiles !== '').map((one) => looking(one, lookOf(layer.id)))),
     ],
   };
+}
+
+/** What of each type of layer tells how clearly it is seen. */
+const OPACITIES: Partial<Record<LayerSpecification['type'], readonly string[]>> = {
+  line: ['line-opacity'],
+  circle: ['circle-opacity', 'circle-stroke-opacity'],
+  symbol: ['icon-opacity', 'text-opacity'],
+  fill: ['fill-opacity'],
+  raster: ['raster-opacity'],
+};
+
+/** The opacities of a layer that an operator wants so clear: its own, multiplied. */
+export function opacitiesOf(layer: LayerSpecification, opacity: number): Record<string, unknown> {
+  const paint = (layer.paint ?? {}) as Record<string, unknown>;
+  const faded = (own: unknown): unknown => (own === undefined ? opacity : typeof own === 'number' ? own * opacity : ['*', own, opacity]);
+  return Object.fromEntries((OPACITIES[layer.type] ?? []).map((name) => [name, faded(paint[name])]));
+}
+
+function looking(layer: LayerSpecification, { visible, opacity }: LayerLook): LayerSpecification {
+  const paint = opacity === 1 ? layer.paint : { ...layer.paint, ...opacitiesOf(layer, opacity) };
+  return { ...layer, ...(paint && { paint }), layout: { ...layer.layout, visibility: visible ? 'visible' : 'none' } } as LayerSpecification;
 }

@@ -17,3 +17,9 @@ it('says what will be there', () => {
   render(TaskPanel, { props: { trees: [] } });
   expect(screen.getByText(/No task yet/)).toBeVisible();
 });
+
+it('tells in words what has no name', () => {
+  render(TaskPanel, { props: { trees: [{ id: 1, kind: 'choice', label: '<choice>', line: 3, state: 'running' }] } });
+  expect(screen.getByRole('listitem')).toHaveTextContent('whichever comes first');
+  expect(screen.getByRole('listitem')).not.toHaveTextContent('<');
+});

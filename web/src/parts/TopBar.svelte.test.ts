@@ -5,7 +5,7 @@ import { TestStation } from '../testing/station';
 import TokenDialog from './TokenDialog.svelte';
 import TopBar from './TopBar.svelte';
 
-const props = { onhelp: vi.fn(), onsettings: vi.fn() };
+const props = { onhelp: vi.fn(), onsettings: vi.fn(), onemergency: vi.fn() };
 
 it('stops the script and everything', async () => {
   const station = TestStation.live();
@@ -14,8 +14,9 @@ it('stops the script and everything', async () => {
   expect(screen.getByText('b.dolphin')).toBeVisible();
   await userEvent.click(screen.getByRole('button', { name: 'STOP' }));
   expect(screen.getByRole('button', { name: 'STOPPING' })).toBeVisible();
+  expect(station.asked).toEqual([{ type: 'stop_script' }]);
   await userEvent.click(screen.getByRole('button', { name: 'E-STOP' }));
-  expect(station.asked).toEqual([{ type: 'stop_script' }, { type: 'emergency_stop' }]);
+  expect(props.onemergency).toHaveBeenCalledTimes(1);
 });
 
 it('says that E-STOP reaches nobody when the station is lost', () => {

@@ -67,6 +67,27 @@ describe('the emergency banner', () => {
     expect(station.asked).toEqual([{ type: 'release_emergency_stop' }]);
   });
 
+  it('leads who has asked for the stop to Release, and back to where he was', async () => {
+    const station = TestStation.live();
+    const before = document.body.appendChild(document.createElement('button'));
+    const { component } = render(EmergencyBanner, { context: station.context });
+    before.focus();
+    (component as unknown as { expectFocus(): void }).expectFocus();
+    station.tell({ type: 'emergency', ...emergency });
+    expect(screen.getByRole('button', { name: 'Release' })).toHaveFocus();
+    station.tell({ type: 'emergency', ...emergency, latched: false });
+    await Promise.resolve();
+    expect(before).toHaveFocus();
+    before.remove();
+  });
+
+  it('leaves the focus of who has not asked for it', () => {
+    const station = TestStation.live();
+    render(EmergencyBanner, { context: station.context });
+    station.tell({ type: 'emergency', ...emergency });
+    expect(document.body).toHaveFocus();
+  });
+
   it('shows Motors off behind a second step, without Release beside it', async () => {
     const station = TestStation.live();
     render(EmergencyBanner, { context: station.context });

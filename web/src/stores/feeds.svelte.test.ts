@@ -8,10 +8,12 @@ const cells: MakeLayer = ({ feeds }) => {
   const known = feeds.follow<number[]>('cells', [], (before, { content }: Frame) => [...before, ...(content as Uint8Array)]);
   return {
     id: 'cells',
+    name: 'Cells',
+    group: 'Found',
     legend: [],
     sources: {},
     layers: () => [],
-    update: ({ select }) => select(known.content.join(), false),
+    update: ({ source }) => void source(known.content.join()),
   };
 };
 
@@ -22,7 +24,7 @@ const FEEDS = [
 
 function drawn(layer: ReturnType<MakeLayer>): string {
   let text = '';
-  layer.update({ select: (what: string) => (text = what) } as unknown as Parameters<typeof layer.update>[0]);
+  layer.update({ source: (what: string) => void (text = what) } as unknown as Parameters<typeof layer.update>[0]);
   return text;
 }
 

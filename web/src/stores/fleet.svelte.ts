@@ -14,7 +14,8 @@ export class FleetStore implements Receiver {
   constructor(private readonly session: Session) {}
 
   received(message: ServerMessage, now: number): void {
-    if (message.type === 'vehicles') this.vehicles = mergeUpdates(this.vehicles, message.vehicles, message.full, now);
+    if (message.type === 'vehicles')
+      this.vehicles = mergeUpdates(this.vehicles, message.vehicles, message.full, now, (site) => this.session.anchorOf(site));
     if (message.type === 'alarms' && message.battery) this.batteryLimits = message.battery;
   }
 

@@ -10,6 +10,8 @@ export class LayersStore implements Receiver {
   /** Trails grow in place, a point at a time; `trailRevision` tells that they have. */
   readonly trails = new Trails();
   trailRevision = $state(0);
+  /** New only when it is another place: what follows it would be drawn anew at each message. */
+  private firstHome = $state.raw<Position | undefined>();
 
   constructor(
     private readonly session: Session,
@@ -18,16 +20,22 @@ export class LayersStore implements Receiver {
 
   /** Of the local grid: the site's, else the first home. */
   get origin(): Position | undefined {
-    if (this.session.site.origin) return this.session.site.origin;
-    for (const { fields } of this.fleet.vehicles.values()) if (fields.home) return fields.home;
-    return undefined;
+    return this.session.site.origin ?? this.firstHome;
   }
 
   received(message: ServerMessage): void {
     if (message.type === 'vehicles') {
       if (this.trails.grow(this.fleet.vehicles.values())) this.trailRevision += 1;
+      this.noteHome();
     } else if (message.type === 'plan') {
       this.plans = new Map(this.plans).set(message.vehicle, message.path);
     }
+  }
+
+  private noteHome(): void {
+    let home: Position | undefined;
+    for (const { fields } of this.fleet.vehicles.values()) home ??= fields.home;
+    const { firstHome: before } = this;
+    if (home?.lat_deg !== before?.lat_deg || home?.lon_deg !== before?.lon_deg) this.firstHome = home;
   }
 }

@@ -1,6 +1,6 @@
 import { Connection, type Socket } from '../connection/connection';
 import type { Frame } from '../connection/frame';
-import { PROTOCOL, type Hello, type Reply, type Request, type ServerMessage } from '../lib/protocol';
+import { PROTOCOL, type Hello, type Position, type Reply, type Request, type ServerMessage } from '../lib/protocol';
 
 /** locked: the station is there and asks for a token that this browser does not have. */
 export type Phase = 'connecting' | 'live' | 'lost' | 'locked';
@@ -88,6 +88,11 @@ export class Session {
 
   get hasToken(): boolean {
     return this.token !== undefined;
+  }
+
+  /** Where that site's frame begins, if the station has told. */
+  anchorOf(site: string): Position | undefined {
+    return site === this.site.name ? this.site.origin : undefined;
   }
 
   /** Seconds until the station's clock shows `time_s`, not less than 0. */

@@ -6,8 +6,10 @@ import { AlarmsStore } from './alarms.svelte';
 import { ControlStore } from './control.svelte';
 import { FeedsStore } from './feeds.svelte';
 import { FleetStore } from './fleet.svelte';
+import { HistoryStore } from './history.svelte';
 import { LayersStore } from './layers.svelte';
 import { LogStore } from './log.svelte';
+import { MapLayersStore } from './map_layers.svelte';
 import { ScriptsStore } from './scripts.svelte';
 import { Session, type Network } from './session.svelte';
 import { Settings } from './settings.svelte';
@@ -17,6 +19,8 @@ export interface Stores {
   session: Session;
   fleet: FleetStore;
   layers: LayersStore;
+  history: HistoryStore;
+  mapLayers: MapLayersStore;
   feeds: FeedsStore;
   scripts: ScriptsStore;
   control: ControlStore;
@@ -36,13 +40,15 @@ export function createStores(network: Network, voices: Voices): Stores {
   const fleet = new FleetStore(session);
   const layers = new LayersStore(session, fleet);
   const feeds = new FeedsStore(session);
+  const history = new HistoryStore(fleet);
+  const mapLayers = new MapLayersStore();
   const control = new ControlStore(session);
   const scripts = new ScriptsStore(session, control);
   const log = new LogStore(session);
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   // Who reads another store hears after it.
-  session.begin([fleet, layers, control, scripts, log, alarms]);
-  return { session, fleet, layers, feeds, scripts, control, log, alarms, settings };
+  session.begin([fleet, layers, history, control, scripts, log, alarms]);
+  return { session, fleet, layers, history, mapLayers, feeds, scripts, control, log, alarms, settings };
 }
 
 /** The stores of this page, over its own station. */

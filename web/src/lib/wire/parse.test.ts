@@ -1,18 +1,21 @@
 import { describe, expect, it } from 'vitest';
 import { TrailPieces } from '../../layers/trail_pieces';
 import { featuresOf, lonLat, pathFeatures } from '../../layers/features';
+import { arrange, judgeWith } from '../attention';
 import { groupAlarms, knownAlarms } from '../alarms';
 import { commandedByOthers, commonModes, requestsTo, stateOf, stopSummary, summaryOf, titleOf } from '../commands';
 import { detailsOf } from '../details';
 import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from '../fleet';
-import { clock, linkSummary, linkTitle, metres } from '../format';
+import { clock, linkSummary, linkTitle, metres, percent } from '../format';
+import { History, linePath, linkShare, rangeOf } from '../history';
+import { homeDistance, targetOf } from '../intent';
 import { boundsOf, gridLines } from '../../map/geometry';
-import { appendLines, atLeast } from '../log';
+import { appendLines, foldCommands, soughtIn } from '../log';
 import { objectionsTo } from '../plausibility';
 import { parseMessage, parseScripts } from './parse';
 import type { Position, ServerMessage } from '../protocol';
-import { statusOf } from '../status';
-import { progressOf, runningLines } from '../tasks';
+import { statusOf, USUAL_LIMITS } from '../status';
+import { progressOf, runningLines, wordsOf } from '../tasks';
 import { Trails } from '../trails';
 
 const parse = (value: unknown): ServerMessage | undefined => parseMessage(JSON.stringify(value));
@@ -286,13 +289,16 @@ function odd(draw: () => number): unknown {
 class Page {
   fleet: Fleet = new Map();
   trails = new Trails();
+  history = new History();
+  now = 0;
   plans = new Map<string, Position[]>();
   pictures: ReturnType<typeof addPictures> = new Map();
 
   receive(message: ServerMessage): void {
     switch (message.type) {
       case 'vehicles':
-        this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, 1000);
+        this.fleet = mergeUpdates(this.fleet, message.vehicles, message.full, 1000, () => ({ lat_deg: 41, lon_deg: -8, alt_m: 90 }));
+        this.history.note(this.fleet.values(), (this.now += 1000));
         this.trails.grow(this.fleet.values());
         break;
       case 'plan':
@@ -304,9 +310,14 @@ class Page {
       case 'tasks':
         progressOf(message.trees);
         runningLines(message.trees);
+        message.trees.forEach(wordsOf);
         break;
       case 'log':
-        atLeast(appendLines([], message.lines, 0), 'info').forEach(({ time }) => clock(time));
+        soughtIn(foldCommands(appendLines([], message.lines, 0)), {
+          lowest: 'info',
+          words: '',
+          vehicles: [{ id: '1', name: 'copter (1' }],
+        }).forEach(({ first }) => clock(first.time));
         break;
       case 'emergency':
         stopSummary(message);
@@ -315,6 +326,7 @@ class Page {
         for (const command of message.commands)
           void [
             titleOf(command),
+            [...this.fleet.values()].map((vehicle) => targetOf(vehicle, message.commands, this.plans.get(vehicle.id))),
             objectionsTo(command, message.commands, 'x'),
             Object.values(command.allow ?? {}).join(),
             summaryOf(command),
@@ -338,8 +350,21 @@ class Page {
       linkTitle(vehicle.fields.links) ?? '',
       metres(vehicle.fields.relative_alt_m),
       String(groundSpeed(vehicle) ?? ''),
+      percent(linkShare(vehicle)),
+      metres(homeDistance(vehicle)),
+      linePath(
+        this.history.of(vehicle.id).map(({ height_m }) => height_m),
+        300,
+        rangeOf(
+          this.history.of(vehicle.id).map(({ height_m }) => height_m),
+          10,
+        ),
+        100,
+        20,
+      ),
       String(ageOf(vehicle, 'heartbeat', 2000) ?? ''),
     ]);
+    arrange(all, { words: 'copter', grouping: 'kind', order: 'attention' }, judgeWith(false, USUAL_LIMITS));
     commandedByOthers(all, 'operator 1');
     requestsTo(all, 'operator 1');
     commonModes(all);
