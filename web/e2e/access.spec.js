@@ -9,7 +9,7 @@ test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
   const page = await open();
   await row(page, 'copter 1').waitFor();
   const names = [];
-  for (let i = 0; i < 6; ++i) {
+  for (let i = 0; i < 7; ++i) {
     await page.keyboard.press('Tab');
     names.push(
       await page.evaluate(() => (document.activeElement.ariaLabel || document.activeElement.textContent).trim().replace(/\s+/g, ' ')),
@@ -19,7 +19,7 @@ test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
   }
   assert.equal(names[0], 'Skip to the list of vehicles');
   assert.equal(names[1], '■ STOP');
-  assert.deepEqual(names.slice(3, 6), ['Settings', 'Help and keys', 'E-STOP']);
+  assert.deepEqual(names.slice(2, 7), ['Look back', 'Colours: system. Change', 'Settings', 'Help and keys', 'E-STOP']);
   await page.keyboard.press('?');
   await page.getByRole('dialog', { name: 'Help' }).waitFor();
   await page.keyboard.press('Escape');

@@ -87,7 +87,7 @@ const assertPressable = async (page, when) => {
   const faults = await page.evaluate(() => {
     const overlap = (a, b) => a.left < b.right - 0.5 && b.left < a.right - 0.5;
     const boxOf = (element) => element.getBoundingClientRect();
-    const stop = document.querySelector('header .emergency');
+    const stop = document.querySelector('.app > header .emergency');
     const { left, right, top, bottom, width, height } = boxOf(stop);
     const found = [];
     if (left < 0 || right > innerWidth || width < 44 || height < 44) found.push(`at ${left} to ${right}, ${width} x ${height}`);
@@ -98,7 +98,7 @@ const assertPressable = async (page, when) => {
     ]) {
       if (document.elementFromPoint(x, y) !== stop) found.push(`covered at ${x}, ${y}`);
     }
-    const parts = [...document.querySelectorAll('header .phase, header .state, header button')].filter((part) => boxOf(part).width > 0);
+    const parts = [...document.querySelectorAll('.app > header :is(.phase, .state, button)')].filter((part) => boxOf(part).width > 0);
     parts.forEach((a, i) =>
       parts.slice(i + 1).forEach((b) => overlap(boxOf(a), boxOf(b)) && found.push(`${a.className} over ${b.className}`)),
     );

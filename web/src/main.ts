@@ -1,7 +1,7 @@
 import 'maplibre-gl/dist/maplibre-gl.css';
 import './app.css';
 import { mount } from 'svelte';
-import App from './App.svelte';
-import { browserStores, contextOf } from './stores/stores';
+import Root from './Root.svelte';
+import { browserStores } from './stores/stores';
 
-mount(App, { target: document.getElementById('app')!, context: contextOf(browserStores()) });
+mount(Root, { target: document.getElementById('app')!, props: { stores: browserStores() } });

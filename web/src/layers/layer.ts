@@ -7,7 +7,7 @@ import type { StoresToRead } from '../stores/stores';
 
 /** How something looks on the map, in words for Help and for the list of layers. */
 export interface Legend {
-  sign: 'line' | 'dashes' | 'dot' | 'ring' | 'letter' | 'shape' | 'flag' | 'grid';
+  sign: 'line' | 'dashes' | 'dot' | 'ring' | 'letter' | 'shape' | 'flag' | 'grid' | 'area';
   text: string;
 }
 
@@ -37,6 +37,8 @@ export interface Drawing {
 /** What lies at a place on the screen. */
 export interface Hit {
   vehicles: readonly string[];
+  /** Something that was found, where no vehicle is meant. */
+  feature?: { layer: string; id: string };
   at: LonLat;
   /** From the place, in px. */
   distance: number;

@@ -1,3 +1,5 @@
+import type { FeatureCollection } from 'geojson';
+import { addressStyle, baseStyle, PLAIN } from '../map/base_style';
 import { validateStyleMin } from '@maplibre/maplibre-gl-style-spec';
 import { beforeAll, describe, expect, it, vi } from 'vitest';
 import { DARK } from '../map/colours';
@@ -15,10 +17,13 @@ beforeAll(async () => {
   style = mapStyle;
 });
 
+const ground: FeatureCollection = { type: 'FeatureCollection', features: [] };
+const drawing = baseStyle({ id: 'yard', name: 'Yard', attribution: '', kind: 'drawing', url: '/yard' }, ground, true);
+
 describe('the layers of the map', () => {
   it('make a valid style together, with tiles and without', () => {
-    for (const tiles of ['', 'https://tiles.example/{z}/{x}/{y}.png']) {
-      expect(validateStyleMin({ ...style(layers, DARK, tiles), glyphs: 'https://glyphs.example/{fontstack}/{range}.pbf' })).toEqual([]);
+    for (const base of [PLAIN, addressStyle('https://tiles.example/{z}/{x}/{y}.png'), drawing]) {
+      expect(validateStyleMin({ ...style(layers, DARK, base), glyphs: 'https://glyphs.example/{fontstack}/{range}.pbf' })).toEqual([]);
     }
   });
 
@@ -38,12 +43,12 @@ describe('the layers of the map', () => {
   });
 
   it('are as clear as they are wanted, whatever clearness they have by themselves', () => {
-    const all = style(layers, DARK, '', (id) => ({ visible: id !== 'grid', opacity: id === 'plans' ? 0.5 : 1 })).layers;
+    const all = style(layers, DARK, PLAIN, (id) => ({ visible: id !== 'grid', opacity: id === 'plans' ? 0.5 : 1 })).layers;
     const of = (id: string) => all.find((layer) => layer.id === id)!;
     expect(of('grid').layout?.visibility).toBe('none');
     expect(of('plans').paint).toMatchObject({ 'line-opacity': 0.45 });
     expect(of('plan-points').paint).toMatchObject({ 'circle-opacity': 0.425, 'circle-stroke-opacity': 0.5 });
-    const plain = style(layers, DARK, '').layers.find((layer) => layer.id === 'plans')!;
+    const plain = style(layers, DARK, PLAIN).layers.find((layer) => layer.id === 'plans')!;
     expect(plain.paint).toMatchObject({ 'line-opacity': 0.9 });
   });
 

@@ -1,5 +1,11 @@
 import type { Legend, MakeLayer, MapLayer } from './layer';
 import type { StoresToRead } from '../stores/stores';
+import { areas } from './found/areas';
+import { footprints } from './found/footprints';
+import { grids } from './found/grids';
+import { pointsOfInterest } from './found/points_of_interest';
+import { slots } from './found/slots';
+import { walls } from './found/walls';
 import { destinations } from './destinations';
 import { grid } from './grid';
 import { homes } from './homes';
@@ -11,7 +17,23 @@ import { trails } from './trails';
 import { vehicles } from './vehicles';
 
 /** Everything that the map shows, the lowest first. Whoever adds a kind of thing writes its file and names it here. */
-const LAYERS: readonly MakeLayer[] = [grid, plans, trails, pictures, destinations, intents, homes, vehicles, measure];
+const LAYERS: readonly MakeLayer[] = [
+  grid,
+  grids,
+  areas,
+  slots,
+  footprints,
+  walls,
+  plans,
+  trails,
+  pictures,
+  destinations,
+  intents,
+  homes,
+  pointsOfInterest,
+  vehicles,
+  measure,
+];
 
 export function makeLayers(stores: StoresToRead): MapLayer[] {
   return LAYERS.map((make) => make(stores));

@@ -27,6 +27,13 @@ export class Trails {
     return this.trails.entries();
   }
 
+  /** All that is known of where a vehicle has been, instead of what was; its points are new ones for who has drawn others. */
+  replace(id: string, points: readonly Position[]): void {
+    const before = this.trails.get(id);
+    const first = before ? before.first + before.points.length : 0;
+    this.trails.set(id, { first, points: points.slice(-TRAIL_LIMIT) });
+  }
+
   /** Adds where the vehicles are now, and forgets those that are gone; whether anything has changed by it. */
   grow(vehicles: Iterable<Vehicle>): boolean {
     let hasChanged = false;

@@ -1,4 +1,6 @@
+import type { Frame } from '../connection/frame';
 import type { Position, ServerMessage } from '../lib/protocol';
+import { Tracks } from '../lib/tracks';
 import { Trails } from '../lib/trails';
 import type { FleetStore } from './fleet.svelte';
 import type { Receiver, Session } from './session.svelte';
@@ -13,10 +15,14 @@ export class LayersStore implements Receiver {
   /** New only when it is another place: what follows it would be drawn anew at each message. */
   private firstHome = $state.raw<Position | undefined>();
 
+  private readonly tracks = new Tracks();
+
   constructor(
     private readonly session: Session,
     private readonly fleet: FleetStore,
-  ) {}
+  ) {
+    session.follow('map.tracks', (frame) => this.take(frame));
+  }
 
   /** Of the local grid: the site's, else the first home. */
   get origin(): Position | undefined {
@@ -25,11 +31,21 @@ export class LayersStore implements Receiver {
 
   received(message: ServerMessage): void {
     if (message.type === 'vehicles') {
-      if (this.trails.grow(this.fleet.vehicles.values())) this.trailRevision += 1;
+      // In the past vehicles are told of now and then only: where they went in between stands in their tracks.
+      if (this.session.isPast) this.trailRevision += 1;
+      else if (this.trails.grow(this.fleet.vehicles.values())) this.trailRevision += 1;
       this.noteHome();
     } else if (message.type === 'plan') {
       this.plans = new Map(this.plans).set(message.vehicle, message.path);
     }
+  }
+
+  /** What the station knows of where vehicles have been, for who comes later; what follows shows in where they are. */
+  private take(frame: Frame): void {
+    const vehicles = this.tracks.take(frame);
+    if (!frame.whole && !this.session.isPast) return;
+    for (const vehicle of vehicles) this.trails.replace(vehicle, this.tracks.of(vehicle));
+    this.trailRevision += 1;
   }
 
   private noteHome(): void {

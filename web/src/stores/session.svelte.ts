@@ -11,6 +11,8 @@ export interface Network {
   fetch(address: string, init: RequestInit): Promise<Response>;
   readonly token: string | undefined;
   keepToken(token: string): void;
+  /** The clock of what is shown, in ms; this browser's where it says nothing. */
+  now?(): number;
 }
 
 /** A store that hears what the session hears, in the order in which they were given to it. */
@@ -28,8 +30,8 @@ const CLOCK_MS = 500;
 export class Session {
   phase = $state<Phase>('connecting');
   /** This browser's clock in ms, ticking slowly, for ages on the screen. */
-  now = $state(performance.now());
-  lastHeard = $state(performance.now());
+  now = $state(0);
+  lastHeard = $state(0);
   site = $state.raw<Hello['site']>({ name: '' });
   version = $state('');
   /** What this viewer is called as a commander; empty where vehicles cannot be commanded. */
@@ -48,6 +50,7 @@ export class Session {
   private asking = new AbortController();
 
   constructor(private readonly network: Network) {
+    this.now = this.lastHeard = this.clockNow();
     this.token = network.token;
     this.connection = new Connection(() => network.open(this.token), {
       opened: () => {},
@@ -84,6 +87,11 @@ export class Session {
   /** What is shown is old. */
   get isLost(): boolean {
     return this.phase === 'lost' || this.phase === 'locked';
+  }
+
+  /** What is shown was long ago. */
+  get isPast(): boolean {
+    return this.network.now !== undefined;
   }
 
   get hasToken(): boolean {
@@ -130,13 +138,17 @@ export class Session {
     }
   }
 
+  private clockNow(): number {
+    return this.network.now?.() ?? performance.now();
+  }
+
   private tick(): void {
-    this.now = performance.now();
+    this.now = this.clockNow();
     for (const receiver of this.receivers) receiver.ticked?.(this.now);
   }
 
   private receive(message: ServerMessage, feed: string | undefined): void {
-    const now = performance.now();
+    const now = this.clockNow();
     this.lastHeard = now;
     if (message.type === 'hello') this.greet(message);
     if (message.type === 'vehicles') this.clockOffset_s = message.time_s - now / 1000;

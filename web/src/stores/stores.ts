@@ -1,10 +1,12 @@
-import { getContext } from 'svelte';
+import { getContext, setContext } from 'svelte';
 import type { Socket } from '../connection/connection';
 import { BrowserVoices, type Voices } from '../lib/announcer';
 import { rememberToken, socketUrl, takeToken } from '../connection/token';
 import { AlarmsStore } from './alarms.svelte';
+import { BaseMapsStore } from './base_maps.svelte';
 import { ControlStore } from './control.svelte';
 import { FeedsStore } from './feeds.svelte';
+import { FloorsStore } from './floors.svelte';
 import { FleetStore } from './fleet.svelte';
 import { HistoryStore } from './history.svelte';
 import { LayersStore } from './layers.svelte';
@@ -22,6 +24,8 @@ export interface Stores {
   history: HistoryStore;
   mapLayers: MapLayersStore;
   feeds: FeedsStore;
+  floors: FloorsStore;
+  baseMaps: BaseMapsStore;
   scripts: ScriptsStore;
   control: ControlStore;
   log: LogStore;
@@ -40,6 +44,8 @@ export function createStores(network: Network, voices: Voices): Stores {
   const fleet = new FleetStore(session);
   const layers = new LayersStore(session, fleet);
   const feeds = new FeedsStore(session);
+  const floors = new FloorsStore(feeds);
+  const baseMaps = new BaseMapsStore(session);
   const history = new HistoryStore(fleet);
   const mapLayers = new MapLayersStore();
   const control = new ControlStore(session);
@@ -47,8 +53,8 @@ export function createStores(network: Network, voices: Voices): Stores {
   const log = new LogStore(session);
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   // Who reads another store hears after it.
-  session.begin([fleet, layers, history, control, scripts, log, alarms]);
-  return { session, fleet, layers, history, mapLayers, feeds, scripts, control, log, alarms, settings };
+  session.begin([fleet, layers, history, control, scripts, log, alarms, baseMaps]);
+  return { session, fleet, layers, history, mapLayers, feeds, floors, baseMaps, scripts, control, log, alarms, settings };
 }
 
 /** The stores of this page, over its own station. */
@@ -72,6 +78,11 @@ function browserNetwork(): Network {
 /** For `mount`, and for `render` of tests. */
 export function contextOf(stores: Stores): Map<string, Stores> {
   return new Map([[KEY, stores]]);
+}
+
+/** To the components below. */
+export function provide(stores: Stores): void {
+  setContext(KEY, stores);
 }
 
 export function useStores(): StoresToRead {
