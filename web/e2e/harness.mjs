@@ -53,7 +53,10 @@ export async function startFleet(vehicles, speedup = 5) {
   const program = path.join(build, 'bin', 'lapwing');
   const link = `127.0.0.1:${await freeUdpPort()}`;
   const start = (...words) =>
-    spawn(program, words, { env: { ...process.env, LAPWING_HOME: path.dirname(web), XDG_DATA_HOME: dataHome() }, stdio: ['ignore', 'ignore', 'pipe'] });
+    spawn(program, words, {
+      env: { ...process.env, LAPWING_HOME: path.dirname(web), XDG_DATA_HOME: dataHome() },
+      stdio: ['ignore', 'ignore', 'pipe'],
+    });
   const [station, sim] = [
     start('station', '--link', `udpin://${link}`, '--port', '0'),
     start('sim', '--vehicles', vehicles, '--home', '47.3977,8.5456,488', '--speedup', String(speedup), '--out', `udpout://${link}`),
