@@ -1,6 +1,6 @@
 import { groundSpeed, type Vehicle } from '../lib/fleet';
 import { metres } from '../lib/format';
-import { homeDistance, targetOf, targetText } from '../lib/intent';
+import { homeDistance, targetOf, targetText } from '../lib/places/intent';
 import type { LonLat } from '../map/geometry';
 import type { Paper } from '../map/overlay';
 import { lonLat } from './features';

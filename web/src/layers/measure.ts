@@ -1,5 +1,5 @@
 import { metres } from '../lib/format';
-import { distanceBetween } from '../lib/intent';
+import { distanceBetween } from '../lib/places/intent';
 import type { Position } from '../lib/protocol';
 import { featuresOf, lonLat, type Mark } from './features';
 import { BOLD, EMPTY, type MakeLayer } from './layer';

@@ -1,7 +1,7 @@
 import type { Feature, LineString } from 'geojson';
 import type { GeoJSONSourceDiff } from 'maplibre-gl';
 import { describe, expect, it } from 'vitest';
-import { Trails } from '../lib/trails';
+import { Trails } from '../lib/places/trails';
 import { TrailPieces } from './trail_pieces';
 
 const colour = (): string => 'red';

@@ -1,5 +1,5 @@
 import type { GeoJSONSourceDiff } from 'maplibre-gl';
-import type { Trail } from '../lib/trails';
+import type { Trail } from '../lib/places/trails';
 import type { LonLat } from '../map/geometry';
 import { featureOf, lonLat, type Mark } from './features';
 

@@ -1,6 +1,6 @@
 import { FAMILY_WORDS } from '../map/shapes';
 import type { Picture, VehicleFields, VehicleUpdate } from './protocol';
-import { placedBySite, type AnchorOf } from './sites';
+import { placedBySite, type AnchorOf } from './places/sites';
 
 /** One vehicle as this browser knows it. `heardAt` is in ms of this browser's own clock, so ages need no common one. */
 export interface Vehicle {

@@ -1,4 +1,4 @@
-import { History, type Sample } from '../lib/history';
+import { History, type Sample } from '../lib/places/history';
 import type { FleetStore } from './fleet.svelte';
 import type { Receiver } from './session.svelte';
 

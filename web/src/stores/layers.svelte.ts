@@ -1,7 +1,7 @@
 import type { Frame } from '../connection/frame';
 import type { Position, ServerMessage } from '../lib/protocol';
-import { Tracks } from '../lib/tracks';
-import { Trails } from '../lib/trails';
+import { Tracks } from '../lib/places/tracks';
+import { Trails } from '../lib/places/trails';
 import type { FleetStore } from './fleet.svelte';
 import type { Receiver, Session } from './session.svelte';
 

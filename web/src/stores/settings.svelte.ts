@@ -1,4 +1,4 @@
-import { COORDINATE_FORMS, type CoordinateForm } from '../lib/coordinates';
+import { COORDINATE_FORMS, type CoordinateForm } from '../lib/places/coordinates';
 import type { Grouping, Order } from '../lib/attention';
 
 export type Theme = 'system' | 'light' | 'dark';

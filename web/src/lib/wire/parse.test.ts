@@ -7,8 +7,8 @@ import { commandedByOthers, commonModes, requestsTo, stateOf, stopSummary, summa
 import { detailsOf } from '../details';
 import { addPictures, ageOf, groundSpeed, mergeUpdates, type Fleet } from '../fleet';
 import { clock, linkSummary, linkTitle, metres, percent } from '../format';
-import { History, linePath, linkShare, rangeOf } from '../history';
-import { homeDistance, targetOf } from '../intent';
+import { History, linePath, linkShare, rangeOf } from '../places/history';
+import { homeDistance, targetOf } from '../places/intent';
 import { boundsOf, gridLines } from '../../map/geometry';
 import { appendLines, foldCommands, soughtIn } from '../log';
 import { objectionsTo } from '../plausibility';
@@ -16,7 +16,7 @@ import { parseMessage, parseScripts } from './parse';
 import type { Position, ServerMessage } from '../protocol';
 import { statusOf, USUAL_LIMITS } from '../status';
 import { progressOf, runningLines, wordsOf } from '../tasks';
-import { Trails } from '../trails';
+import { Trails } from '../places/trails';
 
 const parse = (value: unknown): ServerMessage | undefined => parseMessage(JSON.stringify(value));
 const vehicles = (...updates: unknown[]) => {

@@ -1,5 +1,5 @@
-import type { VehicleFields } from './wire/vehicle_fields';
-import type { Position, SitePose } from './protocol';
+import type { VehicleFields } from '../wire/vehicle_fields';
+import type { Position, SitePose } from '../protocol';
 
 const METRES_PER_DEGREE = 111_319.49;
 

@@ -1,6 +1,6 @@
 import { forward } from 'mgrs';
 import { fromLatLon } from 'utm';
-import { latitude, longitude } from './format';
+import { latitude, longitude } from '../format';
 
 /** How places are told, by choice. */
 export type CoordinateForm = 'WGS84' | 'UTM' | 'MGRS';

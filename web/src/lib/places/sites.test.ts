@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { mergeUpdates } from './fleet';
+import { mergeUpdates } from '../fleet';
 import { headingOf, siteToMap } from './sites';
 
 const anchor = { lat_deg: 41, lon_deg: -8, alt_m: 100 };

@@ -1,7 +1,7 @@
-import { destinationsOf } from './commands';
-import { groundSpeed, type Vehicle } from './fleet';
-import { metres, span } from './format';
-import type { Command, Position } from './protocol';
+import { destinationsOf } from '../commands';
+import { groundSpeed, type Vehicle } from '../fleet';
+import { metres, span } from '../format';
+import type { Command, Position } from '../protocol';
 
 /** Where a vehicle is bound for now, as far as it or a command tells. */
 export interface Target {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import type { Vehicle } from './fleet';
+import type { Vehicle } from '../fleet';
 import { History, HISTORY_S, linePath, linkShare, rangeOf } from './history';
 
 const vehicle = (id: string, fields: Vehicle['fields'] = {}): Vehicle => ({ id, fields, heardAt: {} });

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import type { Vehicle } from './fleet';
+import type { Vehicle } from '../fleet';
 import { TRAIL_LIMIT, Trails } from './trails';
 
 const at = (id: string, lat_deg: number, lon_deg = 0): Vehicle => ({

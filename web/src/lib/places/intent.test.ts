@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import type { Vehicle } from './fleet';
+import type { Vehicle } from '../fleet';
 import { homeDistance, targetOf, targetText } from './intent';
-import type { Command, Position } from './protocol';
+import type { Command, Position } from '../protocol';
 
 const DEGREE = 111_319.49;
 const at = (north: number, east: number, alt_m = 100): Position => ({ lat_deg: north / DEGREE, lon_deg: east / DEGREE, alt_m });

@@ -1,5 +1,5 @@
-import type { Vehicle } from './fleet';
-import type { Position } from './protocol';
+import type { Vehicle } from '../fleet';
+import type { Position } from '../protocol';
 
 /** A vehicle keeps so many points of where it has been, and now and then some more. */
 export const TRAIL_LIMIT = 1500;

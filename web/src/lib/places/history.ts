@@ -1,4 +1,4 @@
-import { groundSpeed, type Vehicle } from './fleet';
+import { groundSpeed, type Vehicle } from '../fleet';
 
 /** What charts show of a vehicle, each as it was in one second; `undefined` while nobody knew. */
 export interface Sample {

@@ -1,5 +1,5 @@
-import type { Frame } from '../connection/frame';
-import type { Position } from './protocol';
+import type { Frame } from '../../connection/frame';
+import type { Position } from '../protocol';
 
 interface Leg {
   vehicle: string;
