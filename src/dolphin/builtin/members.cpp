@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "dolphin/builtin/method_lists.hpp"
+#include "dolphin/builtin/method_call.hpp"
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
 #include "dolphin/syntax/limits.hpp"
@@ -22,45 +22,6 @@ namespace {
 
 std::unexpected<Fault> no_member(Value const& object, std::string_view name) {
   return fault(fmt::format("{} has no property {}", kind_name(object), name), "MissingPropertyException");
-}
-
-Checked<Value> position_member(Heap& /*heap*/, geo::Wgs84 const& place, Value const& object, std::string_view name) {
-  if (name == "lat") return Value::real(place.lat_deg());
-  if (name == "lon") return Value::real(place.lon_deg());
-  if (name == "hae" || name == "height") return Value::real(place.alt_m);
-  return no_member(object, name);
-}
-
-Checked<Value> displacement_member(geo::Ned const& offset, Value const& object, std::string_view name) {
-  if (name == "north") return Value::real(offset.north);
-  if (name == "east") return Value::real(offset.east);
-  if (name == "down") return Value::real(offset.down);
-  return no_member(object, name);
-}
-
-Checked<Value> area_member(Heap& heap, geo::Disc const& disc, Value const& object, std::string_view name) {
-  if (name == "center") return Value(heap.make<Position>(disc.center));
-  if (name == "radius") return Value::real(disc.radius_m);
-  return no_member(object, name);
-}
-
-Checked<Value> vehicle_member(Runtime& runtime, tasks::VehicleId const& id, Value const& object,
-                              std::string_view name) {
-  auto& heap = runtime.heap;
-  auto const info = runtime.platform.find(id);
-  if (name == "id" || name == "name") return Value(heap.make<Text>(id.text));
-  if (!info) return fault(fmt::format("vehicle {} is not known any more", id.text), "IllegalStateException");
-  if (name == "type") return Value(heap.make<Text>(info->type));
-  if (name == "connected") return Value::boolean(info->connected);
-  if (name == "connectionTimeout") return Value::real(base::to_seconds(info->connection_timeout));
-  if (name == "battery") return Value::real(info->battery.value_or(std::numeric_limits<double>::quiet_NaN()));
-  if (name == "position") return info->position ? Value(heap.make<Position>(*info->position)) : Value();
-  if (name == "payload") {
-    auto names = heap.make<List>();
-    for (auto const& payload : info->payload) names->push(heap.make<Text>(payload));
-    return Value(names);
-  }
-  return no_member(object, name);
 }
 
 Checked<Value> error_member(Heap& heap, ErrorData const& error, Value const& object, std::string_view name) {
@@ -197,8 +158,8 @@ Checked<Value> member(Runtime& runtime, Value const& object, std::string_view na
   if (object.is_number()) {
     if (auto result = with_unit(object, name)) return *result;
   }
-  if (name == "class" && !object.is(ValueKind::map) && !object.is(ValueKind::error) && !object.is(ValueKind::type)) {
-    return type_of(heap, object);
+  if (!object.is(ValueKind::map)) {  // a map has its keys and nothing else
+    if (auto result = property(runtime, object, name)) return *result;
   }
   switch (object.kind()) {
     case ValueKind::null: return fault(fmt::format("cannot read {} of null", name), "NullPointerException");
@@ -217,13 +178,6 @@ Checked<Value> member(Runtime& runtime, Value const& object, std::string_view na
       for (auto const& id : object.as<Vehicles>()->ids) members->push(heap.make<Vehicle>(id));
       return Spread(runtime, name).of(*members);
     }
-    case ValueKind::vehicle: return vehicle_member(runtime, object.as<Vehicle>()->value, object, name);
-    case ValueKind::position: return position_member(heap, object.as<Position>()->value, object, name);
-    case ValueKind::displacement: return displacement_member(object.as<Displacement>()->value, object, name);
-    case ValueKind::area: return area_member(heap, object.as<Area>()->value, object, name);
-    case ValueKind::task:
-      if (name == "id" || name == "name") return Value(heap.make<Text>(tasks::name(object.as<TaskValue>()->value)));
-      return no_member(object, name);
     case ValueKind::error: return error_member(heap, object.as<Error>()->value, object, name);
     case ValueKind::outcome: return outcome_member(heap, object.as<ExecuteOutcome>()->value, object, name);
     case ValueKind::type: return type_member(heap, object.as<TypeValue>()->value, object, name);

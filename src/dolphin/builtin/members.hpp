@@ -15,6 +15,9 @@ namespace lapwing::dolphin {
 [[nodiscard]] std::optional<Checked<Value>> call_method(Runtime& runtime, Value const& object, std::string_view name,
                                                         Arguments arguments);
 
+/// A property of the table of methods; nothing when values of this kind have none of that name.
+[[nodiscard]] std::optional<Checked<Value>> property(Runtime& runtime, Value const& object, std::string_view name);
+
 /// The type of the value, as `getClass()` and, but for maps, `class` give it.
 [[nodiscard]] Value type_of(Heap& heap, Value const& value);
 

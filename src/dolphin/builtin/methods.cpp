@@ -1,18 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cctype>
+#include <unordered_map>
 
+#include "dolphin/builtin/internal/method_rows.hpp"
 #include "dolphin/builtin/members.hpp"
-#include "dolphin/builtin/method_lists.hpp"
 #include "dolphin/machine/runtime.hpp"
-#include "dolphin/value/equality.hpp"
-#include "dolphin/value/operators.hpp"
 
-/// Methods of vehicles, places, numbers and all values; who has a method of that name at all.
+/// The table of methods as one, and how a call finds its row.
 namespace lapwing::dolphin {
-
-namespace internal {
 
 Checked<std::int64_t> MethodCall::integer_argument(std::size_t index) const {
   auto const& given = arguments[index];
@@ -20,145 +18,46 @@ Checked<std::int64_t> MethodCall::integer_argument(std::size_t index) const {
   return fault(fmt::format("{} takes an integer, not {}", name, kind_name(given)), "IllegalArgumentException");
 }
 
-}  // namespace internal
-
 namespace {
 
-using internal::MethodResult;
-using Call = internal::MethodCall;
+/// What a script can write comes first, then what the prelude alone calls.
+struct Table {
+  struct Row {
+    MethodSpec const* method;
+    ArgumentCount takes;
+  };
+  std::vector<MethodSpec> methods;
+  std::size_t words = 0;
+  std::unordered_map<std::string_view, std::vector<Row>> index;
 
-Checked<Value> membership(Value const& container, Value const& item) {
-  auto const holds = contains(container, item);
-  if (!holds) return std::unexpected(holds.error());
-  return Value::boolean(*holds);
+  Table() {
+    using namespace internal;
+    for (auto const part : {walking_methods(), list_methods(), text_methods(), number_methods(), other_methods()})
+      methods.insert(methods.end(), part.begin(), part.end());
+    words = methods.size();
+    auto const helpers = prelude_methods();
+    methods.insert(methods.end(), helpers.begin(), helpers.end());
+    for (auto const& one : methods) {
+      if (one.call) index[one.name].push_back({&one, argument_count(one)});
+    }
+  }
+};
+
+Table const& table() {
+  static Table const the_table;
+  return the_table;
 }
 
-/// A part of the set in its order: a set again.
-MethodResult part_of_set(Call const& call, Vehicles const& set, List& members) {
-  auto const part = internal::list_method(call, members);
-  if (!part || !*part) return part;
-  std::vector<vehicle::VehicleId> ids;
-  for (auto const& item : (*part)->as<List>()->items) ids.push_back(item.as<Vehicle>()->value);
-  return Value(set.heap().make<Vehicles>(std::move(ids)));
-}
-
-MethodResult vehicles_method(Call const& call, Vehicles& set) {
-  auto& heap = call.heap;
-  auto members = heap.make<List>();
-  for (auto const& id : set.ids) members->push(heap.make<Vehicle>(id));
-  if (call.is("contains", 1)) return membership(Value(&set), call.arguments[0]);
-  if (call.is("emptyLike", 0)) return Value(heap.make<Vehicles>(std::vector<vehicle::VehicleId>{}));
-  if (call.is("with", 1) && call.arguments[0].is(ValueKind::vehicle)) {
-    auto ids = set.ids;
-    ids.push_back(call.arguments[0].as<Vehicle>()->value);
-    return Value(heap.make<Vehicles>(std::move(ids)));
-  }
-  for (auto const* word : {"take", "drop", "tail", "init", "reverse"}) {
-    if (call.name == word) return part_of_set(call, set, *members);
-  }
-  for (auto const* word : {"size", "isEmpty", "join", "first", "last", "get", "toList", "indexOf"}) {
-    if (call.name == word) return internal::list_method(call, *members);
-  }
-  return std::nullopt;
-}
-
-MethodResult position_method(Call const& call, geo::Wgs84 const& place) {
-  auto const* other = call.arguments.empty() ? nullptr : call.arguments[0].as<Position>();
-  if (call.is("distanceTo", 1) && other) return Value::real(geo::distance_m(place, other->value));
-  if (call.is("near", 2) && other && call.arguments[1].is_number()) {
-    return Value::boolean(geo::distance_m(place, other->value) <= call.arguments[1].number());
+MethodResult looked_up(Runtime& runtime, Value const& object, std::string_view name, Arguments arguments,
+                       bool is_property) {
+  auto const found = table().index.find(name);
+  if (found == table().index.end()) return std::nullopt;
+  MethodCall const call{runtime, runtime.heap, runtime.patterns, name, arguments};
+  for (auto const& [method, takes] : found->second) {
+    if (method->is_property != is_property || !takes.allows(arguments.size())) continue;
+    if (auto result = method->call(call, object)) return result;
   }
   return std::nullopt;
-}
-
-Checked<Value> integer_of(Value const& number, double rounded) {
-  if (number.is(ValueKind::integer)) return number;
-  if (!(std::fabs(rounded) < 9.2e18)) return fault(to_text(number) + " is no integer", "ArithmeticException");
-  return Value::integer(static_cast<std::int64_t>(rounded));
-}
-
-/// `x.round()` is an integer, `x.round(2)` has two decimal places.
-Checked<Value> rounded(Call const& call, Value const& number) {
-  if (call.arguments.empty()) return integer_of(number, std::floor(number.number() + 0.5));
-  auto const places = call.integer_argument();
-  if (!places) return std::unexpected(places.error());
-  if (*places < 0 || *places > 15) return fault("round takes 0 to 15 decimal places", "IllegalArgumentException");
-  double const scale = std::pow(10.0, static_cast<double>(*places));
-  return Value::real(std::floor(number.number() * scale + 0.5) / scale);
-}
-
-Checked<Value> divided(Value const& number, Value const& by) {
-  if (!number.is(ValueKind::integer) || !by.is(ValueKind::integer)) {
-    return fault(fmt::format("intdiv divides integers, not {} by {}", kind_name(number), kind_name(by)),
-                 "MissingMethodException");
-  }
-  if (by.integer() == 0) return fault("division by zero", "ArithmeticException");
-  if (by.integer() == -1) return negate(number);
-  return Value::integer(number.integer() / by.integer());
-}
-
-MethodResult number_method(Call const& call, Value const& number) {
-  if (call.is("intdiv", 1)) return divided(number, call.arguments[0]);
-  if (call.is("abs", 0)) {
-    if (number.is(ValueKind::real)) return Value::real(std::fabs(number.real()));
-    return number.integer() < 0 ? negate(number) : Checked<Value>(number);
-  }
-  if (call.is("toInteger", 0) || call.is("toLong", 0) || call.is("intValue", 0) || call.is("longValue", 0)) {
-    return integer_of(number, std::trunc(number.number()));
-  }
-  if (call.is("toDouble", 0) || call.is("toFloat", 0) || call.is("doubleValue", 0)) {
-    return Value::real(number.number());
-  }
-  if (call.is("isNaN", 0)) return Value::boolean(number.is(ValueKind::real) && std::isnan(number.real()));
-  if (call.is("isInfinite", 0)) return Value::boolean(number.is(ValueKind::real) && std::isinf(number.real()));
-  if (call.is("round", 0) || call.is("round", 1)) return rounded(call, number);
-  return std::nullopt;
-}
-
-/// The operators by their names: `a.plus(b)`.
-std::optional<ast::BinaryOp> operator_of(std::string_view name) {
-  using enum ast::BinaryOp;
-  if (name == "plus") return add;
-  if (name == "minus") return subtract;
-  if (name == "multiply") return multiply;
-  if (name == "div") return divide;
-  if (name == "mod") return remainder;
-  if (name == "power") return power;
-  return std::nullopt;
-}
-
-MethodResult common_method(Call const& call, Value const& object) {
-  if (call.is("toString", 0)) return call.text(to_text(object));
-  if (call.is("getClass", 0)) return type_of(call.heap, object);
-  if (call.is("equals", 1)) return Value::boolean(equal(object, call.arguments[0]));
-  if (call.is("compareTo", 1)) {
-    auto const order = compare(object, call.arguments[0]);
-    if (!order) return std::unexpected(order.error());
-    return Value::integer(*order < 0 ? -1 : *order > 0 ? 1 : 0);
-  }
-  auto const operation = call.arguments.size() == 1 ? operator_of(call.name) : std::nullopt;
-  if (operation) return apply(call.heap, *operation, object, call.arguments[0], {});
-  return std::nullopt;
-}
-
-MethodResult kind_method(Call const& call, Value const& object) {
-  switch (object.kind()) {
-    case ValueKind::integer:
-    case ValueKind::real: return number_method(call, object);
-    case ValueKind::text: return internal::text_method(call, object.as<Text>()->text);
-    case ValueKind::list: return internal::list_method(call, *object.as<List>());
-    case ValueKind::map: return internal::map_method(call, *object.as<Map>());
-    case ValueKind::range: return internal::range_method(call, *object.as<Range>());
-    case ValueKind::vehicles: return vehicles_method(call, *object.as<Vehicles>());
-    case ValueKind::position: return position_method(call, object.as<Position>()->value);
-    case ValueKind::area:
-      if (!call.is("contains", 1)) return std::nullopt;
-      return membership(object, call.arguments[0]);
-    case ValueKind::closure:
-      if (!call.is("parameterCount", 0)) return std::nullopt;
-      return Value::integer(object.as<Closure>()->function->parameters);
-    default: return std::nullopt;
-  }
 }
 
 bool is_getter(std::string_view name) {
@@ -167,18 +66,21 @@ bool is_getter(std::string_view name) {
 
 }  // namespace
 
-std::optional<Checked<Value>> call_method(Runtime& runtime, Value const& object, std::string_view name,
-                                          Arguments arguments) {
-  Call const call{runtime.heap, runtime.patterns, name, arguments};
-  if (auto result = kind_method(call, object)) return result;
-  if (auto result = common_method(call, object)) return result;
+std::span<MethodSpec const> methods() {
+  return std::span(table().methods).first(table().words);
+}
+
+MethodResult property(Runtime& runtime, Value const& object, std::string_view name) {
+  return looked_up(runtime, object, name, {}, true);
+}
+
+MethodResult call_method(Runtime& runtime, Value const& object, std::string_view name, Arguments arguments) {
+  if (auto result = looked_up(runtime, object, name, arguments, false)) return result;
   // A map has what was put into it and nothing that getters could get.
-  if (is_getter(name) && arguments.empty() && !object.is(ValueKind::map)) {
-    std::string property(name.substr(3));
-    property[0] = static_cast<char>(std::tolower(property[0]));
-    return member(runtime, object, property);
-  }
-  return std::nullopt;
+  if (!is_getter(name) || !arguments.empty() || object.is(ValueKind::map)) return std::nullopt;
+  std::string getter(name.substr(3));
+  getter[0] = static_cast<char>(std::tolower(getter[0]));
+  return member(runtime, object, getter);
 }
 
 }  // namespace lapwing::dolphin

@@ -204,6 +204,24 @@ TEST(Methods, AreThoseOfTheTable) {
   }
 }
 
+/// By a function, or in the language itself; closures are called by the machine.
+TEST(Methods, AreAllCarriedOut) {
+  for (auto const& method : methods()) {
+    EXPECT_FALSE(method.doc.empty()) << method.name;
+    EXPECT_TRUE(method.call || (!method.is_property && !method.source.empty()) || method.name == "call") << method.name;
+  }
+}
+
+TEST(Properties, AreThoseOfTheTable) {
+  EXPECT_EQ(value_of("[location(41, -8, 90).height, (moveDistance { east 5 }).east, (location(41, -8) ^ 50).radius]"),
+            "[90.0, 5.0, 50.0]");
+  EXPECT_EQ(printed("v = pick {}\nprint v.id + v.name + v.type + v[0].connected + v[0].class.simpleName"),
+            "[a1, a1, UAV, true, Vehicle]");
+  EXPECT_EQ(value_of("[idle(1).name == idle(1).id, [].class.simpleName, [a: 1].class]"), "[true, List, null]");
+  expect_fault("[location(41, -8)][0].radius", "a position has no property radius");
+  expect_fault("[null][0].lat", "cannot read lat of null");
+}
+
 TEST(Patterns, AreFoundInTexts) {
   EXPECT_EQ(value_of("'uav7 ugv8' =~ /\\d/"), "[7, 8]");
   EXPECT_EQ(value_of("('uav7 ugv8' =~ /(u.v)(\\d)/)[1][2]"), "8");

@@ -1,7 +1,7 @@
 #include <string>
 #include <utility>
 
-#include "dolphin/builtin/method_lists.hpp"
+#include "dolphin/builtin/internal/method_rows.hpp"
 #include "dolphin/value/patterns.hpp"
 
 /// Methods of texts that take a pattern.
@@ -10,7 +10,7 @@ namespace lapwing::dolphin::internal {
 namespace {
 
 /// The parts between the matches; as in Java, what is empty at the end is left out.
-Checked<Value> split_by(MethodCall const& call, std::string_view text, RegularExpression const& by) {
+Checked<Value> split_by(Call call, std::string_view text, RegularExpression const& by) {
   auto const matches = matches_in(by, text);
   if (!matches) return std::unexpected(matches.error());
   std::vector<Value> parts;
@@ -26,7 +26,7 @@ Checked<Value> split_by(MethodCall const& call, std::string_view text, RegularEx
 }
 
 /// For `replaceAll` with a closure, which the prelude calls: what stands before a match, the match, and so on.
-Checked<Value> cut_by(MethodCall const& call, std::string_view text, RegularExpression const& by) {
+Checked<Value> cut_by(Call call, std::string_view text, RegularExpression const& by) {
   auto const matches = matches_in(by, text);
   if (!matches) return std::unexpected(matches.error());
   std::vector<Value> pieces;
@@ -40,45 +40,82 @@ Checked<Value> cut_by(MethodCall const& call, std::string_view text, RegularExpr
   return call.list(std::move(pieces));
 }
 
-Checked<Value> with_pattern(MethodCall const& call, std::string const& text, RegularExpression const& pattern) {
-  if (call.name == "matches") return Value::boolean(pattern.matches(text));
-  if (call.name == "contains") return Value::boolean(pattern.occurs_in(text));
-  if (call.name == "split") return split_by(call, text, pattern);
-  if (call.name == "cutBy") return cut_by(call, text, pattern);
-  if (call.name == "replaceAll" || call.name == "replaceFirst") {
-    return replaced(call.heap, pattern, text, call.text_argument(1), call.name == "replaceFirst");
-  }
-  if (call.name == "find") {
-    auto const match = pattern.find(text, 0);
-    return match ? call.text(std::string(*match->groups.front())) : Value();
-  }
-  auto const matches = matches_in(pattern, text);
-  if (!matches) return std::unexpected(matches.error());
-  if (call.name == "count") return Value::integer(static_cast<std::int64_t>(matches->size()));
+Value is_match(Call /*call*/, std::string_view text, RegularExpression const& pattern) {
+  return Value::boolean(pattern.matches(text));
+}
+
+Value has_match(Call /*call*/, std::string_view text, RegularExpression const& pattern) {
+  return Value::boolean(pattern.occurs_in(text));
+}
+
+Value first_in(Call call, std::string_view text, RegularExpression const& pattern) {
+  auto const match = pattern.find(text, 0);
+  return match ? call.text(std::string(*match->groups.front())) : Value();
+}
+
+Checked<Value> all_in(Call call, std::string_view text, RegularExpression const& pattern) {
+  auto const found = matches_in(pattern, text);
+  if (!found) return std::unexpected(found.error());
   std::vector<Value> all;
-  for (auto const& match : *matches) all.push_back(call.text(std::string(*match.groups.front())));
+  for (auto const& match : *found) all.push_back(call.text(std::string(*match.groups.front())));
   return call.list(std::move(all));
+}
+
+Checked<Value> count_in(Call /*call*/, std::string_view text, RegularExpression const& pattern) {
+  auto const found = matches_in(pattern, text);
+  if (!found) return std::unexpected(found.error());
+  return Value::integer(static_cast<std::int64_t>(found->size()));
+}
+
+Checked<Value> replaced_in(Call call, std::string_view text, RegularExpression const& pattern) {
+  return replaced(call.heap, pattern, text, call.text_argument(1), call.name == "replaceFirst");
+}
+
+/// Calls the function when the first argument is a pattern, or a text that may be read as one.
+template <auto function>
+MethodResult with_pattern(Call call, Text const& text, bool reads_text) {
+  auto const& given = call.arguments[0];
+  if (!given.is(ValueKind::pattern) && !(reads_text && given.is(ValueKind::text))) return std::nullopt;
+  auto const pattern = call.patterns.of(given);
+  if (!pattern) return std::unexpected(pattern.error());
+  return function(call, text.text, **pattern);
 }
 
 }  // namespace
 
-MethodResult pattern_method(MethodCall const& call, std::string const& text) {
+MethodResult matches(Call call, Text const& text) {
+  return with_pattern<is_match>(call, text, true);
+}
+
+MethodResult first_match(Call call, Text const& text) {
+  return with_pattern<first_in>(call, text, true);
+}
+
+MethodResult all_matches(Call call, Text const& text) {
+  return with_pattern<all_in>(call, text, true);
+}
+
+MethodResult replaced_matches(Call call, Text const& text) {
+  if (call.arguments[1].is(ValueKind::closure)) return std::nullopt;  // the prelude's
+  return with_pattern<replaced_in>(call, text, true);
+}
+
+MethodResult cut_by_matches(Call call, Text const& text) {
+  return with_pattern<cut_by>(call, text, true);
+}
+
+MethodResult contains_match(Call call, Text const& text) {
+  return with_pattern<has_match>(call, text, false);
+}
+
+MethodResult count_matches(Call call, Text const& text) {
+  return with_pattern<count_in>(call, text, false);
+}
+
+/// Without a separator it is split at blanks.
+MethodResult split_by_matches(Call call, Text const& text) {
   if (call.arguments.empty()) return std::nullopt;
-  bool const has_pattern = call.arguments[0].is(ValueKind::pattern);
-  bool const has_text = call.arguments[0].is(ValueKind::text);
-  if (!has_pattern && !has_text) return std::nullopt;
-  bool const replaces =
-      (call.is("replaceAll", 2) || call.is("replaceFirst", 2)) && !call.arguments[1].is(ValueKind::closure);
-  bool const reads_text =
-      replaces || call.is("matches", 1) || call.is("find", 1) || call.is("findAll", 1) || call.is("cutBy", 1);
-  bool const takes_pattern = has_pattern && (call.is("split", 1) || call.is("contains", 1) || call.is("count", 1));
-  if (has_pattern && call.is("replace", 2)) {
-    return fault("replace takes a text; replaceAll takes a pattern", "IllegalArgumentException");
-  }
-  if (!reads_text && !takes_pattern) return std::nullopt;
-  auto const pattern = call.patterns.of(call.arguments[0]);
-  if (!pattern) return std::unexpected(pattern.error());
-  return with_pattern(call, text, **pattern);
+  return with_pattern<split_by>(call, text, false);
 }
 
 }  // namespace lapwing::dolphin::internal

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <ranges>
 
-#include "dolphin/builtin/method_lists.hpp"
+#include "dolphin/builtin/internal/method_rows.hpp"
 #include "dolphin/syntax/code_points.hpp"
 #include "dolphin/syntax/limits.hpp"
 
@@ -32,8 +34,10 @@ std::string replaced(std::string_view text, std::string const& old, std::string 
   }
 }
 
+// ---- taken apart
+
 /// As in Java: what is empty at the end is left out.
-Value split(MethodCall const& call, std::string_view text, std::string_view by) {
+Value split_by(Call call, std::string_view text, std::string_view by) {
   std::vector<Value> parts;
   for (std::size_t at = 0;;) {
     auto const next = by.empty() ? std::string_view::npos : find_text(text, by, at);
@@ -46,7 +50,7 @@ Value split(MethodCall const& call, std::string_view text, std::string_view by) 
 }
 
 /// Words between any of `separators`, none of them empty.
-Value tokenized(MethodCall const& call, std::string_view text, std::string_view separators) {
+Value words_of(Call call, std::string_view text, std::string_view separators) {
   std::vector<Value> parts;
   while (true) {
     auto const begin = text.find_first_not_of(separators);
@@ -58,14 +62,26 @@ Value tokenized(MethodCall const& call, std::string_view text, std::string_view 
   return call.list(std::move(parts));
 }
 
+Value split(Call call, Text const& text) {
+  return call.arguments.empty() ? words_of(call, text.text, blanks) : split_by(call, text.text, call.text_argument());
+}
+
+Value tokenized(Call call, Text const& text) {
+  return words_of(call, text.text, call.arguments.empty() ? std::string(blanks) : call.text_argument());
+}
+
+Value lines(Call call, Text const& text) {
+  return split_by(call, replaced(text.text, "\r\n", "\n"), "\n");
+}
+
 std::string between(std::vector<std::string_view> const& pieces, std::size_t begin, std::size_t end) {
   std::string out;
   for (auto at = begin; at < end; ++at) out += pieces[at];
   return out;
 }
 
-Checked<Value> substring(MethodCall const& call, std::string const& text) {
-  auto const pieces = code_points(text);
+Checked<Value> substring(Call call, Text const& text) {
+  auto const pieces = code_points(text.text);
   auto const size = static_cast<std::int64_t>(pieces.size());
   auto const begin = call.integer_argument(0);
   if (!begin) return std::unexpected(begin.error());
@@ -78,7 +94,7 @@ Checked<Value> substring(MethodCall const& call, std::string const& text) {
 }
 
 /// `take` and `drop`.
-Checked<Value> part(MethodCall const& call, std::string const& text, bool takes) {
+Checked<Value> part_of(Call call, std::string const& text, bool takes) {
   auto const count = call.integer_argument();
   if (!count) return std::unexpected(count.error());
   auto const pieces = code_points(text);
@@ -87,8 +103,120 @@ Checked<Value> part(MethodCall const& call, std::string const& text, bool takes)
   return call.text(takes ? between(pieces, 0, at) : between(pieces, at, pieces.size()));
 }
 
-Checked<Value> padded(MethodCall const& call, std::string const& text, bool at_left) {
+// ---- questions
+
+Value length(Call /*call*/, Text const& text) {
+  return Value::integer(static_cast<std::int64_t>(count_code_points(text.text)));
+}
+
+Value begins_with(Call call, Text const& text) {
+  return Value::boolean(text.text.starts_with(call.text_argument()));
+}
+
+Value ends_with(Call call, Text const& text) {
+  return Value::boolean(text.text.ends_with(call.text_argument()));
+}
+
+Value equals_but_for_case(Call call, Text const& text) {
+  return Value::boolean(in_small_letters(text.text) == in_small_letters(call.text_argument()));
+}
+
+std::size_t find_first_text(std::string const& text, std::string const& part) {
+  return find_text(text, part);
+}
+
+/// Linear as `find_text` is, by looking for the reverse in the reverse.
+std::size_t find_last_text(std::string const& text, std::string const& part) {
+  auto const at = find_text(std::string(text.rbegin(), text.rend()), std::string(part.rbegin(), part.rend()));
+  return at == std::string::npos ? at : text.size() - part.size() - at;
+}
+
+/// The code point at which the part begins; -1 when it is not there.
+template <auto find>
+Value position_of(Call call, Text const& text) {
+  auto const at = find(text.text, call.text_argument());
+  if (at == std::string::npos) return Value::integer(-1);
+  return Value::integer(static_cast<std::int64_t>(count_code_points(std::string_view(text.text).substr(0, at))));
+}
+
+Value occurrences(Call call, Text const& text) {
+  auto const part = call.text_argument();
+  std::int64_t count = 0;
+  if (part.empty()) return Value::integer(count);
+  for (auto at = find_text(text.text, part); at != std::string::npos; at = find_text(text.text, part, at + part.size()))
+    ++count;
+  return Value::integer(count);
+}
+
+// ---- numbers in texts
+
+std::optional<double> as_number(std::string_view text) {
+  auto const number = std::string(trimmed(text));
+  char* end = nullptr;
+  double const parsed = std::strtod(number.c_str(), &end);
+  return !number.empty() && *end == '\0' ? std::optional(parsed) : std::nullopt;
+}
+
+bool is_whole(double number) {
+  return number == std::floor(number) && std::fabs(number) < 9e18;
+}
+
+Value is_number(Call /*call*/, Text const& text) {
+  return Value::boolean(as_number(text.text).has_value());
+}
+
+Value is_integer(Call /*call*/, Text const& text) {
+  auto const number = as_number(text.text);
+  return Value::boolean(number && is_whole(*number));
+}
+
+Checked<Value> read_real(Call /*call*/, Text const& text) {
+  auto const number = as_number(text.text);
+  if (!number) return fault(fmt::format("'{}' is no number", text.text), "NumberFormatException");
+  return Value::real(*number);
+}
+
+Checked<Value> read_integer(Call call, Text const& text) {
+  auto const number = read_real(call, text);
+  if (!number) return number;
+  if (!is_whole(number->real())) return fault(fmt::format("'{}' is no integer", text.text), "NumberFormatException");
+  return Value::integer(static_cast<std::int64_t>(number->real()));
+}
+
+// ---- other texts
+
+Value in_upper_case(Call call, Text const& text) {
+  return call.text(in_capitals(text.text));
+}
+
+Value in_lower_case(Call call, Text const& text) {
+  return call.text(in_small_letters(text.text));
+}
+
+Value capitalized(Call call, Text const& text) {
+  auto const pieces = code_points(text.text);
+  auto const first = text.text.substr(0, pieces.empty() ? 0 : pieces.front().size());
+  return call.text(in_capitals(first) + text.text.substr(first.size()));
+}
+
+Value without_blanks(Call call, Text const& text) {
+  return call.text(std::string(trimmed(text.text)));
+}
+
+Checked<Value> replaced_text(Call call, Text const& text) {
+  if (call.arguments[0].is(ValueKind::pattern))
+    return fault("replace takes a text; replaceAll takes a pattern", "IllegalArgumentException");
+  return call.long_text(replaced(text.text, call.text_argument(0), call.text_argument(1)));
+}
+
+Checked<Value> concatenated(Call call, Text const& text) {
+  return call.long_text(text.text + call.text_argument());
+}
+
+template <bool at_left>
+Checked<Value> padded(Call call, Text const& receiver) {
   constexpr std::int64_t widest = 10'000;
+  auto const& text = receiver.text;
   auto const width = call.integer_argument();
   if (!width) return std::unexpected(width.error());
   auto const filling = call.arguments.size() > 1 ? call.text_argument(1) : std::string(" ");
@@ -102,110 +230,114 @@ Checked<Value> padded(MethodCall const& call, std::string const& text, bool at_l
   return call.long_text(at_left ? pad + text : text + pad);
 }
 
-/// Linear as `find_text` is, by looking for the reverse in the reverse.
-std::size_t find_last_text(std::string const& text, std::string const& part) {
-  auto const at = find_text(std::string(text.rbegin(), text.rend()), std::string(part.rbegin(), part.rend()));
-  return at == std::string::npos ? at : text.size() - part.size() - at;
+Checked<Value> filled_in(Call call, Text const& text) {
+  auto out = formatted(text.text, call.arguments);
+  if (!out) return std::unexpected(out.error());
+  return call.long_text(std::move(*out));
 }
 
-/// The code point at which `part` begins; -1 when it is not there.
-Value position_of(std::string const& text, std::string const& part, bool from_end) {
-  auto const at = from_end ? find_last_text(text, part) : find_text(text, part);
-  if (at == std::string::npos) return Value::integer(-1);
-  return Value::integer(static_cast<std::int64_t>(count_code_points(std::string_view(text).substr(0, at))));
-}
+using namespace receivers;
 
-std::int64_t occurrences(std::string const& text, std::string const& part) {
-  std::int64_t count = 0;
-  if (part.empty()) return count;
-  for (auto at = find_text(text, part); at != std::string::npos; at = find_text(text, part, at + part.size())) ++count;
-  return count;
+constexpr auto table = std::to_array<MethodSpec>({
+    pure({Kind::text, "length", "", Kind::integer, "How many characters.", "'name'.length()", of<length>}),
+    pure({Kind::text, "toUpperCase", "", Kind::text, "In capitals.", "'name'.toUpperCase()", of<in_upper_case>}),
+    pure({Kind::text, "toLowerCase", "", Kind::text, "In small letters.", "'NAME'.toLowerCase()", of<in_lower_case>}),
+    pure({Kind::text, "startsWith", "text", Kind::boolean, "Whether it begins so.", "'harbour'.startsWith('har')",
+          of<begins_with>}),
+    pure({Kind::text, "endsWith", "text", Kind::boolean, "Whether it ends so.", "'harbour'.endsWith('har')",
+          of<ends_with>}),
+    pure({Kind::text, "trim", "", Kind::text, "Without blanks at the ends.", "' a b '.trim()", of<without_blanks>}),
+    {Kind::text, "capitalize", "", Kind::text, "With a capital at its beginning.", "'name'.capitalize()",
+     of<capitalized>},
+    {Kind::text, "equalsIgnoreCase", "text", Kind::boolean, "Whether both are equal but for capitals.",
+     "'a'.equalsIgnoreCase('A')", of<equals_but_for_case>},
+    {Kind::text, "concat", "text", Kind::text, "With the other text behind it.", "'a'.concat('b')", of<concatenated>},
+    {Kind::text, "padLeft", "width, filling?", Kind::text, "Filled up to a width in front.", "'7'.padLeft(3, '0')",
+     of<padded<true>>},
+    {Kind::text, "padRight", "width, filling?", Kind::text, "Filled up to a width behind.", "'7'.padRight(3, '.')",
+     of<padded<false>>},
+    {Kind::text, "format", "values...", Kind::text, "With values in the place of %d, %.2f, %s and others.",
+     "'%s: %.1f m'.format('height', 12.34)", of<filled_in>},
+    {Kind::text, "isNumber", "", Kind::boolean, "Whether it is a number.", "'1.5'.isNumber()", of<is_number>},
+    {Kind::text, "isInteger", "", Kind::boolean, "Whether it is a whole number.", "'1.5'.isInteger()", of<is_integer>},
+    {Kind::text, "tokenize", "separators?", Kind::list, "Its words, none of them empty.", "'a, b'.tokenize(', ')",
+     of<tokenized>},
+    {Kind::text, "readLines", "", Kind::list, "Its lines.", "'a\\nb'.readLines()", of<lines>},
+    pure({Kind::text, "split", "separator?", Kind::list, "Its parts, between a text or what fits a pattern.",
+          "'a;b'.split(';')", of<split_by_matches, split>}),
+    pure({Kind::text, "replace", "old, new", Kind::text, "With one part replaced.", "'north'.replace('n', 'N')",
+          of<replaced_text>}),
+    {Kind::text, "matches", "pattern", Kind::boolean, "Whether all of it fits the pattern.", "'uav7'.matches(/uav\\d/)",
+     of<matches>},
+    {Kind::text, "find", "pattern", any, "The first part that fits the pattern, or null.", "'uav7 ugv8'.find(/\\d/)",
+     of<first_match>},
+    {Kind::text, "findAll", "pattern", any, "All parts that fit the pattern.", "'uav7 ugv8'.findAll(/\\d/)",
+     of<all_matches>},
+    written({Kind::text, "replaceAll", "pattern, text or closure", Kind::text,
+             "With all that fits the pattern replaced, by a text in which $1 is the first group, or by what a closure "
+             "makes of it.",
+             "'uav7 ugv8'.replaceAll(/u(.)v/, '$1')", of<replaced_matches>},
+            R"dolphin(
+def replaceAll(text, pattern, f) {
+  def pieces = text.cutBy(pattern)
+  for (def i = 1; i < pieces.size(); i += 2) { pieces[i] = f(pieces[i]) }
+  return pieces.join('')
 }
-
-std::optional<double> as_number(std::string_view text) {
-  auto const number = std::string(trimmed(text));
-  char* end = nullptr;
-  double const parsed = std::strtod(number.c_str(), &end);
-  return !number.empty() && *end == '\0' ? std::optional(parsed) : std::nullopt;
+)dolphin"),
+    {Kind::text, "replaceFirst", "pattern, text", Kind::text, "The same for the first that fits.",
+     "'uav7 ugv8'.replaceFirst(/u(.)v/, '$1')", of<replaced_matches>},
+    written({Kind::text, "eachMatch", "pattern, closure", any, "Calls the closure with all that fits the pattern.", ""},
+            R"dolphin(
+def eachMatch(text, pattern, f) {
+  for (match in text =~ pattern) { f(match) }
+  return text
 }
-
-MethodResult number_in_text(MethodCall const& call, std::string const& text) {
-  if (!call.arguments.empty()) return std::nullopt;
-  bool const to_integer = call.name == "toInteger" || call.name == "toLong";
-  bool const to_real = call.name == "toDouble" || call.name == "toFloat" || call.name == "toBigDecimal";
-  bool const asks = call.name == "isNumber" || call.name == "isInteger";
-  if (!to_integer && !to_real && !asks) return std::nullopt;
-  auto const number = as_number(text);
-  bool const is_whole = number && *number == std::floor(*number) && std::fabs(*number) < 9e18;
-  if (asks) return Value::boolean(call.name == "isNumber" ? number.has_value() : is_whole);
-  if (!number) return fault(fmt::format("'{}' is no number", text), "NumberFormatException");
-  if (to_real) return Value::real(*number);
-  if (!is_whole) return fault(fmt::format("'{}' is no integer", text), "NumberFormatException");
-  return Value::integer(static_cast<std::int64_t>(*number));
-}
-
-MethodResult question(MethodCall const& call, std::string const& text) {
-  if (call.is("length", 0) || call.is("size", 0)) {
-    return Value::integer(static_cast<std::int64_t>(count_code_points(text)));
-  }
-  if (call.is("isEmpty", 0)) return Value::boolean(text.empty());
-  if (call.is("contains", 1)) return Value::boolean(find_text(text, call.text_argument()) != std::string::npos);
-  if (call.is("startsWith", 1)) return Value::boolean(text.starts_with(call.text_argument()));
-  if (call.is("endsWith", 1)) return Value::boolean(text.ends_with(call.text_argument()));
-  if (call.is("indexOf", 1)) return position_of(text, call.text_argument(), false);
-  if (call.is("lastIndexOf", 1)) return position_of(text, call.text_argument(), true);
-  if (call.is("count", 1)) return Value::integer(occurrences(text, call.text_argument()));
-  if (call.is("equalsIgnoreCase", 1)) {
-    return Value::boolean(in_small_letters(text) == in_small_letters(call.text_argument()));
-  }
-  return number_in_text(call, text);
-}
-
-MethodResult changed_text(MethodCall const& call, std::string const& text) {
-  if (call.is("toUpperCase", 0)) return call.text(in_capitals(text));
-  if (call.is("toLowerCase", 0)) return call.text(in_small_letters(text));
-  if (call.is("capitalize", 0)) {
-    auto const first = text.substr(0, code_points(text).empty() ? 0 : code_points(text).front().size());
-    return call.text(in_capitals(first) + text.substr(first.size()));
-  }
-  if (call.is("trim", 0)) return call.text(std::string(trimmed(text)));
-  if (call.is("replace", 2)) return call.long_text(replaced(text, call.text_argument(0), call.text_argument(1)));
-  if (call.is("concat", 1)) return call.long_text(text + call.text_argument());
-  if (call.is("substring", 1) || call.is("substring", 2)) return substring(call, text);
-  if (call.is("take", 1) || call.is("drop", 1)) return part(call, text, call.name == "take");
-  if (call.is("padLeft", 1) || call.is("padLeft", 2)) return padded(call, text, true);
-  if (call.is("padRight", 1) || call.is("padRight", 2)) return padded(call, text, false);
-  if (call.is("reverse", 0)) {
-    std::string out;
-    for (auto const piece : code_points(text) | std::views::reverse) out += piece;
-    return call.text(std::move(out));
-  }
-  if (call.name == "format") {
-    auto out = formatted(text, call.arguments);
-    if (!out) return std::unexpected(out.error());
-    return call.long_text(std::move(*out));
-  }
-  return std::nullopt;
-}
+)dolphin"),
+    pure({Kind::text, "substring", "from, to?", Kind::text, "A part of it.", "'harbour'.substring(0, 3)",
+          of<substring>}),
+    pure({Kind::text, "indexOf", "text", Kind::integer, "Where the part begins, or -1.", "'harbour'.indexOf('bo')",
+          of<position_of<find_first_text>>}),
+    {Kind::text, "lastIndexOf", "text", Kind::integer, "Where the part begins last, or -1.",
+     "'harbour'.lastIndexOf('r')", of<position_of<find_last_text>>},
+    {Kind::text, "count", "text", Kind::integer, "How often the text, or what fits a pattern, is in it.",
+     "'harbour'.count('r')", of<count_matches, occurrences>},
+    pure({Kind::text | number, "toInteger", "", Kind::integer, "As an integer.", "'42'.toInteger()",
+          of<read_integer, as_integer>}),
+    pure({Kind::text | number, "toDouble", "", Kind::decimal, "As a decimal.", "'1.5'.toDouble()",
+          of<read_real, as_real>}),
+    {Kind::text | number, "toFloat", "", Kind::decimal, "As a decimal.", "", of<read_real, as_real>},
+    {Kind::text, "toLong", "", Kind::integer, "As an integer.", "", of<read_integer>},
+    {Kind::text, "toBigDecimal", "", Kind::decimal, "As a decimal.", "", of<read_real>},
+});
 
 }  // namespace
 
-MethodResult text_method(MethodCall const& call, std::string const& text) {
-  if (auto result = pattern_method(call, text)) return result;
-  if (auto result = question(call, text)) return result;
-  if (auto result = changed_text(call, text)) return result;
-  if (call.is("split", 0)) return tokenized(call, text, blanks);
-  if (call.is("split", 1)) return split(call, text, call.text_argument());
-  if (call.is("tokenize", 0)) return tokenized(call, text, blanks);
-  if (call.is("tokenize", 1)) return tokenized(call, text, call.text_argument());
-  if (call.is("readLines", 0)) return split(call, replaced(text, "\r\n", "\n"), "\n");
-  if (call.is("toList", 0)) {
-    std::vector<Value> letters;
-    for (auto const piece : code_points(text)) letters.push_back(call.text(std::string(piece)));
-    return call.list(std::move(letters));
-  }
-  if (call.is("emptyLike", 0)) return call.list({});
-  return std::nullopt;
+Checked<Value> contains_text(Call call, Text const& text) {
+  return Value::boolean(find_text(text.text, call.text_argument()) != std::string::npos);
+}
+
+Checked<Value> take_text(Call call, Text const& text) {
+  return part_of(call, text.text, true);
+}
+
+Checked<Value> drop_text(Call call, Text const& text) {
+  return part_of(call, text.text, false);
+}
+
+Value reversed_text(Call call, Text const& text) {
+  std::string out;
+  for (auto const piece : code_points(text.text) | std::views::reverse) out += piece;
+  return call.text(std::move(out));
+}
+
+Value letters(Call call, Text const& text) {
+  std::vector<Value> out;
+  for (auto const piece : code_points(text.text)) out.push_back(call.text(std::string(piece)));
+  return call.list(std::move(out));
+}
+
+std::span<MethodSpec const> text_methods() {
+  return table;
 }
 
 }  // namespace lapwing::dolphin::internal

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,12 +27,15 @@ using tasks::Dimension;
 class Fiber;
 class Value;
 struct Fault;
+struct MethodCall;
 struct Runtime;
 using Arguments = std::span<Value const>;
 /// Carries an instruction out at once.
 using NativeFunction = std::expected<Value, Fault> (*)(Runtime&, Fiber&, Arguments);
 /// Suspends the calling fiber until the task has ended.
 using WaitingNative = base::Task<std::expected<Value, Fault>> (*)(Runtime&, Fiber&, std::vector<Value>);
+/// Carries a method or property out; nothing where it is not for this receiver or these arguments.
+using MethodFunction = std::optional<std::expected<Value, Fault>> (*)(MethodCall const&, Value const& receiver);
 
 /// Kinds of values, one bit each so that a parameter can take several.
 enum class Kind : std::uint16_t {
@@ -127,16 +131,21 @@ struct UnitSpec {
   std::string_view doc;
 };
 
+/// What stands behind a point: what it is called and given, what is said of it, and what carries it out: `call`, or for
+/// what that leaves a function of the prelude. Names may have several rows; the first one that does it is it.
 struct MethodSpec {
   Kinds receiver;
   std::string_view name;
-  bool is_property;  ///< written without parentheses
+  std::string_view arguments;  ///< what stands in its parentheses: "closure", "from, to?", "values..."
   Kinds result;
   std::string_view doc;
-  std::string_view arguments = {};  ///< what stands in its parentheses: "closure", "from, to?", "values..."
-  std::string_view example = {};    ///< an expression whose value shows what it does
+  std::string_view example = {};  ///< an expression whose value shows what it does
+  MethodFunction call = nullptr;
+  std::string_view source = {};  ///< its function where it is written in the language itself
+  bool is_property = false;      ///< written without parentheses
+  bool is_pure = false;          ///< may stand in the answer to `ask`, if what it is given may
 };
-
+///< what stands in its parentheses: "closure", "from, to?", "values..."
 /// How many arguments a method or instruction takes.
 struct ArgumentCount {
   std::size_t least = 0;

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "dolphin/builtin/method_lists.hpp"
+#include "dolphin/builtin/method_call.hpp"
 #include "dolphin/syntax/characters.hpp"
 #include "dolphin/syntax/code_points.hpp"
 #include "dolphin/syntax/limits.hpp"

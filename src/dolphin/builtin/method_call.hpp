@@ -3,28 +3,26 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dolphin/builtin/natives.hpp"
 #include "dolphin/value/objects.hpp"
 #include "dolphin/value/patterns.hpp"
 #include "dolphin/value/text.hpp"
 
-/// Methods that need no closure, by the kind of their receiver. Those that take closures are in the prelude.
-namespace lapwing::dolphin::internal {
+namespace lapwing::dolphin {
 
 /// Nothing: the receiver has no such method.
 using MethodResult = std::optional<Checked<Value>>;
 
-/// One call: what it is about and what it was given.
+/// One call of a method: what it was given and what it may make values with.
 struct MethodCall {
+  Runtime& runtime;
   Heap& heap;
   Patterns& patterns;
   std::string_view name;
   Arguments arguments;
 
-  [[nodiscard]] bool is(std::string_view wanted, std::size_t count) const {
-    return name == wanted && arguments.size() == count;
-  }
   [[nodiscard]] Value text(std::string value) const { return Value(heap.make<Text>(std::move(value))); }
   /// A text that may have become too long.
   [[nodiscard]] Checked<Value> long_text(std::string value) const { return make_text(heap, std::move(value)); }
@@ -34,14 +32,10 @@ struct MethodCall {
   [[nodiscard]] Value list(std::vector<Value> items) const { return Value(heap.make<List>(std::move(items))); }
 };
 
-/// `text.matches(/x+/)` and others that take a pattern.
-[[nodiscard]] MethodResult pattern_method(MethodCall const& call, std::string const& text);
-[[nodiscard]] MethodResult text_method(MethodCall const& call, std::string const& text);
-[[nodiscard]] MethodResult list_method(MethodCall const& call, List& list);
-[[nodiscard]] MethodResult map_method(MethodCall const& call, Map& map);
-[[nodiscard]] MethodResult range_method(MethodCall const& call, Range& range);
+namespace internal {
 
 /// As java.util.Formatter: "%.2f m, %5d, %-8s, %x, %%".
 [[nodiscard]] Checked<std::string> formatted(std::string_view pattern, Arguments arguments);
 
-}  // namespace lapwing::dolphin::internal
+}  // namespace internal
+}  // namespace lapwing::dolphin
