@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [store]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -344,6 +344,12 @@ def router() -> list:
     return routers.measure(LAPWING, BENCH_BIN / "bench_router_load", say)
 
 
+def store() -> dict:
+    import store as stores
+
+    return stores.measure(BENCH_BIN, say)
+
+
 def machine() -> dict:
     cpu = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                 if line.startswith("model name")), platform.machine())
@@ -360,13 +366,13 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "pool", "feed", "map", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page"]
+    wanted = sys.argv[1:] or ["decode", "pool", "feed", "map", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page", "store"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "upload": upload, "start": start, "scale": scale, "fleet": fleet, "lossy": lossy,
-                         "params": params, "router": router, "language": language, "page": page}[name]()
+                         "params": params, "router": router, "language": language, "page": page, "store": store}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "map/features/properties.hpp"
@@ -54,6 +56,18 @@ TEST_F(Schema, HasNoTwoColumnsOfOneName) {
     std::set<std::string> names;
     for (auto const& column : table->columns)
       EXPECT_TRUE(names.insert(column.name).second) << table->name << '.' << column.name;
+  }
+}
+
+TEST_F(Schema, IsWhatTheReferenceSays) {
+  std::ifstream file(LAPWING_SOURCE_DIR "/docs/reference/store.md");
+  std::string const page{std::istreambuf_iterator<char>(file), {}};
+  for (auto const* one : all_tables()) {
+    EXPECT_TRUE(page.contains("`" + one->name + "`")) << one->name;
+    if (one->shape_column()) continue;  // the properties are described with the map
+    auto const row = page.substr(page.find("\n| `" + one->name + "` |") + 1);
+    for (auto const& column : one->columns)
+      EXPECT_TRUE(row.substr(0, row.find('\n')).contains("`" + column.name + "`")) << one->name << '.' << column.name;
   }
 }
 

@@ -1,13 +1,15 @@
 #include "map/store/sql/sqlite.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include "base/assert.hpp"
 #include "map/store/sql/wkb.hpp"
 
 namespace lapwing::map::sql {
@@ -24,22 +26,32 @@ struct Finalize {
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
 using Connection = std::unique_ptr<sqlite3, CloseConnection>;
-using Prepared = std::unique_ptr<sqlite3_stmt, Finalize>;
+
+struct Prepared {
+  std::unique_ptr<sqlite3_stmt, Finalize> statement;
+  std::vector<int> places;  ///< of $1, $2, ...; 0 for one that it does not use
+};
+
+/// What a shape's header says of its sides, which it does for all but points; else they are looked for.
+std::optional<Shape> sides_of(sqlite3_value* value) {
+  auto const* bytes = static_cast<char const*>(sqlite3_value_blob(value));
+  if (!bytes) return std::nullopt;
+  std::string_view const blob(bytes, static_cast<std::size_t>(sqlite3_value_bytes(value)));
+  if (auto const told = envelope_of(blob)) return told;
+  return unwrap(blob);
+}
 
 /// The four corners and emptiness of shapes, for the triggers of GeoPackage's R-tree (1.3, annex F.3).
 template <double Shape::* Side>
 void st_side(sqlite3_context* context, int, sqlite3_value** values) {
-  auto const* bytes = static_cast<char const*>(sqlite3_value_blob(values[0]));
-  auto const size = static_cast<std::size_t>(sqlite3_value_bytes(values[0]));
-  auto const shape = bytes ? unwrap({bytes, size}) : std::nullopt;
+  auto const shape = sides_of(values[0]);
   if (!shape) return sqlite3_result_null(context);
   sqlite3_result_double(context, (*shape).*Side);
 }
 
 void st_is_empty(sqlite3_context* context, int, sqlite3_value** values) {
-  auto const* bytes = static_cast<char const*>(sqlite3_value_blob(values[0]));
-  if (!bytes) return sqlite3_result_null(context);
-  sqlite3_result_int(context, unwrap({bytes, static_cast<std::size_t>(sqlite3_value_bytes(values[0]))}) ? 0 : 1);
+  if (sqlite3_value_type(values[0]) == SQLITE_NULL) return sqlite3_result_null(context);
+  sqlite3_result_int(context, sides_of(values[0]) ? 0 : 1);
 }
 
 void define_functions(sqlite3* connection) {
@@ -171,30 +183,34 @@ class Sqlite final : public Database {
       int const code = sqlite3_prepare_v3(connection_.get(), statement.c_str(), static_cast<int>(statement.size()),
                                           SQLITE_PREPARE_PERSISTENT, &made, nullptr);
       if (code != SQLITE_OK) return fault(code);
-      known = prepared_.emplace(statement, Prepared(made)).first;
+      Prepared prepared{std::unique_ptr<sqlite3_stmt, Finalize>(made), {}};
+      for (std::size_t i = 1; i <= values.size(); ++i)
+        prepared.places.push_back(sqlite3_bind_parameter_index(made, fmt::format("${}", i).c_str()));
+      known = prepared_.emplace(statement, std::move(prepared)).first;
     }
+    auto const& [ready, places] = known->second;
+    LAPWING_ASSERT(places.size() == values.size());  // one text, one number of values
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (int const code = bind(known->second.get(), i + 1, values[i]); code != SQLITE_OK) return fault(code);
-    return known->second.get();
+      if (places[i] != 0)
+        if (int const code = bind(ready.get(), places[i], values[i]); code != SQLITE_OK) return fault(code);
+    return ready.get();
   }
 
-  /// To $`number`; a statement that does not use it is content without.
-  static int bind(sqlite3_stmt* statement, std::size_t number, Value const& value) {
-    int const at = sqlite3_bind_parameter_index(statement, fmt::format("${}", number).c_str());
-    if (at == 0) return SQLITE_OK;
-    auto const bytes = [&](std::string const& data) {
-      return sqlite3_bind_blob64(statement, at, data.data(), data.size(), SQLITE_TRANSIENT);
+  /// The value outlives what is done with it: only what is made of it here is copied.
+  static int bind(sqlite3_stmt* statement, int at, Value const& value) {
+    auto const bytes = [&](std::string const& data, sqlite3_destructor_type lives) {
+      return sqlite3_bind_blob64(statement, at, data.data(), data.size(), lives);
     };
-    auto const text = [&](std::string const& words) {
-      return sqlite3_bind_text64(statement, at, words.data(), words.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+    auto const text = [&](std::string const& words, sqlite3_destructor_type lives) {
+      return sqlite3_bind_text64(statement, at, words.data(), words.size(), lives, SQLITE_UTF8);
     };
     if (auto const* truth = std::get_if<bool>(&value)) return sqlite3_bind_int(statement, at, *truth ? 1 : 0);
     if (auto const* number64 = std::get_if<std::int64_t>(&value)) return sqlite3_bind_int64(statement, at, *number64);
     if (auto const* real = std::get_if<double>(&value)) return sqlite3_bind_double(statement, at, *real);
-    if (auto const* words = std::get_if<std::string>(&value)) return text(*words);
-    if (auto const* data = std::get_if<Bytes>(&value)) return bytes(data->data);
-    if (auto const* time = std::get_if<base::UtcTime>(&value)) return text(iso_time(*time));
-    if (auto const* shape = std::get_if<Shape>(&value)) return bytes(geopackage_blob(*shape));
+    if (auto const* words = std::get_if<std::string>(&value)) return text(*words, SQLITE_STATIC);
+    if (auto const* data = std::get_if<Bytes>(&value)) return bytes(data->data, SQLITE_STATIC);
+    if (auto const* time = std::get_if<base::UtcTime>(&value)) return text(iso_time(*time), SQLITE_TRANSIENT);
+    if (auto const* shape = std::get_if<Shape>(&value)) return bytes(geopackage_blob(*shape), SQLITE_TRANSIENT);
     return sqlite3_bind_null(statement, at);
   }
 
@@ -228,7 +244,7 @@ class Sqlite final : public Database {
 
   Connection connection_;
   std::string name_;
-  std::map<std::string, Prepared> prepared_;  // ends before the connection
+  std::unordered_map<std::string, Prepared> prepared_;  // ends before the connection
 };
 
 }  // namespace

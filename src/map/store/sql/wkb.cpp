@@ -185,6 +185,15 @@ std::string geopackage_blob(Shape const& shape) {
   return blob + shape.wkb;
 }
 
+std::optional<Shape> envelope_of(std::string_view geopackage_blob) {
+  constexpr std::size_t before = 8;
+  if (geopackage_blob.size() < before + 4 * sizeof(double) || !geopackage_blob.starts_with("GP")) return std::nullopt;
+  if (geopackage_blob[3] != with_envelope) return std::nullopt;
+  double sides[4];
+  std::memcpy(sides, geopackage_blob.data() + before, sizeof(sides));
+  return Shape{.wkb = {}, .least_lon = sides[0], .most_lon = sides[1], .least_lat = sides[2], .most_lat = sides[3]};
+}
+
 std::string ewkb(Shape const& shape) {
   std::uint32_t type = 0;
   std::memcpy(&type, shape.wkb.data() + 1, sizeof(type));

@@ -27,6 +27,8 @@ using LonLatGeometry = std::variant<LonLat, LonLatLine, LonLatArea>;
 
 /// GeoPackage 1.3, section 2.1.3.
 [[nodiscard]] std::string geopackage_blob(Shape const& shape);
+/// The sides that the header of such a blob tells of; nothing without them. The WKB of what it gives is empty.
+[[nodiscard]] std::optional<Shape> envelope_of(std::string_view geopackage_blob);
 /// PostGIS: WKB with the number of its reference system.
 [[nodiscard]] std::string ewkb(Shape const& shape);
 /// What is in any of the wrappings, or in none. Nothing for what is no sound shape.

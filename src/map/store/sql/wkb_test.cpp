@@ -48,6 +48,18 @@ TEST(Wkb, KnowsItsBounds) {
   EXPECT_EQ(shape.most_lat, 47.5);
 }
 
+TEST(Wkb, TellsItsBoundsInTheHeaderOfAGeoPackage) {
+  auto const shape = shape_of(samples[1]);
+  auto const told = envelope_of(geopackage_blob(shape));
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->least_lon, shape.least_lon);
+  EXPECT_EQ(told->most_lon, shape.most_lon);
+  EXPECT_EQ(told->least_lat, shape.least_lat);
+  EXPECT_EQ(told->most_lat, shape.most_lat);
+  EXPECT_FALSE(envelope_of(geopackage_blob(shape_of(samples[0])))) << "a point is its own bounds";
+  EXPECT_FALSE(envelope_of(geopackage_blob(shape).substr(0, 20)));
+}
+
 TEST(Wkb, CutAnywhereIsNone) {
   for (auto const& sample : samples) {
     auto const blob = geopackage_blob(shape_of(sample));
