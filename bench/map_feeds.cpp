@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/async/loop.hpp"
-#include "station/map/feature_feed.hpp"
-#include "station/map/grid_pictures.hpp"
+#include "station/map/features/feature_feed.hpp"
+#include "station/map/grids/grid_pictures.hpp"
 #include "station/testing/map_demo.hpp"
 
 namespace {
@@ -93,7 +93,7 @@ struct Grid : station::testing::MapDemo {
       }
     ++turn;
     std::vector<map::TileKey> tiles;
-    for (auto const& [key, tile] : grid.tiles()) tiles.push_back(key);
+    for (auto const& [at_tile, cells] : grid.tiles()) tiles.push_back(at_tile);
     if (!live.put_tiles(key, grid, tiles, {"robot 1", at})) std::abort();
   }
   base::Task<> fetch(map::XyzTile tile) { (void)co_await pictures.picture(key, tile); }
@@ -133,3 +133,5 @@ void pictures_of_what_changes(benchmark::State& state) {
 BENCHMARK(pictures_of_what_changes)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
+
+BENCHMARK_MAIN();
