@@ -37,22 +37,21 @@ async function withDemo(folder, demoArguments, options, look) {
 }
 
 const size = { width: 1280, height: 720 };
-const vehicle = (page, name) => page.locator('#vehicles tr', { hasText: name });
+const vehicle = (page, name) => page.locator('#vehicles [role=option]', { hasText: name });
+const atItem = async (page, items) => {
+  await vehicle(page, 'copter 1').click();
+  await page.locator('#selected .drawer', { hasText: items }).waitFor({ timeout: 180_000 });
+};
 const guide = readFileSync(path.join(root, 'docs/guide/first-mission.md'), 'utf8');
 const script = guide.match(/```(?:dolphin)?\n([\s\S]*?)```/)[1];
 const folder = mkdtempSync(path.join(tmpdir(), 'lapwing-guide-'));
 try {
   await withDemo(root, [], { scheme: 'dark', size: { width: 1440, height: 810 } }, async (page, picture) => {
-    await vehicle(page, 'copter 1')
-      .getByText(/item 9/)
-      .waitFor({ timeout: 180_000 });
+    await atItem(page, /item 9/);
     await picture('map.png');
 
-    await page.setViewportSize({ width: 1440, height: 1200 }); // a third of it is the panel's
-    await vehicle(page, 'copter 1').click();
-    for (const name of ['vehicles', 'tasks']) await page.locator(`#${name} h2 button`).click();
     const panel = page.locator('#parameters');
-    await panel.getByRole('button', { name: 'Parameters' }).click();
+    await page.getByRole('tab', { name: /^Parameters/ }).click();
     await panel.getByRole('button', { name: 'Fetch parameters' }).click();
     await panel.getByLabel('Filter by name').fill('rtl');
     await panel.getByRole('button', { name: 'Change RTL_' }).first().click();
@@ -61,11 +60,10 @@ try {
 
   writeFileSync(path.join(folder, 'my.dolphin'), script);
   await withDemo(folder, ['--script', 'my.dolphin'], { scheme: 'light', size }, async (page, picture) => {
-    await vehicle(page, 'copter 1')
-      .getByText(/item [45]/)
-      .waitFor({ timeout: 60_000 });
+    await atItem(page, /item [45]/);
     await picture('first-mission.png');
 
+    await page.getByRole('tab', { name: /^Script/ }).click();
     await page.locator('#script .chip', { hasText: 'done' }).waitFor({ timeout: 120_000 });
     await page.getByRole('button', { name: 'Edit' }).click();
     await page.getByLabel('Script text').fill(script.replace('takeOff', 'takeoff'));

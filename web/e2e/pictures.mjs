@@ -10,15 +10,25 @@ const browser = await startBrowser();
 const SHOTS = [
   { name: 'dark', scheme: 'dark' },
   { name: 'light', scheme: 'light' },
-  { name: 'phone', scheme: 'dark', size: { width: 360, height: 740 } },
+  { name: 'phone', scheme: 'dark', size: { width: 390, height: 844 }, before: select },
+  { name: 'phone-light', scheme: 'light', size: { width: 390, height: 844 } },
+  { name: 'tablet', scheme: 'dark', size: { width: 768, height: 1024 }, before: select },
+  { name: 'tablet-light', scheme: 'light', size: { width: 768, height: 1024 } },
+  { name: 'field', scheme: 'light', size: { width: 1024, height: 768 }, before: select },
+  { name: 'field-dark', scheme: 'dark', size: { width: 1024, height: 768 } },
+  { name: 'selected', scheme: 'dark', before: select },
+  { name: 'layers', scheme: 'light', before: (page) => page.getByRole('tab', { name: 'Layers' }).click() },
   { name: 'command', scheme: 'dark', size: { width: 1280, height: 800 }, before: command },
   { name: 'command-900', scheme: 'light', size: { width: 900, height: 800 }, before: command },
   { name: 'parameters', scheme: 'dark', size: { width: 1280, height: 800 }, before: parameters },
   { name: 'emergency', scheme: 'dark', size: { width: 1280, height: 800 }, before: stopAll },
 ];
+async function select(page) {
+  await page.locator('#vehicles [role=option]', { hasText: 'copter 1' }).click();
+}
 /** Several vehicles commanded, with what each made of it. */
 async function command(page) {
-  const row = (name) => page.locator('#vehicles tbody tr', { hasText: name });
+  const row = (name) => page.locator('#vehicles [role=option]', { hasText: name });
   await row('copter 2').click();
   for (const name of ['plane 3', 'rover 5']) await row(name).click({ modifiers: ['Shift'] });
   await page.locator('#command').getByRole('button', { name: 'Arm', exact: true }).hover();
@@ -30,9 +40,9 @@ async function command(page) {
 }
 /** Fetched, filtered, and one about to be changed. */
 async function parameters(page) {
-  await page.locator('#vehicles tbody tr', { hasText: 'copter 2' }).click();
+  await page.locator('#vehicles [role=option]', { hasText: 'copter 2' }).click();
   const panel = page.locator('#parameters');
-  await panel.getByRole('button', { name: 'Parameters' }).click();
+  await page.getByRole('tab', { name: /^Parameters/ }).click();
   await panel.getByRole('button', { name: 'Fetch parameters' }).click();
   await panel.getByLabel('Filter by name').fill('alt');
   await panel.getByRole('button', { name: 'Change RTL_ALT' }).click();
