@@ -95,9 +95,9 @@ std::vector<FeatureRecord const*> Layer::within(std::string_view site, SiteBox c
   return found;
 }
 
-std::vector<FeatureRecord const*> Layer::changed_since(Revision revision) const {
+std::vector<FeatureRecord const*> Layer::changed_since(Revision revision, std::size_t most) const {
   std::vector<FeatureRecord const*> changed;
-  for (auto entry = by_revision_.upper_bound(revision); entry != by_revision_.end(); ++entry)
+  for (auto entry = by_revision_.upper_bound(revision); entry != by_revision_.end() && changed.size() < most; ++entry)
     changed.push_back(entry->second);
   return changed;
 }

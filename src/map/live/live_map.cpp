@@ -245,8 +245,8 @@ std::vector<FeatureRecord const*> LiveMap::within(LayerKind kind, std::string co
   return box ? layer(kind).within(site, *box, most) : layer(kind).all_in(site, most);
 }
 
-std::vector<FeatureRecord const*> LiveMap::changed_since(LayerKind kind, Revision revision) const {
-  return layer(kind).changed_since(revision);
+std::vector<FeatureRecord const*> LiveMap::changed_since(LayerKind kind, Revision revision, std::size_t most) const {
+  return layer(kind).changed_since(revision, most);
 }
 
 Revision LiveMap::oldest_remembered(LayerKind kind) const {

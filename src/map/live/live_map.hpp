@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -112,8 +113,9 @@ class LiveMap {
   /// box: all.
   [[nodiscard]] std::vector<FeatureRecord const*> within(LayerKind layer, std::string const& site,
                                                          std::optional<SiteBox> const& box, std::size_t most) const;
-  /// In the order of revisions, removed ones among them.
-  [[nodiscard]] std::vector<FeatureRecord const*> changed_since(LayerKind layer, Revision revision) const;
+  /// In the order of revisions, removed ones among them; the first `most` of them.
+  [[nodiscard]] std::vector<FeatureRecord const*> changed_since(
+      LayerKind layer, Revision revision, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// Below this a viewer must take the whole: what was removed before is forgotten.
   [[nodiscard]] Revision oldest_remembered(LayerKind layer) const;
   [[nodiscard]] std::size_t size(LayerKind layer) const;

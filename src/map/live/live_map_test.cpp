@@ -201,6 +201,7 @@ TEST_F(LiveMapTest, TellsWhatChangedSinceARevision) {
   for (auto const* record : map.changed_since(layer, 0)) revisions.insert(record->revision);
   EXPECT_EQ(revisions.size(), 3U) << "each has its own, also those of one call";
   EXPECT_TRUE(map.changed_since(layer, map.revision()).empty());
+  EXPECT_EQ(map.changed_since(layer, before, 1), std::vector{map.changed_since(layer, before).front()});
 }
 
 TEST_F(LiveMapTest, TellsFollowersUntilTheyEnd) {

@@ -39,7 +39,7 @@ class Layer {
   [[nodiscard]] std::vector<FeatureRecord const*> all_in(std::string_view site, std::size_t most) const;
   [[nodiscard]] std::vector<FeatureRecord const*> within(std::string_view site, SiteBox const& box,
                                                          std::size_t most) const;
-  [[nodiscard]] std::vector<FeatureRecord const*> changed_since(Revision revision) const;
+  [[nodiscard]] std::vector<FeatureRecord const*> changed_since(Revision revision, std::size_t most) const;
   [[nodiscard]] Revision oldest_remembered() const { return oldest_remembered_; }
   [[nodiscard]] std::size_t size() const { return records_.size() - removals_.size(); }
 

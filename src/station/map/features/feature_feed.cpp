@@ -47,11 +47,19 @@ News FeatureFeed::since(std::uint64_t revision, base::TimePoint, std::size_t roo
   if (is_whole) reached = 0;
   std::string features;
   std::string removed;
-  bool is_all = true;
-  for (auto const* record : map_.changed_since(layer_, reached)) {
-    if (record->revision > newest_) break;
-    is_all = features.size() + removed.size() < room;
-    if (!is_all) break;
+  // No feature takes less than a hundred bytes, so that these fill the room.
+  auto const most = room / 100 + 1;
+  auto const changed = map_.changed_since(layer_, reached, most);
+  bool is_all = changed.size() < most;
+  for (auto const* record : changed) {
+    if (record->revision > newest_) {
+      is_all = true;
+      break;
+    }
+    if (features.size() + removed.size() >= room) {
+      is_all = false;
+      break;
+    }
     reached = record->revision;
     if (!record->is_removed) {
       append(features, text_of(*record));

@@ -95,11 +95,19 @@ News TracksFeed::since(std::uint64_t revision, base::TimePoint, std::size_t room
   std::string tracks;
   std::string removed;
   auto reached = is_whole ? 0 : viewer.reached;
-  bool is_all = true;
-  for (auto const* record : map_.changed_since(map::LayerKind::tracks, reached)) {
-    if (record->revision > newest_) break;
-    is_all = tracks.size() + removed.size() < room;
-    if (!is_all) break;
+  // No feature takes less than a hundred bytes, so that these fill the room.
+  auto const most = room / 100 + 1;
+  auto const changed = map_.changed_since(map::LayerKind::tracks, reached, most);
+  bool is_all = changed.size() < most;
+  for (auto const* record : changed) {
+    if (record->revision > newest_) {
+      is_all = true;
+      break;
+    }
+    if (tracks.size() + removed.size() >= room) {
+      is_all = false;
+      break;
+    }
     reached = record->revision;
     auto& list = record->is_removed ? removed : tracks;
     if (record->is_removed && is_whole) continue;
