@@ -5,7 +5,9 @@ import type { Sides } from './aim';
 /** Between what is shown and the panels, in px. */
 const MARGIN_PX = 48;
 /** Who leaves the sight goes on to do so: the view grows by this share more, not at each message a little. */
-const SPARE = 0.08;
+const SPARE = 0.2;
+/** Who lies so far from the panels is in sight; less than the margin, or who lies at it would move the map for nothing. */
+const CLEAR_PX = 20;
 
 /** The view keeps everything in sight until the operator takes it over; fitting gives it back. */
 export class FittedView {
@@ -52,7 +54,7 @@ export class FittedView {
     const { clientWidth, clientHeight } = map.getContainer();
     const { top, right, bottom, left } = this.covered();
     const beyond = (place: number, low: number, high: number): number =>
-      Math.min(0, place - low - MARGIN_PX) + Math.max(0, place - high + MARGIN_PX);
+      Math.min(0, place - low - CLEAR_PX) + Math.max(0, place - high + CLEAR_PX);
     const by: [number, number] = [beyond(x, left, clientWidth - right), beyond(y, top, clientHeight - bottom)];
     if (by[0] !== 0 || by[1] !== 0) map.panBy(by, { animate: this.mayAnimate(), duration: 300 });
   }
