@@ -189,10 +189,6 @@ Value reversed(Call call, List const& list) {
   return call.list({list.items.rbegin(), list.items.rend()});
 }
 
-Value copied(Call call, List const& list) {
-  return call.list(list.items);
-}
-
 // ---- with another list
 
 List const* other_list(Call call) {
@@ -419,7 +415,8 @@ constexpr auto table = std::to_array<MethodSpec>({
     {Kind::map, "entrySet", "", Kind::list, "The entries, each with a key and a value.", "[a: 1].entrySet()",
      of<listed_map<Listed::entries>>},
     {walked, "toList", "", Kind::list, "As a list.", "(1..3).toList()",
-     of<in_order<copied>, listed_map<Listed::entries>, letters>},
+     of<in_order<[](Call call, List const& list) { return call.list(list.items); }>, listed_map<Listed::entries>,
+        letters>},
     {joined, "plus", "n", any, "The same as +.", "", of<by_operator<ast::BinaryOp::add>>},
     {joined, "minus", "n", any, "The same as -.", "", of<by_operator<ast::BinaryOp::subtract>>},
     {Kind::list | number | Kind::text, "multiply", "n", any, "The same as *.", "",

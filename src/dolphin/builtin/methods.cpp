@@ -20,6 +20,15 @@ Checked<std::int64_t> MethodCall::integer_argument(std::size_t index) const {
 
 namespace {
 
+/// Cheap, and enough to tell some two hundred names apart: a script calls methods all the time.
+struct NameHash {
+  std::size_t operator()(std::string_view name) const {
+    if (name.empty()) return 0;
+    auto const letter = [&](std::size_t at) { return static_cast<unsigned char>(name[at]); };
+    return ((name.size() * 31U + letter(0)) * 31U + letter(name.size() / 2)) * 31U + letter(name.size() - 1);
+  }
+};
+
 /// What a script can write comes first, then what the prelude alone calls.
 struct Table {
   struct Row {
@@ -28,11 +37,11 @@ struct Table {
   };
   std::vector<MethodSpec> methods;
   std::size_t words = 0;
-  std::unordered_map<std::string_view, std::vector<Row>> index;
+  std::unordered_map<std::string_view, std::vector<Row>, NameHash> index;
 
   Table() {
     using namespace internal;
-    for (auto const part : {walking_methods(), list_methods(), text_methods(), number_methods(), other_methods()})
+    for (auto const part : {walking_methods(), list_methods(), text_methods(), value_methods()})
       methods.insert(methods.end(), part.begin(), part.end());
     words = methods.size();
     auto const helpers = prelude_methods();
@@ -53,11 +62,15 @@ MethodResult looked_up(Runtime& runtime, Value const& object, std::string_view n
   auto const found = table().index.find(name);
   if (found == table().index.end()) return std::nullopt;
   MethodCall const call{runtime, runtime.heap, runtime.patterns, name, arguments};
+  MethodSpec const* last = nullptr;  // its result goes straight to the caller
   for (auto const& [method, takes] : found->second) {
     if (method->is_property != is_property || !takes.allows(arguments.size())) continue;
-    if (auto result = method->call(call, object)) return result;
+    if (last) {
+      if (auto result = last->call(call, object)) return result;
+    }
+    last = method;
   }
-  return std::nullopt;
+  return last ? last->call(call, object) : std::nullopt;
 }
 
 bool is_getter(std::string_view name) {
@@ -75,9 +88,10 @@ MethodResult property(Runtime& runtime, Value const& object, std::string_view na
 }
 
 MethodResult call_method(Runtime& runtime, Value const& object, std::string_view name, Arguments arguments) {
-  if (auto result = looked_up(runtime, object, name, arguments, false)) return result;
   // A map has what was put into it and nothing that getters could get.
-  if (!is_getter(name) || !arguments.empty() || object.is(ValueKind::map)) return std::nullopt;
+  bool const gets = is_getter(name) && arguments.empty() && !object.is(ValueKind::map);
+  if (!gets) return looked_up(runtime, object, name, arguments, false);
+  if (auto result = looked_up(runtime, object, name, arguments, false)) return result;
   std::string getter(name.substr(3));
   getter[0] = static_cast<char>(std::tolower(getter[0]));
   return member(runtime, object, getter);

@@ -74,8 +74,7 @@ std::vector<InstructionSpec> signal_words() {
        .named = NamedArguments::values,
        .example =
            "post height: 40\nmessage poll('height')\nmessage poll(height: 40)\nmessage poll(height: { it > 30 })",
-       .source = R"dolphin(
-def poll(wanted) {
+       .source = R"(def poll(wanted) {
   if (!(wanted instanceof Map)) { return signalValues(wanted).size() > 0 }
   for (pair in wanted) {
     def test = pair.value
@@ -83,8 +82,7 @@ def poll(wanted) {
     if (test instanceof Closure ? !posted.any(test) : !(test in posted)) { return false }
   }
   return true
-}
-)dolphin"},
+})"},
   };
 }
 

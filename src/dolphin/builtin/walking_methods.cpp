@@ -1,6 +1,7 @@
 #include <array>
 
 #include "dolphin/builtin/internal/method_rows.hpp"
+#include "dolphin/code/bytecode.hpp"
 #include "dolphin/syntax/code_points.hpp"
 #include "dolphin/syntax/limits.hpp"
 #include "dolphin/value/operators.hpp"
@@ -36,10 +37,6 @@ Value is_empty(Call /*call*/, T& items) {
   return Value::boolean(size_of(items) == 0);
 }
 
-Value is_empty_text(Call /*call*/, Text const& text) {
-  return Value::boolean(text.text.empty());
-}
-
 Checked<Value> join(Call call, List const& list) {
   std::string const between = call.arguments.empty() ? "" : call.text_argument();
   std::string text;
@@ -53,97 +50,120 @@ Checked<Value> join(Call call, List const& list) {
   return call.long_text(std::move(text));
 }
 
+// ---- what functions of the prelude call
+
+/// What `findAll` and others gather in: of the kind that they walk through.
+Value no_items(Call call, Value const& items) {
+  switch (items.kind()) {
+    case ValueKind::map: return Value(call.heap.make<Map>());
+    case ValueKind::vehicles: return Value(call.heap.make<Vehicles>(std::vector<vehicle::VehicleId>{}));
+    default: return call.list({});
+  }
+}
+
+Value list_with(Call call, List& list) {
+  list.push(call.arguments[0]);
+  return Value(&list);
+}
+
+MethodResult map_with(Call call, Map& map) {
+  auto const* entry = call.arguments[0].as<Entry>();
+  if (!entry) return std::nullopt;
+  map.set(entry->key, entry->value);
+  return Value(&map);
+}
+
+MethodResult set_with(Call call, Vehicles const& set) {
+  auto const* one = call.arguments[0].as<Vehicle>();
+  if (!one) return std::nullopt;
+  auto ids = set.ids;
+  ids.push_back(one->value);
+  return Value(call.heap.make<Vehicles>(std::move(ids)));
+}
+
+/// What `sort` does to a list.
+MethodResult become(Call call, List& list) {
+  auto const* other = call.arguments[0].as<List>();
+  if (!other) return std::nullopt;
+  auto fresh = other->items;
+  std::swap(list.items, fresh);
+  return Value(&list);
+}
+
 using namespace receivers;
 
 constexpr auto table = std::to_array<MethodSpec>({
     pure({walked, "size", "", Kind::integer, "How many.", "[3, 1].size()",
           of<size<List>, size<Map>, size<Range>, size<Vehicles>, size<Text>>}),
     pure({walked, "isEmpty", "", Kind::boolean, "Whether there is nothing in it.", "[].isEmpty()",
-          of<is_empty<List>, is_empty<Map>, is_empty<Range>, is_empty<Vehicles>, is_empty_text>}),
+          of<is_empty<List>, is_empty<Map>, is_empty<Range>, is_empty<Vehicles>,
+             [](Call, Text const& text) { return Value::boolean(text.text.empty()); }>}),
     pure({parts, "contains", "value", Kind::boolean,
           "Whether the value is in it; a text has parts that fit a pattern, too.", "'harbour'.contains('bo')",
-          of<contains_match, contains_text, holds<List>, holds<Range>, holds<Vehicles>>}),
-    written({walked, "each", "closure", any, "Calls the closure with each.", ""}, R"dolphin(
-def each(items, f) {
+          of<contains_text, holds<List>, holds<Range>, holds<Vehicles>>}),
+    written({walked, "each", "closure", any, "Calls the closure with each.", ""}, R"(def each(items, f) {
   for (x in items) { f(x) }
   return items
-}
-)dolphin"),
-    written({walked, "eachWithIndex", "closure", any, "Calls the closure with each and its index.", ""}, R"dolphin(
-def eachWithIndex(items, f) {
+})"),
+    written({walked, "eachWithIndex", "closure", any, "Calls the closure with each and its index.", ""},
+            R"(def eachWithIndex(items, f) {
   def i = 0
   def splits = items instanceof Map && parameters(f) > 2
   for (x in items) { if (splits) { f(x.key, x.value, i++) } else { f(x, i++) } }
   return items
-}
-)dolphin"),
+})"),
     written({walked, "collect", "closure", Kind::list, "What the closure makes of each.", "[1, 2].collect { it * 10 }"},
-            R"dolphin(
-def collect(items, f) {
+            R"(def collect(items, f) {
   def result = []
   for (x in items) { result << f(x) }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "collectEntries", "closure", Kind::map, "A map of what the closure makes of each.",
              "['a', 'b'].collectEntries { [it, it.toUpperCase()] }"},
-            R"dolphin(
-def collectEntries(items, f) {
+            R"(def collectEntries(items, f) {
   def result = [:]
   for (x in items) {
     def pair = f(x)
     if (pair instanceof Map) { result.putAll(pair) } else { result[pair[0]] = pair[1] }
   }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "find", "closure", any, "The first for which the closure is true, or null.",
              "[1, 2, 3].find { it > 1 }"},
-            R"dolphin(
-def find(items, f) {
+            R"(def find(items, f) {
   for (x in items) { if (f(x)) { return x } }
   return null
-}
-)dolphin"),
+})"),
     written({walked, "findAll", "closure", any, "Those for which the closure is true.", "[1, 2, 3].findAll { it > 1 }"},
-            R"dolphin(
-def findAll(items, f) {
+            R"(def findAll(items, f) {
   def result = items.emptyLike()
   for (x in items) { if (f(x)) { result = result.with(x) } }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "findIndexOf", "closure", Kind::integer,
              "The index of the first for which the closure is true, or -1.", "[5, 6].findIndexOf { it > 5 }"},
-            R"dolphin(
-def findIndexOf(items, f) {
+            R"(def findIndexOf(items, f) {
   def i = 0
   for (x in items) {
     if (f(x)) { return i }
     i++
   }
   return -1
-}
-)dolphin"),
+})"),
     written({walked, "any", "closure?", Kind::boolean, "Whether the closure is true for one.", "[1, 2].any { it > 1 }"},
-            R"dolphin(
-def any(items, f = { it }) {
+            R"(def any(items, f = { it }) {
   for (x in items) { if (f(x)) { return true } }
   return false
-}
-)dolphin"),
+})"),
     written(
         {walked, "every", "closure?", Kind::boolean, "Whether the closure is true for all.", "[1, 2].every { it > 1 }"},
-        R"dolphin(
-def every(items, f = { it }) {
+        R"(def every(items, f = { it }) {
   for (x in items) { if (!f(x)) { return false } }
   return true
-}
-)dolphin"),
+})"),
     written({walked, "inject", "start?, closure", any, "Folds all into one value.",
              "[1, 2, 3].inject(10) { a, b -> a + b }"},
-            R"dolphin(
-def inject(items, start, f = null) {
+            R"(def inject(items, start, f = null) {
   def fold = f == null ? start : f
   def result = f == null ? null : start
   def isFirst = f == null
@@ -153,51 +173,42 @@ def inject(items, start, f = null) {
     isFirst = false
   }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "collectMany", "closure", Kind::list, "The lists that the closure makes of each, as one.",
              "[1, 2].collectMany { [it, -it] }"},
-            R"dolphin(
-def collectMany(items, f) {
+            R"(def collectMany(items, f) {
   def result = []
   for (x in items) { result.addAll(f(x).toList()) }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "findResult", "closure", any, "The first that the closure gives and is not null.",
              "[1, 2].findResult { it > 1 ? 'two' : null }"},
-            R"dolphin(
-def findResult(items, f) {
+            R"(def findResult(items, f) {
   for (x in items) {
     def found = f(x)
     if (found != null) { return found }
   }
   return null
-}
-)dolphin"),
-    written({walked, "reverseEach", "closure", any, "Calls the closure with each, the last one first.", ""}, R"dolphin(
-def reverseEach(items, f) {
+})"),
+    written({walked, "reverseEach", "closure", any, "Calls the closure with each, the last one first.", ""},
+            R"(def reverseEach(items, f) {
   for (x in items.toList().reverse()) { f(x) }
   return items
-}
-)dolphin"),
-    written({walked, "withIndex", "", Kind::list, "Pairs of each and its index.", "['a', 'b'].withIndex()"}, R"dolphin(
-def withIndex(items) {
+})"),
+    written({walked, "withIndex", "", Kind::list, "Pairs of each and its index.", "['a', 'b'].withIndex()"},
+            R"(def withIndex(items) {
   def result = []
   def i = 0
   for (x in items) { result << [x, i++] }
   return result
-}
-)dolphin"),
-    written({walked, "toSorted", "closure?", Kind::list, "A new list, in order.", "[3, 1, 2].toSorted()"}, R"dolphin(
-def toSorted(items, f = { it }) { return ordered(items.toList(), f) }
-)dolphin"),
+})"),
+    written({walked, "toSorted", "closure?", Kind::list, "A new list, in order.", "[3, 1, 2].toSorted()"},
+            R"(def toSorted(items, f = { it }) { return ordered(items.toList(), f) })"),
     pure({ordered, "join", "between?", Kind::text, "All as one text.", "[1, 2].join('-')", in_order<join>}),
     written(
         {walked, "sort", "changes itself?, closure?", any,
          "In order; a list is itself put into order, unless the first argument is false.", "[3, 1, 2].sort { -it }"},
-        R"dolphin(
-def sort(items, how = null, f = null) {
+        R"(def sort(items, how = null, f = null) {
   def changesItself = how != false && items instanceof List
   def by = how instanceof Boolean ? f : how
   if (items instanceof Map) {
@@ -207,32 +218,26 @@ def sort(items, how = null, f = null) {
   }
   def result = ordered(items.toList(), by == null ? { it } : by)
   return changesItself ? items.become(result) : result
-}
-)dolphin"),
+})"),
     written(pure({walked, "sum", "start?, closure?", any, "All added up, from a first value if there is one.",
                   "[1, 2].sum()"}),
-            R"dolphin(
-def sum(items, start = null, f = { it }) {
+            R"(def sum(items, start = null, f = { it }) {
   def value = start instanceof Closure ? start : f
   def result = start instanceof Closure ? null : start
   for (x in items) { result = result == null ? value(x) : result + value(x) }
   return result
-}
-)dolphin"),
+})"),
     written({many, "count", "value or closure", Kind::integer,
              "How many equal the value, or for how many the closure is true.", "[1, 2, 3].count { it > 1 }"},
-            R"dolphin(
-def count(items, f) {
+            R"(def count(items, f) {
   def result = 0
   def counts = f instanceof Closure ? f : { it == f }
   for (x in items) { if (counts(x)) { result++ } }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "groupBy", "closure", Kind::map, "Parts by what the closure makes of each.",
              "[1, 2, 3].groupBy { it % 2 }"},
-            R"dolphin(
-def groupBy(items, f) {
+            R"(def groupBy(items, f) {
   def result = [:]
   for (x in items) {
     def key = f(x)
@@ -240,36 +245,30 @@ def groupBy(items, f) {
     result[key] = result[key].with(x)
   }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "countBy", "closure", Kind::map, "How many there are by what the closure makes of each.",
              "[1, 2, 3].countBy { it % 2 }"},
-            R"dolphin(
-def countBy(items, f) {
+            R"(def countBy(items, f) {
   def result = [:]
   for (x in items) {
     def key = f(x)
     result[key] = (result[key] ?: 0) + 1
   }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "takeWhile", "closure", any, "The first ones, as long as the closure is true.",
              "[1, 2, 3, 1].takeWhile { it < 3 }"},
-            R"dolphin(
-def takeWhile(items, f) {
+            R"(def takeWhile(items, f) {
   def result = items.emptyLike()
   for (x in items) {
     if (!f(x)) { return result }
     result = result.with(x)
   }
   return result
-}
-)dolphin"),
+})"),
     written({walked, "dropWhile", "closure", any, "What is left from the first on for which the closure is false.",
              "[1, 2, 3, 1].dropWhile { it < 3 }"},
-            R"dolphin(
-def dropWhile(items, f) {
+            R"(def dropWhile(items, f) {
   def result = items.emptyLike()
   def drops = true
   for (x in items) {
@@ -277,23 +276,32 @@ def dropWhile(items, f) {
     if (!drops) { result = result.with(x) }
   }
   return result
-}
-)dolphin"),
-    written({walked, "toSet", "", Kind::list, "A new list in which each is once.", "[1, 2, 1].toSet()"}, R"dolphin(
-def toSet(items) { return items.toList().unique() }
-)dolphin"),
-    written(pure({walked, "min", "closure?", any, "The smallest.", "['aa', 'b'].min { it.size() }"}), R"dolphin(
-def min(items, f = { it }) { return smallest(items, f, 1) }
-)dolphin"),
-    written(pure({walked, "max", "closure?", any, "The largest.", "[3, 1, 2].max()"}), R"dolphin(
-def max(items, f = { it }) { return smallest(items, f, -1) }
-)dolphin"),
+})"),
+    written({walked, "toSet", "", Kind::list, "A new list in which each is once.", "[1, 2, 1].toSet()"},
+            R"(def toSet(items) { return items.toList().unique() })"),
+    written(pure({walked, "min", "closure?", any, "The smallest.", "['aa', 'b'].min { it.size() }"}),
+            R"(def min(items, f = { it }) { return smallest(items, f, 1) })"),
+    written(pure({walked, "max", "closure?", any, "The largest.", "[3, 1, 2].max()"}),
+            R"(def max(items, f = { it }) { return smallest(items, f, -1) })"),
+});
+
+constexpr auto helpers = std::to_array<MethodSpec>({
+    {walked, "emptyLike", "", any, "", "", of<no_items>},
+    {many, "with", "value", any, "", "", of<list_with, map_with, set_with>},
+    {lists, "become", "list", any, "", "", of<become>},
+    {Kind::text, "cutBy", "pattern", any, "", "", of<cut_text>},
+    {Kind::closure, "parameterCount", "", any, "", "",
+     of<[](Call, Closure const& closure) { return Value::integer(closure.function->parameters); }>},
 });
 
 }  // namespace
 
 std::span<MethodSpec const> walking_methods() {
   return table;
+}
+
+std::span<MethodSpec const> prelude_methods() {
+  return helpers;
 }
 
 }  // namespace lapwing::dolphin::internal

@@ -1,5 +1,7 @@
 #include "dolphin/names/prelude.hpp"
 
+#include <fmt/format.h>
+
 #include "dolphin/names/signatures.hpp"
 
 namespace lapwing::dolphin {
@@ -7,7 +9,7 @@ namespace lapwing::dolphin {
 namespace {
 
 /// What several of them use, and `during`, which the compiler calls.
-constexpr std::string_view common = R"dolphin(
+constexpr std::string_view common = R"(
 def parameters(f) { return f instanceof Closure ? f.parameterCount() : 1 }
 def smallest(items, f, sign) {
   def precedes = parameters(f) > 1 ? { a, b -> f(a, b) * sign < 0 } : null
@@ -51,14 +53,14 @@ def smaller(a, b) { a < b ? a : b }
 def during(limit, t) {
   return duringSeconds(limit instanceof Closure ? limit() : limit, t)
 }
-)dolphin";
+)";
 
 }  // namespace
 
 std::string prelude() {
   std::string out(common);
-  for (auto const& instruction : instructions()) out += instruction.source;
-  for (auto const& method : methods()) out += method.source;
+  for (auto const& instruction : instructions()) out += fmt::format("{}\n", instruction.source);
+  for (auto const& method : methods()) out += fmt::format("{}\n", method.source);
   return out;
 }
 

@@ -16,13 +16,16 @@
 namespace lapwing::dolphin::internal {
 
 using Call = MethodCall const&;
+/// The receiver of what both kinds of numbers have.
+struct Number {
+  Value const& value;
+};
 
 /// What every file of methods has: rows in the order of the reference.
 [[nodiscard]] std::span<MethodSpec const> walking_methods();
 [[nodiscard]] std::span<MethodSpec const> list_methods();
 [[nodiscard]] std::span<MethodSpec const> text_methods();
-[[nodiscard]] std::span<MethodSpec const> number_methods();
-[[nodiscard]] std::span<MethodSpec const> other_methods();
+[[nodiscard]] std::span<MethodSpec const> value_methods();
 /// Those that the prelude alone calls.
 [[nodiscard]] std::span<MethodSpec const> prelude_methods();
 
@@ -49,6 +52,9 @@ MethodResult called(Call call, Value const& object) {
   using T = std::remove_const_t<decltype(receiver_of(+function))>;
   if constexpr (std::is_same_v<T, Value>) {
     return function(call, object);
+  } else if constexpr (std::is_same_v<T, Number>) {
+    if (!object.is_number()) return std::nullopt;
+    return function(call, Number{object});
   } else {
     auto* const receiver = object.as<T>();
     if (!receiver) return std::nullopt;
@@ -99,29 +105,16 @@ Checked<Value> holds(Call call, T& container) {
   return Value::boolean(*found);
 }
 
-// ---- of texts, for rows that others share
-
-[[nodiscard]] MethodResult contains_match(Call call, Text const& text);
-[[nodiscard]] Checked<Value> contains_text(Call call, Text const& text);
+// For rows that texts or numbers share with others.
+[[nodiscard]] MethodResult contains_text(Call call, Text const& text);
 [[nodiscard]] Checked<Value> take_text(Call call, Text const& text);
 [[nodiscard]] Checked<Value> drop_text(Call call, Text const& text);
 [[nodiscard]] Value reversed_text(Call call, Text const& text);
 [[nodiscard]] Value letters(Call call, Text const& text);
-
-// ---- of patterns
-
-[[nodiscard]] MethodResult matches(Call call, Text const& text);
-[[nodiscard]] MethodResult first_match(Call call, Text const& text);
-[[nodiscard]] MethodResult all_matches(Call call, Text const& text);
-[[nodiscard]] MethodResult count_matches(Call call, Text const& text);
-[[nodiscard]] MethodResult split_by_matches(Call call, Text const& text);
-[[nodiscard]] MethodResult replaced_matches(Call call, Text const& text);
-[[nodiscard]] MethodResult cut_by_matches(Call call, Text const& text);
-
-// ---- of numbers
-
-[[nodiscard]] MethodResult as_integer(Call call, Value const& number);
-[[nodiscard]] MethodResult as_real(Call call, Value const& number);
+/// What stands before a match, the match, and so on.
+[[nodiscard]] MethodResult cut_text(Call call, Text const& text);
+[[nodiscard]] Checked<Value> as_integer(Call call, Number const& number);
+[[nodiscard]] Value as_real(Call call, Number const& number);
 
 /// An operator by its name: `a.plus(b)`.
 template <ast::BinaryOp operation>
