@@ -204,7 +204,7 @@ base::Task<base::Result<>> KeptMap::load_grids(LiveMap& into) {
   auto grids = co_await reader_.run(std::move(all));
   if (!grids) co_return std::unexpected(grids.error());
   for (auto& [key, part] : *grids) {
-    auto job = [key = key](Reader& reader) { return rows::read_tiles(*reader.database, key); };
+    auto job = [of = key](Reader& reader) { return rows::read_tiles(*reader.database, of); };
     auto tiles = co_await reader_.run(std::move(job));
     if (!tiles) {
       note_fault(tiles.error().message);
