@@ -156,9 +156,9 @@ function dragAbout() {
   requestAnimationFrame(step);
 }
 
-const CLICKS = 9;
+const CLICKS = 20;
 
-/** The median time in ms from a click at a vehicle in the list to the frame that shows its details, of some clicks while all fly. */
+/** The time in ms from a click at a vehicle in the list to the frame that shows its details, of some clicks while all fly. */
 async function clickToDetails(page, count, tick) {
   const timer = setInterval(tick, TICK_MS);
   const times = [];
@@ -181,12 +181,14 @@ async function clickToDetails(page, count, tick) {
     await new Promise((over) => setTimeout(over, TICK_MS * 1.3));
   }
   clearInterval(timer);
-  return { clicks: CLICKS, vehicles: count, click_to_details_ms: times.sort((a, b) => a - b)[Math.floor(CLICKS / 2)], longest_ms: times.at(-1) };
+  times.sort((a, b) => a - b);
+  const [middle, p95] = [times[Math.floor(CLICKS / 2)], times[Math.ceil(CLICKS * 0.95) - 1]];
+  return { clicks: CLICKS, vehicles: count, click_to_details_ms: middle, p95_ms: p95, longest_ms: times.at(-1) };
 }
 
 function tellClick(count, row) {
   rows.push(row);
-  console.log(`page    ${String(count).padStart(3)} vehicles flying , click to details: ${row.click_to_details_ms.toFixed(0)} ms in the middle of ${CLICKS}, ${row.longest_ms.toFixed(0)} ms at most`);
+  console.log(`page    ${String(count).padStart(3)} vehicles flying , click to details: ${row.click_to_details_ms.toFixed(0)} ms in the middle of ${CLICKS}, ${row.p95_ms.toFixed(0)} ms for 95 %, ${row.longest_ms.toFixed(0)} ms at most`);
 }
 
 /** The same vehicles with the same trails, standing still, then flying, then flying below a map that is dragged about. */
@@ -229,7 +231,7 @@ async function measure(browser, count, points, tell) {
       requestAnimationFrame(note);
     });
     // Without vehicles there is nothing but the map: what this machine can do at best.
-    for (const [moves, isDragged] of count ? [[false, false], [true, false], [true, true]] : [[false, false]]) {
+    for (const [moves, isDragged] of count ? [[false, false], [true, false], [true, true]] : [[false, false], [false, true]]) {
       if (isDragged) await page.evaluate(dragAbout);
       tell({ vehicles: count, trail_points: points, moves, dragged: isDragged, ...(await overSomeTime(page, session, system, () => station.tick(moves))) });
       if (moves && !isDragged) tellClick(count, await clickToDetails(page, count, () => station.tick(true)));
@@ -249,7 +251,7 @@ function tell(row) {
   rows.push(row);
   const figure = (key, digits = 1) => row[key].toFixed(digits);
   console.log(
-    `page    ${String(row.vehicles).padStart(3)} vehicles ${row.dragged ? 'flying, map dragged' : row.moves ? 'flying ' : 'resting'}, trails of ${row.trail_points}: main thread ${figure('main_thread_ms_a_tick')} ms a tick ` +
+    `page    ${String(row.vehicles).padStart(3)} vehicles ${row.moves ? 'flying ' : 'resting'}${row.dragged ? ', map dragged' : ''}, trails of ${row.trail_points}: main thread ${figure('main_thread_ms_a_tick')} ms a tick ` +
       `at ${figure('ticks_a_second')} ticks/s (script ${figure('script_ms_a_tick')}, style and layout ${figure('style_and_layout_ms_a_tick')}), ${figure('frames_a_second')} frames/s, ${figure('map_frames_a_second')} of the map, ` +
       `longest ${figure('longest_frame_ms', 0)} ms; page ${figure('page_process_percent', 0)} %, drawing ${figure('drawing_process_percent', 0)} % of a core`,
   );
