@@ -6,7 +6,9 @@
 #include <array>
 #include <functional>
 #include <set>
+#include <utility>
 
+#include "formats/archive.hpp"
 #include "formats/grid_geotiff.hpp"
 #include "formats/picture_geotiff.hpp"
 #include "formats/print.hpp"
@@ -79,8 +81,9 @@ std::optional<VectorFormat> vector_format(Format const& format) {
 }
 
 base::Result<PrintOptions> print_options(MapContents const& contents, ExportOptions const& options) {
-  if (!options.site.empty()) return PrintOptions{options.site, options.floor, options.scale};
-  if (contents.sites.size() == 1) return PrintOptions{contents.sites.begin()->first, options.floor, options.scale};
+  auto const& [layers, site, floor, within] = options.choice;
+  if (!site.empty()) return PrintOptions{site, floor, options.scale};
+  if (contents.sites.size() == 1) return PrintOptions{contents.sites.begin()->first, floor, options.scale};
   return fail(ErrorKind::invalid_input,
               fmt::format("the map has {} sites, and a print shows one", contents.sites.size()),
               "say which: --site ID");
@@ -106,15 +109,33 @@ base::Result<> make_folder(files::path const& folder) {
   return {};
 }
 
+/// How far a work of several steps is.
+class Steps {
+ public:
+  Steps(Progress const& progress, std::size_t all) : progress_(progress), all_(all) {}
+  /// False: nobody wants the rest.
+  [[nodiscard]] bool next() {
+    return !progress_ || progress_(static_cast<double>(done_++) / static_cast<double>(std::max<std::size_t>(all_, 1)));
+  }
+
+ private:
+  Progress const& progress_;
+  std::size_t all_;
+  std::size_t done_ = 0;
+};
+
+std::unexpected<base::Error> stopped() {
+  return fail(ErrorKind::cancelled, "the export was stopped");
+}
+
 base::Result<std::size_t> export_grids(MapContents const& contents, Format const& format, files::path const& folder,
-                                       ExportOptions const& options) {
+                                       Steps& steps) {
   std::set<std::string> taken;
   std::size_t written = 0;
   for (auto const& [key, grid] : contents.grids) {
-    bool const is_meant =
-        (options.site.empty() || key.site == options.site) && (options.floor.empty() || key.floor == options.floor);
     auto const site = contents.sites.find(key.site);
-    if (!is_meant || site == contents.sites.end()) continue;
+    if (!steps.next()) return stopped();
+    if (site == contents.sites.end()) continue;
     auto const name = file_name(key, taken);
     auto const done = format.name == "ros" ? write_ros_map(grid, folder, name)
                                            : write_grid_geotiff(grid, site->second, folder / (name + ".tif"));
@@ -124,10 +145,11 @@ base::Result<std::size_t> export_grids(MapContents const& contents, Format const
   return written;
 }
 
-base::Result<std::size_t> export_pictures(MapContents const& contents, files::path const& folder,
-                                          ReadBlob const& blob) {
+base::Result<std::size_t> export_pictures(MapContents const& contents, files::path const& folder, ReadBlob const& blob,
+                                          Steps& steps) {
   std::size_t written = 0;
   for (auto const& feature : contents.features) {
+    if (!steps.next()) return stopped();
     auto const* picture = std::get_if<map::Picture>(&feature.content);
     auto const site = contents.sites.find(feature.site);
     if (!picture || picture->footprint.size() != 4 || site == contents.sites.end()) continue;
@@ -144,13 +166,27 @@ base::Result<std::size_t> export_pictures(MapContents const& contents, files::pa
 base::Result<> export_files(MapContents const& contents, Format const& format, files::path const& folder,
                             ExportOptions const& options) {
   if (auto const made = make_folder(folder); !made) return made;
-  auto const grids = export_grids(contents, format, folder, options);
+  Steps steps(options.progress, contents.grids.size() + contents.features.size());
+  auto const grids = export_grids(contents, format, folder, steps);
   if (!grids) return std::unexpected(grids.error());
-  auto const pictures = format.holds_pictures && options.blob ? export_pictures(contents, folder, options.blob)
+  auto const pictures = format.holds_pictures && options.blob ? export_pictures(contents, folder, options.blob, steps)
                                                               : base::Result<std::size_t>(0U);
   if (!pictures) return std::unexpected(pictures.error());
   if (*grids + *pictures > 0) return {};
   return fail(ErrorKind::invalid_input, fmt::format("there is nothing in the map that {} holds", format.name));
+}
+
+/// By way of a folder beside it, which goes again.
+base::Result<> export_packed(MapContents const& contents, Format const& format, files::path const& archive,
+                             ExportOptions const& options) {
+  auto folder = archive;
+  folder += ".parts";
+  std::error_code ignored;
+  files::remove_all(folder, ignored);
+  auto done = export_map(contents, format, folder, options);
+  if (done) done = write_archive(folder, archive);
+  files::remove_all(folder, ignored);
+  return done;
 }
 
 }  // namespace
@@ -175,13 +211,16 @@ Format const* format_of(files::path const& path) {
   return found == table.end() ? nullptr : &*found;
 }
 
+bool is_folder(Format const& format) {
+  return format.extension.empty() || (format.holds_grids && !format.holds_features);
+}
+
 base::Result<> export_map(MapContents const& contents, Format const& format, files::path const& path,
                           ExportOptions const& options) {
-  auto chosen = contents;
-  if (options.layer)
-    std::erase_if(chosen.features,
-                  [&](map::Feature const& feature) { return map::layer_of(feature.content) != *options.layer; });
-  if (auto const vectors = vector_format(format)) return write_vectors(chosen, *vectors, path);
+  bool const is_packed = path.extension() == ".zip" && is_folder(format);
+  if (is_packed) return export_packed(contents, format, path, options);
+  auto const chosen = chosen_of(contents, options.choice);
+  if (auto const vectors = vector_format(format)) return write_vectors(chosen, *vectors, path, options.progress);
   if (format.name == "svg" || format.name == "pdf") {
     auto const print = print_options(chosen, options);
     if (!print) return std::unexpected(print.error());

@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "formats/base_map.hpp"
+#include "formats/choice.hpp"
 #include "formats/map_contents.hpp"
 #include "formats/vector_files.hpp"
 
@@ -26,19 +28,21 @@ struct Format {
 [[nodiscard]] std::span<Format const> formats();
 /// Null: there is none of that name.
 [[nodiscard]] Format const* format_named(std::string_view name);
+/// Whether it is several files: a file a layer, or a grid.
+[[nodiscard]] bool is_folder(Format const& format);
 /// By the name of a file or folder; null: none.
 [[nodiscard]] Format const* format_of(std::filesystem::path const& path);
 
 struct ExportOptions {
-  std::optional<map::LayerKind> layer = {};  ///< this one alone
-  std::string site = {};                     ///< of prints, GeoTIFF and ROS maps; empty: the only one
-  std::string floor = {};
+  Choice choice = {};    ///< a print shows one site: the one that is chosen, or the only one
   double scale = 100.0;  ///< of prints, 1 : scale
   ReadBlob blob = {};    ///< for formats that hold pictures
+  Progress progress = {};
 };
 
 /// Writes the map, or what of it the format holds, as a file or folder `path`. A format that holds grids alone writes
-/// one file a grid into the folder `path`. Errors: invalid_input, also when nothing in the map fits the format; io.
+/// one file a grid into the folder `path`. A `path` that ends in .zip becomes an archive of what would be a folder.
+/// Errors: invalid_input, also when nothing in the map fits the format; io; cancelled.
 [[nodiscard]] base::Result<> export_map(MapContents const& contents, Format const& format,
                                         std::filesystem::path const& path, ExportOptions const& options = {});
 

@@ -75,9 +75,32 @@ TEST_F(ExportTest, EveryFormatIsWrittenAndThoseThatAreReadComeBack) {
 TEST_F(ExportTest, OneLayerCanBeChosen) {
   contents.features.push_back(contents.features[0]);
   contents.features[1].content = map::PointOfInterest{.position = map::SitePoint(1, 1)};
-  ASSERT_TRUE(export_map(contents, *format_named("geojson"), folder, {.layer = map::LayerKind::walls}));
+  ASSERT_TRUE(export_map(contents, *format_named("geojson"), folder, {.choice = {.layers = {map::LayerKind::walls}}}));
   EXPECT_TRUE(files::exists(folder / "walls.geojson"));
   EXPECT_FALSE(files::exists(folder / "points_of_interest.geojson"));
+}
+
+TEST_F(ExportTest, SeveralFilesCanBeOneArchive) {
+  auto const archive = folder / "map.zip";
+  ASSERT_TRUE(export_map(contents, *format_named("geojson"), archive));
+  EXPECT_FALSE(files::exists(archive.string() + ".parts"));
+  std::ifstream in(archive, std::ios::binary);
+  std::string const bytes{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_TRUE(bytes.starts_with("PK\x03\x04"));
+  EXPECT_NE(bytes.find("walls.geojson"), std::string::npos);
+  EXPECT_NE(bytes.find("sites.geojson"), std::string::npos);
+}
+
+TEST_F(ExportTest, CanBeStopped) {
+  for (auto const* format : {"geojson", "geopackage", "geotiff"}) {
+    map::OccupancyGrid grid(0.1);
+    grid.set({1, 1}, map::Evidence::of_probability(0.9));
+    contents.grids.insert_or_assign(map::GridKey{"yard", "0", "floor"}, grid);
+    auto const stopped = export_map(contents, *format_named(format), folder / fmt::format("map.{}", format),
+                                    {.progress = [](double) { return false; }});
+    ASSERT_FALSE(stopped) << format;
+    EXPECT_EQ(stopped.error().kind, base::ErrorKind::cancelled) << format << stopped.error().message;
+  }
 }
 
 TEST_F(ExportTest, MistakesAreTold) {

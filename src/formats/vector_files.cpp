@@ -80,14 +80,35 @@ bool add_feature(OGRLayer& layer, std::function<void(OGRFeature&)> const& fill) 
   return layer.CreateFeature(feature.get()) == OGRERR_NONE;
 }
 
+/// Counts features, and tells now and then how many there are.
+class Counter {
+ public:
+  Counter(Progress const& progress, std::size_t all) : progress_(progress), all_(all) {}
+  /// False: nobody wants the rest.
+  [[nodiscard]] bool next() {
+    constexpr std::size_t often = 500;
+    if (count_++ % often != 0 || !progress_ || is_stopped_) return !is_stopped_;
+    is_stopped_ = !progress_(static_cast<double>(count_) / static_cast<double>(all_));
+    return !is_stopped_;
+  }
+  [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+
+ private:
+  Progress const& progress_;
+  std::size_t all_;
+  std::size_t count_ = 0;
+  bool is_stopped_ = false;
+};
+
 using ByLayer = std::map<map::LayerKind, std::vector<map::Feature const*>>;
 
 bool write_layer(GDALDataset& data, Driver const& driver, map::LayerKind kind,
-                 std::vector<map::Feature const*> const& features, MapContents const& contents) {
+                 std::vector<map::Feature const*> const& features, MapContents const& contents, Counter& counter) {
   auto* layer = add_layer(data, driver, std::string(map::name_of(kind)), internal::geometry_type_of(kind),
                           [&](OGRFeatureDefn& fields) { internal::define_feature(fields, kind, driver.times); });
   if (!layer) return false;
   for (auto const* feature : features) {
+    if (!counter.next()) return false;
     auto const site = contents.sites.find(feature->site);
     if (site == contents.sites.end()) continue;
     if (!add_feature(*layer,
@@ -129,14 +150,15 @@ ByLayer by_layer(MapContents const& contents) {
   return layers;
 }
 
-base::Result<> write_folder(MapContents const& contents, Driver const& driver, files::path const& folder) {
+base::Result<> write_folder(MapContents const& contents, Driver const& driver, files::path const& folder,
+                            Counter& counter) {
   std::error_code error;
   files::create_directories(folder, error);
   if (error) return fail(ErrorKind::io, fmt::format("{} cannot be made: {}", folder.string(), error.message()));
   auto const file = [&](std::string_view name) { return folder / (std::string(name) + driver.extension); };
   for (auto const& [kind, features] : by_layer(contents)) {
     auto const written = write_file(driver, file(map::name_of(kind)), [&](GDALDataset& data) {
-      return write_layer(data, driver, kind, features, contents);
+      return write_layer(data, driver, kind, features, contents, counter);
     });
     if (!written) return written;
   }
@@ -287,15 +309,20 @@ std::vector<files::path> files_in(files::path const& folder) {
 
 }  // namespace
 
-base::Result<> write_vectors(MapContents const& contents, VectorFormat format, files::path const& path) {
+base::Result<> write_vectors(MapContents const& contents, VectorFormat format, files::path const& path,
+                             Progress const& progress) {
   auto const driver = driver_of(format);
-  if (driver.holds_one_layer) return write_folder(contents, driver, path);
-  return write_file(driver, path, [&](GDALDataset& data) {
-    for (auto const& [kind, features] : by_layer(contents)) {
-      if (!write_layer(data, driver, kind, features, contents)) return false;
-    }
-    return write_sites(data, driver, contents);
-  });
+  Counter counter(progress, contents.features.size());
+  auto const written = driver.holds_one_layer ? write_folder(contents, driver, path, counter)
+                                              : write_file(driver, path, [&](GDALDataset& data) {
+                                                  for (auto const& [kind, features] : by_layer(contents)) {
+                                                    if (!write_layer(data, driver, kind, features, contents, counter))
+                                                      return false;
+                                                  }
+                                                  return write_sites(data, driver, contents);
+                                                });
+  if (counter.is_stopped()) return fail(ErrorKind::cancelled, "the export was stopped");
+  return written;
 }
 
 base::Result<MapContents> read_vectors(files::path const& path, ReadOptions const& given) {

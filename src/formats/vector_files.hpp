@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "formats/base_map.hpp"
 #include "formats/map_contents.hpp"
 
 /// Layers of features in the files of GIS and office programs, by GDAL/OGR.
@@ -16,9 +17,9 @@ enum class VectorFormat { geopackage, geojson, kml, kmz, csv };
 /// Writes the layers that have features. GeoPackage, KML and KMZ: one file, a table or folder a layer. GeoJSON and CSV
 /// hold one layer a file: `path` is a folder then, with `slots.geojson`, ... In every one a feature has its id, site,
 /// floor, writer, time and properties; times are text in KML and CSV. `sites` goes along as a layer of points, so that
-/// reading it back finds the floors. An existing file is replaced. Errors: io.
+/// reading it back finds the floors. An existing file is replaced. Errors: io; cancelled.
 [[nodiscard]] base::Result<> write_vectors(MapContents const& contents, VectorFormat format,
-                                           std::filesystem::path const& path);
+                                           std::filesystem::path const& path, Progress const& progress = {});
 
 struct ReadOptions {
   /// What features without a layer's name in table, folder or file are; empty: such a file is an error.

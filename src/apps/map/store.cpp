@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "apps/map/store_export.hpp"
 #include "apps/verb.hpp"
 #include "base/async/loop.hpp"
 #include "formats/format.hpp"
 #include "map/store/care/care.hpp"
-#include "map/store/care/contents.hpp"
 #include "map/store/care/retention.hpp"
 #include "map/store/store.hpp"
 
@@ -26,14 +26,11 @@ using base::fail;
 
 struct StoreOptions {
   std::string store;
-  std::string other;   ///< the copy; the file that is read
-  std::string to;      ///< what is written
-  std::string format;  ///< empty: by the name of what is written
+  std::string other;  ///< the copy; the file that is read
   std::string layer;
   std::string site;
   std::string floor;
   std::string writer = "import";
-  double scale = 100.0;
   std::optional<std::uint64_t> most_mb;
   std::optional<int> days;
 };
@@ -92,40 +89,9 @@ int copy(StoreOptions const& options) {
 
 base::Result<std::optional<map::LayerKind>> layer_of(std::string const& name) {
   if (name.empty()) return std::optional<map::LayerKind>();
-  if (auto const layer = map::layer_named(name)) return std::optional(*layer);
-  std::string names;
-  for (auto const layer : map::all_layers) names += fmt::format("{}{}", names.empty() ? "" : ", ", map::name_of(layer));
-  return fail(ErrorKind::invalid_input, fmt::format("there is no layer `{}`", name), "layers: " + names);
-}
-
-base::Result<formats::Format const*> format_for(StoreOptions const& options) {
-  auto const* format = options.format.empty() ? formats::format_of(options.to) : formats::format_named(options.format);
-  if (format) return format;
-  std::string names;
-  for (auto const& one : formats::formats()) names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
-  return fail(ErrorKind::invalid_input,
-              options.format.empty() ? fmt::format("{} does not say in which format it shall be", options.to)
-                                     : fmt::format("there is no format `{}`", options.format),
-              "--format: " + names);
-}
-
-base::Result<> export_store(StoreOptions const& options) {
-  auto const layer = layer_of(options.layer);
+  auto const layer = layer_called(name);
   if (!layer) return std::unexpected(layer.error());
-  auto const format = format_for(options);
-  if (!format) return std::unexpected(format.error());
-  auto contents = care::read_contents(options.store);
-  if (!contents) return std::unexpected(contents.error());
-  formats::MapContents const all{std::move(contents->sites), std::move(contents->features), std::move(contents->grids)};
-  formats::ExportOptions wanted{.layer = *layer, .site = options.site, .floor = options.floor, .scale = options.scale};
-  wanted.blob = [&options](std::string const& hash) { return care::read_picture(options.store, hash); };
-  return formats::export_map(all, **format, options.to, wanted);
-}
-
-int write_out(StoreOptions const& options) {
-  if (auto const written = export_store(options); !written) return host::refuse(written.error());
-  fmt::print("{}\n", options.to);
-  return host::exit_done;
+  return std::optional(*layer);
 }
 
 /// Where what names no site lies: the one that is asked for, else the only one.
@@ -211,14 +177,8 @@ void add_store(CLI::App& program, int& exit_code) {
   auto* const other =
       part(*verb, *options, "copy", "Copy all that is kept into another one, which must be empty", exit_code, copy);
   other->add_option("to", options->other, "A folder, or postgresql://USER@HOST/DATABASE")->required();
-  auto* const out = part(*verb, *options, "export", "Write the map as a file of another program", exit_code, write_out);
-  out->add_option("--to", options->to, "The file or folder")->required();
-  out->add_option("--format", options->format,
-                  "geopackage, geojson, kml, kmz, csv, geotiff, ros, svg or pdf; default: by the name");
-  out->add_option("--layer", options->layer, "This layer alone");
-  out->add_option("--site", options->site, "This site alone, for grids and prints");
-  out->add_option("--floor", options->floor, "This floor alone, for grids and prints");
-  out->add_option("--scale", options->scale, "Of prints: 100 is 1 cm for a metre")->capture_default_str();
+  add_export(*verb, exit_code);
+  add_formats(*verb, exit_code);
   auto* const in =
       part(*verb, *options, "import", "Put on the map what is in a file of another program", exit_code, read_in);
   in->add_option("file", options->other, "GeoPackage, GeoJSON, KML, CSV, Shapefile, ..., GeoTIFF or a ROS map's .yaml")
