@@ -199,25 +199,33 @@ Json ogc_web_mercator_quad(std::string const& origin) {
   constexpr double picture_px = 256.0;
   constexpr double pixel_of_scale_m = 0.00028;  // the standard's pixel
   Json matrices = Json::array();
+  Json matrices_of_1_0 = Json::array();
   for (int zoom = 0; zoom <= map::highest_zoom; ++zoom) {
     double const tiles = std::exp2(zoom);
     double const cell_m = 2.0 * half_side_m / picture_px / tiles;
     auto const corner = Json::array({-half_side_m, half_side_m});
     matrices.push_back({{"id", fmt::format("{}", zoom)},
-                        {"identifier", fmt::format("{}", zoom)},
                         {"scaleDenominator", cell_m / pixel_of_scale_m},
                         {"cellSize", cell_m},
                         {"cornerOfOrigin", "topLeft"},
                         {"pointOfOrigin", corner},
-                        {"topLeftCorner", corner},
                         {"tileWidth", 256},
                         {"tileHeight", 256},
                         {"matrixWidth", std::int64_t{1} << zoom},
                         {"matrixHeight", std::int64_t{1} << zoom}});
+    matrices_of_1_0.push_back({{"type", "TileMatrixType"},
+                               {"identifier", fmt::format("{}", zoom)},
+                               {"scaleDenominator", cell_m / pixel_of_scale_m},
+                               {"topLeftCorner", corner},
+                               {"tileWidth", 256},
+                               {"tileHeight", 256},
+                               {"matrixWidth", std::int64_t{1} << zoom},
+                               {"matrixHeight", std::int64_t{1} << zoom}});
   }
-  // The second edition of the standard (17-083r4), and beside it the words of the first: GDAL before 3.7 knows no
-  // others.
-  return {{"id", web_mercator_quad},
+  // The second edition of the standard (17-083r4), and beside it the JSON of the first (17-083r2): GDAL before 3.8
+  // reads no other, and knows it by its type.
+  return {{"type", "TileMatrixSetType"},
+          {"id", web_mercator_quad},
           {"identifier", web_mercator_quad},
           {"supportedCRS", web_mercator},
           {"boundingBox",
@@ -229,7 +237,8 @@ Json ogc_web_mercator_quad(std::string const& origin) {
           {"crs", web_mercator},
           {"wellKnownScaleSet", "http://www.opengis.net/def/wkss/OGC/1.0/GoogleMapsCompatible"},
           {"links", links_json({{"self", fmt::format("{}/ogc/tileMatrixSets/{}", origin, web_mercator_quad)}})},
-          {"tileMatrices", std::move(matrices)}};
+          {"tileMatrices", std::move(matrices)},
+          {"tileMatrix", std::move(matrices_of_1_0)}};
 }
 
 Json tile_json(map::LiveMap const& map, map::GridKey const& key, std::string const& origin) {

@@ -130,6 +130,9 @@ TEST_F(OgcRoutes, LeadFromAGridToItsPictures) {
   auto const scheme = get(link(tileset, "http://www.opengis.net/def/rel/ogc/1.0/tiling-scheme"));
   EXPECT_EQ(scheme["tileMatrices"].size(), 26U);
   EXPECT_NEAR(scheme["tileMatrices"][0]["scaleDenominator"].get<double>(), 559'082'264.0287178, 1e-3);
+  EXPECT_EQ(scheme["type"], "TileMatrixSetType") << "by which older programs know it";
+  EXPECT_EQ(scheme["tileMatrix"][25]["identifier"], "25");
+  EXPECT_EQ(scheme["tileMatrix"][25]["topLeftCorner"], scheme["tileMatrices"][25]["pointOfOrigin"]);
   auto const& limits = tileset["tileMatrixSetLimits"].back();
   auto address = link(tileset, "item");
   auto const fill = [&](std::string_view name, std::string const& value) {
