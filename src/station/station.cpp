@@ -9,6 +9,7 @@
 
 #include "base/open_metrics.hpp"
 #include "station/basemaps/base_map_routes.hpp"
+#include "station/exports/export_routes.hpp"
 #include "station/feeds/alarms_feed.hpp"
 #include "station/feeds/control_feed.hpp"
 #include "station/feeds/log_feed.hpp"
@@ -74,6 +75,7 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       history_(keep_log(hub, options_.log_history)),
       own_map_(options_.map ? nullptr : std::make_unique<map::LiveMap>([&loop] { return loop.utc_now(); })),
       map_face_(loop, options_.map ? *options_.map : *own_map_, options_.blobs),
+      exports_(options_.exporter ? std::make_unique<ExportJobs>(loop, *options_.exporter) : nullptr),
       viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_),
                further_feeds(map_face_, std::move(options_.feeds))),
       server_(std::move(server)) {
@@ -200,6 +202,7 @@ Router Station::make_router() {
   add_alarm_routes(router, options_.alarms, loop_);
   add_parameter_routes(router, options_.parameters);
   map_face_.add_routes(router);
+  add_export_routes(router, loop_, options_.map ? *options_.map : *own_map_, exports_.get());
   add_base_map_routes(router, loop_, options_.base_maps);
   add_history_routes(router, options_.store);
   router.add("GET", "/api/v1/log", [this](auto const& request) { return get_log(request); });

@@ -14,6 +14,7 @@
 #include "map/live/live_map.hpp"
 #include "map/store/store.hpp"
 #include "station/basemaps/base_map.hpp"
+#include "station/exports/export_jobs.hpp"
 #include "station/feeds/feed.hpp"
 #include "station/history/recorder.hpp"
 #include "station/http/http_server.hpp"
@@ -50,6 +51,7 @@ class Station {
     BlobStore* blobs = nullptr;                        ///< outlives the station; null: no pictures are kept
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
     std::vector<BaseMap> base_maps = {};               ///< that viewers may choose from
+    MapExporter* exporter = nullptr;                   ///< outlives the station; null: nobody writes files of the map
     map::Store* store = nullptr;  ///< outlives the station; keeps what is shown; null: nothing is kept
     /// Between two looks at what is new, for the store: half a second is what a person who looks back can tell apart.
     std::chrono::milliseconds record_period{500};
@@ -102,6 +104,7 @@ class Station {
   std::shared_ptr<LogHistory const> history_;
   std::unique_ptr<map::LiveMap> own_map_;
   MapFace map_face_;
+  std::unique_ptr<ExportJobs> exports_;                ///< null without an exporter
   int sessions_ = 0;                                   ///< ever opened: numbers the operators
   std::map<SessionId, vehicle::Commander> operators_;  ///< "operator 3", where vehicles are commanded
   Viewers viewers_;

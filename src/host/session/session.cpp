@@ -159,6 +159,8 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   station_map = *std::move(kept);
   options.store = &station_map->store();
   options.blobs = station_map.get();
+  map_exports = std::make_unique<MapExports>(loop, *options.store, station_map->address());
+  options.exporter = map_exports.get();
   if (content.home && live_map.sites().empty())
     if (auto site = geo::Site::make("default", *content.home)) live_map.put_site(*std::move(site));
   options.map = &live_map;

@@ -16,6 +16,7 @@
 #include "host/links/forward.hpp"
 #include "host/links/ground.hpp"
 #include "host/links/recording.hpp"
+#include "host/map/map_exports.hpp"
 #include "host/map/station_map.hpp"
 #include "host/map/track_writer.hpp"
 #include "host/session/script_host.hpp"
@@ -104,6 +105,7 @@ class Session {
   std::unique_ptr<sim::World> world;
   lapwing::map::LiveMap live_map;           ///< what lies on the map
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
+  std::unique_ptr<MapExports> map_exports;
   std::unique_ptr<TrackWriter> tracks;      ///< where there is a station to show them
   std::unique_ptr<station::Station> map;
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'

@@ -1,5 +1,7 @@
 #include "map/basemaps/mbtiles.hpp"
 
+#include "map/basemaps/vector_layers.hpp"
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -100,6 +102,8 @@ class MbTiles final : public TileArchive {
         info_.name = std::move(value);
       else if (name == "attribution")
         info_.attribution = std::move(value);
+      else if (name == "json")
+        info_.vector_layers = vector_layers_of(value);
       else if (name == "format")
         format = std::move(value);
       else if (name == "minzoom")

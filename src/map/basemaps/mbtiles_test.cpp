@@ -46,6 +46,16 @@ TEST_F(MbTilesTest, CountsRowsFromTheSouth) {
   EXPECT_EQ(info.bounds_deg, (std::array{-10.0, -5.0, 10.0, 5.0}));
 }
 
+TEST_F(MbTilesTest, NamesTheLayersOfVectorTiles) {
+  write(
+      std::string(tables) +
+      R"(INSERT INTO metadata VALUES ('format', 'pbf'), ('json', '{"vector_layers":[{"id":"water"},{"id":7},8,{"id":"roads"}]}');)");
+  auto const archive = TileArchive::open(file).value();
+  auto const& info = archive->info();
+  EXPECT_EQ(info.encoding, "gzip");
+  EXPECT_EQ(info.vector_layers, std::vector<std::string>({"water", "roads"}));
+}
+
 TEST_F(MbTilesTest, ReadsTilesFromViews) {
   write(
       "CREATE TABLE metadata (name text, value text); CREATE TABLE images (id integer, data blob);"

@@ -1,5 +1,7 @@
 #include "map/basemaps/pmtiles.hpp"
 
+#include "map/basemaps/vector_layers.hpp"
+
 #include <fmt/format.h>
 #include <zlib.h>
 #include <nlohmann/json.hpp>
@@ -228,6 +230,7 @@ void read_metadata(TileArchiveInfo& info, std::string const& text) {
   };
   info.name = word("name");
   info.attribution = word("attribution");
+  info.vector_layers = vector_layers_of(text);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ struct Archive {
   std::string root;
   std::string leaves = {};
   std::string tiles = {};
-  std::string metadata = R"({"name":"Yard","attribution":"us"})";
+  std::string metadata = R"({"name":"Yard","attribution":"us","vector_layers":[{"id":"earth"}]})";
   bool is_packed = false;
 
   [[nodiscard]] std::string bytes() const {
@@ -136,6 +136,7 @@ TEST(PmTiles, FindsTilesOfRunsAndOfLeaves) {
     EXPECT_EQ((*archive)->tile({1, 2, 0}).value(), std::nullopt) << "no such address";
     EXPECT_EQ((*archive)->info().name, "Yard");
     EXPECT_EQ((*archive)->info().attribution, "us");
+    EXPECT_EQ((*archive)->info().vector_layers, std::vector<std::string>({"earth"}));
     EXPECT_EQ((*archive)->info().media_type, "image/png");
     EXPECT_EQ((*archive)->info().bounds_deg[0], -10.0);
   }

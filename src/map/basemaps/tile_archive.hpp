@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -29,6 +30,7 @@ struct TileArchiveInfo {
   std::string attribution = {};  ///< whom to thank, as the map must show it; may hold HTML, of others: show it as text
   std::string media_type = {};   ///< "image/png", "image/jpeg", "image/webp", "application/x-protobuf"
   std::string encoding = {};     ///< "gzip" where tiles are packed so; else empty
+  std::vector<std::string> vector_layers = {};  ///< of vector tiles: what their layers are called
   std::uint32_t least_zoom = 0;
   std::uint32_t greatest_zoom = 22;
   /// West, south, east, north, in degrees; the whole world where it does not say.

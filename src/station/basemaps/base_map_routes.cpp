@@ -29,11 +29,13 @@ struct Source {
   }
   Json operator()(Archive const& archive) const {
     auto const& info = archive->info();
-    return {{"kind", info.media_type == "application/x-protobuf" ? "vector_tiles" : "tiles"},
-            {"url", fmt::format("/api/v1/basemaps/{}/tiles/{{z}}/{{x}}/{{y}}", of.id)},
-            {"min_zoom", info.least_zoom},
-            {"max_zoom", info.greatest_zoom},
-            {"bounds_deg", info.bounds_deg}};
+    Json json{{"kind", info.media_type == "application/x-protobuf" ? "vector_tiles" : "tiles"},
+              {"url", fmt::format("/api/v1/basemaps/{}/tiles/{{z}}/{{x}}/{{y}}", of.id)},
+              {"min_zoom", info.least_zoom},
+              {"max_zoom", info.greatest_zoom},
+              {"bounds_deg", info.bounds_deg}};
+    if (!info.vector_layers.empty()) json["vector_layers"] = info.vector_layers;
+    return json;
   }
   Json operator()(DrawnGround const&) const {
     return {{"kind", "drawing"}, {"url", fmt::format("/api/v1/basemaps/{}/drawing", of.id)}};
