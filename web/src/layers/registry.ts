@@ -1,6 +1,7 @@
 import type { Legend, MakeLayer, MapLayer } from './layer';
 import type { StoresToRead } from '../stores/stores';
 import { areas } from './found/areas';
+import { floorPlans } from './found/floor_plans';
 import { footprints } from './found/footprints';
 import { grids } from './found/grids';
 import { pointsOfInterest } from './found/points_of_interest';
@@ -19,6 +20,7 @@ import { vehicles } from './vehicles';
 /** Everything that the map shows, the lowest first. Whoever adds a kind of thing writes its file and names it here. */
 const LAYERS: readonly MakeLayer[] = [
   grid,
+  floorPlans,
   grids,
   areas,
   slots,

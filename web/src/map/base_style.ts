@@ -2,6 +2,7 @@ import type { FeatureCollection } from 'geojson';
 import type { LayerSpecification, SourceSpecification } from 'maplibre-gl';
 import type { BaseMap } from '../stores/base_maps.svelte';
 import { stationTiles } from './station_tiles';
+import { vectorLooks } from './vector_style';
 
 /** What lies under everything, as parts of a style. */
 export interface BaseStyle {
@@ -22,14 +23,9 @@ export function baseStyle(base: BaseMap | undefined, drawing: FeatureCollection 
   if (base.kind === 'drawing') return drawing ? drawn(drawing, isDark ? NIGHT : DAY) : PLAIN;
   const { min_zoom: minzoom, max_zoom: maxzoom, bounds_deg: bounds } = base;
   const address = base.url.startsWith('/') ? stationTiles.address(BASE) : base.url;
-  return tiles({
-    type: 'raster',
-    tiles: [address],
-    tileSize: 256,
-    ...(minzoom && { minzoom }),
-    ...(maxzoom && { maxzoom }),
-    ...(bounds && { bounds }),
-  });
+  const where = { tiles: [address], ...(minzoom && { minzoom }), ...(maxzoom && { maxzoom }), ...(bounds && { bounds }) };
+  if (base.kind === 'tiles') return tiles({ type: 'raster', tileSize: 256, ...where });
+  return { sources: { [BASE]: { type: 'vector', ...where } }, layers: vectorLooks(BASE, base.vector_layers ?? [], isDark) };
 }
 
 function tiles(source: SourceSpecification): BaseStyle {

@@ -4,16 +4,18 @@ import type { Receiver, Session } from './session.svelte';
 import { readSetting, writeSetting } from './settings.svelte';
 
 const KEY = 'lapwing.base-map';
-const KINDS: readonly unknown[] = ['tiles', 'drawing'];
+const KINDS: readonly unknown[] = ['tiles', 'vector_tiles', 'drawing'];
 
 /** What may lie under everything. */
 export interface BaseMap {
   id: string;
   name: string;
   attribution: string;
-  kind: 'tiles' | 'drawing';
+  kind: 'tiles' | 'vector_tiles' | 'drawing';
   /** Of the station where it begins with a slash. */
   url: string;
+  /** What the layers of vector tiles are called. */
+  vector_layers?: readonly string[];
   min_zoom?: number;
   max_zoom?: number;
   bounds_deg?: [number, number, number, number];
@@ -74,8 +76,11 @@ export class BaseMapsStore implements Receiver {
 }
 
 function isBaseMap(value: unknown): value is BaseMap {
-  const { id, name, attribution, kind, url } = (value ?? {}) as Partial<BaseMap>;
-  return [id, name, attribution, url].every((text) => typeof text === 'string') && KINDS.includes(kind);
+  const { id, name, attribution, kind, url, vector_layers: layers = [] } = (value ?? {}) as Partial<BaseMap>;
+  const isNamed = [id, name, attribution, url].every((text) => typeof text === 'string') && KINDS.includes(kind);
+  // Vector tiles that do not say what is in them cannot be drawn.
+  const isDrawn = kind !== 'vector_tiles' || (Array.isArray(layers) && layers.length > 0 && layers.every((one) => typeof one === 'string'));
+  return isNamed && isDrawn;
 }
 
 function isCollection(value: unknown): value is FeatureCollection {

@@ -5,6 +5,7 @@ import { rememberToken, socketUrl, takeToken } from '../connection/token';
 import { AlarmsStore } from './alarms.svelte';
 import { BaseMapsStore } from './base_maps.svelte';
 import { ControlStore } from './control.svelte';
+import { ExportsStore } from './exports.svelte';
 import { FeedsStore } from './feeds.svelte';
 import { FloorsStore } from './floors.svelte';
 import { FleetStore } from './fleet.svelte';
@@ -12,6 +13,7 @@ import { HistoryStore } from './history.svelte';
 import { LayersStore } from './layers.svelte';
 import { LogStore } from './log.svelte';
 import { MapLayersStore } from './map_layers.svelte';
+import { PlacingStore } from './placing.svelte';
 import { ScriptsStore } from './scripts.svelte';
 import { Session, type Network } from './session.svelte';
 import { Settings } from './settings.svelte';
@@ -26,6 +28,8 @@ export interface Stores {
   feeds: FeedsStore;
   floors: FloorsStore;
   baseMaps: BaseMapsStore;
+  exports: ExportsStore;
+  placing: PlacingStore;
   scripts: ScriptsStore;
   control: ControlStore;
   log: LogStore;
@@ -46,6 +50,8 @@ export function createStores(network: Network, voices: Voices): Stores {
   const feeds = new FeedsStore(session);
   const floors = new FloorsStore(feeds);
   const baseMaps = new BaseMapsStore(session);
+  const exports = new ExportsStore(session);
+  const placing = new PlacingStore(session);
   const history = new HistoryStore(fleet);
   const mapLayers = new MapLayersStore();
   const control = new ControlStore(session);
@@ -54,7 +60,7 @@ export function createStores(network: Network, voices: Voices): Stores {
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   // Who reads another store hears after it.
   session.begin([fleet, layers, history, control, scripts, log, alarms, baseMaps]);
-  return { session, fleet, layers, history, mapLayers, feeds, floors, baseMaps, scripts, control, log, alarms, settings };
+  return { session, fleet, layers, history, mapLayers, feeds, floors, baseMaps, exports, placing, scripts, control, log, alarms, settings };
 }
 
 /** The stores of this page, over its own station. */

@@ -1,8 +1,8 @@
 import { fireEvent, render, screen, within } from '@testing-library/svelte';
 import { userEvent } from '@testing-library/user-event';
 import { expect, it } from 'vitest';
-import type { MapLayer } from '../layers/layer';
-import { TestStation } from '../testing/station';
+import type { MapLayer } from '../../layers/layer';
+import { TestStation } from '../../testing/station';
 import LayersPanel from './LayersPanel.svelte';
 
 const layer = (id: string, group: MapLayer['group'], name = id): MapLayer => ({
