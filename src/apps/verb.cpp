@@ -24,6 +24,7 @@ constexpr std::array table{
     Verb{"sim", "Simulated vehicles that speak MAVLink, for any ground station", vehicles},
     Verb{"replay", "Play a recording of vehicles into the map", vehicles},
     Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
+    Verb{"explore", "Let simulated robots explore a floor plan: travel, time and coverage", maps},
     Verb{"store", "What the map's store holds: list, verify, compact, export, import, copy", maps},
     Verb{"basemap", "Make map tiles of a picture that knows where it lies, such as a GeoTIFF", maps},
     Verb{"param", "Parameters of vehicles: list, get, set, save, load, compare, copy", vehicles},

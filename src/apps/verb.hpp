@@ -24,6 +24,7 @@ void add_lsp(CLI::App& program, int& exit_code);
 
 // Those of lapwing-map:
 void add_basemap(CLI::App& program, int& exit_code);
+void add_explore(CLI::App& program, int& exit_code);
 void add_store(CLI::App& program, int& exit_code);
 
 // Those of lapwing-vehicles:

@@ -1,0 +1,157 @@
+#include "explore/known/known_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "explore/floor/ray.hpp"
+
+namespace lapwing::explore {
+
+namespace {
+
+constexpr int least_odds = -8;
+constexpr int most_odds = 12;
+/// Surfaces of floor plans lie on the borders of cells: a beam's end is taken this share of a cell farther, so that
+/// noise does not draw it into the cell before.
+constexpr double into_the_wall = 0.4;
+
+}  // namespace
+
+Knowledge knowledge_of(map::Evidence evidence) {
+  if (!evidence.is_seen()) return Knowledge::unknown;
+  return evidence.probability() < 0.5 ? Knowledge::free : Knowledge::wall;
+}
+
+KnownMap::KnownMap(int width, int height, double cell_m, Distances distances)
+    : cell_m_(cell_m),
+      state_(width, height, Knowledge::unknown),
+      odds_(width, height, 0),
+      walls_near_(width, height, 0),
+      hit_by_(width, height, 0),
+      frontier_place_(width, height, 0),
+      keep_off_(cells_within(distances.keep_off_m, cell_m)),
+      wary_(cells_within(distances.wary_m, cell_m)) {
+  blockers_ = DenseGrid<std::uint16_t>(width, height, static_cast<std::uint16_t>(keep_off_.size() + 1));
+}
+
+bool KnownMap::has_room(Place const& middle, double radius_m) const {
+  auto const least = cell_at(middle - Shift(radius_m, radius_m));
+  auto const most = cell_at(middle + Shift(radius_m, radius_m));
+  for (int y = least.y; y <= most.y; ++y) {
+    for (int x = least.x; x <= most.x; ++x) {
+      if (at({x, y}) == Knowledge::free) continue;
+      double const near_x = std::clamp(middle.x(), x * cell_m_, (x + 1) * cell_m_);
+      double const near_y = std::clamp(middle.y(), y * cell_m_, (y + 1) * cell_m_);
+      if (std::hypot(near_x - middle.x(), near_y - middle.y()) < radius_m) return false;
+    }
+  }
+  return true;
+}
+
+void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
+  ++scans_;
+  double const x = scan.from.position.x() / cell_m_;
+  double const y = scan.from.position.y() / cell_m_;
+  auto const beams = scan.ranges_m.size();
+  std::vector<std::uint32_t> ends;
+  auto const direction = [&](std::size_t beam) {
+    return scan.from.yaw_rad + static_cast<double>(beam) * 2.0 * std::numbers::pi / static_cast<double>(beams);
+  };
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    double const range_m = scan.ranges_m[beam];
+    if (range_m >= scan.range_m) continue;
+    double const yaw = direction(beam);
+    Shift const way(std::cos(yaw), std::sin(yaw));
+    auto const end = scan.from.position + range_m * way;
+    if (std::ranges::any_of(moving, [&](Disc const& disc) { return distance_m(disc.middle, end) < disc.radius_m; }))
+      continue;
+    auto const cell = cell_at(end + into_the_wall * cell_m_ * way);
+    if (!state_.contains(cell) || hit_by_[cell] == scans_) continue;
+    hit_by_[cell] = scans_;
+    ends.push_back(static_cast<std::uint32_t>(state_.index_of(cell)));
+  }
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    double const yaw = direction(beam);
+    walk_line(x, y, std::cos(yaw), std::sin(yaw), scan.ranges_m[beam] / cell_m_ - 0.3, [&](Cell cell, double) {
+      if (!state_.contains(cell)) return false;
+      auto const index = state_.index_of(cell);
+      if (hit_by_.at_index(index) != scans_) pass(index);
+      return true;
+    });
+  }
+  for (auto const index : ends) hit(index);
+}
+
+void KnownMap::learn(Cell cell, Knowledge knowledge) {
+  auto const index = state_.index_of(cell);
+  odds_.at_index(index) = knowledge == Knowledge::wall ? most_odds : knowledge == Knowledge::free ? least_odds : 0;
+  become(index, knowledge);
+}
+
+void KnownMap::pass(std::size_t index) {
+  auto& odds = odds_.at_index(index);
+  if (odds <= least_odds) return;
+  --odds;
+  auto const state = state_.at_index(index);
+  if (state == Knowledge::unknown || (state == Knowledge::wall && odds < 0)) become(index, Knowledge::free);
+}
+
+void KnownMap::hit(std::size_t index) {
+  auto& odds = odds_.at_index(index);
+  bool const was_free_often = odds < least_odds / 2;
+  odds = static_cast<std::int8_t>(std::min(most_odds, odds + (was_free_often ? 1 : 3)));
+  if (state_.at_index(index) != Knowledge::wall && odds > 0) become(index, Knowledge::wall);
+}
+
+void KnownMap::become(std::size_t index, Knowledge knowledge) {
+  auto const before = state_.at_index(index);
+  if (before == knowledge) return;
+  state_.at_index(index) = knowledge;
+  ++news_;
+  fresh_.push_back(static_cast<std::uint32_t>(index));
+  auto const cell = state_.cell_of(index);
+  if ((before == Knowledge::free) != (knowledge == Knowledge::free)) {
+    int const step = knowledge == Knowledge::free ? -1 : 1;
+    auto const count = [&](Cell at) {
+      if (!blockers_.contains(at)) return;
+      auto& blockers = blockers_[at];
+      blockers = static_cast<std::uint16_t>(blockers + step);
+      if (blockers == 0 || (step == 1 && blockers == 1))
+        changed_.push_back(static_cast<std::uint32_t>(state_.index_of(at)));
+    };
+    count(cell);
+    for (auto const away : keep_off_) count(cell + away);
+  }
+  if ((before == Knowledge::wall) != (knowledge == Knowledge::wall)) {
+    int const step = knowledge == Knowledge::wall ? 1 : -1;
+    for (auto const away : wary_) {
+      if (walls_near_.contains(cell + away))
+        walls_near_[cell + away] = static_cast<std::uint16_t>(walls_near_[cell + away] + step);
+    }
+  }
+  look_for_frontier(cell);
+  for (std::size_t i = 0; i < 4; ++i) look_for_frontier(cell + neighbours[i]);
+}
+
+void KnownMap::look_for_frontier(Cell cell) {
+  if (!state_.contains(cell)) return;
+  bool const is_one = state_[cell] == Knowledge::free &&
+                      std::ranges::any_of(std::span(neighbours).first<4>(),
+                                          [&](Cell away) { return at(cell + away) == Knowledge::unknown; });
+  auto& place = frontier_place_[cell];
+  if (is_one == (place != 0)) return;
+  if (is_one) {
+    frontier_.push_back(static_cast<std::uint32_t>(state_.index_of(cell)));
+    place = static_cast<std::uint32_t>(frontier_.size());
+    return;
+  }
+  // The last takes its place.
+  auto const last = frontier_.back();
+  frontier_[place - 1] = last;
+  frontier_place_.at_index(last) = place;
+  frontier_.pop_back();
+  place = 0;
+}
+
+}  // namespace lapwing::explore

@@ -1,0 +1,185 @@
+#include "explore/known/road_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace lapwing::explore {
+
+namespace {
+
+constexpr double block_m = 0.8;
+/// Ways near walls count longer, as drivers go slower there.
+constexpr float near_wall_factor = 1.2F;
+
+}  // namespace
+
+RoadMap::RoadMap(KnownMap const& map)
+    : cell_m_(map.cell_m()),
+      side_(std::clamp(static_cast<int>(std::lround(block_m / map.cell_m())), 4, 32)),
+      label_(map.width(), map.height(), 0),
+      parts_((map.width() + side_ - 1) / side_, (map.height() + side_ - 1) / side_, 0),
+      mark_(parts_.width(), parts_.height(), 0),
+      nodes_(parts_.size() * most_parts) {}
+
+void RoadMap::update(KnownMap const& map, std::vector<std::uint32_t> const& changed) {
+  if (changed.empty()) return;
+  ++version_;
+  std::vector<Cell> divided;
+  for (auto const index : changed) {
+    auto const block = block_of(map.cell_of(index));
+    if (mark_[block] == 1) continue;
+    mark_[block] = 1;
+    divided.push_back(block);
+  }
+  for (auto const block : divided) divide(map, block);
+  auto joined = divided;
+  for (auto const block : divided) {
+    for (auto const away : neighbours) {
+      auto const beside = block + away;
+      if (!mark_.contains(beside) || mark_[beside] != 0) continue;
+      mark_[beside] = 2;
+      joined.push_back(beside);
+    }
+  }
+  for (auto const block : joined) {
+    join(map, block);
+    mark_[block] = 0;
+  }
+}
+
+void RoadMap::divide(KnownMap const& map, Cell block) {
+  Cell const least{block.x * side_, block.y * side_};
+  Cell const most{std::min(least.x + side_, map.width()), std::min(least.y + side_, map.height())};
+  auto const is_inside = [&](Cell cell) {
+    return cell.x >= least.x && cell.y >= least.y && cell.x < most.x && cell.y < most.y;
+  };
+  for (int y = least.y; y < most.y; ++y) {
+    for (int x = least.x; x < most.x; ++x) label_[{x, y}] = 0;
+  }
+  std::uint8_t parts = 0;
+  std::vector<Cell> cells;
+  for (int y = least.y; y < most.y && parts < most_parts; ++y) {
+    for (int x = least.x; x < most.x && parts < most_parts; ++x) {
+      if (label_[{x, y}] != 0 || !map.is_standable({x, y})) continue;
+      ++parts;
+      cells.assign(1, {x, y});
+      label_[{x, y}] = parts;
+      double sum_x = 0.0;
+      double sum_y = 0.0;
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        auto const cell = cells[i];
+        sum_x += cell.x;
+        sum_y += cell.y;
+        for (auto const away : neighbours) {
+          auto const next = cell + away;
+          if (!is_inside(next) || label_[next] != 0 || !map.is_standable(next)) continue;
+          label_[next] = parts;
+          cells.push_back(next);
+        }
+      }
+      double const middle_x = sum_x / static_cast<double>(cells.size());
+      double const middle_y = sum_y / static_cast<double>(cells.size());
+      nodes_[first_node(block) + parts - 1U].place =
+          std::ranges::min(cells, {}, [&](Cell cell) { return std::hypot(cell.x - middle_x, cell.y - middle_y); });
+    }
+  }
+  parts_[block] = parts;
+}
+
+void RoadMap::join(KnownMap const& map, Cell block) {
+  Cell const least{block.x * side_, block.y * side_};
+  Cell const most{std::min(least.x + side_, map.width()), std::min(least.y + side_, map.height())};
+  for (int part = 0; part < most_parts; ++part) nodes_[first_node(block) + static_cast<Node>(part)].edges.clear();
+  if (parts_[block] == 0) return;
+  auto const join_cells = [&](Cell cell, Cell next) {
+    if (!label_.contains(next) || label_[next] == 0) return;
+    auto const here = first_node(block) + label_[cell] - 1U;
+    auto const there = first_node(block_of(next)) + label_[next] - 1U;
+    auto& edges = nodes_[here].edges;
+    if (std::ranges::any_of(edges, [&](Edge const& edge) { return edge.to == there; })) return;
+    auto const from = nodes_[here].place;
+    auto const to = nodes_[there].place;
+    bool const is_near_wall = map.is_near_wall(from) || map.is_near_wall(to);
+    auto const length_m = static_cast<float>(length_of(to - from) * cell_m_);
+    edges.push_back({there, is_near_wall ? length_m * near_wall_factor : length_m});
+  };
+  for (int y = least.y; y < most.y; ++y) {
+    for (int x = least.x; x < most.x; ++x) {
+      bool const is_border = x == least.x || y == least.y || x == most.x - 1 || y == most.y - 1;
+      if (!is_border || label_[{x, y}] == 0) continue;
+      for (auto const away : neighbours) {
+        auto const next = Cell{x, y} + away;
+        if (block_of(next) != block || next.x < 0 || next.y < 0) join_cells({x, y}, next);
+      }
+    }
+  }
+}
+
+std::optional<RoadMap::Node> RoadMap::node_at(Cell cell) const {
+  if (!label_.contains(cell) || label_[cell] == 0) return {};
+  return first_node(block_of(cell)) + label_[cell] - 1U;
+}
+
+std::optional<RoadMap::Node> RoadMap::node_near(Cell cell) const {
+  if (auto const node = node_at(cell)) return node;
+  int const reach = static_cast<int>(0.5 / cell_m_);
+  std::optional<Node> best;
+  double least = reach + 0.5;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      double const far = std::hypot(x, y);
+      if (far >= least) continue;
+      auto const node = node_at(cell + Cell{x, y});
+      if (!node) continue;
+      best = node;
+      least = far;
+    }
+  }
+  return best;
+}
+
+RoadMap::Tree RoadMap::from(Node root, float most_m) const {
+  return grow(root, most_m, {}, {});
+}
+
+std::vector<RoadMap::Node> RoadMap::way(Node root, Node goal, std::vector<Disc> const& closed) const {
+  auto const tree = grow(root, unreachable, goal, closed);
+  if (!tree.reaches(goal)) return {};
+  std::vector<Node> way = {goal};
+  while (way.back() != root) way.push_back(tree.before[way.back()]);
+  std::ranges::reverse(way);
+  return way;
+}
+
+RoadMap::Tree RoadMap::grow(Node root, float most_m, std::optional<Node> goal, std::vector<Disc> const& closed) const {
+  Tree tree;
+  tree.distance_m.assign(nodes_.size(), unreachable);
+  tree.before.assign(nodes_.size(), root);
+  auto const is_closed = [&](Node node) {
+    auto const place = middle_of(nodes_[node].place, cell_m_);
+    return std::ranges::any_of(closed,
+                               [&](Disc const& disc) { return distance_m(disc.middle, place) < disc.radius_m; });
+  };
+  using Open = std::pair<float, Node>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  tree.distance_m[root] = 0.0F;
+  open.push({0.0F, root});
+  while (!open.empty()) {
+    auto const [so_far, node] = open.top();
+    open.pop();
+    if (so_far > tree.distance_m[node]) continue;
+    if (node == goal) break;
+    for (auto const& edge : nodes_[node].edges) {
+      float const length = so_far + edge.length_m;
+      if (length >= tree.distance_m[edge.to] || length > most_m) continue;
+      if (!closed.empty() && is_closed(edge.to)) continue;
+      tree.distance_m[edge.to] = length;
+      tree.before[edge.to] = node;
+      open.push({length, edge.to});
+    }
+  }
+  return tree;
+}
+
+}  // namespace lapwing::explore

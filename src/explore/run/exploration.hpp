@@ -1,0 +1,96 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/error.hpp"
+#include "explore/known/frontiers.hpp"
+#include "explore/known/known_map.hpp"
+#include "explore/known/road_map.hpp"
+#include "explore/path/navigator.hpp"
+#include "explore/run/report.hpp"
+#include "explore/run/settings.hpp"
+#include "explore/simulated/carrier.hpp"
+#include "explore/simulated/laser.hpp"
+#include "explore/simulated/world.hpp"
+#include "explore/strategy/strategy.hpp"
+
+namespace lapwing::explore {
+
+/// One run: robots explore a simulated floor with a strategy, share what they see, and return. Poses are known, as a
+/// mapping unit would tell them. The same world, settings and starts give the same run.
+class Exploration {
+ public:
+  /// Errors, invalid_input: no strategy of that name; a start without room; more or fewer starts than robots.
+  [[nodiscard]] static base::Result<Exploration> begin(std::shared_ptr<World const> world, Settings const& settings,
+                                                       std::vector<Pose> starts);
+
+  /// A tenth of a second. False when it is over.
+  [[nodiscard]] bool step();
+  [[nodiscard]] RunReport report() const;
+  [[nodiscard]] double coverage() const;
+  [[nodiscard]] double time_s() const { return static_cast<double>(steps_) * step_s; }
+  [[nodiscard]] double travel_m() const;
+
+  [[nodiscard]] World const& world() const { return *world_; }
+  [[nodiscard]] KnownMap const& map() const { return *map_; }
+  /// Where a robot has been, every half second at most, as far as it moved.
+  [[nodiscard]] std::vector<Place> const& track(std::size_t robot) const { return robots_[robot].track; }
+
+  static constexpr double step_s = 0.1;
+
+ private:
+  struct Robot {
+    Carrier carrier;
+    Pose start;
+    Navigator navigator;
+    Order order = {};
+    bool is_out = false;
+    bool is_low = false;    ///< out because of its battery
+    Place scanned_at = {};  ///< and where it was then
+    bool has_scanned = false;
+    Place stood_at = {};         ///< where it was seen not to move on,
+    double stood_since_s = 0.0;  ///< and since when
+    bool is_blocked = false;
+    std::vector<Place> track = {};
+  };
+
+  Exploration(std::shared_ptr<World const> world, Settings const& settings, std::vector<Pose> const& starts,
+              std::unique_ptr<Strategy> strategy);
+
+  void look();
+  void count_seen();
+  void give_orders();
+  void follow(Robot& robot, Order const& order);
+  void mind_energy();
+  void mind_standing();
+  void drive();
+  void check_collisions();
+  [[nodiscard]] std::vector<RobotView> views() const;
+  [[nodiscard]] std::vector<Disc> others_than(std::size_t robot, double more_m) const;
+  [[nodiscard]] Motion steered(Robot const& robot) const;
+  [[nodiscard]] std::optional<Cell> home_of(Robot const& robot) const;
+  [[nodiscard]] bool is_home(Robot const& robot) const;
+  [[nodiscard]] bool is_over();
+  [[nodiscard]] double distance_to_99() const;
+
+  std::shared_ptr<World const> world_;
+  Settings settings_;
+  std::unique_ptr<Strategy> strategy_;
+  Random random_;
+  std::unique_ptr<KnownMap> map_;
+  std::unique_ptr<RoadMap> roads_;
+  std::unique_ptr<GridSearch> search_;
+  std::unique_ptr<Frontiers> frontiers_;
+  std::vector<Robot> robots_;
+  DenseGrid<std::uint8_t> is_counted_;
+  std::size_t counted_ = 0;
+  std::int64_t steps_ = 0;
+  bool is_explored_ = false;  ///< says the strategy
+  bool is_stuck_ = false;
+  int collisions_ = 0;
+  std::optional<double> travel_to_99_m_;
+  std::optional<double> time_to_99_s_;
+};
+
+}  // namespace lapwing::explore

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lapwing::explore {
+
+/// What the carrier can do (seed 001: the wheels turn at 0.3 m/s at most).
+struct CarrierLimits {
+  double radius_m = 0.18;         ///< of the disc that the robot is, as a TurtleBot 2
+  double safe_distance_m = 0.05;  ///< nearer than this it does not come to anything
+  double speed_m_s = 0.3;
+  double near_speed_m_s = 0.12;  ///< near walls
+  double acceleration_m_s2 = 0.3;
+  double turn_rad_s = 1.0;
+  double turn_acceleration_rad_s2 = 2.0;
+};
+
+struct LaserSettings {
+  int beams = 360;  ///< around the whole circle
+  double range_m = 10.0;
+  double noise_m = 0.01;  ///< standard deviation
+};
+
+/// What a run is made of; the same settings give the same run.
+struct Settings {
+  CarrierLimits carrier;
+  LaserSettings laser;
+  std::string strategy = "tour";
+  int robots = 1;
+  int people = 0;
+  std::uint64_t seed = 1;
+  double map_cell_m = 0.05;            ///< of the robots' map, or the plan's where that is coarser
+  double wary_m = 0.5;                 ///< paths keep so far from walls where there is room
+  double energy_m = 0.0;               ///< how far each robot can drive on its battery; 0: any way
+  double most_time_s = 48.0 * 3600.0;  ///< of simulated time
+  bool does_return = true;
+};
+
+}  // namespace lapwing::explore
