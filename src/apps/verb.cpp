@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::string_view vehicles = "lapwing-vehicles";
 constexpr std::string_view maps = "lapwing-map";
+constexpr std::string_view slam = "lapwing-slam";
 
 /// In the order in which help shows them.
 constexpr std::array table{
@@ -25,6 +26,7 @@ constexpr std::array table{
     Verb{"replay", "Play a recording of vehicles into the map", vehicles},
     Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
     Verb{"explore", "Let simulated robots explore a floor plan: travel, time and coverage", maps},
+    Verb{"map", "Make a floor map of what a robot's laser and wheels recorded", slam},
     Verb{"store", "What the map's store holds: list, verify, compact, export, import, copy", maps},
     Verb{"basemap", "Make map tiles of a picture that knows where it lies, such as a GeoTIFF", maps},
     Verb{"param", "Parameters of vehicles: list, get, set, save, load, compare, copy", vehicles},

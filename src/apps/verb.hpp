@@ -27,6 +27,9 @@ void add_basemap(CLI::App& program, int& exit_code);
 void add_explore(CLI::App& program, int& exit_code);
 void add_store(CLI::App& program, int& exit_code);
 
+// That of lapwing-slam:
+void add_map(CLI::App& program, int& exit_code);
+
 // Those of lapwing-vehicles:
 void add_run(CLI::App& program, int& exit_code);
 void add_demo(CLI::App& program, int& exit_code);

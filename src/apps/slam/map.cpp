@@ -1,0 +1,217 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/slam/map_files.hpp"
+#include "apps/verb.hpp"
+#include "base/async/parallel_for.hpp"
+#include "base/text/json.hpp"
+#include "host/files/files.hpp"
+#include "slam/graph/g2o.hpp"
+#include "slam/grid/draw_grid.hpp"
+#include "slam/mapper.hpp"
+#include "slam/readers/carmen.hpp"
+#include "slam/relations.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct MapOptions {
+  fs::path log;
+  fs::path out;
+  fs::path relations;
+  unsigned threads = 0;
+};
+
+constexpr std::uintmax_t most_log_bytes = 4ULL << 30;
+
+base::Result<std::string> read_file(fs::path const& path) {
+  std::error_code error;
+  auto const size = fs::file_size(path, error);
+  if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", path.string(), error.message()));
+  if (size > most_log_bytes)
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("{}: more than {} GB", path.string(), most_log_bytes >> 30));
+  std::ifstream file(path, std::ios::binary);
+  std::string text(size, '\0');
+  if (!file.read(text.data(), static_cast<std::streamsize>(size)))
+    return base::fail(base::ErrorKind::io, fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+std::unexpected<base::Error> in_file(fs::path const& path, base::Error error) {
+  error.message = fmt::format("{}: {}", path.string(), error.message);
+  return std::unexpected(std::move(error));
+}
+
+base::Result<slam::ScanLog> read_log(fs::path const& path) {
+  auto text = read_file(path);
+  if (!text) return std::unexpected(text.error());
+  auto log = slam::read_carmen(*text);
+  if (!log) return in_file(path, log.error());
+  return log;
+}
+
+base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
+  if (path.empty()) return std::vector<slam::Relation>();
+  auto text = read_file(path);
+  if (!text) return std::unexpected(text.error());
+  auto relations = slam::read_relations(*text);
+  if (!relations) return in_file(path, relations.error());
+  return relations;
+}
+
+/// On a terminal one line that changes; elsewhere nothing until the end.
+void show(std::string_view stage, double share) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  static int shown = -1;
+  auto const percent = static_cast<int>(share * 100.0);
+  if (percent == shown) return;
+  shown = percent;
+  fmt::print(stderr, "\r\033[K{:3} % {}", percent, stage);
+  if (percent == 100) fmt::print(stderr, "\r\033[K");
+}
+
+std::vector<slam::TimedPose> timed(slam::ScanLog const& log, std::vector<slam::Pose2> const& trajectory) {
+  std::vector<slam::TimedPose> poses;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) poses.push_back({log.scans[i].time, trajectory[i]});
+  return poses;
+}
+
+std::string tum_text(std::vector<slam::TimedPose> const& poses) {
+  std::string text;
+  for (auto const& [time, pose] : poses)
+    fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", time.count(), pose.x, pose.y,
+                   std::sin(0.5 * pose.yaw), std::cos(0.5 * pose.yaw));
+  return text;
+}
+
+Json spread_json(slam::Spread const& spread) {
+  return {{"mean", spread.mean}, {"std", spread.deviation}, {"mean_square", spread.mean_square}, {"max", spread.most}};
+}
+Json errors_json(slam::RelationErrors const& errors) {
+  return {{"translation_m", spread_json(errors.shift_m)}, {"rotation_deg", spread_json(errors.turn_deg)}};
+}
+
+double cpu_s() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  auto const seconds = [](timeval const& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+double peak_mb() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_maxrss) / 1024.0;
+}
+
+struct Made {
+  slam::Mapping mapping;
+  Json report;
+};
+
+Json report_of(slam::ScanLog const& log, slam::Mapping const& mapping, std::vector<slam::TimedPose> const& poses,
+               std::vector<slam::Relation> const& relations) {
+  Json report;
+  report["scans"] = log.scans.size();
+  report["key_frames"] = mapping.graph.frames.size();
+  report["closures"] = mapping.loops.closures;
+  report["closures_doubted"] = mapping.loops.doubted;
+  report["closures_revoked"] = mapping.loops.revoked;
+  report["path_m"] = mapping.graph.frames.empty() ? 0.0 : mapping.graph.frames.back().path_m;
+  if (!relations.empty())
+    report["relations"] = {{"count", relations.size()},
+                           {"component", errors_json(slam::component_errors(poses, relations))},
+                           {"motion", errors_json(slam::motion_errors(poses, relations))}};
+  return report;
+}
+
+void print_summary(Json const& report) {
+  fmt::print("{} scans, {} key frames, {} closures; {:.1f} s ({:.1f} s of CPU), {:.0f} MB\n",
+             report["scans"].get<int>(), report["key_frames"].get<int>(), report["closures"].get<int>(),
+             report["wall_s"].get<double>(), report["cpu_s"].get<double>(), report["peak_mb"].get<double>());
+  if (!report.contains("relations")) return;
+  auto const& relations = report["relations"];
+  for (auto const* kind : {"component", "motion"}) {
+    auto const& shift = relations[kind]["translation_m"];
+    auto const& turn = relations[kind]["rotation_deg"];
+    fmt::print("{:9} of {} relations: {:.4f} +- {:.4f} m (max {:.3f}), {:.3f} +- {:.3f} degrees\n", kind,
+               relations["count"].get<int>(), shift["mean"].get<double>(), shift["std"].get<double>(),
+               shift["max"].get<double>(), turn["mean"].get<double>(), turn["std"].get<double>());
+  }
+}
+
+base::Result<> make_map(MapOptions const& options) {
+  auto const started = std::chrono::steady_clock::now();
+  auto const relations = read_relations(options.relations);
+  if (!relations) return std::unexpected(relations.error());
+  auto const log = read_log(options.log);
+  if (!log) return std::unexpected(log.error());
+  std::error_code error;
+  fs::create_directories(options.out, error);
+  if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", options.out.string(), error.message()));
+
+  auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
+    base::parallel_for(threads, count, work);
+  };
+  auto const mapping = slam::map_log(*log, {}, for_each, show);
+  auto const poses = timed(*log, mapping.trajectory);
+  auto report = report_of(*log, mapping, poses, *relations);
+  auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  report["wall_s"] = seconds;
+  report["cpu_s"] = cpu_s();
+  report["peak_mb"] = peak_mb();
+  report["threads"] = threads;
+  auto const grid = slam::draw_grid(*log, mapping.trajectory, {});
+  if (!grid.tiles().empty())
+    if (auto done = write_map(picture_of(grid), options.out); !done) return done;
+  if (auto done = host::write_file(options.out / "trajectory.tum", tum_text(poses)); !done) return done;
+  if (auto done =
+          host::write_file(options.out / "graph.g2o", slam::write_g2o(mapping.graph.poses, mapping.graph.constraints));
+      !done)
+    return done;
+  if (auto done = host::write_file(options.out / "report.json", base::to_text(report, 2) + "\n"); !done) return done;
+  print_summary(report);
+  return {};
+}
+
+}  // namespace
+
+void add_map(CLI::App& program, int& exit_code) {
+  auto options = std::make_shared<MapOptions>();
+  auto* verb = begin_verb(program, "map");
+  verb->add_option("log", options->log, "What a robot recorded: a log of CARMEN (.clf, .log)")
+      ->required()
+      ->check(CLI::ExistingFile);
+  verb->add_option("--out", options->out,
+                   "Folder for map.pgm, map.yaml, map.png, trajectory.tum, graph.g2o, report.json")
+      ->required();
+  verb->add_option("--relations", options->relations, "True relative poses to measure the trajectory with")
+      ->check(CLI::ExistingFile);
+  verb->add_option("--threads", options->threads, "How many; default: as many as the machine has. The map is the same")
+      ->check(CLI::Range(1U, 256U));
+  verb->callback([options, &exit_code] {
+    auto const made = make_map(*options);
+    exit_code = made ? host::exit_done : host::refuse(made.error());
+  });
+}
+
+}  // namespace lapwing::apps

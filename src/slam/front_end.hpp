@@ -1,0 +1,46 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "slam/key_frame.hpp"
+#include "slam/match/local_grid.hpp"
+#include "slam/match/odometry_noise.hpp"
+
+namespace lapwing::slam {
+
+struct FrontEndOptions {
+  double key_step_m = 0.2;          ///< a key frame after so many metres
+  double key_turn_rad = 0.12;       ///< or after such a turn
+  int grid_frames = 10;             ///< so many key frames are what a new one is matched with
+  double point_information = 25.0;  ///< of one matched point, 1 / m^2: small, as neighbours err together
+  double edge_share = 0.5;          ///< of a key frame's information that its edge to the last one has
+};
+
+/// Follows the robot from key frame to key frame: predicts by odometry, searches around that, aligns points to lines.
+class FrontEnd {
+ public:
+  explicit FrontEnd(FrontEndOptions const& options) : options_(options) {}
+
+  /// Whether the robot has moved enough since the last key frame.
+  [[nodiscard]] bool wants(Pose2 const& odometry) const;
+
+  struct Step {
+    Pose2 pose;                            ///< of the new key frame, in the map
+    std::optional<Constraint> constraint;  ///< to the last one; none for the first
+  };
+  /// `frames`, `poses`: of all key frames so far, as they are known by now; the new one is not among them.
+  [[nodiscard]] Step add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
+                         Pose2 const& odometry);
+
+  [[nodiscard]] OdometryNoise const& noise() const { return noise_; }
+
+ private:
+  FrontEndOptions options_;
+  OdometryNoise noise_;
+  LocalGrid grid_;
+  std::optional<Pose2> last_odometry_;
+};
+
+}  // namespace lapwing::slam

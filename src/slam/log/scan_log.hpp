@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "slam/pose2.hpp"
+
+namespace lapwing::slam {
+
+/// Seconds since whatever epoch a log counts from.
+using LogTime = std::chrono::duration<double>;
+
+/// How one kind of scan was taken: which way each of its beams looks and from where.
+struct Sensor {
+  std::vector<float> bearings_rad;                    ///< of each beam, in the robot's frame; ascending
+  Eigen::Vector2f mount_m = Eigen::Vector2f::Zero();  ///< where the beams begin, in the robot's frame
+  /// Readings from here on say that nothing came back.
+  float no_return_m = 1e9F;
+  friend bool operator==(Sensor const&, Sensor const&) = default;
+};
+
+struct Scan {
+  LogTime time{0.0};
+  int sensor = 0;               ///< of the log's sensors
+  Pose2 odometry;               ///< of the robot, in a frame that drifts
+  std::vector<float> ranges_m;  ///< one a beam; not a number, 0 or too large: nothing was measured
+};
+
+/// A recorded drive, in order of time. Robots may change sensors between scans.
+struct ScanLog {
+  std::vector<Sensor> sensors;
+  std::vector<Scan> scans;
+  bool has_odometry = true;  ///< without, each scan's odometry is the origin
+};
+
+}  // namespace lapwing::slam

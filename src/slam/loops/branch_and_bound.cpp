@@ -1,0 +1,129 @@
+#include "slam/loops/branch_and_bound.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <queue>
+
+namespace lapwing::slam {
+namespace {
+
+constexpr double step_rad = std::numbers::pi / 180.0;
+
+/// Some poses at once: one turn, and shifts from x, y on up to 2^level cells.
+struct Branch {
+  double score = 0.0;  ///< none of them is better
+  int level = 0;
+  int x = 0;
+  int y = 0;
+  int turn = 0;
+};
+
+/// Equal scores come in one order on every machine.
+bool operator<(Branch const& a, Branch const& b) {
+  return std::tie(a.score, b.level, b.turn, b.x, b.y) < std::tie(b.score, a.level, a.turn, a.x, a.y);
+}
+
+class Search {
+ public:
+  Search(Pyramid const& pyramid, std::vector<Eigen::Vector2f> const& query, LoopWindow const& window)
+      : pyramid_(pyramid),
+        window_(window),
+        count_(static_cast<double>(query.size())),
+        shifts_(static_cast<int>(std::ceil(window.reach_m / Pyramid::cell_m))),
+        turns_(static_cast<int>(std::ceil(window.reach_rad / step_rad))),
+        turned_(static_cast<std::size_t>(2 * turns_ + 1)) {
+    for (int a = 0; a <= 2 * turns_; ++a) {
+      auto const cosine = static_cast<float>(std::cos(yaw(a)));
+      auto const sine = static_cast<float>(std::sin(yaw(a)));
+      auto const origin = place(window.guess).cast<float>();
+      for (auto const& p : query) {
+        Eigen::Vector2f const at =
+            (origin + Eigen::Vector2f(cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()) -
+             pyramid.origin()) /
+            Pyramid::cell_m;
+        turned_[a].emplace_back(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
+      }
+    }
+  }
+
+  std::optional<LoopMatch> run(double least_score) {
+    floor_ = least_score;
+    constexpr int top = Pyramid::levels - 1;
+    for (int a = 0; a <= 2 * turns_; ++a)
+      for (int x = -shifts_; x <= shifts_; x += 1 << top)
+        for (int y = -shifts_; y <= shifts_; y += 1 << top) push(top, x, y, a);
+    constexpr int most_branches = 40'000;
+    std::optional<Branch> best;
+    for (int count = 0; !queue_.empty() && count < most_branches; ++count) {
+      auto const branch = queue_.top();
+      queue_.pop();
+      if (best && is_same_place(*best, branch)) continue;
+      if (branch.level > 0) {
+        split(branch);
+      } else if (best) {
+        return match(*best, branch.score);
+      } else {
+        best = branch;
+        // From here on only rivals are looked for, and only near ones matter.
+        floor_ = std::max(floor_, rival_share * branch.score);
+      }
+    }
+    if (!best) return std::nullopt;
+    return match(*best, queue_.empty() ? floor_ : queue_.top().score);
+  }
+
+ private:
+  static constexpr double rival_share = 0.7;
+
+  [[nodiscard]] double yaw(int turn) const { return window_.guess.yaw + (turn - turns_) * step_rad; }
+
+  /// Whether all of a branch's poses are those around the best one.
+  [[nodiscard]] static bool is_same_place(Branch const& best, Branch const& other) {
+    constexpr int cells = 7;
+    constexpr int degrees = 8;
+    auto const width = (1 << other.level) - 1;
+    return other.x >= best.x - cells && other.x + width <= best.x + cells && other.y >= best.y - cells &&
+           other.y + width <= best.y + cells && std::abs(other.turn - best.turn) <= degrees;
+  }
+
+  void push(int level, int x, int y, int turn) {
+    int sum = 0;
+    for (auto const& p : turned_[turn]) sum += pyramid_.at(level, p.x() + x, p.y() + y);
+    auto const score = sum / (255.0 * count_);
+    if (score > floor_) queue_.push({score, level, x, y, turn});
+  }
+
+  void split(Branch const& branch) {
+    auto const half = 1 << (branch.level - 1);
+    for (auto const x : {branch.x, branch.x + half})
+      for (auto const y : {branch.y, branch.y + half})
+        if (x <= shifts_ && y <= shifts_) push(branch.level - 1, x, y, branch.turn);
+  }
+
+  [[nodiscard]] LoopMatch match(Branch const& best, double rival) const {
+    auto const& guess = window_.guess;
+    return {.pose = {guess.x + best.x * double{Pyramid::cell_m}, guess.y + best.y * double{Pyramid::cell_m},
+                     yaw(best.turn)},
+            .score = best.score,
+            .rival = rival};
+  }
+
+  Pyramid const& pyramid_;
+  LoopWindow window_;
+  double count_;
+  int shifts_;
+  int turns_;
+  double floor_ = 0.0;
+  std::vector<std::vector<Eigen::Vector2i>> turned_;  ///< the query's cells at each turn
+  std::priority_queue<Branch> queue_;
+};
+
+}  // namespace
+
+std::optional<LoopMatch> branch_and_bound(Pyramid const& pyramid, std::vector<Eigen::Vector2f> const& query,
+                                          LoopWindow const& window, double least_score) {
+  if (query.empty()) return std::nullopt;
+  return Search(pyramid, query, window).run(least_score);
+}
+
+}  // namespace lapwing::slam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "slam/loops/pyramid.hpp"
+#include "slam/pose2.hpp"
+
+namespace lapwing::slam {
+
+struct LoopWindow {
+  Pose2 guess;  ///< of the query, in the pyramid's frame
+  double reach_m = 1.0;
+  double reach_rad = 0.1;
+};
+
+struct LoopMatch {
+  Pose2 pose;
+  double score = 0.0;  ///< mean over the points, 0 to 1
+  /// Of the best pose that is another place altogether, or what bounds it from above; where it is about as high as
+  /// `score`, the building looks alike in both.
+  double rival = 0.0;
+};
+
+/// The pose of the window at which the points lie best on the pyramid's, in steps of 0.1 m and 1 degree; nothing when
+/// none reaches `least_score`.
+[[nodiscard]] std::optional<LoopMatch> branch_and_bound(Pyramid const& pyramid,
+                                                        std::vector<Eigen::Vector2f> const& query,
+                                                        LoopWindow const& window, double least_score);
+
+}  // namespace lapwing::slam

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "slam/loops/closure.hpp"
+#include "slam/parallel.hpp"
+
+namespace lapwing::slam {
+
+/// Finds places where the robot has been before and closes the graph there. A closure that is found is a claim; how
+/// many others must agree with it before it moves anything depends on how much it moves, how far was searched and
+/// whether another place looks as good.
+class LoopCloser {
+ public:
+  LoopCloser(LoopOptions const& options, ForEach for_each) : options_(options), for_each_(std::move(for_each)) {}
+
+  /// After each new key frame, the graph's last. Returns whether the poses have changed.
+  bool follow(Graph& graph);
+  /// Looks at the whole graph once more, now that it is in better shape: loops that the drift had hidden.
+  void finish(Graph& graph);
+
+  struct Counts {
+    int searches = 0;
+    int closures = 0;  ///< that hold
+    int doubted = 0;   ///< found and not believed
+    int revoked = 0;   ///< believed until they were seen to contradict the rest
+  };
+  [[nodiscard]] Counts const& counts() const { return counts_; }
+
+ private:
+  struct Candidate {
+    int submap;
+    LoopWindow window;
+  };
+  [[nodiscard]] std::vector<Candidate> candidates(Graph const& graph, int query) const;
+  [[nodiscard]] std::vector<Closure> search(Graph const& graph, int query);
+  [[nodiscard]] std::vector<Closure> witnesses_of(Graph const& graph, Closure const& closure) const;
+  [[nodiscard]] bool is_believed(Graph const& graph, Closure const& closure, std::size_t witnesses) const;
+  bool close(Graph& graph, std::vector<Closure> const& closures);
+  bool look(Graph& graph, int query);
+
+  LoopOptions options_;
+  ForEach for_each_;
+  std::vector<Submap> submaps_;
+  std::vector<Closure> pending_;
+  double last_search_m_ = 0.0;
+  Counts counts_;
+};
+
+}  // namespace lapwing::slam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "slam/loops/spread.hpp"
+
+namespace lapwing::slam {
+
+struct LoopOptions {
+  double every_m = 1.0;       ///< a search after so many metres
+  double least_gap_m = 20.0;  ///< driven between two places; nearer ones the front end has joined already
+  int submap_frames = 15;     ///< so many key frames are looked for others in
+  int query_frames = 9;       ///< so many are looked for together
+  double least_score = 0.55;
+  double window_m = 0.6;  ///< least search window; beyond, `window_sigmas` of the drift
+  double window_rad = 0.08;
+  double window_sigmas = 2.5;
+  double most_window_m = 15.0;
+  double most_window_rad = 0.6;
+  int most_candidates = 4;        ///< places looked at in one search
+  int least_matches = 120;        ///< points of the query on the target's lines
+  double most_conflict = 0.2;     ///< of the points that were in sight, the share in free space
+  double ambiguous_rival = 0.85;  ///< another place with that share of the score makes a closure doubtful
+  double small_shift_m = 0.35;    ///< corrections up to here need few witnesses
+  double small_turn_rad = 0.05;
+  int witnesses = 2;  ///< other closures that must agree with a large correction
+  double point_information = 5.0;
+  double tolerance = 20.0;  ///< of the robust optimiser
+  DriftRates rates;
+};
+
+}  // namespace lapwing::slam

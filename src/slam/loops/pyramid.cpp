@@ -1,0 +1,58 @@
+#include "slam/loops/pyramid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.hpp"
+
+namespace lapwing::slam {
+
+Pyramid::Pyramid(std::vector<Eigen::Vector2f> const& points) {
+  LAPWING_ASSERT(!points.empty());
+  constexpr int reach = 2;  // cells around a point that it touches
+  Eigen::Vector2f low = points.front();
+  Eigen::Vector2f high = points.front();
+  for (auto const& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  origin_ = low - Eigen::Vector2f::Constant((reach + 1) * cell_m);
+  Eigen::Vector2f const size = (high - origin_) / cell_m;
+  width_ = static_cast<int>(size.x()) + reach + 2;
+  height_ = static_cast<int>(size.y()) + reach + 2;
+  values_[0].assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+  constexpr double spread_cells = 1.0;
+  for (auto const& point : points) {
+    auto const x = static_cast<int>((point.x() - origin_.x()) / cell_m);
+    auto const y = static_cast<int>((point.y() - origin_.y()) / cell_m);
+    for (int j = -reach; j <= reach; ++j) {
+      for (int i = -reach; i <= reach; ++i) {
+        auto const near = 255.0 * std::exp(-(i * i + j * j) / (2.0 * spread_cells * spread_cells));
+        auto& value = values_[0][static_cast<std::size_t>(y + j) * static_cast<std::size_t>(width_) +
+                                 static_cast<std::size_t>(x + i)];
+        value = std::max(value, static_cast<std::uint8_t>(near));
+      }
+    }
+  }
+  for (int level = 1; level < levels; ++level) widen(level);
+}
+
+void Pyramid::widen(int level) {
+  auto const half = 1 << (level - 1);
+  auto const& finer = values_[level - 1];
+  auto& values = values_[level];
+  values = finer;
+  auto const width = static_cast<std::size_t>(width_);
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      auto const here = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+      auto& value = values[here];
+      if (x + half < width_) value = std::max(value, finer[here + static_cast<std::size_t>(half)]);
+      if (y + half < height_) value = std::max(value, finer[here + static_cast<std::size_t>(half) * width]);
+      if (x + half < width_ && y + half < height_)
+        value = std::max(value, finer[here + static_cast<std::size_t>(half) * (width + 1)]);
+    }
+  }
+}
+
+}  // namespace lapwing::slam

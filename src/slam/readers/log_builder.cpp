@@ -1,0 +1,54 @@
+#include "slam/readers/log_builder.hpp"
+
+#include <algorithm>
+
+namespace lapwing::slam {
+namespace {
+
+void find_no_return(Sensor& sensor, int number, std::vector<Scan> const& scans) {
+  constexpr float same = 0.995F;
+  constexpr double often = 0.0005;  // of all readings; a real wall is seldom the farthest thing so often
+  float largest = 0.0F;
+  std::size_t count = 0;
+  for (auto const& scan : scans) {
+    if (scan.sensor != number) continue;
+    for (auto const range : scan.ranges_m) {
+      if (!(range < sensor.no_return_m)) continue;
+      largest = std::max(largest, range);
+      ++count;
+    }
+  }
+  std::size_t at_largest = 0;
+  for (auto const& scan : scans)
+    if (scan.sensor == number)
+      at_largest += static_cast<std::size_t>(std::ranges::count_if(
+          scan.ranges_m, [&](float range) { return range < sensor.no_return_m && range >= same * largest; }));
+  if (static_cast<double>(at_largest) > often * static_cast<double>(count)) sensor.no_return_m = same * largest;
+}
+
+}  // namespace
+
+int LogBuilder::sensor(Sensor const& sensor) {
+  auto const found = std::ranges::find(log_.sensors, sensor);
+  if (found != log_.sensors.end()) return static_cast<int>(found - log_.sensors.begin());
+  log_.sensors.push_back(sensor);
+  return static_cast<int>(log_.sensors.size()) - 1;
+}
+
+bool LogBuilder::add(Scan scan) {
+  readings_ += scan.ranges_m.size();
+  if (readings_ > most_readings) return false;
+  log_.scans.push_back(std::move(scan));
+  return true;
+}
+
+ScanLog LogBuilder::finish() && {
+  // Recordings of several processes are not in order; what has one time stays in the order of the file.
+  std::ranges::stable_sort(log_.scans, {}, &Scan::time);
+  for (int s = 0; s < static_cast<int>(log_.sensors.size()); ++s) find_no_return(log_.sensors[s], s, log_.scans);
+  log_.has_odometry =
+      std::ranges::any_of(log_.scans, [&](Scan const& scan) { return scan.odometry != log_.scans.front().odometry; });
+  return std::move(log_);
+}
+
+}  // namespace lapwing::slam

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "slam/graph.hpp"
+#include "slam/log/scan_log.hpp"
+#include "slam/parallel.hpp"
+
+namespace lapwing::slam {
+
+struct FillOptions {
+  int neighbours = 5;
+  double radius_m = 4.0;
+  double point_information = 250.0;
+};
+
+/// Where each scan of the log was taken: key frames where the graph has them, every other one carried from its key
+/// frame by odometry and aligned to the key frames around it.
+[[nodiscard]] std::vector<Pose2> fill(ScanLog const& log, Graph const& graph, FrameOptions const& frame_options,
+                                      FillOptions const& options, ForEach const& for_each);
+
+}  // namespace lapwing::slam
