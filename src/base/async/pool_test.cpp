@@ -327,15 +327,15 @@ struct Owner {
 };
 template <class F, class... Args>
 constexpr bool may_cross = PoolCall<std::decay_t<F>, std::decay_t<Args>...>;
-auto const doubled = [](int number) { return 2 * number; };
-auto const captures = [number = 3] { return number; };
+using Doubled = decltype([](int number) { return 2 * number; });
+using Captures = decltype([number = 3] { return number; });
 
-static_assert(may_cross<decltype(doubled), int>);
+static_assert(may_cross<Doubled, int>);
 static_assert(may_cross<decltype(&Owner::doubled), Owner>);
 static_assert(may_cross<decltype([](std::stop_token, int) {}), int>);
 static_assert(may_cross<decltype([](std::shared_ptr<Owner const>) {}), std::shared_ptr<Owner const>>);
-static_assert(!may_cross<decltype(captures)>, "what it captures cannot be seen");
-static_assert(!may_cross<decltype(doubled), std::string>, "wrong arguments");
+static_assert(!may_cross<Captures>, "what it captures cannot be seen");
+static_assert(!may_cross<Doubled, std::string>, "wrong arguments");
 static_assert(!may_cross<decltype([](int&) {}), int>, "it would change what nobody sees");
 static_assert(!may_cross<decltype([](Owner*) {}), Owner*>);
 static_assert(!may_cross<decltype([](Owner&) {}), std::reference_wrapper<Owner>>);
