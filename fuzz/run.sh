@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Runs one fuzz target on seeds from the repository: fuzz/run.sh TARGET [SECONDS]. Build it first, or use ./lapwing fuzz.
+# Runs one fuzz target on seeds from the repository: fuzz/run.sh TARGET [SECONDS [BUILD]]. Build it first, or use ./lapwing fuzz.
 #
 # What the fuzzer finds interesting stays in build/fuzz/corpus/TARGET for the next run; an input that fails is written to
 # build/fuzz/failures. At most one CPU and 2 GiB.
 set -euo pipefail
 
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
-target=${1:?usage: fuzz/run.sh TARGET [SECONDS]}
+target=${1:?usage: fuzz/run.sh TARGET [SECONDS [BUILD]]}
 seconds=${2:-60}
-bin=$root/build/fuzz/fuzz
+bin=${3:-$root/build/fuzz}/fuzz
 corpus=$root/build/fuzz/corpus/$target
 seeds=$root/build/fuzz/seeds/$target
 failures=$root/build/fuzz/failures

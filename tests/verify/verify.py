@@ -17,6 +17,8 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LOGS = ROOT / "build/verify"
 JOBS = str(os.cpu_count() or 1)
+# clang's build has the address and undefined behaviour sanitizers and what guides a fuzzer in it: one build for three parts.
+CLANG = "asan"
 # Unit tests with a sanitizer take several times as long, and hold several times the memory.
 SANITIZED = {"asan": {"ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1",
                       "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1"},
@@ -71,11 +73,11 @@ def fuzz_targets() -> list[str]:
 
 def fuzz(run: Run, seconds: int) -> None:
     targets = fuzz_targets()
-    build(run, "fuzz", "frame_seeds", *(f"fuzz_{target}" for target in targets))
+    folder = build(run, CLANG, "frame_seeds", *(f"fuzz_{target}" for target in targets))
     found = []
     for target in targets:
         try:
-            run(str(ROOT / "fuzz/run.sh"), target, str(seconds))
+            run(str(ROOT / "fuzz/run.sh"), target, str(seconds), str(folder))
         except Failed:
             found.append(target)
     if found:
@@ -85,9 +87,9 @@ def fuzz(run: Run, seconds: int) -> None:
 def parts(fuzz_seconds: int) -> list[Part]:
     return [
         Part("sources", "includes, folders, format; pages, protocol and grammar are what the sources say", cross_checks),
-        Part("clang", "everything builds with clang, warnings as errors", lambda run: build(run, "clang") and None),
+        Part("clang", "everything builds with clang, warnings as errors", lambda run: build(run, CLANG) and None),
         Part("tidy", "clang-tidy: mistakes, names, sizes of functions", tidy),
-        Part("asan", "every unit test under the address and undefined behaviour sanitizers", lambda run: sanitized(run, "asan")),
+        Part("asan", "every unit test under the address and undefined behaviour sanitizers", lambda run: sanitized(run, CLANG)),
         Part("tsan", "every unit test under the thread sanitizer", lambda run: sanitized(run, "tsan")),
         Part("fuzz", f"each of {len(fuzz_targets())} fuzz targets for {fuzz_seconds} s", lambda run: fuzz(run, fuzz_seconds)),
     ]
