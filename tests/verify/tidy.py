@@ -119,7 +119,9 @@ def main() -> int:
     chosen = arguments.parse_intermixed_args()
     build = chosen.build.resolve()
     rules = (ROOT / ".clang-tidy").read_text() + " ".join(EXTRA) + subprocess.run([TOOL, "--version"], capture_output=True, text=True, check=True).stdout
-    entries = {entry["file"]: entry for entry in json.loads((build / "compile_commands.json").read_text())}
+    commands = json.loads((build / "compile_commands.json").read_text())
+    # What the build itself writes has nobody to mend it.
+    entries = {entry["file"]: entry for entry in commands if not pathlib.Path(entry["file"]).is_relative_to(build)}
     states = {file: state(entry, build, rules) for file, entry in entries.items()}
     memory = build / "tidy.passed"
     passed = set(memory.read_text().split()) & set(states.values()) if memory.exists() else set()
@@ -129,9 +131,10 @@ def main() -> int:
     told: set[str] = set()
     good: set[str] = set()
     read = 0
+    together = sorted(groups.groups(wanted, room), key=len, reverse=True)
     with (tempfile.TemporaryDirectory(dir=build) as folder, concurrent.futures.ThreadPoolExecutor(chosen.jobs) as pool,
           memory.open("a") as remembered):
-        jobs = {pool.submit(tidy, [entries[file] for file in group], pathlib.Path(folder)): group for group in groups.groups(wanted, room)}
+        jobs = {pool.submit(tidy, [entries[file] for file in group], pathlib.Path(folder)): group for group in together}
         for job in concurrent.futures.as_completed(jobs):
             outcome = job.result()
             read += len(jobs[job])
