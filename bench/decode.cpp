@@ -64,7 +64,7 @@ void set_rate(benchmark::State& state, std::size_t frames) {
 
 void c_library(benchmark::State& state, bool decode_fields) {
   std::size_t frames = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     auto const parsed = parse_with_c_library(capture(), decode_fields);
     frames += parsed.frames;
     benchmark::DoNotOptimize(parsed.checksum);
@@ -75,7 +75,7 @@ void c_library(benchmark::State& state, bool decode_fields) {
 void ours(benchmark::State& state, bool decode_fields) {
   std::size_t frames = 0;
   mavlink::FrameParser parser;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     parser.feed(capture(), [&](mavlink::Frame const& frame) {
       ++frames;
       if (!decode_fields) return;

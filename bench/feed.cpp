@@ -82,7 +82,7 @@ struct Fleet {
 void moving(benchmark::State& state) {
   Fleet fleet;
   int turn = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     fleet.now += 200ms;
     ++turn;
     for (auto const& id : fleet.ids) {
@@ -97,7 +97,7 @@ BENCHMARK(moving)->Unit(benchmark::kMicrosecond);
 
 void heard_again(benchmark::State& state) {
   Fleet fleet;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     fleet.now += 200ms;
     for (auto const& id : fleet.ids) {
       fleet.registry.edit(id).mode.heard = fleet.now;
@@ -111,7 +111,7 @@ BENCHMARK(heard_again)->Unit(benchmark::kMicrosecond);
 
 void newcomer(benchmark::State& state) {
   Fleet fleet;
-  for (auto _ : state) benchmark::DoNotOptimize(fleet.feed.since(0, fleet.now, 0));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(fleet.feed.since(0, fleet.now, 0));
   state.SetItemsProcessed(state.iterations() * vehicles);
 }
 BENCHMARK(newcomer)->Unit(benchmark::kMicrosecond);

@@ -49,7 +49,7 @@ void put_one_by_one(benchmark::State& state) {
   int seconds = 0;
   LiveMap map([&] { return now + std::chrono::hours(1'000); });
   map.put_site(site());
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
     auto given = slots(seconds++);
     state.ResumeTiming();
@@ -62,7 +62,7 @@ void put_all_at_once(benchmark::State& state) {
   int seconds = 0;
   LiveMap map([&] { return now + std::chrono::hours(1'000); });
   map.put_site(site());
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
     auto given = slots(seconds++);
     state.ResumeTiming();
@@ -79,7 +79,7 @@ void find_in_view(benchmark::State& state) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> any(-450.0, 450.0);
   std::size_t found = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     SitePoint const middle(any(random), any(random));
     geo::Vector<geo::SiteFrame> const half(half_m, half_m);
     found += map.within(LayerKind::slots, "yard", SiteBox{middle - half, middle + half}, features).size();
@@ -91,7 +91,7 @@ void write_json(benchmark::State& state) {
   auto const given = slots(0);
   std::size_t i = 0;
   std::size_t bytes = 0;
-  for (auto _ : state) bytes += feature_json(given[i++ % given.size()], site()).dump().size();
+  for ([[maybe_unused]] auto _ : state) bytes += feature_json(given[i++ % given.size()], site()).dump().size();
   state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(state.iterations());
 }
 
@@ -103,7 +103,8 @@ OccupancyGrid const& hall() {
     for (int x = -2'000; x < 2'000; ++x) {
       for (int y = -2'000; y < 2'000; ++y) {
         bool const is_wall = x % 160 == 0 || y % 160 == 0 || random() % 500 == 0;
-        made.tile_to_write(tile_of({x, y})).cells[static_cast<std::size_t>((y & 255) * 256 + (x & 255))] =
+        made.tile_to_write(tile_of({x, y}))
+            .cells[static_cast<std::size_t>(y & 255) * 256 + static_cast<std::size_t>(x & 255)] =
             Evidence::of_log_odds(is_wall ? 3.0 : -2.0 - static_cast<double>(random() % 100) / 50.0);
       }
     }
@@ -121,7 +122,7 @@ XyzTile tile_at(int zoom) {
 
 void prepare_whole_grid(benchmark::State& state) {
   auto const& grid = hall();
-  for (auto _ : state) benchmark::DoNotOptimize(GridPyramid(grid));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(GridPyramid(grid));
   state.counters["tiles"] = static_cast<double>(grid.tiles().size());
 }
 
@@ -130,7 +131,7 @@ void prepare_four_changed_tiles(benchmark::State& state) {
   auto grid = hall();
   GridPyramid pyramid(grid);
   int steps = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     for (auto const key : {TileKey{0, 0}, TileKey{0, 1}, TileKey{1, 0}, TileKey{1, 1}})
       grid.tile_to_write(key).cells[5] = Evidence::of_steps(++steps % 1'000);
     pyramid = GridPyramid(grid, pyramid);
@@ -140,13 +141,13 @@ void prepare_four_changed_tiles(benchmark::State& state) {
 void draw_tile(benchmark::State& state) {
   GridPyramid const pyramid(hall());
   auto const tile = tile_at(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(render(pyramid, site(), tile));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(render(pyramid, site(), tile));
 }
 
 void pack_tile(benchmark::State& state) {
   auto const shades = render(GridPyramid(hall()), site(), tile_at(static_cast<int>(state.range(0))));
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = png_of(*shades, tile_px, scale_palette()).size();
+  for ([[maybe_unused]] auto _ : state) bytes = png_of(*shades, tile_px, scale_palette()).size();
   state.counters["bytes"] = static_cast<double>(bytes);
 }
 

@@ -5,6 +5,8 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/async/loop.hpp"
 #include "station/map/features/feature_feed.hpp"
 #include "station/map/grids/grid_pictures.hpp"
@@ -17,17 +19,22 @@ using namespace lapwing;
 
 constexpr std::size_t room = std::size_t{64} * 1024;
 
+/// Three hundred slots a row.
+double row(int slot) {
+  return std::floor(slot / 300.0);
+}
+
 struct Slots : station::testing::MapDemo {
   explicit Slots(int count) {
     std::vector<map::Feature> all;
     for (int i = 0; i < count; ++i)
-      all.push_back(station::testing::slot(fmt::format("{}", i), 3.0 * (i % 300), 6.0 * (i / 300), at));
+      all.push_back(station::testing::slot(fmt::format("{}", i), 3.0 * (i % 300), 6.0 * row(i), at));
     if (!live.put_all(std::move(all))) std::abort();
   }
   void change(int i) {
     auto const state = turn++ % 2 == 0 ? map::SlotState::taken : map::SlotState::free;
     at += 1us;
-    put(station::testing::slot(fmt::format("{}", i), 3.0 * (i % 300), 6.0 * (i / 300), at, state));
+    put(station::testing::slot(fmt::format("{}", i), 3.0 * (i % 300), 6.0 * row(i), at, state));
   }
   /// All that leads a viewer to the present, in the pieces in which it goes out; how many bytes that were.
   std::size_t catch_up(std::uint64_t& revision) {
@@ -51,7 +58,7 @@ void slots_changing(benchmark::State& state) {
   std::vector<std::uint64_t> viewers(static_cast<std::size_t>(state.range(0)));
   for (auto& viewer : viewers) (void)slots.catch_up(viewer);
   std::size_t bytes = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
     for (int change = 0; change < 2; ++change)
       for (int i = 0; i < count; ++i) slots.change(i);
@@ -67,13 +74,13 @@ BENCHMARK(slots_changing)->Arg(1)->Arg(20)->Unit(benchmark::kMillisecond);
 void writing(benchmark::State& state) {
   Slots slots(2'000);
   int i = 0;
-  for (auto _ : state) slots.change(i++ % 2'000);
+  for ([[maybe_unused]] auto _ : state) slots.change(i++ % 2'000);
 }
 BENCHMARK(writing)->Unit(benchmark::kMicrosecond);
 
 void newcomer(benchmark::State& state) {
   Slots slots(100'000);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     std::uint64_t revision = 0;
     benchmark::DoNotOptimize(slots.catch_up(revision));
   }
@@ -117,13 +124,14 @@ void pictures(benchmark::State& state) {
   auto const beside = map::XyzTile{tile.zoom, tile.x + 1, tile.y};
   grid.loop.run_until_done(grid.fetch(tile));
   bool is_first = false;
-  for (auto _ : state) grid.loop.run_until_done(grid.fetch(std::exchange(is_first, !is_first) ? tile : beside));
+  for ([[maybe_unused]] auto _ : state)
+    grid.loop.run_until_done(grid.fetch(std::exchange(is_first, !is_first) ? tile : beside));
 }
 BENCHMARK(pictures)->Arg(15)->Arg(18)->Arg(20)->Arg(22)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void pictures_of_what_changes(benchmark::State& state) {
   Grid grid;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     state.PauseTiming();
     grid.put_all();
     state.ResumeTiming();

@@ -39,13 +39,13 @@ Task<> ask_once(Loop& loop, int number, int& sum) {
 
 void ours_one_by_one(benchmark::State& state) {
   Loop loop;
-  for (auto _ : state) benchmark::DoNotOptimize(loop.run_until_done(ask(loop, batch)));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(loop.run_until_done(ask(loop, batch)));
   state.SetItemsProcessed(state.iterations() * batch);
 }
 
 void ours_together(benchmark::State& state) {
   Loop loop;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     Scope scope(loop);
     int sum = 0;
     for (int i = 0; i < batch; ++i) scope.spawn(ask_once(loop, i, sum));
@@ -59,7 +59,7 @@ void asio_one_by_one(benchmark::State& state) {
   asio::io_context context{1};
   auto const work = asio::make_work_guard(context);
   asio::thread_pool pool(Loop::one_less_than_cores());
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     int number = 0;
     for (int i = 0; i < batch; ++i) {
       asio::post(pool, [&] { asio::post(context, [&number, result = add_one(number)] { number = result; }); });
@@ -74,7 +74,7 @@ void asio_together(benchmark::State& state) {
   asio::io_context context{1};
   auto const work = asio::make_work_guard(context);
   asio::thread_pool pool(Loop::one_less_than_cores());
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     int sum = 0;
     for (int i = 0; i < batch; ++i)
       asio::post(pool, [&, i] { asio::post(context, [&sum, result = add_one(i)] { sum += result; }); });
@@ -85,7 +85,7 @@ void asio_together(benchmark::State& state) {
 }
 
 void async_one_by_one(benchmark::State& state) {
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     int number = 0;
     for (int i = 0; i < batch; ++i) number = std::async(std::launch::async, add_one, number).get();
     benchmark::DoNotOptimize(number);

@@ -51,7 +51,7 @@ void receive(benchmark::State& state) {
   std::size_t heard = 0;
   auto const subscription = connection.subscribe([&heard](mavlink::Received const&) { ++heard; });
   auto const bytes = datagrams(vehicles);
-  for (auto _ : state)
+  for ([[maybe_unused]] auto _ : state)
     for (std::size_t i = 0; i < bytes.size(); ++i)
       link.hand_in(link::Peer{i % static_cast<std::size_t>(vehicles)}, bytes[i].bytes());
   if (heard != bytes.size() * state.iterations()) state.SkipWithError("messages were lost");

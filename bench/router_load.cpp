@@ -54,6 +54,7 @@ std::uint64_t now_ns() {
 
 int open_socket(int port, bool listens) {
   int const fd = ::socket(AF_INET, SOCK_DGRAM, 0);
+  if (fd < 0) die("socket");
   int const size = 32 * 1024 * 1024;
   if (::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &size, sizeof(size)) != 0)
     ::setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &size, sizeof(size));
@@ -186,7 +187,7 @@ void print(std::vector<Sink>& sinks, std::uint64_t sent) {
   std::printf(
       "{\"sent\": %llu, \"expected\": %llu, \"received\": %llu, \"duplicates\": %llu, \"sink_overruns\": %llu, "
       "\"p50_us\": %.1f, \"p90_us\": %.1f, \"p99_us\": %.1f, \"p999_us\": %.1f, \"max_us\": %.1f}\n",
-      static_cast<unsigned long long>(sent), static_cast<unsigned long long>(sent * sinks.size()),
+      static_cast<unsigned long long>(sent), static_cast<unsigned long long>(sent) * sinks.size(),
       static_cast<unsigned long long>(received), static_cast<unsigned long long>(duplicates),
       static_cast<unsigned long long>(overrun), percentile_us(late, 0.5), percentile_us(late, 0.9),
       percentile_us(late, 0.99), percentile_us(late, 0.999), percentile_us(late, 1.0));

@@ -59,7 +59,7 @@ inline HttpResponse ask(base::Loop& loop, Router const& router, std::string_view
   request.headers = std::move(headers);
   request.headers.push_back({"Host", "station:8080"});
   auto reply = router.answer(request);
-  if (auto* const response = std::get_if<HttpResponse>(&reply)) return *std::move(response);
+  if (auto* const response = std::get_if<HttpResponse>(&reply)) return std::move(*response);
   return loop.run_until_done(std::get<base::Task<HttpResponse>>(std::move(reply)));
 }
 
