@@ -98,6 +98,21 @@ int status_of(error_code error) {
   return 400;
 }
 
+/// Whether the client broke the protocol, rather than the connection.
+bool is_malformed(error_code error) {
+  return error.category() == make_error_code(http::error::bad_method).category() &&
+         error != http::error::end_of_stream && error != http::error::partial_message;
+}
+
+using Parser = http::request_parser<http::string_body>;
+
+/// What came, as far as it could be read, and the answer that it gets without being carried out.
+struct Received {
+  std::optional<HttpRequest> asked;
+  std::optional<HttpResponse> answer;
+  bool is_malformed = false;
+};
+
 /// The plain request without its body; nothing when its target is badly encoded.
 std::optional<HttpRequest> plain(http::request<http::string_body> const& request) {
   auto const target = request.target();
@@ -166,6 +181,10 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   asio::awaitable<void> accept_connections();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
   asio::awaitable<bool> serve_request(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
+  Received judge(Connection& connection, Parser const& parser);
+  asio::awaitable<error_code> read_body(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer,
+                                        Parser& parser, Received& received);
+  asio::awaitable<bool> respond(std::shared_ptr<Connection> connection, Parser& parser, Received& received);
   std::optional<HttpResponse> refuse_session();
   asio::awaitable<void> drain(std::shared_ptr<Connection> connection);
   asio::awaitable<void> serve_websocket(std::shared_ptr<Connection> connection,
@@ -213,7 +232,7 @@ void HttpServer::Core::close() {
   events = {};
   error_code ignored;
   acceptor.close(ignored);
-  for (auto const& timer : timers) timer->cancel();
+  for (auto const& timer : timers) timer->cancel(ignored);
   // The work uses what ends with the server's owner; the connection itself may wake later.
   for (auto const& one : pending) {
     one->work = {};
@@ -283,56 +302,84 @@ asio::awaitable<void> HttpServer::Core::serve(std::shared_ptr<Connection> connec
   connections.erase(connection->guest);
 }
 
-/// One request and its answer; true when another may follow on the same connection. Who may not ask is told so before
-/// the body of what he asks is read.
+/// Who asks and for what, of which the header tells; who may not ask is told so before the body of what he asks is
+/// read.
+Received HttpServer::Core::judge(Connection& connection, Parser const& parser) {
+  Received received;
+  auto& asked = received.asked;
+  auto& answer = received.answer;
+  asked = plain(parser.get());
+  if (!asked) {
+    answer = problem(400, "The request's target is badly encoded.");
+    return received;
+  }
+  asked->opens_websocket = websocket::is_upgrade(parser.get()) && asked->path == options.websocket_path;
+  answer = refusal(policy, *asked);
+  if (answer) return received;
+  if (is_trusted(policy, *asked)) {
+    connection.is_known = true;
+    places.set(connection.guest, internal::Places::Standing::served);
+  }
+  if (asked->opens_websocket) answer = refuse_session();
+  return received;
+}
+
+asio::awaitable<error_code> HttpServer::Core::read_body(std::shared_ptr<Connection> connection,
+                                                        beast::flat_buffer& buffer, Parser& parser,
+                                                        Received& received) {
+  auto& answer = received.answer;
+  auto& transport = connection->transport();
+  transport.expires_after(options.request_timeout);
+  auto const longest = answer ? 0 : router.max_body_bytes(*received.asked).value_or(options.max_body_bytes);
+  if (!answer && parser.content_length().value_or(0) > longest) answer = problem(413, "The body is too long.");
+  parser.body_limit(longest);
+  error_code error;
+  if (!answer && !parser.is_done())
+    co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
+  co_return error;
+}
+
+/// One request and its answer; true when another may follow on the same connection.
 asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection> connection,
                                                       beast::flat_buffer& buffer) {
   auto& transport = connection->transport();
-  http::request_parser<http::string_body> parser;
+  Parser parser;
   parser.header_limit(static_cast<std::uint32_t>(options.max_header_bytes));
   parser.body_limit(std::max(options.max_body_bytes, router.largest_body_bytes()));
   transport.expires_after(connection->is_known ? options.request_timeout : options.first_request_timeout);
   error_code error;
   co_await http::async_read_header(transport, buffer, parser, redirect_error(use_awaitable, error));
-  std::optional<HttpRequest> asked;
-  std::optional<HttpResponse> response;
+  Received received;
   if (!error) {
-    bool const is_upgrade = websocket::is_upgrade(parser.get());
-    asked = plain(parser.get());
-    if (!asked) response = problem(400, "The request's target is badly encoded.");
-    if (asked) asked->opens_websocket = is_upgrade && asked->path == options.websocket_path;
-    if (asked) response = refusal(policy, *asked);
-    if (!response && is_trusted(policy, *asked)) {
-      connection->is_known = true;
-      places.set(connection->guest, internal::Places::Standing::served);
-    }
-    if (!response && asked->opens_websocket) response = refuse_session();
-    if (!response && asked->opens_websocket) {
-      co_await serve_websocket(connection, parser.release(), *std::move(asked));
+    received = judge(*connection, parser);
+    if (!received.answer && received.asked->opens_websocket) {
+      co_await serve_websocket(connection, parser.release(), *std::move(received.asked));
       co_return false;
     }
-    transport.expires_after(options.request_timeout);
-    auto const longest = response ? 0 : router.max_body_bytes(*asked).value_or(options.max_body_bytes);
-    if (!response && parser.content_length().value_or(0) > longest) response = problem(413, "The body is too long.");
-    parser.body_limit(longest);
-    if (!response && !parser.is_done())
-      co_await http::async_read(transport, buffer, parser, redirect_error(use_awaitable, error));
+    error = co_await read_body(connection, buffer, parser, received);
   }
-  bool const is_malformed = error.category() == make_error_code(http::error::bad_method).category() &&
-                            error != http::error::end_of_stream && error != http::error::partial_message;
-  if (closed || (error && !is_malformed)) co_return false;
-  if (error) response = problem(status_of(error), error.message());
+  if (closed || (error && !is_malformed(error))) co_return false;
+  if (error) received.answer = problem(status_of(error), error.message());
+  received.is_malformed = error.failed();
+  co_return co_await respond(connection, parser, received);
+}
+
+/// True when it has gone out and the connection may stay.
+asio::awaitable<bool> HttpServer::Core::respond(std::shared_ptr<Connection> connection, Parser& parser,
+                                                Received& received) {
   bool const is_whole = parser.is_done();
-  bool const keep_alive = is_whole && !error && parser.get().keep_alive();
+  bool const keep_alive = is_whole && !received.is_malformed && parser.get().keep_alive();
   bool const is_head = parser.get().method() == http::verb::head;
-  if (!response) {
-    asked->body = std::move(parser.get().body());
-    auto const reply = std::make_shared<Reply>(answer(*asked));
-    response = co_await finish(reply);
+  if (!received.answer) {
+    received.asked->body = std::move(parser.get().body());
+    auto const reply = std::make_shared<Reply>(answer(*received.asked));
+    received.answer = co_await finish(reply);
     if (closed) co_return false;
   }
-  auto const message = wire(*std::move(response), is_head, keep_alive);
+  auto& transport = connection->transport();
+  auto const message = wire(*std::move(received.answer), is_head, keep_alive);
   transport.expires_after(options.request_timeout);
+  error_code error;
   co_await http::async_write(transport, message, redirect_error(use_awaitable, error));
   if (connection->is_known) places.set(connection->guest, internal::Places::Standing::resting);
   if (!error && !is_whole) co_await drain(connection);
@@ -457,7 +504,7 @@ int HttpServer::port() const {
 
 std::string HttpServer::url() const {
   auto const& address = core_->options.address;
-  bool const is_v6 = address.find(':') != std::string::npos;
+  bool const is_v6 = address.contains(':');
   return is_v6 ? fmt::format("http://[{}]:{}/", address, port()) : fmt::format("http://{}:{}/", address, port());
 }
 
