@@ -339,16 +339,19 @@ base::Task<> Network::watch() {
       check_connection(*craft);
       if (was_listening) check_silence(*craft);
       let_age(*craft);
-      if (!options_.asks_for_messages || !may_be_asked(*craft)) continue;
-      auto& asked = asked_of(*craft);
-      if (!asked.questions.empty() && !asked.is_questioning) scope_.spawn(ask_questions(*craft));
-      if (asked.is_asking || is_giving_back_) continue;
-      if (!asked.rates) asked.rates.emplace(wanted_messages(craft->state.autopilot), loop().now());
-      spare_slow_link(*craft);
-      auto wanted = asked.rates->due(loop().now());
-      if (!wanted.empty()) scope_.spawn(ask_for_messages(*craft, std::move(wanted)));
+      if (options_.asks_for_messages && may_be_asked(*craft)) ask_what_is_due(*craft);
     }
   }
+}
+
+void Network::ask_what_is_due(MavlinkVehicle& craft) {
+  auto& asked = asked_of(craft);
+  if (!asked.questions.empty() && !asked.is_questioning) scope_.spawn(ask_questions(craft));
+  if (asked.is_asking || is_giving_back_) return;
+  if (!asked.rates) asked.rates.emplace(wanted_messages(craft.state.autopilot), loop().now());
+  spare_slow_link(craft);
+  auto wanted = asked.rates->due(loop().now());
+  if (!wanted.empty()) scope_.spawn(ask_for_messages(craft, std::move(wanted)));
 }
 
 }  // namespace lapwing::fleet

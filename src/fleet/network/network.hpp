@@ -80,6 +80,7 @@ class Network {
   [[nodiscard]] std::string in_network(std::string text) const;
   void note_links();
   base::Task<> watch();
+  void ask_what_is_due(MavlinkVehicle& craft);
   /// It is heard, and is not perhaps two vehicles.
   [[nodiscard]] bool may_be_asked(MavlinkVehicle const& craft) const;
   base::Task<> ask_questions(MavlinkVehicle& craft);
