@@ -13,7 +13,7 @@ using mavlink::MavSeverity;
 
 struct VehicleActions : testing::Test {
   VehicleActions() { world.run_for(5s); }
-  [[nodiscard]] MavlinkVehicle& craft() { return *world.fleet->find(vehicle::VehicleId{"1"}); }
+  [[nodiscard]] MavlinkVehicle& craft() const { return *world.fleet->find(vehicle::VehicleId{"1"}); }
   base::Result<> start() {
     return world.loop.run_until_done(arm_and_start(world.connection, craft(), ActionOptions{}));
   }

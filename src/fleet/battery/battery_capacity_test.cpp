@@ -10,7 +10,9 @@ namespace {
 /// Draws 5 Ah batteries by `step_ah` a report, from what has been drawn at first to what has been at last.
 void draw(BatteryCapacity& capacity, double from_ah, double to_ah, double step_ah, bool counts_from_full,
           double drawn_before_ah = 0.0) {
-  for (double drawn = from_ah; drawn < to_ah + 1e-9; drawn += step_ah) {
+  auto const reports = static_cast<int>(std::floor((to_ah - from_ah) / step_ah + 1e-6));
+  for (int report = 0; report <= reports; ++report) {
+    double const drawn = from_ah + report * step_ah;
     double const left = 1.0 - (drawn + drawn_before_ah) / 5.0;
     capacity.add(std::floor(left * 100.0 + 1e-6) / 100.0, drawn, counts_from_full);
   }

@@ -45,7 +45,7 @@ struct GoalTest : testing::Test {
     goal.acknowledge(now);
     return goal;
   }
-  Standing look(Goal& goal) { return goal.look(craft, now); }
+  Standing look(Goal& goal) const { return goal.look(craft, now); }
   /// What a mode other than the command's comes to, once there was time to explain it.
   Standing look_later(Goal& goal) {
     now += 600ms;

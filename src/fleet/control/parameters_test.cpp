@@ -12,7 +12,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using mavlink::Message;
-using vehicle::VehicleId;
 
 /// A copter with a hundred parameters, whose value 7 goes up to 50.
 class Copter {

@@ -18,7 +18,7 @@ namespace lapwing::fleet {
 
 /// A ground station with an operator's hand on it, in virtual time.
 struct ControlWorld : TestWorld {
-  explicit ControlWorld(Control::Options options = {}) {
+  explicit ControlWorld(Control::Options const& options = {}) {
     control = std::make_unique<Control>(*fleet, *platform, options, base::Logger(log, "fleet"));
     control->set_on_latched([this](std::string const& reason) { latched_with = reason; });
   }
@@ -39,7 +39,7 @@ struct ControlWorld : TestWorld {
   }
   /// Gives the command to the vehicles, and its number.
   std::uint64_t give(vehicle::VehicleCommand command, std::vector<std::string> const& ids = {"1"},
-                     std::string by = "operator 1", bool takes_over = false) {
+                     std::string by = "operator 1", bool takes_over = false) const {
     std::vector<vehicle::VehicleId> chosen;
     for (auto const& id : ids) chosen.push_back({id});
     return control->command(std::move(command), chosen, std::move(by), takes_over).value_or(0);

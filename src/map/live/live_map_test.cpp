@@ -25,7 +25,7 @@ Account account(int seconds, std::string writer = "drone 1") {
   return {.writer = std::move(writer), .at = now + std::chrono::seconds(seconds)};
 }
 
-Feature poi(std::string id, SitePoint position, int seconds = 0) {
+Feature poi(std::string id, SitePoint const& position, int seconds = 0) {
   return {.id = std::move(id),
           .site = "yard",
           .account = account(seconds),
@@ -34,8 +34,7 @@ Feature poi(std::string id, SitePoint position, int seconds = 0) {
 
 constexpr auto layer = LayerKind::points_of_interest;
 
-class LiveMapTest : public ::testing::Test {
- protected:
+struct LiveMapTest : ::testing::Test {
   LiveMapTest() { map.put_site(yard()); }
 
   std::vector<std::string> ids_within(std::optional<SiteBox> const& box, std::size_t most = 100) {
@@ -256,8 +255,7 @@ TEST_F(LiveMapTest, RestoresWhatWasKept) {
   EXPECT_EQ(map.restore({.feature = feature}).error().kind, ErrorKind::invalid_input);
 }
 
-class GridOfLiveMap : public LiveMapTest {
- protected:
+struct GridOfLiveMap : LiveMapTest {
   GridOfLiveMap() {
     grid.set({1, 1}, Evidence::of_log_odds(1.0));
     grid.set({300, 1}, Evidence::of_log_odds(1.0));

@@ -15,7 +15,7 @@ struct JoinedControlTest : ::testing::Test {
     all.add("MAVLink", drones);
     all.add("test", robots);
   }
-  CommandRecord const& last() { return all.commands().back(); }
+  [[nodiscard]] CommandRecord const& last() const { return all.commands().back(); }
 
   RecordingControl drones{{"1", "2", "both"}, 5};
   RecordingControl robots{{"a1", "both"}, 70};
