@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   auto const response = now ? *now : loop.run_until_done(std::get<base::Task<station::HttpResponse>>(std::move(reply)));
 
   fuzz::require(response.status >= 200 && response.status < 508);
-  if (response.content_type.find("json") != std::string::npos) fuzz::require(nlohmann::json::accept(response.body));
+  if (response.content_type.contains("json")) fuzz::require(nlohmann::json::accept(response.body));
   for (auto const layer : map::all_layers)
     for (auto const* record : map.changed_since(layer, 0))
       fuzz::require(record->is_removed || !map::feature_fault(record->feature));

@@ -101,8 +101,7 @@ std::string title_of(base::Diagnostic const& one, base::SourceFile const& source
   constexpr std::size_t longest = 60;
   if (trimmed(result).empty()) return fmt::format("Remove {}", trimmed(source.text(changed)));
   if (changed.size() == 0) return fmt::format("Insert {}", trimmed(result));
-  if (result.size() <= longest && result.find('\n') == std::string::npos)
-    return fmt::format("Change to {}", trimmed(result));
+  if (result.size() <= longest && !result.contains('\n')) return fmt::format("Change to {}", trimmed(result));
   auto words = one.hint.empty() ? one.message : one.hint;
   if (words[0] >= 'a' && words[0] <= 'z') words[0] = static_cast<char>(words[0] - 'a' + 'A');
   return words;

@@ -29,7 +29,7 @@ class Cutter {
   }
   /// Of several characters, which one it was.
   char one_of(std::string_view any) {
-    if (rest_.empty() || any.find(rest_.front()) == std::string_view::npos) {
+    if (rest_.empty() || !any.contains(rest_.front())) {
       fits_ = false;
       return 0;
     }

@@ -182,7 +182,7 @@ bool has_method(std::string_view value, MethodSpec const& method) {
           "values = [{}]\nvalues.each {{ v -> try {{ v.{}({}) }} "
           "catch (Exception e) {{ print(e.message) }} }}",
           value, method.name, arguments);
-      if (printed(script).find("has no method") == std::string::npos) return true;
+      if (!printed(script).contains("has no method")) return true;
       if (count == 0) break;
     }
   }

@@ -56,8 +56,7 @@ class SweepSession final : public tasks::BuilderSession {
  public:
   base::Result<> add(std::size_t, std::size_t, std::span<tasks::Argument const> arguments) override {
     for (auto const& argument : arguments) said_ += (said_.empty() ? "" : ", ") + words_of(argument);
-    if (said_.find("[0]") != std::string::npos)
-      return base::fail(base::ErrorKind::invalid_input, "a speed of 0 gets nowhere");
+    if (said_.contains("[0]")) return base::fail(base::ErrorKind::invalid_input, "a speed of 0 gets nowhere");
     return {};
   }
   base::Result<std::shared_ptr<tasks::PlatformTask const>> finish() override {
@@ -129,7 +128,7 @@ struct PlatformWords : ::testing::Test {
   std::string first(std::string const& script) {
     std::istringstream lines(run(script));
     for (std::string line; std::getline(lines, line);)
-      if (line.find(": error: ") != std::string::npos) return line;
+      if (line.contains(": error: ")) return line;
     return "no mistake";
   }
 

@@ -26,7 +26,7 @@ std::string hover_text(std::string const& script) {
 ::testing::AssertionResult says(std::string const& script, std::initializer_list<std::string_view> words) {
   auto const text = hover_text(script);
   for (auto const word : words) {
-    if (text.find(word) == std::string::npos) return ::testing::AssertionFailure() << "no '" << word << "' in " << text;
+    if (!text.contains(word)) return ::testing::AssertionFailure() << "no '" << word << "' in " << text;
   }
   return ::testing::AssertionSuccess();
 }

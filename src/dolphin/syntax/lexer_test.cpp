@@ -136,8 +136,7 @@ void expect_source_back(std::string text) {
     ASSERT_LE(token.span.begin, token.span.end);
     auto const gap = source.text({at, token.span.begin});
     bool const is_plain = gap.find_first_not_of(" \t\r\n\f\v\\") == std::string_view::npos;
-    bool const has_comment = gap.find("//") != std::string_view::npos || gap.find("/*") != std::string_view::npos ||
-                             gap.find("#!") != std::string_view::npos;
+    bool const has_comment = gap.contains("//") || gap.contains("/*") || gap.contains("#!");
     EXPECT_TRUE(is_plain || has_comment || diagnostics.has_errors()) << gap;
     out += gap;
     out += source.text(token.span);

@@ -27,7 +27,7 @@ struct AlarmWorld : ControlWorld {
     return run_until([&] { return find(kind) == nullptr; }, limit);
   }
   [[nodiscard]] long count_logged(std::string_view part) const {
-    return std::ranges::count_if(lines, [part](auto const& line) { return line.find(part) != std::string::npos; });
+    return std::ranges::count_if(lines, [part](auto const& line) { return line.contains(part); });
   }
   std::size_t acknowledge(AlarmKind kind, std::string by = "operator 1") {
     std::uint64_t const number = find(kind) ? find(kind)->number : 0;

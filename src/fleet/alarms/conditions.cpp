@@ -98,7 +98,7 @@ struct Judge {
   /// The text says what it is, the heartbeat how long it goes on. What was only said counts for a while.
   void judge_failsafe() {
     for (auto const& text : std::views::reverse(state.recent_texts)) {
-      if (!state.arming.is_in_trouble && text.text.find("leared") != std::string::npos) break;
+      if (!state.arming.is_in_trouble && text.text.contains("leared")) break;
       if (!tells_failsafe(text.text) || is_of_other_kind(text.text)) continue;
       if (!state.arming.is_in_trouble && text.heard + text_holds < now) break;
       return add(AlarmKind::failsafe, grave_in_flight(state), text.heard, "failsafe: " + text.text);
@@ -108,8 +108,8 @@ struct Judge {
   }
   /// Of the fence and of batteries that are merely low there is more than a text.
   [[nodiscard]] static bool is_of_other_kind(std::string_view text) {
-    bool const is_fence = text.find("reached") != std::string_view::npos;
-    bool const is_charge = text.starts_with("Battery ") && text.find("ailsafe") == std::string_view::npos;
+    bool const is_fence = text.contains("reached");
+    bool const is_charge = text.starts_with("Battery ") && !text.contains("ailsafe");
     return is_fence || is_charge;
   }
 

@@ -97,7 +97,7 @@ TEST_F(WhoCommands, ForgetsARequestThatWasMadeBeforeAnother) {
 TEST_F(WhoCommands, OfAScriptGoesToAnOperatorWhoWaits) {
   world.control->forget("anna");
   auto const run = world.platform->start(task_of(mission_ending_with(mavlink::MavCmd::nav_loiter_unlim)), one);
-  ASSERT_TRUE(world.run_until([&] { return run->progress().find("item") != std::string::npos; }));
+  ASSERT_TRUE(world.run_until([&] { return run->progress().contains("item"); }));
   EXPECT_TRUE(world.control->request_control(one, "ben"));
   world.run_for(11s);
   EXPECT_EQ(commander(), "ben");

@@ -32,7 +32,7 @@ TEST(OtherStations, AreNoticedThoughTheyHaveOurId) {
   copter.send_as(same, mavlink::CommandLong{.target = {1, 1}, .command = MavCmd::mission_start});
   world.run_for(100ms);
   EXPECT_EQ(world.state().foreign_change.value, "station 255/190 commanded MISSION_START");
-  auto const warns = [](std::string const& line) { return line.find("this station's id, too") != std::string::npos; };
+  auto const warns = [](std::string const& line) { return line.contains("this station's id, too"); };
   EXPECT_EQ(std::ranges::count_if(world.lines, warns), 1);
 }
 
@@ -62,9 +62,7 @@ TEST(OtherStations, AreToldOfOnceThoughTheyCommandAllTheTime) {
     copter.send(mavlink::CommandAck{.target = other, .command = MavCmd::do_change_speed});
     world.run_for(100ms);
   }
-  auto const tells = [](std::string const& line) {
-    return line.find("commanded DO_CHANGE_SPEED") != std::string::npos;
-  };
+  auto const tells = [](std::string const& line) { return line.contains("commanded DO_CHANGE_SPEED"); };
   EXPECT_EQ(std::ranges::count_if(world.lines, tells), 2) << "the command, and what came of it";
   world.run_for(10s);
   copter.send(mavlink::CommandAck{.target = other, .command = MavCmd::do_change_speed});

@@ -168,8 +168,7 @@ TEST(OperatorsCommand, GetsNoVehicleToFlyAMissionOfAnotherPlaceByOtherWords) {
   auto const modes = copter.modes_commanded().size();
   auto const is_refused = [&](vehicle::VehicleCommand command, std::string const& id = "1") {
     auto const number = world.give(std::move(command), {id});
-    return world.end_of(number) == CommandState::refused &&
-           world.outcome(number).reason.find("[too_far]") != std::string::npos;
+    return world.end_of(number) == CommandState::refused && world.outcome(number).reason.contains("[too_far]");
   };
   EXPECT_TRUE(is_refused({.action = Action::resume_mission}));
   EXPECT_TRUE(is_refused({.action = Action::set_mode, .mode = "AUTO"}));

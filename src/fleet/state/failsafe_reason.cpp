@@ -14,7 +14,7 @@ namespace {
 constexpr base::Duration is_recent = 5s;
 
 bool has(std::string_view text, std::string_view part) {
-  return text.find(part) != std::string_view::npos;
+  return text.contains(part);
 }
 
 }  // namespace

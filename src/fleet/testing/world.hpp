@@ -45,11 +45,12 @@ struct TestWorld {
   /// Whether the run gets to what its progress calls `phase`: "uploading", or "item" in flight.
   [[nodiscard]] bool comes_to(tasks::TaskRun const& run, std::string_view phase,
                               base::Duration limit = std::chrono::seconds(120)) {
-    return run_until([&] { return run.progress().find(phase) != std::string::npos; }, limit);
+    return run_until([&] { return run.progress().contains(phase); }, limit);
   }
 
   /// What `sendMessage` in a script does.
-  base::Result<> send_message(std::string id, std::string message, std::vector<tasks::NamedValue> const& fields = {}) {
+  base::Result<> send_message(std::string id, std::string message,
+                              std::vector<tasks::NamedValue> const& fields = {}) const {
     std::vector<tasks::Argument> const arguments{std::move(message)};
     return platform->perform({.name = "sendMessage", .arguments = arguments, .values = fields}, {std::move(id)});
   }
@@ -59,7 +60,7 @@ struct TestWorld {
   }
   [[nodiscard]] bool has_logged(std::string_view part) const {
     for (auto const& line : lines)
-      if (line.find(part) != std::string::npos) return true;
+      if (line.contains(part)) return true;
     return false;
   }
 

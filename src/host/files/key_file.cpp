@@ -64,7 +64,7 @@ base::Result<mavlink::SigningTime> read_time(std::string const& path) {
 }
 
 bool is_store(std::string_view text) {
-  return text.starts_with("[keys]") || text.find("\n[keys]") != std::string_view::npos;
+  return text.starts_with("[keys]") || text.contains("\n[keys]");
 }
 
 SecretFile secret_of(std::string const& path) {

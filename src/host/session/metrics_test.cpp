@@ -23,7 +23,7 @@ TEST(Metrics, TellWhatLinksAndTheirSourcesLose) {
   copter.round_trip = 120ms;
   copter.age = 500ms;
   auto const text = metrics_of(vehicles, std::vector{wifi}, {}, loop.now());
-  auto const has = [&text](std::string const& line) { return text.find(line + "\n") != std::string::npos; };
+  auto const has = [&text](std::string const& line) { return text.contains(line + "\n"); };
   EXPECT_TRUE(has("lapwing_link_open{link=\"udpin://0.0.0.0:14550\"} 1")) << text;
   EXPECT_TRUE(has("lapwing_link_crc_errors_total{link=\"udpin://0.0.0.0:14550\"} 3"));
   EXPECT_TRUE(has("lapwing_link_perishable_dropped_total{link=\"udpin://0.0.0.0:14550\"} 7"));

@@ -114,7 +114,7 @@ struct TwoPlatforms : testing::Test {
   }
   [[nodiscard]] vehicle::VehicleState const& copter() const { return *session.ground.registry.find({"1"}); }
   [[nodiscard]] bool has_said(std::string_view part) const {
-    return std::ranges::any_of(said, [&](auto const& line) { return line.find(part) != std::string::npos; });
+    return std::ranges::any_of(said, [&](auto const& line) { return line.contains(part); });
   }
 
   std::unique_ptr<Robots> robots;  // before the session, which they outlive

@@ -49,7 +49,7 @@ base::Result<station::BaseMap> wanted(ConfigReader& base_map, fs::path const& be
 
 base::Result<> check_tiles(std::string const& address) {
   for (auto const* part : {"{z}", "{x}", "{y}"}) {
-    if (address.find(part) == std::string::npos)
+    if (!address.contains(part))
       return fail(ErrorKind::invalid_input, fmt::format("the address of map tiles must contain {}", part),
                   tiles_example);
   }

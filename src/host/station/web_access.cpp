@@ -112,7 +112,7 @@ std::vector<std::string> map_addresses(std::string const& bind, int port, std::s
   if (is_wildcard(bind)) hosts.emplace_back("127.0.0.1");
   std::vector<std::string> addresses;
   for (auto const& host : hosts) {
-    bool const is_v6 = host.find(':') != std::string::npos;
+    bool const is_v6 = host.contains(':');
     addresses.push_back(fmt::format("http://{}{}{}:{}/{}{}", is_v6 ? "[" : "", host, is_v6 ? "]" : "", port,
                                     token.empty() ? "" : "#token=", token));
   }

@@ -31,7 +31,7 @@ class Talker {
     });
   }
   base::Task<bool> hears(std::string text) {
-    return arrived_.wait_for([this, text] { return heard_.find(text) != std::string::npos; }, 5s);
+    return arrived_.wait_for([this, text] { return heard_.contains(text); }, 5s);
   }
   bool say(std::string_view text, Peer peer) { return link_->send(peer, bytes(text)); }
   bool say(std::string_view text) {

@@ -91,8 +91,7 @@ class Reader {
       if (name == "Placemark")
         done = placemark(node, among_rally);
       else if (name == "Document" || name == "Folder")
-        done =
-            features(node, among_rally || lower(text_of(node, "name")).find("rally") != std::string::npos, depth + 1);
+        done = features(node, among_rally || lower(text_of(node, "name")).contains("rally"), depth + 1);
       else if (name == "NetworkLink" || name == "GroundOverlay")
         note(node, fmt::format("a {} is not read", name));
       if (!done) return done;

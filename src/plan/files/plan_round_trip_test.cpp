@@ -216,9 +216,9 @@ INSTANTIATE_TEST_SUITE_P(Of, RoundTrip,
 TEST(RoundTripOfGeoJson, LosesOnlyWhatNoFileHolds) {
   for (unsigned seed = 1; seed <= 300; ++seed) {
     for (auto const& lost : reduce(random_plan(seed), PlanFormat::geojson).lost) {
-      bool const is_expected = lost.find("command 31010 is not known here") != std::string::npos ||
-                               lost.find("has its place in frame 1") != std::string::npos ||
-                               lost.find("which is not there") != std::string::npos || lost.starts_with("the pattern");
+      bool const is_expected = lost.contains("command 31010 is not known here") ||
+                               lost.contains("has its place in frame 1") || lost.contains("which is not there") ||
+                               lost.starts_with("the pattern");
       EXPECT_TRUE(is_expected) << lost;
     }
   }

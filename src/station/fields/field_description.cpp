@@ -160,7 +160,7 @@ class Describer : public FieldVisitor {
 
 Said Describer::list_of(Open const& done) {
   auto const& entry = done.lines.front().said;
-  bool const is_union = entry.type.find('|') != std::string::npos;
+  bool const is_union = entry.type.contains('|');
   std::string by;
   switch (done.unique) {
     case Unique::no: break;

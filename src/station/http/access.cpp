@@ -18,7 +18,7 @@ std::string_view host_name(std::string_view host) {
 
 /// An address cannot be rebound by DNS, so it is as good as its route to us.
 bool is_address(std::string_view name) {
-  bool const v6 = name.find(':') != std::string_view::npos;
+  bool const v6 = name.contains(':');
   auto const is_digit = [&](unsigned char c) {
     return v6 ? std::isxdigit(c) || c == ':' || c == '.' : std::isdigit(c) || c == '.';
   };

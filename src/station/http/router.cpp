@@ -27,7 +27,7 @@ bool fits_part(std::string_view pattern, std::string const& part, PathArguments&
 /// What stands for the names of the route; nothing where the request's path is another.
 std::optional<PathArguments> arguments_of(Router::Route const& route, HttpRequest const& request) {
   PathArguments arguments;
-  if (route.path.find('{') == std::string::npos) {
+  if (!route.path.contains('{')) {
     if (route.path != request.path) return std::nullopt;
     return arguments;
   }

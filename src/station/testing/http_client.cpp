@@ -160,7 +160,7 @@ void RawConnection::send(std::string const& bytes) {
 }
 
 std::string RawConnection::receive(std::string_view part) {
-  (void)run_until(state_->loop, [&] { return state_->is_over || state_->received.find(part) != std::string::npos; });
+  (void)run_until(state_->loop, [&] { return state_->is_over || state_->received.contains(part); });
   return state_->received;
 }
 

@@ -134,7 +134,7 @@ class DemoScript : public ScriptControl {
     if (status_.state == ScriptState::running || status_.state == ScriptState::stopping) {
       return std::unexpected(StartFailure{{base::ErrorKind::refused, "A script runs already.", "Stop it first."}, {}});
     }
-    if (source.find("takeOf ") != std::string::npos) return std::unexpected(misspelt(name, source));
+    if (source.contains("takeOf ")) return std::unexpected(misspelt(name, source));
     status_ = {std::move(name), std::move(source), ScriptState::running, "", {}};
     log_.info("script started");
     return {};

@@ -87,8 +87,8 @@ std::string advice_on_silence(link::Url const& url) {
 std::string advice_on_closed(link::Url const& url, std::string const& why) {
   if (url.transport == link::Transport::tcp_out) return "start what should answer there, or mend host and port";
   if (url.transport != link::Transport::serial) return "mend address and port";
-  if (why.find("permission") != std::string::npos) return "lapwing doctor lists the devices that may be used";
-  if (why.find("not there") != std::string::npos) return "is it plugged in? lapwing doctor lists what is there";
+  if (why.contains("permission")) return "lapwing doctor lists the devices that may be used";
+  if (why.contains("not there")) return "is it plugged in? lapwing doctor lists what is there";
   return "is another program using it, such as ModemManager or another ground station?";
 }
 
