@@ -9,24 +9,24 @@ namespace lapwing::geo {
 namespace detail {
 
 /// What points and vectors have in common: the numbers along the axes.
-template <int Dim>
+template <int dim>
 struct Coordinates {
-  using Numbers = Eigen::Matrix<double, Dim, 1>;
+  using Numbers = Eigen::Matrix<double, dim, 1>;
   Numbers v = Numbers::Zero();
 
   Coordinates() = default;
   explicit Coordinates(Numbers const& numbers) : v(numbers) {}
   Coordinates(double x, double y)
-    requires(Dim == 2)
+    requires(dim == 2)
       : v(x, y) {}
   Coordinates(double x, double y, double z)
-    requires(Dim == 3)
+    requires(dim == 3)
       : v(x, y, z) {}
 
   [[nodiscard]] double x() const { return v.x(); }
   [[nodiscard]] double y() const { return v.y(); }
   [[nodiscard]] double z() const
-    requires(Dim == 3)
+    requires(dim == 3)
   {
     return v.z();
   }
@@ -36,16 +36,16 @@ struct Coordinates {
 }  // namespace detail
 
 /// A shift, or any other arrow, along the axes of a frame; metres unless its name says something else.
-template <class Frame, int Dim = 2>
-struct Vector : detail::Coordinates<Dim> {
-  using Numbers = typename detail::Coordinates<Dim>::Numbers;
-  using detail::Coordinates<Dim>::Coordinates;
+template <class Frame, int dim = 2>
+struct Vector : detail::Coordinates<dim> {
+  using Numbers = detail::Coordinates<dim>::Numbers;
+  using detail::Coordinates<dim>::Coordinates;
 
   [[nodiscard]] double length() const { return this->v.norm(); }
   [[nodiscard]] double dot(Vector const& other) const { return this->v.dot(other.v); }
   /// Positive when `other` lies counterclockwise of this.
   [[nodiscard]] double cross(Vector const& other) const
-    requires(Dim == 2)
+    requires(dim == 2)
   {
     return this->x() * other.y() - this->y() * other.x();
   }
@@ -59,18 +59,18 @@ struct Vector : detail::Coordinates<Dim> {
 };
 
 /// A place in a frame, in metres from its origin.
-template <class Frame, int Dim = 2>
-struct Point : detail::Coordinates<Dim> {
-  using Numbers = typename detail::Coordinates<Dim>::Numbers;
-  using detail::Coordinates<Dim>::Coordinates;
+template <class Frame, int dim = 2>
+struct Point : detail::Coordinates<dim> {
+  using Numbers = detail::Coordinates<dim>::Numbers;
+  using detail::Coordinates<dim>::Coordinates;
 
-  friend Vector<Frame, Dim> operator-(Point const& to, Point const& from) {
-    return Vector<Frame, Dim>(Numbers(to.v - from.v));
+  friend Vector<Frame, dim> operator-(Point const& to, Point const& from) {
+    return Vector<Frame, dim>(Numbers(to.v - from.v));
   }
-  friend Point operator+(Point const& place, Vector<Frame, Dim> const& shift) {
+  friend Point operator+(Point const& place, Vector<Frame, dim> const& shift) {
     return Point(Numbers(place.v + shift.v));
   }
-  friend Point operator-(Point const& place, Vector<Frame, Dim> const& shift) {
+  friend Point operator-(Point const& place, Vector<Frame, dim> const& shift) {
     return Point(Numbers(place.v - shift.v));
   }
   friend bool operator==(Point const& a, Point const& b) { return a.v == b.v; }
@@ -82,8 +82,8 @@ template <class Frame>
 using Vector3 = Vector<Frame, 3>;
 
 /// In metres.
-template <class Frame, int Dim>
-[[nodiscard]] double distance_m(Point<Frame, Dim> const& a, Point<Frame, Dim> const& b) {
+template <class Frame, int dim>
+[[nodiscard]] double distance_m(Point<Frame, dim> const& a, Point<Frame, dim> const& b) {
   return (a - b).length();
 }
 

@@ -13,45 +13,45 @@ namespace lapwing::geo {
 ///
 /// Named after both, so that neighbours cancel: `map_from_body * body_from_lidar * hit`. The wrong order does not
 /// compile. Angles are radians, counterclockwise positive (REP 103); in three dimensions rotations are quaternions.
-template <class To, class From, int Dim = 2>
+template <class To, class From, int dim = 2>
 class Transform {
  public:
-  using Motion = Eigen::Transform<double, Dim, Eigen::Isometry>;
+  using Motion = Eigen::Transform<double, dim, Eigen::Isometry>;
 
   /// The frames coincide.
   Transform() : motion_(Motion::Identity()) {}
   /// `origin`: that of `From`, in `To`; `yaw_rad`: of the x axis of `From`, in `To`.
-  Transform(Point<To, Dim> const& origin, double yaw_rad)
-    requires(Dim == 2)
+  Transform(Point<To, dim> const& origin, double yaw_rad)
+    requires(dim == 2)
       : motion_(Eigen::Translation2d(origin.v) * Eigen::Rotation2Dd(yaw_rad)) {}
   /// `rotation` is made a unit quaternion. Precondition: it is not zero.
-  Transform(Point<To, Dim> const& origin, Eigen::Quaterniond const& rotation)
-    requires(Dim == 3)
+  Transform(Point<To, dim> const& origin, Eigen::Quaterniond const& rotation)
+    requires(dim == 3)
       : motion_(Eigen::Translation3d(origin.v) * rotation.normalized()) {}
 
   /// Of the frame `From`, in `To`.
-  [[nodiscard]] Point<To, Dim> origin() const {
-    return Point<To, Dim>(typename Point<To, Dim>::Numbers(motion_.translation()));
+  [[nodiscard]] Point<To, dim> origin() const {
+    return Point<To, dim>(typename Point<To, dim>::Numbers(motion_.translation()));
   }
   /// Of the x axis of `From` in the x-y plane of `To`, in [-pi, pi].
   [[nodiscard]] double yaw_rad() const { return std::atan2(motion_.linear()(1, 0), motion_.linear()(0, 0)); }
   [[nodiscard]] Eigen::Quaterniond rotation() const
-    requires(Dim == 3)
+    requires(dim == 3)
   {
     return Eigen::Quaterniond(motion_.linear());
   }
-  [[nodiscard]] Transform<From, To, Dim> inverse() const { return Transform<From, To, Dim>(motion_.inverse()); }
+  [[nodiscard]] Transform<From, To, dim> inverse() const { return Transform<From, To, dim>(motion_.inverse()); }
 
   template <class Inner>
-  [[nodiscard]] Transform<To, Inner, Dim> operator*(Transform<From, Inner, Dim> const& inner) const {
-    return Transform<To, Inner, Dim>(Motion(motion_ * inner.motion_));
+  [[nodiscard]] Transform<To, Inner, dim> operator*(Transform<From, Inner, dim> const& inner) const {
+    return Transform<To, Inner, dim>(Motion(motion_ * inner.motion_));
   }
-  [[nodiscard]] Point<To, Dim> operator*(Point<From, Dim> const& place) const {
-    return Point<To, Dim>(typename Point<To, Dim>::Numbers(motion_ * place.v));
+  [[nodiscard]] Point<To, dim> operator*(Point<From, dim> const& place) const {
+    return Point<To, dim>(typename Point<To, dim>::Numbers(motion_ * place.v));
   }
   /// Shifts are turned, not moved.
-  [[nodiscard]] Vector<To, Dim> operator*(Vector<From, Dim> const& shift) const {
-    return Vector<To, Dim>(typename Vector<To, Dim>::Numbers(motion_.linear() * shift.v));
+  [[nodiscard]] Vector<To, dim> operator*(Vector<From, dim> const& shift) const {
+    return Vector<To, dim>(typename Vector<To, dim>::Numbers(motion_.linear() * shift.v));
   }
 
  private:
