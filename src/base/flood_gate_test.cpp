@@ -64,7 +64,8 @@ struct Log {
     hub.add_sink(
         without_floods([this](LogRecord const& record) { lines.push_back(record.source + ": " + record.text); }));
   }
-  void say(std::string source, std::string text, std::chrono::milliseconds when, LogLevel level = LogLevel::info) {
+  void say(std::string source, std::string text, std::chrono::milliseconds when,
+           LogLevel level = LogLevel::info) const {
     hub.write({level, at(when), std::move(source), std::move(text)});
   }
   LogHub hub;

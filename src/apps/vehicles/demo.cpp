@@ -36,6 +36,18 @@ void keep_map(host::Session& session) {
   session.run_to_end(std::nullopt);
 }
 
+base::Result<> open_map(host::Session& session, host::WebArguments const& web, geo::Wgs84 const& home) {
+  host::WebAccess access;
+  host::apply(web, access);
+  auto ground = host::base_map_of(host::home_directory() / "examples/ground/car-park.geojson");
+  if (!ground) return std::unexpected(ground.error());
+  ground->name = "Car park and office";
+  return session.open_map(access, {.home = home,
+                                   .base_maps = {*std::move(ground)},
+                                   .store = {.place = host::StoreSettings::Place::temporary},
+                                   .scripts = host::home_directory() / "examples"});
+}
+
 int demo(DemoOptions const& options) {
   constexpr auto example = "examples/survey.dolphin";
   auto const script = options.script.empty() ? std::string(example) : options.script;
@@ -62,18 +74,8 @@ int demo(DemoOptions const& options) {
   auto programs = host::forward_to(options.forward);
   if (!programs) return host::refuse(programs.error());
   if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return host::refuse(forwarded.error());
-  if (!options.headless) {
-    host::WebAccess access;
-    host::apply(options.web, access);
-    auto ground = host::base_map_of(host::home_directory() / "examples/ground/car-park.geojson");
-    if (!ground) return host::refuse(ground.error());
-    ground->name = "Car park and office";
-    auto const opened = session.open_map(access, {.home = world.home,
-                                                  .base_maps = {*std::move(ground)},
-                                                  .store = {.place = host::StoreSettings::Place::temporary},
-                                                  .scripts = host::home_directory() / "examples"});
-    if (!opened) return host::refuse(opened.error());
-  }
+  if (!options.headless)
+    if (auto opened = open_map(session, options.web, world.home); !opened) return host::refuse(opened.error());
   if (auto simulated = session.simulate(std::move(world)); !simulated) return host::refuse(simulated.error());
   auto const started = session.host.start(script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());

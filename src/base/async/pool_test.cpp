@@ -29,7 +29,7 @@ struct Gate {
     is_reached = true, is_reached.notify_all();
     is_open.wait(false);
   }
-  void wait_until_reached() { is_reached.wait(false); }
+  void wait_until_reached() const { is_reached.wait(false); }
   std::atomic<bool> is_open = false;
   std::atomic<bool> is_reached = false;
 };
@@ -47,11 +47,10 @@ struct Counted {
   static inline std::atomic<int> alive = 0;
 };
 
-class Pool : public testing::Test {
- protected:
-  Pool() { gate = &gate_, calls = 0, Counted::alive = 0; }
+struct Pool : testing::Test {
+  Pool() { gate = &own_gate, calls = 0, Counted::alive = 0; }
   ~Pool() override { EXPECT_EQ(Counted::alive, 0) << "left behind"; }
-  Gate gate_;
+  Gate own_gate;
 };
 
 int add(int a, int b) {

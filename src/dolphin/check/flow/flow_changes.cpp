@@ -28,10 +28,10 @@ class DeferredFinder {
     auto const* function = std::get_if<ast::FunctionDecl>(&statement.node);
     for (auto const* variable : assigned_by(statement, resolution_)) {
       bool const is_foreign = variable->kind == VariableKind::global && in_function_;
-      if (closures_ > 0 || is_foreign) out_.assigned.insert(variable);
+      if (closures_ > 0 || is_foreign) out.assigned.insert(variable);
     }
     if (auto const* declared = std::get_if<ast::VarDecl>(&statement.node); declared && closures_ > 0) {
-      for (auto const& name : declared->names) out_.assigned.insert(resolution_.find(name));
+      for (auto const& name : declared->names) out.assigned.insert(resolution_.find(name));
     }
     if (function) in_function_ = true;
     ast::for_each_child(statement.node, [this](auto const& child) { visit(child); });
@@ -41,14 +41,14 @@ class DeferredFinder {
   void visit(ast::Expr const& expr) {
     auto const* call = std::get_if<ast::Call>(&expr.node);
     bool const is_deferred = closures_ > 0 || in_function_;
-    if (call && is_deferred && called_instruction(*call, resolution_) == "pick") out_.picks = true;
+    if (call && is_deferred && called_instruction(*call, resolution_) == "pick") out.picks = true;
     bool const is_closure = std::holds_alternative<ast::Closure>(expr.node);
     closures_ += is_closure ? 1 : 0;
     ast::for_each_child(expr.node, [this](auto const& child) { visit(child); });
     closures_ -= is_closure ? 1 : 0;
   }
 
-  DeferredChanges out_;
+  DeferredChanges out;
 
  private:
   Resolution const& resolution_;
@@ -96,7 +96,7 @@ void FlowChanges::add(ast::Expr const& expr, Resolution const& resolution) {
 DeferredChanges deferred_changes(ast::Program const& program, Resolution const& resolution) {
   DeferredFinder finder(resolution);
   for (auto const& statement : program.body.statements) finder.visit(*statement);
-  return std::move(finder.out_);
+  return std::move(finder.out);
 }
 
 }  // namespace lapwing::dolphin

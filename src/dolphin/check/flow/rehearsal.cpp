@@ -159,20 +159,29 @@ std::optional<base::Span> first_unreached(Commands commands, tasks::BuilderSpec 
   return never < commands.size() ? std::optional(commands[never].second) : std::nullopt;
 }
 
-}  // namespace
-
-Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder, Inference& inference) {
+/// The commands of a block; nothing when it has another statement, or one that is not certain.
+std::optional<std::vector<std::pair<Chosen, base::Span>>> commands_of(ast::Closure const& body,
+                                                                      tasks::BuilderSpec const& builder,
+                                                                      Inference& inference) {
   std::vector<std::pair<Chosen, base::Span>> commands;
   for (auto const& statement : body.body.statements) {
     auto const* expr = std::get_if<ast::ExprStmt>(&statement->node);
     auto const* call = expr ? std::get_if<ast::Call>(&expr->expr->node) : nullptr;
     auto chosen = call ? choose(*call, builder, inference) : std::nullopt;
-    if (!chosen) return {};
+    if (!chosen) return std::nullopt;
     commands.emplace_back(*std::move(chosen), statement->span);
   }
+  return commands;
+}
+
+}  // namespace
+
+Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder, Inference& inference) {
+  auto const commands = commands_of(body, builder, inference);
+  if (!commands) return {};
   auto const session = builder.begin();
   bool all_certain = true;
-  for (auto const& [command, place] : commands) {
+  for (auto const& [command, place] : *commands) {
     auto const added = session->add(command.command, command.prepared.overload, command.prepared.arguments);
     if (!added && command.prepared.is_certain) return {RehearsalProblem{place, added.error()}, nullptr, {}};
     all_certain = all_certain && command.prepared.is_certain;
@@ -180,11 +189,11 @@ Rehearsal rehearsal(ast::Closure const& body, tasks::BuilderSpec const& builder,
   }
   auto finished = session->finish();
   if (finished) {
-    auto const unreached = (*finished)->never_ends() ? first_unreached(commands, builder) : std::nullopt;
+    auto const unreached = (*finished)->never_ends() ? first_unreached(*commands, builder) : std::nullopt;
     std::vector<RehearsalDoubt> doubts;
     if (all_certain) {
       for (auto& doubt : session->doubts()) {
-        auto const place = doubt.call ? commands.at(*doubt.call).second : base::Span();
+        auto const place = doubt.call ? commands->at(*doubt.call).second : base::Span();
         doubts.push_back({place, std::move(doubt)});
       }
     }
