@@ -38,4 +38,7 @@ assert "no-such-file.dolphin" in err, err
 # What a room for vehicles, maps or cameras brings along must not come in by the back door.
 small, large = (path.stat().st_size for path in (PROGRAM, PROGRAM.parent / "lapwing-vehicles"))
 assert small * 2 < large, (small, large)
+# Nor is anybody to wait for what a database server's library brings for logging in: whoever opens a store on a server loads it.
+loaded = subprocess.run(["ldd", PROGRAM.parent / "lapwing-vehicles"], capture_output=True, text=True, check=True).stdout
+assert "libsqlite3" in loaded and "libpq" not in loaded and "libldap" not in loaded, loaded
 print(f"{small / 2**20:.1f} MiB beside {large / 2**20:.1f} MiB")

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <libpq-fe.h>
 
 #include "base/text/utc_text.hpp"
+#include "map/store/sql/libpq.hpp"
 #include "map/store/sql/wkb.hpp"
 
 namespace lapwing::map::sql {
@@ -22,10 +22,10 @@ namespace lapwing::map::sql {
 namespace {
 
 struct Finish {
-  void operator()(PGconn* connection) const { PQfinish(connection); }
+  void operator()(PGconn* connection) const { libpq().finish(connection); }
 };
 struct Clear {
-  void operator()(PGresult* result) const { PQclear(result); }
+  void operator()(PGresult* result) const { libpq().clear(result); }
 };
 using Connection = std::unique_ptr<PGconn, Finish>;
 using Answer = std::unique_ptr<PGresult, Clear>;
@@ -94,10 +94,10 @@ T big_endian(char const* bytes) {
 
 /// Of an answer in binary form. Numbers of types from `pg_type.dat`, which do not change.
 Value column(PGresult const* answer, int row, int i) {
-  if (PQgetisnull(answer, row, i) != 0) return std::monostate();
-  char const* const bytes = PQgetvalue(answer, row, i);
-  std::string whole(bytes, static_cast<std::size_t>(PQgetlength(answer, row, i)));
-  switch (PQftype(answer, i)) {
+  if (libpq().is_null(answer, row, i) != 0) return std::monostate();
+  char const* const bytes = libpq().value(answer, row, i);
+  std::string whole(bytes, static_cast<std::size_t>(libpq().length(answer, row, i)));
+  switch (libpq().type_of_column(answer, i)) {
     case 16: return *bytes != 0;                                    // bool
     case 20: return big_endian<std::int64_t>(bytes);                // int8
     case 21: return std::int64_t{big_endian<std::int16_t>(bytes)};  // int2
@@ -150,9 +150,9 @@ class Postgres final : public Database {
   base::Result<> query(std::string const& statement, Row const& values, EachRow const& each) override {
     auto const answer = ask(statement, values);
     if (!answer) return std::unexpected(answer.error());
-    int const columns = PQnfields(answer->get());
+    int const columns = libpq().columns(answer->get());
     Row row(static_cast<std::size_t>(columns));
-    for (int i = 0; i < PQntuples(answer->get()); ++i) {
+    for (int i = 0; i < libpq().rows(answer->get()); ++i) {
       for (int k = 0; k < columns; ++k) row[static_cast<std::size_t>(k)] = column(answer->get(), i, k);
       if (auto taken = each(row); !taken) return taken;
     }
@@ -162,7 +162,7 @@ class Postgres final : public Database {
   base::Result<std::uint64_t> change(std::string const& statement, Row const& values) override {
     auto const answer = ask(statement, values);
     if (!answer) return std::unexpected(answer.error());
-    std::string_view const count = PQcmdTuples(answer->get());
+    std::string_view const count = libpq().changed_rows(answer->get());
     std::uint64_t changed = 0;
     std::from_chars(count.data(), count.data() + count.size(), changed);
     return changed;
@@ -199,30 +199,30 @@ class Postgres final : public Database {
     return begun;
   }
   base::Result<> commit() override {
-    auto const answer = Answer(PQexec(connection_.get(), "COMMIT"));
-    if (PQresultStatus(answer.get()) != PGRES_COMMAND_OK) return fault(answer.get());
+    auto const answer = Answer(libpq().execute(connection_.get(), "COMMIT"));
+    if (libpq().result_status(answer.get()) != PGRES_COMMAND_OK) return fault(answer.get());
     is_in_transaction_ = false;
     // What a failed transaction answers to COMMIT.
-    if (std::string_view(PQcmdStatus(answer.get())) == "ROLLBACK")
+    if (std::string_view(libpq().command_status(answer.get())) == "ROLLBACK")
       return base::fail(base::ErrorKind::io, name_ + ": the transaction had failed before");
     return {};
   }
   void roll_back() override {
     is_in_transaction_ = false;
-    if (PQstatus(connection_.get()) == CONNECTION_OK) Answer(PQexec(connection_.get(), "ROLLBACK"));
+    if (libpq().status(connection_.get()) == CONNECTION_OK) Answer(libpq().execute(connection_.get(), "ROLLBACK"));
   }
 
  private:
   base::Result<> reach() {
-    if (is_in_transaction_ || PQstatus(connection_.get()) == CONNECTION_OK) return {};
-    PQreset(connection_.get());
-    if (PQstatus(connection_.get()) != CONNECTION_OK) return fault(nullptr);
+    if (is_in_transaction_ || libpq().status(connection_.get()) == CONNECTION_OK) return {};
+    libpq().reset(connection_.get());
+    if (libpq().status(connection_.get()) != CONNECTION_OK) return fault(nullptr);
     return settle();
   }
 
   base::Result<> simply(std::string const& statements) {
-    auto const answer = Answer(PQexec(connection_.get(), statements.c_str()));
-    auto const status = PQresultStatus(answer.get());
+    auto const answer = Answer(libpq().execute(connection_.get(), statements.c_str()));
+    auto const status = libpq().result_status(answer.get());
     if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK && status != PGRES_EMPTY_QUERY)
       return fault(answer.get());
     return {};
@@ -235,9 +235,9 @@ class Postgres final : public Database {
     Parameters const parameters(used(values, *prepared));
     if (parameters.has_zero_in_text()) return zero_in_text();
     constexpr int binary = 1;
-    Answer answer(PQexecPrepared(connection_.get(), prepared->name.c_str(), parameters.count(), parameters.values(),
-                                 parameters.lengths(), parameters.formats(), binary));
-    auto const status = PQresultStatus(answer.get());
+    Answer answer(libpq().execute_prepared(connection_.get(), prepared->name.c_str(), parameters.count(),
+                                           parameters.values(), parameters.lengths(), parameters.formats(), binary));
+    auto const status = libpq().result_status(answer.get());
     if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK) return fault(answer.get());
     return answer;
   }
@@ -255,32 +255,32 @@ class Postgres final : public Database {
   base::Result<Prepared> prepare(std::string const& statement) {
     if (auto const known = prepared_.find(statement); known != prepared_.end()) return known->second;
     auto const name = fmt::format("s{}", prepared_.size());
-    Answer const made(PQprepare(connection_.get(), name.c_str(), statement.c_str(), 0, nullptr));
-    if (PQresultStatus(made.get()) != PGRES_COMMAND_OK) return fault(made.get());
-    Answer const described(PQdescribePrepared(connection_.get(), name.c_str()));
-    if (PQresultStatus(described.get()) != PGRES_COMMAND_OK) return fault(described.get());
-    Prepared prepared{name, static_cast<std::size_t>(PQnparams(described.get()))};
+    Answer const made(libpq().prepare(connection_.get(), name.c_str(), statement.c_str(), 0, nullptr));
+    if (libpq().result_status(made.get()) != PGRES_COMMAND_OK) return fault(made.get());
+    Answer const described(libpq().describe_prepared(connection_.get(), name.c_str()));
+    if (libpq().result_status(described.get()) != PGRES_COMMAND_OK) return fault(described.get());
+    Prepared prepared{name, static_cast<std::size_t>(libpq().parameters(described.get()))};
     return prepared_.emplace(statement, std::move(prepared)).first->second;
   }
 
   base::Result<> pipe(Prepared const& prepared, std::span<Row const> rows) {
     auto* const connection = connection_.get();
-    if (PQenterPipelineMode(connection) != 1) return fault(nullptr);
+    if (libpq().enter_pipeline(connection) != 1) return fault(nullptr);
     std::optional<std::unexpected<base::Error>> failed;
     std::size_t sent = 0;
     for (auto const& row : rows) {
       Parameters const parameters(row);
       if (parameters.has_zero_in_text()) failed = zero_in_text();
       if (failed) break;
-      if (PQsendQueryPrepared(connection, prepared.name.c_str(), parameters.count(), parameters.values(),
-                              parameters.lengths(), parameters.formats(), 0) != 1)
+      if (libpq().send_prepared(connection, prepared.name.c_str(), parameters.count(), parameters.values(),
+                                parameters.lengths(), parameters.formats(), 0) != 1)
         failed = fault(nullptr);
       else
         ++sent;
     }
-    if (PQpipelineSync(connection) != 1 && !failed) failed = fault(nullptr);
+    if (libpq().sync_pipeline(connection) != 1 && !failed) failed = fault(nullptr);
     collect(sent, failed);
-    PQexitPipelineMode(connection);
+    libpq().exit_pipeline(connection);
     if (failed) return *failed;
     return {};
   }
@@ -288,17 +288,17 @@ class Postgres final : public Database {
   /// The answers of a pipeline; the first error is the one that counts: those behind it only say that it was there.
   void collect(std::size_t sent, std::optional<std::unexpected<base::Error>>& failed) {
     for (std::size_t ends = 0; ends <= sent;) {
-      Answer const answer(PQgetResult(connection_.get()));
+      Answer const answer(libpq().next_result(connection_.get()));
       if (!answer) {
         // One stands behind the answer to each statement; none comes when there is no connection any more.
-        if (PQstatus(connection_.get()) != CONNECTION_OK) {
+        if (libpq().status(connection_.get()) != CONNECTION_OK) {
           if (!failed) failed = fault(nullptr);
           return;
         }
         ++ends;
         continue;
       }
-      auto const status = PQresultStatus(answer.get());
+      auto const status = libpq().result_status(answer.get());
       if (status == PGRES_PIPELINE_SYNC) return;
       if (status != PGRES_COMMAND_OK && status != PGRES_TUPLES_OK && status != PGRES_PIPELINE_ABORTED && !failed)
         failed = fault(answer.get());
@@ -310,13 +310,13 @@ class Postgres final : public Database {
   }
 
   [[nodiscard]] std::unexpected<base::Error> fault(PGresult const* answer) const {
-    char const* const state = answer ? PQresultErrorField(answer, PG_DIAG_SQLSTATE) : nullptr;
-    std::string message = answer ? PQresultErrorMessage(answer) : "";
-    if (message.empty()) message = PQerrorMessage(connection_.get());
+    char const* const state = answer ? libpq().error_field(answer, PG_DIAG_SQLSTATE) : nullptr;
+    std::string message = answer ? libpq().result_message(answer) : "";
+    if (message.empty()) message = libpq().error_message(connection_.get());
     while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
     std::ranges::replace(message, '\n', ' ');
     auto kind = kind_of(state ? state : "");
-    if (PQstatus(connection_.get()) != CONNECTION_OK) kind = base::ErrorKind::lost;
+    if (libpq().status(connection_.get()) != CONNECTION_OK) kind = base::ErrorKind::lost;
     auto const* const hint = kind == base::ErrorKind::lost ? "see that the server runs and can be reached"
                              : kind == base::ErrorKind::io ? "see to the server's disk and memory"
                                                            : "";
@@ -334,6 +334,10 @@ class Postgres final : public Database {
 
 base::Result<std::unique_ptr<Database>> open_postgres(std::string const& address, std::string const& name,
                                                       Access access) {
+  if (auto const& problem = libpq().problem; !problem.empty()) {
+    return base::fail(base::ErrorKind::io, fmt::format("{}: {}", name, problem),
+                      "install PostgreSQL's client library (Debian: libpq5), or keep the store in a file");
+  }
   std::vector<char const*> words, values;
   // First ours, then the address: what stands there counts.
   for (auto const& [word, value] : patience) {
@@ -343,14 +347,14 @@ base::Result<std::unique_ptr<Database>> open_postgres(std::string const& address
   words.insert(words.end(), {"dbname", nullptr});
   values.insert(values.end(), {address.c_str(), nullptr});
   constexpr int expand = 1;
-  Connection connection(PQconnectdbParams(words.data(), values.data(), expand));
-  if (!connection || PQstatus(connection.get()) != CONNECTION_OK) {
-    std::string message = connection ? PQerrorMessage(connection.get()) : "no memory";
+  Connection connection(libpq().connect(words.data(), values.data(), expand));
+  if (!connection || libpq().status(connection.get()) != CONNECTION_OK) {
+    std::string message = connection ? libpq().error_message(connection.get()) : "no memory";
     while (message.ends_with('\n')) message.pop_back();
     return base::fail(base::ErrorKind::lost, fmt::format("{}: {}", name, message),
                       "see that the server runs, and that the address names its host, database and user");
   }
-  PQsetNoticeProcessor(connection.get(), [](void*, char const*) {}, nullptr);
+  libpq().set_notice_processor(connection.get(), [](void*, char const*) {}, nullptr);
   auto database = std::make_unique<Postgres>(std::move(connection), name, access);
   if (auto settled = database->settle(); !settled) return std::unexpected(settled.error());
   return database;
