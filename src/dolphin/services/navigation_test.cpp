@@ -6,6 +6,7 @@
 #include <chrono>
 #include <string>
 
+#include "base/testing/cpu_time.hpp"
 #include "dolphin/services/hover.hpp"
 #include "dolphin/services/rename.hpp"
 #include "dolphin/services/testing.hpp"
@@ -178,10 +179,10 @@ TEST(Services, AreQuickOnLongScripts) {
     script += "execute v: m" + std::to_string(i) + " / { battery(v) < 30.percent }\n";
   }
   Marked const marked(script + "message v.|");
-  auto const begin = std::chrono::steady_clock::now();
+  auto const begin = base::cpu_time();
   EXPECT_TRUE(hover(*marked.document, 0));
   EXPECT_FALSE(references(*marked.document, 0).empty());
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500));
+  EXPECT_LT(base::cpu_time() - begin, std::chrono::milliseconds(500));
 }
 
 }  // namespace

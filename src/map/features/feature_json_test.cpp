@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/testing/cpu_time.hpp"
 #include "map/testing/random_features.hpp"
 
 namespace lapwing::map {
@@ -171,10 +172,10 @@ TEST(FeatureJson, IsRefusedAtOnceWhenItIsHuge) {
             "it has 16777217 bytes; at most 16777216 are taken at once");
   std::string ring = "[0,0]";
   for (int i = 0; i < 1'000'000; ++i) ring += ",[0,0]";
-  auto const began = std::chrono::steady_clock::now();
+  auto const began = base::cpu_time();
   EXPECT_EQ(error_of(feature_text(R"({"type":"Polygon","coordinates":[[)" + ring + "]]}")),
             "geometry.coordinates[0] has 1000001 points; at most 10001 are taken");
-  EXPECT_LT(std::chrono::steady_clock::now() - began, 5s) << "with sanitizers";
+  EXPECT_LT(base::cpu_time() - began, 5s) << "with sanitizers";
   std::string features = "{}";
   for (std::size_t i = 0; i < most_json_features; ++i) features += ",{}";
   EXPECT_EQ(error_of(R"({"type":"FeatureCollection","features":[)" + features + "]}"),

@@ -1,4 +1,5 @@
 #include "station/messages/client_request.hpp"
+#include "base/testing/cpu_time.hpp"
 
 #include <chrono>
 
@@ -162,9 +163,9 @@ TEST(ClientRequest, ReadWhatIsAcknowledgedByWhom) {
 TEST(ClientRequest, OfVeryManyMembersIsReadWithoutDelay) {
   std::string text = R"({"type":"ping")";
   for (int i = 0; text.size() < 1'000'000; ++i) text += fmt::format(R"(,"{}":0)", i);
-  auto const begin = std::chrono::steady_clock::now();
+  auto const begin = base::cpu_time();
   EXPECT_TRUE(parse_client_request(text + "}"));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(4));
+  EXPECT_LT(base::cpu_time() - begin, std::chrono::seconds(4));
 }
 
 }  // namespace
