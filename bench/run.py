@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [store]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -291,6 +291,17 @@ def page() -> list:
         return json.loads(rows.read_text())
 
 
+def load() -> list:
+    """A station with a full map: what it costs, and how late those are who watch; then a page at it, and one that looks back."""
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for parts, more in (("viewers", []), ("viewers", ["--compression", "deflate"]), ("page,past", [])):
+            found = pathlib.Path(folder, "load.json")
+            subprocess.run(["node", ROOT / "bench/map_load/load.mjs", BENCH_BIN / "bench_map_station", "--part", parts, "--json", found, *more], check=True)
+            rows += json.loads(found.read_text())
+    return rows
+
+
 def lossy() -> list:
     import lossy as bad_links
 
@@ -375,13 +386,13 @@ def earlier(path: pathlib.Path) -> dict:
 
 
 def main():
-    wanted = sys.argv[1:] or ["decode", "pool", "feed", "map", "shown", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page", "store"]
+    wanted = sys.argv[1:] or ["decode", "pool", "feed", "map", "shown", "start", "scale", "fleet", "language", "upload", "lossy", "params", "router", "page", "load", "store"]
     path = ROOT / "build/bench-results.json"
     results = earlier(path) | {"machine": machine(), "taken": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())}
     say(f"machine {results['machine']}")
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "shown": map_feeds, "upload": upload, "start": start,
-                         "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "store": store}[name]()
+                         "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "load": load, "store": store}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
