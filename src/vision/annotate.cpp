@@ -1,0 +1,50 @@
+#include "vision/annotate.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+namespace lapwing::vision {
+
+namespace {
+
+/// Orange and blue are told apart by those who do not tell red from green.
+cv::Scalar colour_of(Detection const& detection) {
+  return detection.category == "door" ? cv::Scalar(0, 140, 255) : cv::Scalar(220, 120, 20);
+}
+
+std::string label_of(Detection const& detection) {
+  auto label = fmt::format("{} {:.2f}", detection.category, detection.score);
+  if (detection.text) label += " " + *detection.text;
+  if (detection.kind) label += " " + *detection.kind;
+  // OpenCV's own letters are ASCII; others would show as question marks each byte.
+  std::ranges::replace_if(label, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return label;
+}
+
+}  // namespace
+
+cv::Mat annotated(cv::Mat const& pixels, std::span<Detection const> detections) {
+  cv::Mat drawn = pixels.clone();
+  // Lines and letters that can be read whatever the picture's size.
+  double const unit = std::max(1.0, std::max(pixels.cols, pixels.rows) / 800.0);
+  int const line = static_cast<int>(2.0 * unit);
+  for (auto const& detection : detections) {
+    auto const& box = detection.box;
+    cv::Rect const frame(cv::Point(static_cast<int>(box.x), static_cast<int>(box.y)),
+                         cv::Size(static_cast<int>(box.width), static_cast<int>(box.height)));
+    cv::rectangle(drawn, frame, colour_of(detection), line);
+    int baseline = 0;
+    auto const label = label_of(detection);
+    auto const size = cv::getTextSize(label, cv::FONT_HERSHEY_SIMPLEX, 0.5 * unit, line / 2, &baseline);
+    cv::Point const at(std::clamp(frame.x, 0, std::max(0, drawn.cols - size.width)),
+                       std::max(frame.y - baseline, size.height + 1));
+    cv::rectangle(drawn, {at.x, at.y - size.height, size.width, size.height + baseline}, colour_of(detection),
+                  cv::FILLED);
+    cv::putText(drawn, label, at, cv::FONT_HERSHEY_SIMPLEX, 0.5 * unit, {255, 255, 255}, line / 2, cv::LINE_AA);
+  }
+  return drawn;
+}
+
+}  // namespace lapwing::vision

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace lapwing::vision {
+
+/// In pixels; x to the right, y down, from the upper left corner of the picture.
+struct Box {
+  double x = 0.0;
+  double y = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+
+  [[nodiscard]] double area() const { return width * height; }
+  friend bool operator==(Box const&, Box const&) = default;
+};
+
+/// The part of two boxes' union that both cover: 0 apart, 1 the same.
+[[nodiscard]] double overlap(Box const& a, Box const& b);
+
+/// Something that was found in a picture.
+struct Detection {
+  std::string category;  ///< "door", "sign", ...
+  Box box;
+  double score = 0.0;                 ///< 0 to 1, more is surer
+  std::optional<std::string> text{};  ///< what is written there: the room's number, if there is one
+  std::optional<std::string> kind{};  ///< what kind of room it says: "office", "stairs", ...
+};
+
+}  // namespace lapwing::vision
