@@ -88,6 +88,13 @@ with tempfile.TemporaryDirectory() as folder:
         calls = here.run(word)
         assert calls[-1] == f"lapwing {word}" and not called(calls, "npm"), calls  # the page is there already
 
+    (here.root / "build/release/build.ninja").write_text("bin/lapwing-vision")
+    calls = here.run("detect", "doors", "a.jpg", "--out", "o")
+    assert calls[-1] == "lapwing detect doors a.jpg --out o" and not called(calls, "npm") and not called(calls, "cmake --preset"), calls
+    (here.root / "build/release/build.ninja").write_text("")
+    calls = here.run("detect", "doors")
+    assert called(calls, "cmake --preset release"), calls  # a build folder from before knows no such program
+
     # A changed source: one build, and a second launcher waits for it.
     (here.root / "built").unlink()
     os.mkfifo(here.root / "gate")

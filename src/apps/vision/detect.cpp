@@ -1,0 +1,154 @@
+#include "apps/vision/detect.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "apps/verb.hpp"
+#include "base/text/printable.hpp"
+#include "host/files/files.hpp"
+#include "vision/annotate.hpp"
+
+namespace lapwing::apps {
+
+namespace detect {
+
+namespace {
+
+namespace fs = std::filesystem;
+using base::ErrorKind;
+using base::fail;
+
+base::Result<std::string> read_picture(std::string const& path) {
+  std::error_code error;
+  auto const status = fs::status(path, error);
+  if (!fs::exists(status)) return fail(ErrorKind::not_found, "no such file");
+  if (!fs::is_regular_file(status)) return fail(ErrorKind::invalid_input, "not a file");
+  if (auto const size = fs::file_size(path, error); !error && size > vision::max_picture_bytes)
+    return fail(ErrorKind::invalid_input, fmt::format("{} MB is too large for a picture", size >> 20U),
+                fmt::format("files of up to {} MB are read", vision::max_picture_bytes >> 20U));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(ErrorKind::io, std::strerror(errno));
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+base::Result<vision::Image> image_of(std::string const& path) {
+  auto const bytes = read_picture(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return vision::decode_image(std::as_bytes(std::span(*bytes)));
+}
+
+/// Named as the picture; pictures of one name from several folders are numbered.
+std::string overlay_name(std::string const& picture, std::set<std::string>& taken) {
+  auto const stem = fs::path(picture).stem().string();
+  auto name = stem + ".overlay.jpg";
+  for (int k = 2; !taken.insert(name).second; ++k) name = fmt::format("{}-{}.overlay.jpg", stem, k);
+  return name;
+}
+
+double rounded(double value, double steps) {
+  return std::round(value * steps) / steps;
+}
+
+nlohmann::json json_of(std::vector<Found> const& found) {
+  auto all = nlohmann::json::array();
+  for (auto const& [picture, detections] : found) {
+    for (auto const& detection : detections) {
+      auto const& box = detection.box;
+      constexpr double tenths = 10.0;
+      constexpr double thousandths = 1000.0;
+      nlohmann::json entry{
+          {"image", picture},
+          {"category", detection.category},
+          {"bbox",
+           {rounded(box.x, tenths), rounded(box.y, tenths), rounded(box.width, tenths), rounded(box.height, tenths)}},
+          {"score", rounded(detection.score, thousandths)}};
+      if (detection.text) entry["text"] = *detection.text;
+      if (detection.kind) entry["kind"] = *detection.kind;
+      all.push_back(std::move(entry));
+    }
+  }
+  return all;
+}
+
+/// Of a file's name, which may be any bytes.
+std::string to_text(nlohmann::json const& json) {
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void tell(Found const& found) {
+  if (found.detections.empty()) fmt::print("{}: nothing\n", found.picture);
+  for (auto const& detection : found.detections) {
+    auto const& box = detection.box;
+    fmt::print("{}: {} {:.2f} at {:.0f},{:.0f} {:.0f}x{:.0f}{}{}\n", found.picture, detection.category, detection.score,
+               box.x, box.y, box.width, box.height, detection.text ? " \"" + *detection.text + "\"" : "",
+               detection.kind ? " " + *detection.kind : "");
+  }
+}
+
+base::Result<Found> look_at(std::string const& picture, Detector const& detector, fs::path const& overlay) {
+  auto const image = image_of(picture);
+  if (!image) return std::unexpected(image.error());
+  auto detections = detector(image->upright());
+  for (auto& detection : detections) detection.box = image->to_stored(detection.box);
+  auto const drawn = vision::encode_jpeg(vision::annotated(image->stored, detections));
+  if (auto const written = host::write_file(overlay, drawn); !written) return std::unexpected(written.error());
+  return Found{picture, std::move(detections)};
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& part, CommonOptions& options) {
+  part.add_option("pictures", options.pictures, "JPEG, PNG or WebP files")->required();
+  part.add_option("--out", options.out, "Folder for detections.json and the pictures with what was found drawn in")
+      ->required();
+  part.add_flag("--json", options.as_json, "Print detections.json instead of a line for each detection");
+}
+
+Outcome carry_out(CommonOptions const& options, Detector const& detector) {
+  std::error_code error;
+  fs::create_directories(options.out, error);
+  if (error) {
+    auto const message = fmt::format("{}: cannot make the folder: {}", options.out.string(), error.message());
+    return {.found = {}, .exit_code = host::refuse({ErrorKind::invalid_input, message})};
+  }
+  Outcome outcome;
+  std::set<std::string> taken;
+  for (auto const& picture : options.pictures) {
+    auto found = look_at(picture, detector, options.out / overlay_name(picture, taken));
+    if (!found) {
+      auto wrong = found.error();
+      if (!wrong.message.starts_with(options.out.string()))
+        wrong.message = fmt::format("{}: {}", picture, wrong.message);
+      host::print_error(wrong);
+      outcome.exit_code = host::exit_usage;
+      continue;
+    }
+    if (!options.as_json) tell(*found);
+    outcome.found.push_back(*std::move(found));
+  }
+  auto const json = to_text(json_of(outcome.found));
+  if (auto const written = host::write_file(options.out / "detections.json", json); !written) {
+    host::print_error(written.error());
+    outcome.exit_code = host::exit_usage;
+  }
+  if (options.as_json) fmt::print("{}", json);
+  return outcome;
+}
+
+}  // namespace detect
+
+void add_detect(CLI::App& program, int& exit_code) {
+  auto* const verb = begin_verb(program, "detect");
+  verb->require_subcommand(1);
+  detect::add_doors(*verb, exit_code);
+}
+
+}  // namespace lapwing::apps
