@@ -87,6 +87,12 @@ case $target in
       printf '\1\1\1\2\0\5'; head -c 25 /dev/zero
       printf '\2\0\1\1\0\4\6\1\1\0\0\0{}\1\1\1\4\5\0zerofive'; } | seed archive
     ;;
+  picture)
+    # A grey PNG of one pixel, and the beginnings of a JPEG with EXIF and of a WebP.
+    { printf '\211PNG\r\n\032\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\10\0\0\0\0:~\233U\0\0\0\nIDATx\234c`\0\0\0\2\0\1H\257\244q\0\0\0\0IEND\256B`\202'; } | seed png
+    printf '\377\330\377\341\0\"Exif\0\0II*\0\10\0\0\0\1\0\22\1\3\0\1\0\0\0\6\0\0\0\0\0\0\0\377\300\0\13\10\0\10\0\10\1\1\21\0\377\332\0\10\1\1\0\0?\0\377\331' | seed jpeg
+    printf 'RIFF\32\0\0\0WEBPVP8L\r\0\0\0/\0\0\0\20\7\20\21\21\210\210\376\7\0' | seed webp
+    ;;
   key_store)
     printf '[keys]\nfleet = "%064d"\nnext = "%064d"\n[use]\neverybody = "fleet"\n[use.vehicles]\n7 = ["next", "fleet"]\n[use.links]\n"udpin://0.0.0.0:14550" = "next"\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages = ["ADSB_VEHICLE", 0]\n' 1 2 | seed store
     ;;

@@ -68,7 +68,7 @@ def sanitized(run: Run, preset: str) -> None:
 
 
 def fuzz_targets() -> list[str]:
-    return re.findall(r"^lapwing_fuzz\((\w+)", (ROOT / "fuzz/CMakeLists.txt").read_text(), re.MULTILINE)
+    return re.findall(r"^ *lapwing_fuzz\((\w+)", (ROOT / "fuzz/CMakeLists.txt").read_text(), re.MULTILINE)
 
 
 def fuzz(run: Run, seconds: int) -> None:
