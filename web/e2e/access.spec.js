@@ -1,8 +1,7 @@
 // Keyboards, screen readers, colours and small screens.
 import assert from 'node:assert/strict';
 import { test } from './fixtures.js';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { axe, violations } from './axe.js';
 import { openPanel, row, selectedRow } from './page.js';
 
 test('is usable by keyboard alone, in a sensible order', async ({ open }) => {
@@ -109,14 +108,6 @@ test('keeps the colours that were chosen', async ({ open }) => {
   await page.reload();
   await page.locator('html[data-theme=light]').waitFor();
 });
-
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-/** What axe finds wrong with the page as it is. */
-const violations = (page) =>
-  page.evaluate(async () => {
-    const { violations } = await window.axe.run(document, { rules: { 'label-content-name-mismatch': { enabled: true } } });
-    return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(' | ')}`);
-  });
 
 for (const size of [
   { width: 1440, height: 900 },

@@ -1,6 +1,7 @@
 // What each test has: a station of its own, pages of it in the worker's browser, and an account of what went wrong in them.
 import assert from 'node:assert/strict';
 import { test as base } from '@playwright/test';
+import { startWorld } from './world.mjs';
 import { preparePage, startFleet, startStation } from './harness.mjs';
 
 export const test = base.extend({
@@ -22,6 +23,16 @@ export const test = base.extend({
     await use(fleet);
     await fleet.stop();
   },
+
+  /** The program itself with a map on which something lies, and base maps of each kind; one for all tests of a worker. */
+  world: [
+    async ({}, use) => {
+      const world = await startWorld();
+      await use(world);
+      await world.stop();
+    },
+    { scope: 'worker', timeout: 60_000 },
+  ],
 
   open: async ({ context, station, complaints }, use) => {
     await use(async ({ url, hash = '', isSharp = false, ...options } = {}) => {

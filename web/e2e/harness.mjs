@@ -49,7 +49,7 @@ export async function startStation(port = 0, token = '') {
 }
 
 /** The program itself: a station with simulated vehicles, whose time runs faster. */
-export async function startFleet(vehicles, speedup = 5) {
+export async function startFleet(vehicles, speedup = 5, words = []) {
   const program = path.join(build, 'bin', 'lapwing');
   const link = `127.0.0.1:${await freeUdpPort()}`;
   const start = (...words) =>
@@ -58,7 +58,7 @@ export async function startFleet(vehicles, speedup = 5) {
       stdio: ['ignore', 'ignore', 'pipe'],
     });
   const [station, sim] = [
-    start('station', '--link', `udpin://${link}`, '--port', '0'),
+    start('station', '--link', `udpin://${link}`, '--port', '0', ...words),
     start('sim', '--vehicles', vehicles, '--home', '47.3977,8.5456,488', '--speedup', String(speedup), '--out', `udpout://${link}`),
   ];
   sim.stderr.resume();

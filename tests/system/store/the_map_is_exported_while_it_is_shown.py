@@ -78,7 +78,7 @@ def names(content: bytes) -> set[str]:
 
 
 def slots_in(content: bytes) -> list[str]:
-    return sorted(f["properties"]["id"] for f in json.loads(zipfile.ZipFile(io.BytesIO(content)).read("slots.geojson"))["features"])
+    return sorted(f["id"] for f in json.loads(zipfile.ZipFile(io.BytesIO(content)).read("slots.geojson"))["features"])
 
 
 with tempfile.TemporaryDirectory() as folder:
