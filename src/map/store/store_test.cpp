@@ -104,7 +104,7 @@ TEST_F(Stores, WriteByThemselvesWhenNobodyAsks) {
   store->follow(*map);
   put(*map, LayerKind::walls, "a");
   auto const wait = [&]() -> base::Task<bool> {
-    for (int i = 0; i < 500 && store->health().waiting > 0; ++i) co_await loop.sleep(10ms);
+    for (int i = 0; i < 6000 && store->health().waiting > 0; ++i) co_await loop.sleep(10ms);
     co_return store->health().waiting == 0;
   };
   EXPECT_TRUE(loop.run_until_done(wait()));
@@ -196,7 +196,7 @@ TEST_F(Stores, KeepWhatCannotBeWrittenAndGoOnByThemselves) {
   EXPECT_LE(store->health().lost_frames, 9u);
   ASSERT_TRUE((*saboteur)->execute("DROP TRIGGER broken"));
   auto const wait = [&]() -> base::Task<bool> {
-    for (int i = 0; i < 500 && !store->health().is_writing; ++i) co_await loop.sleep(10ms);
+    for (int i = 0; i < 6000 && !store->health().is_writing; ++i) co_await loop.sleep(10ms);
     co_return store->health().is_writing;
   };
   EXPECT_TRUE(loop.run_until_done(wait()));
