@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 #include "dolphin/builtin/method_call.hpp"
 #include "dolphin/machine/fiber.hpp"
@@ -39,25 +41,40 @@ Checked<Value> outcome_member(Heap& heap, OutcomeData const& outcome, Value cons
   return no_member(object, name);
 }
 
-/// Constants of types: Float.NaN, Math.PI, PRECISION_LAND_MODE.PRECISION_LAND_MODE_REQUIRED (MAVLink common.xml).
+struct Constant {
+  std::string_view type;
+  std::string_view name;
+  std::variant<std::int64_t, double> value;
+};
+
+template <class T>
+using Limits = std::numeric_limits<T>;
+
+/// Double has those of Float. PRECISION_LAND_MODE is MAVLink's, of common.xml.
+constexpr auto constants = std::to_array<Constant>({
+    {"Float", "NaN", Limits<double>::quiet_NaN()},
+    {"Float", "MAX_VALUE", Limits<double>::max()},
+    {"Float", "POSITIVE_INFINITY", Limits<double>::infinity()},
+    {"Float", "NEGATIVE_INFINITY", -Limits<double>::infinity()},
+    {"Long", "MAX_VALUE", Limits<std::int64_t>::max()},
+    {"Long", "MIN_VALUE", Limits<std::int64_t>::min()},
+    {"Integer", "MAX_VALUE", std::int64_t{Limits<std::int32_t>::max()}},
+    {"Integer", "MIN_VALUE", std::int64_t{Limits<std::int32_t>::min()}},
+    {"Math", "PI", std::numbers::pi},
+    {"Math", "E", std::numbers::e},
+    {"PRECISION_LAND_MODE", "PRECISION_LAND_MODE_DISABLED", std::int64_t{0}},
+    {"PRECISION_LAND_MODE", "PRECISION_LAND_MODE_OPPORTUNISTIC", std::int64_t{1}},
+    {"PRECISION_LAND_MODE", "PRECISION_LAND_MODE_REQUIRED", std::int64_t{2}},
+});
+
 Checked<Value> type_member(Heap& heap, TypeName const& type, Value const& object, std::string_view name) {
   if (name == "simpleName" || name == "name") return Value(heap.make<Text>(type.name));
   if (name == "class") return object;
-  bool const is_real = type.name == "Float" || type.name == "Double";
-  if (is_real && name == "NaN") return Value::real(std::numeric_limits<double>::quiet_NaN());
-  if (is_real && name == "MAX_VALUE") return Value::real(std::numeric_limits<double>::max());
-  if (is_real && name == "POSITIVE_INFINITY") return Value::real(std::numeric_limits<double>::infinity());
-  if (is_real && name == "NEGATIVE_INFINITY") return Value::real(-std::numeric_limits<double>::infinity());
-  if (type.name == "Long" && name == "MAX_VALUE") return Value::integer(std::numeric_limits<std::int64_t>::max());
-  if (type.name == "Long" && name == "MIN_VALUE") return Value::integer(std::numeric_limits<std::int64_t>::min());
-  if (type.name == "Integer" && name == "MAX_VALUE") return Value::integer(std::numeric_limits<std::int32_t>::max());
-  if (type.name == "Integer" && name == "MIN_VALUE") return Value::integer(std::numeric_limits<std::int32_t>::min());
-  if (type.name == "Math" && name == "PI") return Value::real(std::numbers::pi);
-  if (type.name == "Math" && name == "E") return Value::real(std::numbers::e);
-  if (type.name == "PRECISION_LAND_MODE") {
-    if (name == "PRECISION_LAND_MODE_DISABLED") return Value::integer(0);
-    if (name == "PRECISION_LAND_MODE_OPPORTUNISTIC") return Value::integer(1);
-    if (name == "PRECISION_LAND_MODE_REQUIRED") return Value::integer(2);
+  std::string_view const known_as = type.name == "Double" ? std::string_view("Float") : type.name;
+  for (auto const& constant : constants) {
+    if (constant.type != known_as || constant.name != name) continue;
+    if (auto const* whole = std::get_if<std::int64_t>(&constant.value)) return Value::integer(*whole);
+    return Value::real(std::get<double>(constant.value));
   }
   return fault(fmt::format("{} has no constant {}", type.name, name), "MissingPropertyException");
 }
@@ -252,36 +269,48 @@ Checked<Value> construct(Runtime& runtime, std::string_view type, Arguments argu
                "IllegalArgumentException");
 }
 
+namespace {
+
+bool is_among(std::initializer_list<std::string_view> types, std::string_view type) {
+  return std::ranges::find(types, type) != types.end();
+}
+
+/// A number, or a text that says one.
+Checked<Value> number_of(Value const& value) {
+  if (value.is_number()) return value;
+  auto const* text = value.as<Text>();
+  if (!text) return fault(fmt::format("{} is no number", kind_name(value)), "ClassCastException");
+  char* end = nullptr;
+  double const parsed = std::strtod(text->text.c_str(), &end);
+  if (text->text.empty() || *end != '\0')
+    return fault(fmt::format("'{}' is no number", text->text), "NumberFormatException");
+  return Value::real(parsed);
+}
+
+Checked<Value> integer_of(Value const& value) {
+  auto number = number_of(value);
+  if (!number || number->is(ValueKind::integer)) return number;
+  if (!(std::fabs(number->real()) < 9.2e18))
+    return fault(fmt::format("{} is no integer", to_text(*number)), "ArithmeticException");
+  return Value::integer(static_cast<std::int64_t>(number->real()));
+}
+
+}  // namespace
+
 Checked<Value> cast(Runtime& runtime, Value const& value, std::string_view type) {
-  auto& heap = runtime.heap;
-  static constexpr std::string_view integers[] = {"int",  "long",  "short", "byte",      "Integer",
-                                                  "Long", "Short", "Byte",  "BigInteger"};
-  bool const to_integer = std::ranges::find(integers, type) != std::end(integers);
-  bool const to_real =
-      type == "double" || type == "float" || type == "Double" || type == "Float" || type == "BigDecimal";
   if (type == "boolean" || type == "Boolean") return Value::boolean(is_true(value));
   if (value.is_null()) return value;
-  if (type == "String") return Value(heap.make<Text>(to_text(value)));
+  if (type == "String") return Value(runtime.heap.make<Text>(to_text(value)));
   if (type == "List" && value.is(ValueKind::list)) return value;
   if (type == "List" || type == "Set") {
     auto const items = call_method(runtime, value, "toList", {});
     if (items && *items) return type == "Set" ? *call_method(runtime, **items, "unique", {}) : *items;
   }
-  if (to_integer || to_real) {
-    Value number = value;
-    if (auto const* text = value.as<Text>()) {
-      char* end = nullptr;
-      double const parsed = std::strtod(text->text.c_str(), &end);
-      if (text->text.empty() || *end != '\0')
-        return fault(fmt::format("'{}' is no number", text->text), "NumberFormatException");
-      number = Value::real(parsed);
-    }
-    if (!number.is_number()) return fault(fmt::format("{} is no number", kind_name(value)), "ClassCastException");
-    if (to_real) return Value::real(number.number());
-    if (number.is(ValueKind::integer)) return number;
-    if (!(std::fabs(number.real()) < 9.2e18))
-      return fault(fmt::format("{} is no integer", to_text(number)), "ArithmeticException");
-    return Value::integer(static_cast<std::int64_t>(number.real()));
+  if (is_among({"int", "long", "short", "byte", "Integer", "Long", "Short", "Byte", "BigInteger"}, type))
+    return integer_of(value);
+  if (is_among({"double", "float", "Double", "Float", "BigDecimal"}, type)) {
+    auto const number = number_of(value);
+    return number ? Value::real(number->number()) : number;
   }
   if (is_instance(value, type)) return value;
   return fault(fmt::format("{} cannot be cast to {}", kind_name(value), type), "ClassCastException");

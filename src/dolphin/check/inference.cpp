@@ -73,7 +73,7 @@ class Evaluator {
     return may_grow ? std::nullopt : known;
   }
   Value of(ast::Unary const& n, ast::Expr const&) {
-    auto const operand = value(*n.operand);
+    auto operand = value(*n.operand);
     if (n.op == ast::UnaryOp::plus) return operand;
     if (n.op != ast::UnaryOp::minus || !operand) return std::nullopt;
     if (auto const* whole = std::get_if<std::int64_t>(&*operand)) {
@@ -224,12 +224,36 @@ Facts Inference::facts_of_name(ast::Expr const& expr, int depth) {
   return is_constant ? number_facts(std::nullopt) : Facts{};
 }
 
+namespace {
+
+Facts facts_of_arithmetic(ast::BinaryOp op, Facts const& left, Facts const& right) {
+  using enum ast::BinaryOp;
+  if (!left.is_number() || !right.is_number()) return {};
+  switch (op) {
+    case add:
+    case subtract: return sum(left, right);
+    case multiply: return product(left, right, false);
+    case divide: return product(left, right, true);
+    default: return number_facts(std::nullopt);
+  }
+}
+
+/// Of operators that put tasks, vehicles or truths together, or an area around a position.
+Facts facts_of_union(ast::BinaryOp op, Facts const& left, Facts const& right) {
+  using enum ast::BinaryOp;
+  bool const is_task = is_exactly(left, Kind::task);
+  if (op == shift_right) return is_task && right.kinds.meets(Kind::task) ? left : Facts{};
+  if (is_exactly(left, Kind::boolean) && is_exactly(right, Kind::boolean)) return left;
+  if (op == bit_xor) return is_exactly(left, Kind::position) ? Facts{Kind::area, {}} : Facts{};
+  return is_task || is_exactly(left, Kind::vehicles) ? left : Facts{};
+}
+
+}  // namespace
+
 Facts Inference::facts_of_binary(ast::Binary const& binary, int depth) {
   using enum ast::BinaryOp;
   auto const left = facts(*binary.left, depth - 1);
   auto const right = facts(*binary.right, depth - 1);
-  bool const are_truths = is_exactly(left, Kind::boolean) && is_exactly(right, Kind::boolean);
-  bool const numbers = left.is_number() && right.is_number();
   switch (binary.op) {
     case less:
     case less_equal:
@@ -244,25 +268,21 @@ Facts Inference::facts_of_binary(ast::Binary const& binary, int depth) {
     case find: return {Kind::list, {}};
     case compare: return {Kind::integer, Dimension::none};
     case elvis: return join(left, right);
-    case power:
-    case remainder: return numbers ? number_facts(std::nullopt) : Facts{};
     case add:
     case subtract:
-      if (numbers) return sum(left, right);
       if (is_exactly(left, Kind::text)) return {Kind::text, {}};
-      return is_exactly(left, Kind::vehicles) && is_exactly(right, Kind::vehicles) ? left : Facts{};
-    case multiply: return numbers ? product(left, right, false) : Facts{};
+      if (is_exactly(left, Kind::vehicles) && is_exactly(right, Kind::vehicles)) return left;
+      return facts_of_arithmetic(binary.op, left, right);
     case divide:
       if (is_exactly(left, Kind::task)) return right.kinds.meets(Kind::closure) ? left : Facts{};
-      return numbers ? product(left, right, true) : Facts{};
+      return facts_of_arithmetic(binary.op, left, right);
+    case multiply:
+    case power:
+    case remainder: return facts_of_arithmetic(binary.op, left, right);
     case bit_xor:
-      if (are_truths) return left;
-      return is_exactly(left, Kind::position) ? Facts{Kind::area, {}} : Facts{};
-    case shift_right: return is_exactly(left, Kind::task) && right.kinds.meets(Kind::task) ? left : Facts{};
     case bit_or:
     case bit_and:
-      if (are_truths) return left;
-      return is_exactly(left, Kind::task) || is_exactly(left, Kind::vehicles) ? left : Facts{};
+    case shift_right: return facts_of_union(binary.op, left, right);
     case shift_left: return {};
   }
   return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ranges>
+#include <utility>
 
 #include "dolphin/builtin/members.hpp"
 #include "dolphin/machine/blocks.hpp"
@@ -251,7 +252,7 @@ void Fiber::call_native(int index, int count) {
 
 void Fiber::call_value(int count) {
   auto const below = stack_.end() - count - 1;
-  Value const callee = *below;
+  Value const callee = std::move(*below);
   auto* closure = callee.as<Closure>();
   if (!closure) {
     return raise({"MissingMethodException", fmt::format("{} cannot be called", kind_name(callee))});

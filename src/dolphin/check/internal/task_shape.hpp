@@ -30,6 +30,7 @@ class TaskShapes {
   [[nodiscard]] TaskShape of(ast::Expr const& task) { return of(task, max_depth); }
   /// Of the parts that run at once, the one that needs the vehicle after the first `others`.
   [[nodiscard]] ast::Expr const& taker(ast::Expr const& task, std::size_t others);
+  ast::Expr const& taker(ast::Expr const&& task, std::size_t others) = delete;  ///< it may be the very one
   /// The platform's blocks in it (`mission { ... }`), some dozens at most.
   [[nodiscard]] std::vector<ast::Expr const*> blocks(ast::Expr const& task);
   /// The block with which a task certainly begins, or ends when it has run to its end; null when that is not certain.
