@@ -160,13 +160,13 @@ std::string forms(tasks::CommandSpec const& command) {
   std::string text;
   for (auto const& overload : command.overloads) {
     if (!text.empty()) text += " or ";
-    text += "(";
+    text += '(';
     for (std::size_t i = 0; i < overload.parameters.size(); ++i) {
       auto const& parameter = overload.parameters[i];
       text += fmt::format("{}{}{}: {}", i == 0 ? "" : ", ", parameter.name, parameter.fallback ? "?" : "",
                           type_name(parameter.type));
     }
-    text += ")";
+    text += ')';
   }
   return text;
 }

@@ -97,7 +97,7 @@ class Sweepers final : public tasks::HarnessPlatform {
   base::Result<> perform(tasks::InstructionCall const& call, tasks::VehicleId const& id) override {
     said += fmt::format("{} {}:", call.name, id.text);
     for (auto const& argument : call.arguments) said += " " + words_of(argument);
-    said += "\n";
+    said += '\n';
     if (id.text == "u2") return base::fail(base::ErrorKind::refused, "the brush is worn", "change it");
     return {};
   }

@@ -81,6 +81,10 @@ bool is_several(Value const& value) {
   return value.is(ValueKind::list) || value.is(ValueKind::range) || value.is(ValueKind::vehicles);
 }
 
+std::optional<Checked<Value>> if_it_fits(Value const& value, bool fits) {
+  return fits ? std::optional(Checked<Value>(value)) : std::nullopt;
+}
+
 /// The value as the type has it; nothing when it cannot be had.
 std::optional<Checked<Value>> turned(Runtime& runtime, Value const& value, Declared const& type, Holder holder) {
   bool const is_passed = holder == Holder::parameter;
@@ -91,7 +95,7 @@ std::optional<Checked<Value>> turned(Runtime& runtime, Value const& value, Decla
       return cast(runtime, value, "long");
     case Held::decimal:
       return value.is_number() ? std::optional(Checked<Value>(Value::real(value.number()))) : std::nullopt;
-    case Held::number: return value.is_number() ? std::optional(Checked<Value>(value)) : std::nullopt;
+    case Held::number: return if_it_fits(value, value.is_number());
     case Held::text:
       if (value.is(ValueKind::text)) return value;
       if (is_passed) return std::nullopt;
@@ -100,13 +104,13 @@ std::optional<Checked<Value>> turned(Runtime& runtime, Value const& value, Decla
       if (value.is(ValueKind::boolean)) return value;
       if (is_passed) return std::nullopt;
       return Value::boolean(is_true(value));
-    case Held::list: return is_several(value) ? std::optional(Checked<Value>(value)) : std::nullopt;
+    case Held::list: return if_it_fits(value, is_several(value));
     case Held::set:
       if (!is_several(value)) return std::nullopt;
       return is_passed || value.is(ValueKind::vehicles) ? Checked<Value>(value) : cast(runtime, value, "Set");
-    case Held::map: return value.is(ValueKind::map) ? std::optional(Checked<Value>(value)) : std::nullopt;
-    case Held::closure: return value.is(ValueKind::closure) ? std::optional(Checked<Value>(value)) : std::nullopt;
-    case Held::own_kind: return is_instance(value, type.name) ? std::optional(Checked<Value>(value)) : std::nullopt;
+    case Held::map: return if_it_fits(value, value.is(ValueKind::map));
+    case Held::closure: return if_it_fits(value, value.is(ValueKind::closure));
+    case Held::own_kind: return if_it_fits(value, is_instance(value, type.name));
   }
   return value;
 }

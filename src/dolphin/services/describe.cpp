@@ -100,7 +100,7 @@ CallText call_text(InstructionSpec const& spec, BlockWords const* block, std::si
   auto const& signature = spec.signatures[index];
   bool const is_block = spec.block != BlockKind::none && signature.parameters.size() == 1;
   if (is_block) {
-    out.text += " ";
+    out.text += ' ';
     add_parameter(out, "{ ... }");
     return out;
   }
@@ -124,7 +124,7 @@ CallText call_text(ast::FunctionDecl const& function, Document const& document) 
     if (parameter.fallback) text += fmt::format(" = {}", document.text(parameter.fallback->span));
     add_parameter(out, text);
   }
-  out.text += ")";
+  out.text += ')';
   return out;
 }
 

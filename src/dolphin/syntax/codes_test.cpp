@@ -108,6 +108,15 @@ Checked checked(std::string const& script) {
   return {diagnostics.sorted(), render(diagnostics)};
 }
 
+void expect_fixed(fs::path const& path, std::string const& script, base::Diagnostic const& one, std::size_t before) {
+  auto const after = checked(base::applied(script, one.fix));
+  auto const is_same = [&](base::Diagnostic const& other) {
+    return other.code == one.code && other.message == one.message && other.span.begin == one.span.begin;
+  };
+  EXPECT_TRUE(std::ranges::none_of(after.all, is_same)) << path << '\n' << after.text;
+  EXPECT_LE(after.all.size(), before) << path << '\n' << one.message << '\n' << after.text;
+}
+
 TEST(Fixes, EachTakesAwayWhatItIsAboutAndAddsNothing) {
   std::set<std::string_view> mended;
   for (auto const* const place : {"codes", "check"}) {
@@ -117,13 +126,7 @@ TEST(Fixes, EachTakesAwayWhatItIsAboutAndAddsNothing) {
       auto const before = checked(script).all;
       for (auto const& one : before) {
         if (one.fix.empty()) continue;
-        auto const fixed = base::applied(script, one.fix);
-        auto const after = checked(fixed);
-        auto const is_same = [&](base::Diagnostic const& other) {
-          return other.code == one.code && other.message == one.message && other.span.begin == one.span.begin;
-        };
-        EXPECT_TRUE(std::ranges::none_of(after.all, is_same)) << entry.path() << '\n' << after.text;
-        EXPECT_LE(after.all.size(), before.size()) << entry.path() << '\n' << one.message << '\n' << after.text;
+        expect_fixed(entry.path(), script, one, before.size());
         mended.insert(one.code);
       }
     }

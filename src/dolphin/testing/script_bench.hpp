@@ -57,7 +57,7 @@ class Bench {
     auto const at = base::to_seconds(loop.now().time_since_epoch());
     transcript.text += fmt::format("exit {} at {:.1f}", exit_code(outcome), at);
     if (outcome.kind != Outcome::Kind::done) transcript.text += ": " + to_text(outcome);
-    transcript.text += "\n";
+    transcript.text += '\n';
     return transcript.text;
   }
 
