@@ -28,6 +28,7 @@ Mapping map_log(ScanLog const& log, MapperOptions const& options, ForEach const&
   progress("filling in", 0.85);
   mapping.trajectory = fill(log, graph, options.frame, options.fill, for_each);
   mapping.loops = loops.counts();
+  mapping.loop_records = loops.records();
   progress("done", 1.0);
   return mapping;
 }

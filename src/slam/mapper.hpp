@@ -25,6 +25,7 @@ struct Mapping {
   Graph graph;
   std::vector<Pose2> trajectory;  ///< one a scan of the log
   LoopCloser::Counts loops;
+  std::vector<LoopRecord> loop_records;
 };
 
 /// `share`: how much of the work is done, 0 to 1.

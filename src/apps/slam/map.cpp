@@ -1,7 +1,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -21,6 +24,7 @@
 #include "slam/graph/g2o.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
+#include "slam/parameters.hpp"
 #include "slam/readers/carmen.hpp"
 #include "slam/relations.hpp"
 
@@ -36,6 +40,8 @@ struct MapOptions {
   fs::path out;
   fs::path relations;
   unsigned threads = 0;
+  std::vector<std::string> settings;
+  bool wants_loops = false;
 };
 
 constexpr std::uintmax_t most_log_bytes = 4ULL << 30;
@@ -122,11 +128,6 @@ double peak_mb() {
   return static_cast<double>(used.ru_maxrss) / 1024.0;
 }
 
-struct Made {
-  slam::Mapping mapping;
-  Json report;
-};
-
 Json report_of(slam::ScanLog const& log, slam::Mapping const& mapping, std::vector<slam::TimedPose> const& poses,
                std::vector<slam::Relation> const& relations) {
   Json report;
@@ -158,10 +159,51 @@ void print_summary(Json const& report) {
   }
 }
 
+/// Of words `name=value`.
+base::Result<slam::MapperOptions> mapper_options(std::vector<std::string> const& settings) {
+  slam::MapperOptions options;
+  for (auto const& setting : settings) {
+    auto const equals = setting.find('=');
+    auto const name = setting.substr(0, equals);
+    auto const all = slam::all_parameters();
+    auto const found = std::ranges::find(all, name, &slam::Parameter::name);
+    char* end = nullptr;
+    auto const* begin = equals == std::string::npos ? "" : setting.c_str() + equals + 1;
+    auto const value = std::strtod(begin, &end);
+    if (found == all.end() || end == begin || *end != '\0' || !std::isfinite(value))
+      return base::fail(base::ErrorKind::invalid_input, fmt::format("--set {}: not a parameter and a number", setting),
+                        "docs/reference/slam.md lists the parameters");
+    found->set(options, value);
+  }
+  return options;
+}
+
+Json loops_json(slam::ScanLog const& log, slam::Mapping const& mapping) {
+  auto list = Json::array();
+  for (auto const& r : mapping.loop_records)
+    list.push_back({{"query", r.query},
+                    {"target", r.target},
+                    {"query_s", log.scans[mapping.graph.frames[r.query].scan].time.count()},
+                    {"target_s", log.scans[mapping.graph.frames[r.target].scan].time.count()},
+                    {"window_m", r.window.reach_m},
+                    {"window_rad", r.window.reach_rad},
+                    {"score", r.score},
+                    {"rival", r.rival},
+                    {"conflict", r.conflict},
+                    {"matches", r.matches},
+                    {"shift_m", r.shift_m},
+                    {"turn_rad", r.turn_rad},
+                    {"witnesses", r.witnesses},
+                    {"verdict", to_string(r.verdict)}});
+  return list;
+}
+
 base::Result<> make_map(MapOptions const& options) {
   auto const started = std::chrono::steady_clock::now();
   auto const relations = read_relations(options.relations);
   if (!relations) return std::unexpected(relations.error());
+  auto const settings = mapper_options(options.settings);
+  if (!settings) return std::unexpected(settings.error());
   auto const log = read_log(options.log);
   if (!log) return std::unexpected(log.error());
   std::error_code error;
@@ -172,7 +214,7 @@ base::Result<> make_map(MapOptions const& options) {
   slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
     base::parallel_for(threads, count, work);
   };
-  auto const mapping = slam::map_log(*log, {}, for_each, show);
+  auto const mapping = slam::map_log(*log, *settings, for_each, show);
   auto const poses = timed(*log, mapping.trajectory);
   auto report = report_of(*log, mapping, poses, *relations);
   auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -180,6 +222,9 @@ base::Result<> make_map(MapOptions const& options) {
   report["cpu_s"] = cpu_s();
   report["peak_mb"] = peak_mb();
   report["threads"] = threads;
+  if (options.wants_loops)
+    if (auto done = host::write_file(options.out / "loops.json", base::to_text(loops_json(*log, mapping), 1)); !done)
+      return done;
   auto const grid = slam::draw_grid(*log, mapping.trajectory, {});
   if (!grid.tiles().empty())
     if (auto done = write_map(picture_of(grid), options.out); !done) return done;
@@ -208,6 +253,9 @@ void add_map(CLI::App& program, int& exit_code) {
       ->check(CLI::ExistingFile);
   verb->add_option("--threads", options->threads, "How many; default: as many as the machine has. The map is the same")
       ->check(CLI::Range(1U, 256U));
+  verb->add_option("--set", options->settings, "PARAMETER=NUMBER, as in docs/reference/slam.md");
+  verb->add_flag("--loops", options->wants_loops,
+                 "Write loops.json too: every place that was looked for, and what became of it");
   verb->callback([options, &exit_code] {
     auto const made = make_map(*options);
     exit_code = made ? host::exit_done : host::refuse(made.error());

@@ -35,7 +35,7 @@ class Search {
     for (int a = 0; a <= 2 * turns_; ++a) {
       auto const cosine = static_cast<float>(std::cos(yaw(a)));
       auto const sine = static_cast<float>(std::sin(yaw(a)));
-      auto const origin = place(window.guess).cast<float>();
+      Eigen::Vector2f const origin = place(window.guess).cast<float>();
       for (auto const& p : query) {
         Eigen::Vector2f const at =
             (origin + Eigen::Vector2f(cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()) -
@@ -52,7 +52,7 @@ class Search {
     for (int a = 0; a <= 2 * turns_; ++a)
       for (int x = -shifts_; x <= shifts_; x += 1 << top)
         for (int y = -shifts_; y <= shifts_; y += 1 << top) push(top, x, y, a);
-    constexpr int most_branches = 40'000;
+    constexpr int most_branches = 200'000;
     std::optional<Branch> best;
     for (int count = 0; !queue_.empty() && count < most_branches; ++count) {
       auto const branch = queue_.top();

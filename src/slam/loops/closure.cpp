@@ -126,22 +126,20 @@ std::vector<Eigen::Vector2f> query_cloud(Graph const& graph, int last, int frame
   return points;
 }
 
-std::optional<Closure> make_closure(Graph const& graph, Submap const& submap, int query, LoopMatch const& match,
-                                    LoopOptions const& options) {
+Closure make_closure(Graph const& graph, Submap const& submap, int query, LoopMatch const& match,
+                     LoopOptions const& options) {
   auto const target = submap.reference;
   auto const aligned = align(graph, target, query, graph.poses[target] * match.pose);
-  if (aligned.matches < options.least_matches) return std::nullopt;
-  auto const seen = look_through(graph, target, query, aligned.pose);
-  if (seen.conflict() > options.most_conflict) return std::nullopt;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-graph.poses[target].yaw).toRotationMatrix();
-  return Closure{.target = target,
-                 .query = query,
-                 .target_to_query = between(graph.poses[target], aligned.pose),
-                 .information = options.point_information * turn * aligned.hessian * turn.transpose(),
-                 .score = match.score,
-                 .rival = match.rival,
-                 .agreement = seen};
+  return {.target = target,
+          .query = query,
+          .target_to_query = between(graph.poses[target], aligned.pose),
+          .information = options.point_information * turn * aligned.hessian * turn.transpose(),
+          .score = match.score,
+          .rival = match.rival,
+          .matches = aligned.matches,
+          .agreement = look_through(graph, target, query, aligned.pose)};
 }
 
 }  // namespace lapwing::slam

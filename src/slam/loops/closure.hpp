@@ -33,17 +33,22 @@ struct Closure {
   Eigen::Matrix3d information;  ///< in the target's frame
   double score = 0.0;
   double rival = 0.0;
+  int matches = 0;  ///< points of the one on lines of the other
   Agreement agreement;
   double window_m = 0.0;
+  int record = 0;  ///< of the closer's records
 
+  /// Whether enough points match, and the two did not see through each other's walls.
+  [[nodiscard]] bool fits(LoopOptions const& options) const {
+    return matches >= options.least_matches && agreement.conflict() <= options.most_conflict;
+  }
   [[nodiscard]] Constraint constraint() const {
     return {.from = target, .to = query, .from_to = target_to_query, .information = information, .is_loop = true};
   }
 };
 
-/// Aligns the query's key frames to the submap's, point to line, from where the search found them; nothing when too
-/// few points match, or when the two saw through each other's walls.
-[[nodiscard]] std::optional<Closure> make_closure(Graph const& graph, Submap const& submap, int query,
+/// Aligns the query's key frames to the submap's, point to line, from where the search found them.
+[[nodiscard]] Closure make_closure(Graph const& graph, Submap const& submap, int query,
                                                   LoopMatch const& match, LoopOptions const& options);
 
 }  // namespace lapwing::slam

@@ -24,6 +24,18 @@ Correction correction(Graph const& graph, Closure const& closure) {
 
 }  // namespace
 
+std::string_view to_string(LoopRecord::Verdict verdict) {
+  using enum LoopRecord::Verdict;
+  switch (verdict) {
+    case not_found: return "not found";
+    case mismatched: return "mismatched";
+    case doubted: return "doubted";
+    case revoked: return "revoked";
+    case closed: return "closed";
+  }
+  return "";
+}
+
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(Graph const& graph, int query) const {
   auto const drifts = drift_from(query, graph.poses, graph.constraints, options_.rates);
   struct Near {
@@ -66,17 +78,29 @@ std::vector<Closure> LoopCloser::search(Graph const& graph, int query) {
   auto const cloud = query_cloud(graph, query, options_.query_frames);
   if (cloud.size() < least_points) return {};
   auto const places = candidates(graph, query);
+  std::vector<std::optional<LoopMatch>> matches(places.size());
   std::vector<std::optional<Closure>> found(places.size());
   for_each_(places.size(), [&](std::size_t i) {
     auto const& [submap, window] = places[i];
-    auto const match = branch_and_bound(submaps_[submap].pyramid, cloud, window, options_.least_score);
-    if (match) found[i] = make_closure(graph, submaps_[submap], query, *match, options_);
+    matches[i] = branch_and_bound(submaps_[submap].pyramid, cloud, window, options_.least_score);
+    if (matches[i]) found[i] = make_closure(graph, submaps_[submap], query, *matches[i], options_);
     if (found[i]) found[i]->window_m = window.reach_m;
   });
   counts_.searches += static_cast<int>(places.size());
   std::vector<Closure> closures;
-  for (auto& closure : found)
-    if (closure) closures.push_back(*closure);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    records_.push_back({.query = query,
+                        .target = submaps_[places[i].submap].reference,
+                        .window = places[i].window,
+                        .score = matches[i] ? matches[i]->score : 0.0,
+                        .rival = matches[i] ? matches[i]->rival : 0.0});
+    if (matches[i]) records_.back().verdict = LoopRecord::Verdict::mismatched;
+    if (!found[i]) continue;
+    found[i]->record = static_cast<int>(records_.size()) - 1;
+    records_.back().conflict = found[i]->agreement.conflict();
+    records_.back().matches = found[i]->matches;
+    if (found[i]->fits(options_)) closures.push_back(*found[i]);
+  }
   return closures;
 }
 
@@ -136,16 +160,23 @@ bool LoopCloser::look(Graph& graph, int query) {
   bool has_closed = false;
   for (auto& closure : search(graph, query)) {
     auto witnesses = witnesses_of(graph, closure);
+    auto const [shift, turn] = correction(graph, closure);
+    auto& record = records_[closure.record];
+    record.shift_m = shift;
+    record.turn_rad = turn;
+    record.witnesses = static_cast<int>(witnesses.size());
     pending_.push_back(closure);
     if (pending_.size() > 100) pending_.erase(pending_.begin());
     if (!is_believed(graph, closure, witnesses.size())) {
       ++counts_.doubted;
+      record.verdict = LoopRecord::Verdict::doubted;
       continue;
     }
-    auto const [shift, turn] = correction(graph, closure);
     if (shift < options_.small_shift_m && turn < options_.small_turn_rad) witnesses.clear();
     witnesses.push_back(closure);
-    has_closed = close(graph, witnesses) || has_closed;
+    auto const holds = close(graph, witnesses);
+    record.verdict = holds ? LoopRecord::Verdict::closed : LoopRecord::Verdict::revoked;
+    has_closed = has_closed || holds;
   }
   return has_closed;
 }

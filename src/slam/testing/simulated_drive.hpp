@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "slam/log/scan_log.hpp"
+
+namespace lapwing::slam::testing {
+
+/// Walls as straight pieces, in metres.
+struct Wall {
+  Eigen::Vector2d from;
+  Eigen::Vector2d to;
+};
+using Building = std::vector<Wall>;
+
+/// A ring of corridors, 2 m wide, around a block of `width` by `height` metres (their middle lines), with doors' niches
+/// and offices every `spacing` metres. `variety` 0: every office is like every other; 1: each has furniture of its own.
+[[nodiscard]] Building office(double width, double height, double spacing, double variety, std::uint64_t seed);
+
+struct DriveOptions {
+  int beams = 181;
+  double field_of_view_rad = 3.14159265358979;
+  double most_range_m = 30.0;
+  double range_noise_m = 0.015;
+  double speed_m_s = 0.5;
+  double scans_per_s = 5.0;
+  double shift_noise = 0.05;       ///< of odometry: standard deviation of a step, per metre
+  double turn_noise = 0.02;        ///< per radian
+  double turn_noise_per_m = 0.01;  ///< radians per metre
+  double scale_bias = 0.02;        ///< every metre is told as so much more
+  double turn_bias_per_m = 0.003;  ///< radians: the robot pulls to one side
+  std::uint64_t seed = 1;
+};
+
+struct Drive {
+  ScanLog log;
+  std::vector<Pose2> truth;  ///< one a scan
+};
+
+/// Drives along the way points, turning on the spot at each. Equal for equal seeds.
+[[nodiscard]] Drive drive(Building const& building, std::vector<Eigen::Vector2d> const& way,
+                          DriveOptions const& options);
+
+/// How far the mapped poses are from the true ones, when laid upon them as well as can be: the greatest of all.
+[[nodiscard]] double greatest_error_m(std::vector<Pose2> const& mapped, std::vector<Pose2> const& truth);
+
+}  // namespace lapwing::slam::testing
