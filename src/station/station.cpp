@@ -18,13 +18,13 @@
 #include "station/feeds/script_feed.hpp"
 #include "station/feeds/tasks_feed.hpp"
 #include "station/feeds/vehicles_feed.hpp"
-#include "station/history/history_routes.hpp"
 #include "station/http/openapi.hpp"
 #include "station/messages/alarm_messages.hpp"
 #include "station/messages/control_messages.hpp"
 #include "station/operator/control_routes.hpp"
 #include "station/operator/parameter_routes.hpp"
 #include "station/operator/script_folder.hpp"
+#include "station/past/history_routes.hpp"
 
 namespace lapwing::station {
 namespace {
@@ -74,10 +74,11 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       log_(hub, "station"),
       history_(keep_log(hub, options_.log_history)),
       own_map_(options_.map ? nullptr : std::make_unique<map::LiveMap>([&loop] { return loop.utc_now(); })),
-      map_face_(loop, options_.map ? *options_.map : *own_map_, options_.blobs),
+      map_face_(loop, options_.map ? *options_.map : *own_map_, options_.store),
       exports_(options_.exporter ? std::make_unique<ExportJobs>(loop, *options_.exporter) : nullptr),
       viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_),
                further_feeds(map_face_, std::move(options_.feeds))),
+      work_(loop),
       server_(std::move(server)) {
   server_->set_router(make_router());
   server_->set_websocket({
@@ -87,14 +88,28 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       .closed = [this](SessionId session) { close_session(session); },
   });
   server_->every(options_.period, [this] { viewers_.send_news(); });
-  if (options_.store) {
+  if (options_.store && options_.looks_back.empty()) {
     if (!options_.site.name.empty()) options_.store->name_session(viewers_.run(), options_.site.name);
     recorder_ = std::make_unique<Recorder>(loop, viewers_.all_feeds(), *options_.store,
                                            Recorder::Options{.session = viewers_.run()});
-    server_->every(options_.record_period, [this] { recorder_->keep(); });
+    work_.spawn(record_always());
+    work_.spawn(record_grids_always());
   }
-  watch_ = watch_membership();
-  watch_.start();
+  work_.spawn(watch_membership());
+}
+
+base::Task<> Station::record_always() {
+  for (;;) {
+    co_await loop_.sleep(options_.record_period);
+    recorder_->keep();
+  }
+}
+
+base::Task<> Station::record_grids_always() {
+  for (;;) {
+    co_await loop_.sleep(options_.record_grids_period);
+    co_await recorder_->keep_grids();
+  }
 }
 
 /// Who waits for a vehicle sees it at once. What comes within a moment goes together: a fleet that is switched on.
@@ -217,7 +232,7 @@ Router Station::make_router() {
 }
 
 Hello Station::hello(std::string commander) const {
-  return {options_.program_version, options_.site, loop_.utc_now(), std::move(commander), {}};
+  return {options_.program_version, options_.site, loop_.utc_now(), std::move(commander), {}, options_.looks_back};
 }
 
 HttpResponse Station::get_status() const {

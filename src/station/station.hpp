@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/async/loop.hpp"
+#include "base/async/scope.hpp"
 #include "base/async/task.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -16,13 +17,13 @@
 #include "station/basemaps/base_map.hpp"
 #include "station/exports/export_jobs.hpp"
 #include "station/feeds/feed.hpp"
-#include "station/history/recorder.hpp"
 #include "station/http/http_server.hpp"
 #include "station/map/map_face.hpp"
 #include "station/messages/client_request.hpp"
 #include "station/messages/log_history.hpp"
 #include "station/messages/messages.hpp"
 #include "station/operator/script_control.hpp"
+#include "station/past/recorder.hpp"
 #include "station/viewers.hpp"
 #include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
@@ -48,13 +49,15 @@ class Station {
     vehicle::VehicleAlarms* alarms = nullptr;          ///< outlives the station; null: there are none
     vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
     map::LiveMap* map = nullptr;                       ///< outlives the station; null: an empty one of its own
-    BlobStore* blobs = nullptr;                        ///< outlives the station; null: no pictures are kept
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
     std::vector<BaseMap> base_maps = {};               ///< that viewers may choose from
     MapExporter* exporter = nullptr;                   ///< outlives the station; null: nobody writes files of the map
-    map::Store* store = nullptr;  ///< outlives the station; keeps what is shown; null: nothing is kept
-    /// Between two looks at what is new, for the store: half a second is what a person who looks back can tell apart.
+    map::Store* store = nullptr;  ///< outlives the station; keeps pictures and what is shown; null: nothing is kept
+    std::string looks_back = {};  ///< a session of the store that is all there is to see; empty: there is a present
+    /// Between two looks at what is new, for the store, by the loop's clock: where time runs fast, its past is as fine
+    /// as elsewhere. Half a second is what a person who looks back can tell apart; grids are much to look at.
     std::chrono::milliseconds record_period{500};
+    std::chrono::milliseconds record_grids_period{1000};
     /// Further things to show, beside vehicles, plans, pictures, script, tasks, log, control, alarms and the map. What
     /// they look at outlives the station.
     std::vector<std::unique_ptr<Feed>> feeds = {};
@@ -78,6 +81,8 @@ class Station {
           Options options, std::unique_ptr<HttpServer> server);
 
   [[nodiscard]] base::Task<> watch_membership();
+  [[nodiscard]] base::Task<> record_always();
+  [[nodiscard]] base::Task<> record_grids_always();
   void open_session(SessionId session, HttpRequest const& request);
   void close_session(SessionId session);
   void receive(SessionId session, std::string_view text);
@@ -109,7 +114,7 @@ class Station {
   std::map<SessionId, vehicle::Commander> operators_;  ///< "operator 3", where vehicles are commanded
   Viewers viewers_;
   std::unique_ptr<Recorder> recorder_;  ///< null without a store
-  base::Task<> watch_;
+  base::Scope work_;
   std::unique_ptr<HttpServer> server_;  // last: ends first, so that no call-back finds half a station
 };
 

@@ -53,6 +53,7 @@ int list(StoreOptions const& options) {
   for (auto const& [layer, count] : found->features) fmt::print("{:<20}{:>10}\n", map::name_of(layer), count);
   for (auto const& [key, tiles] : found->grid_tiles)
     fmt::print("grid {} {} {}: {} tiles\n", key.site, key.floor.empty() ? "-" : key.floor, key.name, tiles);
+  fmt::print("{:<20}{:>10}\n", "past looks of tiles", found->tile_shades);
   fmt::print("{:<20}{:>10}  {}\n", "pictures kept", found->pictures, size_text(found->picture_bytes));
   fmt::print("{:<20}{:>10}\n", "sessions", found->sessions.size());
   return host::exit_done;

@@ -73,14 +73,4 @@ StationMap::~StationMap() {
   if (!goes_with_.empty()) fs::remove_all(goes_with_, ignored);
 }
 
-base::Task<base::Result<std::string>> StationMap::keep(std::string bytes, std::string media_type) {
-  return store_->keep(std::move(bytes), std::move(media_type));
-}
-
-base::Task<base::Result<StationMap::Blob>> StationMap::blob(std::string hash) {
-  auto found = co_await store_->blob(std::move(hash));
-  if (!found) co_return std::unexpected(found.error());
-  co_return Blob{std::move(found->bytes), std::move(found->media_type)};
-}
-
 }  // namespace lapwing::host

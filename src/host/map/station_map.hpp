@@ -12,7 +12,6 @@
 #include "base/log.hpp"
 #include "map/live/live_map.hpp"
 #include "map/store/store.hpp"
-#include "station/map/blob_store.hpp"
 
 namespace lapwing::host {
 
@@ -33,23 +32,20 @@ struct StoreSettings {
 [[nodiscard]] std::filesystem::path usual_store();
 
 /// A map that is kept: what the store had is on it, and what changes goes into the store.
-class StationMap final : public station::BlobStore {
+class StationMap {
  public:
   /// Errors: those of `map::Store::open` and `load`, for a place that was named; the usual one falls back to a
   /// temporary one and says so in the log. The map outlives it.
   [[nodiscard]] static base::Result<std::unique_ptr<StationMap>> open(base::Loop& loop, ::lapwing::map::LiveMap& map,
                                                                       StoreSettings const& settings,
                                                                       base::Logger const& log);
-  ~StationMap() override;
+  ~StationMap();
   StationMap(StationMap const&) = delete;
   StationMap& operator=(StationMap const&) = delete;
 
   [[nodiscard]] ::lapwing::map::Store& store() { return *store_; }
   /// For people.
   [[nodiscard]] std::string const& address() const { return address_; }
-
-  [[nodiscard]] base::Task<base::Result<std::string>> keep(std::string bytes, std::string media_type) override;
-  [[nodiscard]] base::Task<base::Result<Blob>> blob(std::string hash) override;
 
  private:
   StationMap(std::unique_ptr<::lapwing::map::Store> store, std::string address, std::filesystem::path goes_with)

@@ -138,6 +138,16 @@ base::Result<> Session::record(std::string const& folder) {
   return {};
 }
 
+base::Result<> Session::open_store(MapContent const& content) {
+  auto kept = StationMap::open(loop, live_map, content.store, log.named("map"));
+  if (!kept) return std::unexpected(kept.error());
+  station_map = *std::move(kept);
+  if (content.home && live_map.sites().empty())
+    if (auto site = geo::Site::make("default", *content.home)) live_map.put_site(*std::move(site));
+  tracks = std::make_unique<TrackWriter>(loop, ground.registry, live_map);
+  return {};
+}
+
 base::Result<> Session::open_map(WebAccess const& access, MapContent const& content, station::ScriptControl* script) {
   auto token = token_for(access);
   if (!token) return std::unexpected(token.error());
@@ -154,17 +164,18 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   options.control = script ? nullptr : &all_control;
   options.alarms = &ground.fleet.alarms();
   options.parameters = script ? nullptr : &all_parameters;
-  auto kept = StationMap::open(loop, live_map, content.store, log.named("map"));
-  if (!kept) return std::unexpected(kept.error());
-  station_map = *std::move(kept);
-  options.store = &station_map->store();
-  options.blobs = station_map.get();
-  map_exports = std::make_unique<MapExports>(loop, *options.store, station_map->address());
-  options.exporter = map_exports.get();
-  if (content.home && live_map.sites().empty())
-    if (auto site = geo::Site::make("default", *content.home)) live_map.put_site(*std::move(site));
+  if (content.past) {
+    options.store = content.past->store;
+    options.looks_back = content.past->session;
+  } else if (auto opened = open_store(content); !opened) {
+    return opened;
+  }
+  if (station_map) {
+    options.store = &station_map->store();
+    map_exports = std::make_unique<MapExports>(loop, *options.store, station_map->address());
+    options.exporter = map_exports.get();
+  }
   options.map = &live_map;
-  tracks = std::make_unique<TrackWriter>(loop, ground.registry, live_map);
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());

@@ -111,6 +111,7 @@ class Session {
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 
  private:
+  [[nodiscard]] base::Result<> open_store(MapContent const& content);
   base::Task<> finish(std::optional<base::Duration> timeout);
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();

@@ -27,6 +27,12 @@ struct MapContent {
   std::vector<station::BaseMap> base_maps = {};  ///< that viewers may choose from
   StoreSettings store = {};                      ///< where the map and its past are kept
   std::filesystem::path scripts = {};            ///< folder whose scripts it offers; empty: none
+  /// In place of `store`: one that is only read, to look back at a session of it. It outlives the map.
+  struct Past {
+    ::lapwing::map::Store* store = nullptr;
+    std::string session = {};
+  };
+  std::optional<Past> past = {};
 };
 
 /// A ground station as its file describes it: docs/reference/station-config.md.

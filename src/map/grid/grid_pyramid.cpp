@@ -61,9 +61,23 @@ std::optional<double> probability_of(Shade shade) {
   return 0.5 - (shade - 1.0) / (2.0 * 126.0);
 }
 
-GridPyramid::Tile::Tile(std::shared_ptr<GridTile const> source) : source_(std::move(source)) {
+TileShades shades_of(GridTile const& tile) {
   auto const& table = shade_table();
-  std::ranges::transform(source_->cells, shades_.begin(), [&](Evidence cell) { return table.of(cell); });
+  TileShades shades;
+  std::ranges::transform(tile.cells, shades.begin(), [&](Evidence cell) { return table.of(cell); });
+  return shades;
+}
+
+GridPyramid::Tile::Tile(std::shared_ptr<GridTile const> source) : source_(std::move(source)) {
+  fill(shades_of(*source_));
+}
+
+GridPyramid::Tile::Tile(TileShades const& shades) {
+  fill(shades);
+}
+
+void GridPyramid::Tile::fill(TileShades const& shades) {
+  std::ranges::copy(shades, shades_.begin());
   for (int i = 0; i + 1 < levels; ++i)
     halve(level(i), std::span(shades_).subspan(begin_of(i + 1)), static_cast<std::size_t>(tile_cells >> i));
 }
@@ -80,6 +94,16 @@ GridPyramid::GridPyramid(OccupancyGrid const& grid, GridPyramid const& before)
     bool const is_same = known != before.tiles_.end() && known->second->source() == tile;
     tiles_.emplace_hint(tiles_.end(), key, is_same ? known->second : std::make_shared<Tile const>(tile));
   }
+}
+
+GridPyramid::GridPyramid(double resolution_m, geo::Transform<geo::SiteFrame, GridFrame> const& site_from_grid,
+                         Tiles tiles)
+    : resolution_m_(resolution_m), site_from_grid_(site_from_grid), tiles_(std::move(tiles)) {
+  // The extent is that of a grid with the same tiles.
+  OccupancyGrid outline(resolution_m, site_from_grid);
+  auto const nothing = std::make_shared<GridTile>();
+  for (auto const& [key, tile] : tiles_) outline.set_tile(key, nothing);
+  extent_ = outline.extent();
 }
 
 GridPyramid::Tile const* GridPyramid::tile(TileKey key) const {

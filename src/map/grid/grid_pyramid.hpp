@@ -18,6 +18,9 @@ namespace lapwing::map {
 using Shade = std::uint8_t;
 
 [[nodiscard]] Shade shade_of(Evidence evidence);
+/// One tile of a grid as it is drawn, row by row from the lowest.
+using TileShades = std::array<Shade, std::size_t{tile_cells} * tile_cells>;
+[[nodiscard]] TileShades shades_of(GridTile const& tile);
 /// That it is taken, to 0.4 percent; nothing for what was never seen.
 [[nodiscard]] std::optional<double> probability_of(Shade shade);
 
@@ -33,11 +36,15 @@ class GridPyramid {
   /// What has not changed since `before` is taken from there.
   GridPyramid(OccupancyGrid const& grid, GridPyramid const& before);
 
+  class Tile;
+  using Tiles = std::map<TileKey, std::shared_ptr<Tile const>>;
+  /// Of tiles that are known as shades alone.
+  GridPyramid(double resolution_m, geo::Transform<geo::SiteFrame, GridFrame> const& site_from_grid, Tiles tiles);
+
   [[nodiscard]] double resolution_m() const { return resolution_m_; }
   [[nodiscard]] geo::Transform<geo::SiteFrame, GridFrame> const& site_from_grid() const { return site_from_grid_; }
   [[nodiscard]] std::optional<geo::Box<GridFrame>> const& extent() const { return extent_; }
 
-  class Tile;
   /// Null: nothing is known there.
   [[nodiscard]] Tile const* tile(TileKey key) const;
 
@@ -45,19 +52,20 @@ class GridPyramid {
   double resolution_m_;
   geo::Transform<geo::SiteFrame, GridFrame> site_from_grid_;
   std::optional<geo::Box<GridFrame>> extent_;
-  std::map<TileKey, std::shared_ptr<Tile const>> tiles_;
+  Tiles tiles_;
 };
 
 /// The shades of one tile of a grid.
 class GridPyramid::Tile {
  public:
   explicit Tile(std::shared_ptr<GridTile const> source);
+  explicit Tile(TileShades const& shades);
 
   /// 256 >> level a side, row by row from the lowest.
   [[nodiscard]] std::span<Shade const> level(int level) const {
     return std::span(shades_).subspan(begin_of(level), begin_of(level + 1) - begin_of(level));
   }
-  /// Kept, so that nobody writes to it: as long as a grid has this one still, it has not changed.
+  /// Kept, so that nobody writes to it: as long as a grid has this one still, it has not changed. Null: made of shades.
   [[nodiscard]] std::shared_ptr<GridTile const> const& source() const { return source_; }
 
  private:
@@ -66,6 +74,7 @@ class GridPyramid::Tile {
     constexpr std::size_t cells = std::size_t{tile_cells} * tile_cells;
     return (4 * cells - ((4 * cells) >> (2 * level))) / 3;
   }
+  void fill(TileShades const& shades);
 
   std::shared_ptr<GridTile const> source_;
   std::array<Shade, (4 * std::size_t{tile_cells} * tile_cells - 1) / 3> shades_;

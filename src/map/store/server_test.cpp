@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "map/store/care/retention.hpp"
+#include "map/store/place/address.hpp"
 #include "map/store/rows/shown_rows.hpp"
 #include "map/store/schema/migrate.hpp"
 #include "map/store/sql/postgres.hpp"
@@ -287,6 +289,37 @@ TEST_F(Server, LosesThePastThatIsTooOld) {
   auto const store = open();
   EXPECT_TRUE(comes([&] { return number("SELECT count(*) FROM lapwing.sessions") == 2; }));
   EXPECT_TRUE(comes([&] { return store->health().bytes > 0; }));
+}
+
+TEST_F(Server, KeepsHowGridsLooked) {
+  auto map = empty_map();
+  map->put_site(car_park());
+  auto store = open();
+  store->follow(*map);
+  GridKey const key{"car park", "", "ground"};
+  OccupancyGrid grid(0.05);
+  std::vector<TileShades> looked;
+  for (int second = 0; second < 20; ++second) {
+    for (int i = 0; i < 256; ++i) grid.set({i, (second * 7 + i * i) % 256}, Evidence::of_probability(0.9));
+    ASSERT_TRUE(map->put_tiles(key, grid, {{0, 0}}, {"robot", noon - 1h + 1s * second}));
+    loop.run_until_done(store->record_grids("today", noon - 1h + 1s * second));
+    looked.push_back(shades_of(*map->grids().at(key).grid.tiles().at({0, 0})));
+  }
+  ASSERT_TRUE(flush(*store));
+  EXPECT_GT(number("SELECT count(*) FROM tile_shades WHERE base <> ''"), 5);
+  for (int second = 0; second < 20; ++second) {
+    auto const grids = loop.run_until_done(store->grids_at("today", noon - 1h + 1s * second));
+    ASSERT_TRUE(grids) << grids.error().message;
+    auto const name = grids->at(key).tiles.at({0, 0});
+    auto const shades = loop.run_until_done(store->shades({name}));
+    ASSERT_TRUE(shades) << shades.error().message;
+    EXPECT_EQ(*shades->at(name) == looked[static_cast<std::size_t>(second)], true) << second;
+  }
+  store.reset();
+  auto const bytes = place::open_bytes(place::Address(options.address), *database);
+  while (care::retain(*database, *bytes, {.longest = 1h}, noon + 2h).value_or(false)) {
+  }
+  EXPECT_EQ(number("SELECT count(*) FROM tile_shades"), 0);
 }
 
 }  // namespace

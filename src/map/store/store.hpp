@@ -12,6 +12,8 @@
 #include "base/async/task.hpp"
 #include "base/error.hpp"
 #include "map/live/live_map.hpp"
+#include "map/store/past_grid.hpp"
+#include "map/store/picture_store.hpp"
 
 namespace lapwing::map {
 
@@ -21,7 +23,7 @@ namespace lapwing::map {
 /// One connection writes, on a thread of its own; nothing here waits for the disk on the loop. What is told to be
 /// accepted has been committed. A store that cannot take any more (disk full, database away) refuses before it accepts,
 /// keeps what it has, tries again, and says both.
-class Store {
+class Store : public PictureStore {
  public:
   struct Options {
     std::string address;                                ///< a folder, made if it is not there, or postgresql://...
@@ -33,7 +35,6 @@ class Store {
   /// Errors: io; refused for a store of a newer program, or one that another program writes; invalid_input for a file
   /// that is no store. Older ones are migrated, whole or not at all.
   [[nodiscard]] static base::Result<std::unique_ptr<Store>> open(base::Loop& loop, Options options);
-  virtual ~Store() = default;
 
   /// Everything that is kept of the map, into an empty one: for the start. What cannot be read is left out, and told by
   /// `health`.
@@ -43,15 +44,6 @@ class Store {
   virtual void follow(LiveMap& map) = 0;
   /// All that has changed so far is committed, or the error says what is not.
   [[nodiscard]] virtual base::Task<base::Result<>> flush() = 0;
-
-  /// Keeps bytes (a picture) under their hash (SHA-256, hex), which it gives back once they are on the disk.
-  [[nodiscard]] virtual base::Task<base::Result<std::string>> keep(std::string bytes, std::string media_type) = 0;
-  struct Blob {
-    std::string bytes;
-    std::string media_type;
-  };
-  /// Errors: not_found; io, also for bytes that are not what their hash says.
-  [[nodiscard]] virtual base::Task<base::Result<Blob>> blob(std::string hash) = 0;
 
   /// One frame of what viewers were shown (`station::Feed`), with its time: the past is kept as it was seen.
   struct Shown {
@@ -65,6 +57,11 @@ class Store {
   /// Takes it at once and writes it with the next batch; frames are lost rather than that memory grows without bound,
   /// and the number of lost ones is told.
   virtual void record(Shown shown) = 0;
+  /// False while more waits to be written than is well: who records leaves moments out then, rather than lose frames.
+  [[nodiscard]] virtual bool is_ready_to_record() const = 0;
+  /// Keeps how the grids of the map that it follows look now, of which only what has changed costs anything; `at` is
+  /// not before that of the call before. Ends when that is ready to be written; one at a time.
+  [[nodiscard]] virtual base::Task<> record_grids(std::string session, base::UtcTime at) = 0;
   /// For people; a session that has no name is called by its id.
   virtual void name_session(std::string id, std::string name) = 0;
   struct Session {
@@ -80,6 +77,10 @@ class Store {
   /// In [from, to), in the order of time: at most `most`, and then the rest of those that share the last one's time.
   [[nodiscard]] virtual base::Task<base::Result<std::vector<Shown>>> shown(std::string session, base::UtcTime from,
                                                                            base::UtcTime to, std::size_t most) = 0;
+  /// The grids of a moment; how their tiles looked is asked for by name.
+  [[nodiscard]] virtual base::Task<base::Result<PastGrids>> grids_at(std::string session, base::UtcTime at) = 0;
+  /// Those of them that are kept still.
+  [[nodiscard]] virtual base::Task<base::Result<PastShades>> shades(std::vector<std::string> names) = 0;
 
   struct Health {
     bool is_writing = true;

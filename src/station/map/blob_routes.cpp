@@ -47,7 +47,7 @@ HttpResponse no_pictures() {
   return problem(409, "This station keeps no pictures.", "Start it with --store FOLDER.");
 }
 
-base::Task<HttpResponse> keep(BlobStore& blobs, std::string bytes, std::string media_type) {
+base::Task<HttpResponse> keep(map::PictureStore& blobs, std::string bytes, std::string media_type) {
   auto const hash = co_await blobs.keep(std::move(bytes), std::move(media_type));
   if (!hash && hash.error().kind == base::ErrorKind::refused)
     co_return problem(507, hash.error().message, hash.error().hint);
@@ -58,7 +58,7 @@ base::Task<HttpResponse> keep(BlobStore& blobs, std::string bytes, std::string m
   co_return response;
 }
 
-base::Task<HttpResponse> show(BlobStore& blobs, std::string hash) {
+base::Task<HttpResponse> show(map::PictureStore& blobs, std::string hash) {
   auto tag = fmt::format("\"{}\"", hash);
   auto blob = co_await blobs.blob(std::move(hash));
   if (!blob) co_return problem(blob.error());
@@ -74,7 +74,7 @@ base::Task<HttpResponse> show(BlobStore& blobs, std::string hash) {
 
 }  // namespace
 
-void add_blob_routes(Router& router, BlobStore* blobs) {
+void add_blob_routes(Router& router, map::PictureStore* blobs) {
   router.add("GET", "/api/v1/blobs/{sha256}",
              [blobs](HttpRequest const& request, PathArguments const& arguments) -> Reply {
                if (!blobs) return no_pictures();

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 /// Keeps them in memory, under hashes that it is told.
-class FakeBlobs : public BlobStore {
+class FakeBlobs : public map::PictureStore {
  public:
   base::Task<base::Result<std::string>> keep(std::string bytes, std::string media_type) override {
     if (is_full) co_return base::fail(base::ErrorKind::refused, "the disk is full", "make room");

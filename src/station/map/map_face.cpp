@@ -13,16 +13,18 @@
 #include "station/map/ogc/ogc_routes.hpp"
 #include "station/map/site_routes.hpp"
 #include "station/map/sites_feed.hpp"
+#include "station/past/change_routes.hpp"
 
 namespace lapwing::station {
 
-MapFace::MapFace(base::Loop& loop, map::LiveMap& map, BlobStore* blobs)
+MapFace::MapFace(base::Loop& loop, map::LiveMap& map, map::Store* store)
     : loop_(loop),
       map_(map),
-      blobs_(blobs),
+      store_(store),
       run_(fmt::format("{:08x}", std::random_device()())),
       places_(std::make_shared<GridPlaces>(map)),
-      pictures_(loop, map, places_) {}
+      pictures_(loop, map, places_),
+      past_(store ? std::make_unique<PastGrids>(loop, *store) : nullptr) {}
 
 std::vector<std::unique_ptr<Feed>> MapFace::feeds() const {
   std::vector<std::unique_ptr<Feed>> feeds;
@@ -41,8 +43,9 @@ std::vector<std::unique_ptr<Feed>> MapFace::feeds() const {
 void MapFace::add_routes(Router& router) {
   add_site_routes(router, map_);
   add_feature_routes(router, loop_, map_);
-  add_grid_routes(router, map_, pictures_, run_);
-  add_blob_routes(router, blobs_);
+  add_grid_routes(router, loop_, map_, pictures_, past_.get(), run_);
+  add_change_routes(router, loop_, store_, past_.get());
+  add_blob_routes(router, store_);
   add_ogc_routes(router, loop_, map_);
 }
 

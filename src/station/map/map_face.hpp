@@ -6,18 +6,19 @@
 
 #include "base/async/loop.hpp"
 #include "map/live/live_map.hpp"
+#include "map/store/store.hpp"
 #include "station/feeds/feed.hpp"
 #include "station/http/router.hpp"
-#include "station/map/blob_store.hpp"
 #include "station/map/grids/grid_pictures.hpp"
+#include "station/past/past_grids.hpp"
 
 namespace lapwing::station {
 
-/// The map as viewers and programs see it: its feeds, its HTTP API, and its OGC API.
+/// The map as viewers and programs see it: its feeds, its HTTP API, and its OGC API; of the past of grids, too.
 class MapFace {
  public:
-  /// Loop, map and store outlive it. `blobs` is null where no pictures are kept.
-  MapFace(base::Loop& loop, map::LiveMap& map, BlobStore* blobs);
+  /// Loop, map and store outlive it. `store` is null where nothing is kept: no pictures, no past.
+  MapFace(base::Loop& loop, map::LiveMap& map, map::Store* store);
 
   /// Sites, each layer, grids. They outlive neither this nor the map.
   [[nodiscard]] std::vector<std::unique_ptr<Feed>> feeds() const;
@@ -26,10 +27,11 @@ class MapFace {
  private:
   base::Loop& loop_;
   map::LiveMap& map_;
-  BlobStore* blobs_;
+  map::Store* store_;
   std::string run_;  ///< tells pictures of this process from those of the one before it
   std::shared_ptr<GridPlaces> places_;
   GridPictures pictures_;
+  std::unique_ptr<PastGrids> past_;  ///< null without a store
 };
 
 }  // namespace lapwing::station

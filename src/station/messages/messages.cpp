@@ -47,6 +47,7 @@ void add_hello(Json& json, Hello const& hello) {
   json["site"] = {{"name", hello.site.name}};
   if (hello.site.origin) json["site"]["origin"] = position_json(*hello.site.origin);
   if (!hello.site.tiles.empty()) json["site"]["tiles"] = hello.site.tiles;
+  if (!hello.looks_back.empty()) json["looks_back"] = {{"session", hello.looks_back}};
 }
 
 Json reply(std::string_view request_id, bool ok) {

@@ -53,6 +53,8 @@ struct Hello {
   base::UtcTime server_time{};
   std::string commander = {};  ///< what this viewer is called where it commands vehicles; empty over HTTP
   FeedList feeds = {};         ///< none over HTTP
+  /// Of a station that has no present: which session viewers look back at, playing. Empty: it has.
+  std::string looks_back = {};
 };
 
 // ---- over WebSocket

@@ -21,6 +21,7 @@ struct Summary {
   std::uint64_t removed = 0;
   std::vector<std::string> sites = {};
   std::map<GridKey, std::uint64_t> grid_tiles = {};
+  std::uint64_t tile_shades = 0;  ///< ways in which tiles of grids have looked
   std::uint64_t pictures = 0;
   std::uint64_t picture_bytes = 0;
   std::vector<Store::Session> sessions = {};

@@ -46,6 +46,7 @@ base::Result<Summary> summary(std::string const& address) {
   for (auto const layer : all_layers)
     summary.features[layer] = numbers.of(fmt::format("SELECT count(*) FROM {}", name_of(layer)));
   summary.removed = numbers.of("SELECT count(*) FROM removed");
+  summary.tile_shades = numbers.of("SELECT count(*) FROM tile_shades");
   summary.pictures = numbers.of("SELECT count(*) FROM blobs");
   summary.picture_bytes = numbers.of("SELECT CAST(coalesce(sum(bytes), 0) AS BIGINT) FROM blobs");
   for (auto const& row : numbers.rows("SELECT id FROM sites ORDER BY id"))

@@ -6,6 +6,7 @@
 #include "map/store/reader.hpp"
 #include "map/store/rows/feature_rows.hpp"
 #include "map/store/rows/grid_rows.hpp"
+#include "map/store/rows/shade_rows.hpp"
 #include "map/store/rows/shown_rows.hpp"
 #include "map/store/rows/site_rows.hpp"
 #include "map/store/schema/migrate.hpp"
@@ -25,7 +26,8 @@ class Inspection {
       for (auto const check : {&Inspection::file, &Inspection::indices})
         if (auto looked = (this->*check)(); !looked) return std::unexpected(looked.error());
     }
-    for (auto const check : {&Inspection::features, &Inspection::tiles, &Inspection::past, &Inspection::pictures})
+    for (auto const check :
+         {&Inspection::features, &Inspection::tiles, &Inspection::past, &Inspection::shades, &Inspection::pictures})
       if (auto looked = (this->*check)(); !looked) return std::unexpected(looked.error());
     return std::move(verdict_);
   }
@@ -118,6 +120,28 @@ class Inspection {
       if (!frames || static_cast<std::int64_t>(frames->size()) != sql::as_integer(head[3]))
         fault(fmt::format("session \"{}\": a piece of what \"{}\" showed cannot be read", sql::as_text(head[0]),
                           sql::as_text(head[1])));
+    }
+    return {};
+  }
+
+  base::Result<> shades() {
+    auto const names = sql::rows_of(database_, "SELECT name FROM tile_shades");
+    if (!names) return std::unexpected(names.error());
+    for (auto const& row : *names) {
+      ++verdict_.looked_at;
+      auto const name = sql::as_text(row[0]);
+      auto const found = rows::read_shades(database_, {name});
+      if (!found) {
+        fault(found.error().message);
+      } else if (auto const shades = found->find(name); shades == found->end()) {
+        // It may have gone in the meantime, but not what it hangs on alone.
+        auto const is_there = sql::rows_of(database_, "SELECT 1 FROM tile_shades WHERE name = $1", {name});
+        if (!is_there) return std::unexpected(is_there.error());
+        if (!is_there->empty())
+          fault(fmt::format("the look of a grid's tile, \"{}\", hangs on one that is gone", name));
+      } else if (past::name_of(*shades->second) != name) {
+        fault(fmt::format("the look of a grid's tile, \"{}\", is not what its name says", name));
+      }
     }
     return {};
   }

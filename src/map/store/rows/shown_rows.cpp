@@ -1,13 +1,12 @@
 #include "map/store/rows/shown_rows.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <iterator>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "map/store/past/bytes.hpp"
 #include "map/store/rows/zlib.hpp"
 #include "map/store/schema/tables.hpp"
 
@@ -17,30 +16,15 @@ namespace {
 
 using sql::Row;
 using Shown = Store::Shown;
+using past::append;
+using past::take;
 
-static_assert(std::endian::native == std::endian::little);
 constexpr std::uint8_t whole_flag = 1;
 constexpr std::uint8_t binary_flag = 2;
 /// No answer has more, whatever is asked for.
 constexpr std::size_t most_frames = 10'000'000;
 /// Far more than a batch brings of one feed.
 constexpr std::size_t most_chunk_bytes = 512 * 1024 * 1024;
-
-template <class T>
-void append(std::string& to, T value) {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, &value, sizeof(T));
-  to.append(bytes, sizeof(T));
-}
-
-template <class T>
-std::optional<T> take(std::string_view& from) {
-  if (from.size() < sizeof(T)) return std::nullopt;
-  T value;
-  std::memcpy(&value, from.data(), sizeof(T));
-  from.remove_prefix(sizeof(T));
-  return value;
-}
 
 base::Result<> write_session(sql::Database& database, std::string const& id, base::UtcTime first, base::UtcTime last) {
   auto const known = database.change("UPDATE sessions SET ended_ns = $2 WHERE id = $1 AND ended_ns < $2",
@@ -143,15 +127,18 @@ base::Result<std::vector<Store::Session>> read_sessions(sql::Database& database)
   return sessions;
 }
 
-base::Result<std::vector<Shown>> state_at(sql::Database& database, std::string const& session, base::UtcTime at) {
+base::Result<std::vector<Shown>> state_at(sql::Database& database, std::string const& session, base::UtcTime at,
+                                          std::string const& of_feed) {
   // For each feed the last chunk with a whole frame that is early enough, and what came behind it.
   auto const wanted = sql::nanoseconds(at);
   std::vector<Shown> frames;
   auto const read = database.query(
       "SELECT chunk.feed, chunk.content FROM shown_chunks chunk JOIN (SELECT feed, max(number) AS number FROM "
-      "shown_chunks WHERE session = $1 AND whole_ns <= $2 GROUP BY feed) last ON chunk.feed = last.feed AND "
+      "shown_chunks WHERE session = $1 AND whole_ns <= $2 AND ($3 = '' OR feed = $3) GROUP BY feed) last ON chunk.feed "
+      "= "
+      "last.feed AND "
       "chunk.number >= last.number WHERE chunk.session = $1 AND chunk.first_ns <= $2 ORDER BY chunk.feed, chunk.number",
-      {session, wanted}, [&](Row const& row) { return append_chunk(frames, row, session); });
+      {session, wanted, of_feed}, [&](Row const& row) { return append_chunk(frames, row, session); });
   if (!read) return std::unexpected(read.error());
   std::erase_if(frames, [&](Shown const& frame) { return frame.at > at; });
   sort_by_time(frames);

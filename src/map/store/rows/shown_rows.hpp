@@ -17,9 +17,9 @@ namespace lapwing::map::rows {
 [[nodiscard]] base::Result<> name_session(sql::Database& database, Store::Session const& session);
 
 [[nodiscard]] base::Result<std::vector<Store::Session>> read_sessions(sql::Database& database);
-/// As `Store::state_at` and `Store::shown`.
+/// As `Store::state_at` and `Store::shown`; of one feed, or (empty) of all.
 [[nodiscard]] base::Result<std::vector<Store::Shown>> state_at(sql::Database& database, std::string const& session,
-                                                               base::UtcTime at);
+                                                               base::UtcTime at, std::string const& of_feed = {});
 [[nodiscard]] base::Result<std::vector<Store::Shown>> shown_between(sql::Database& database, std::string const& session,
                                                                     base::UtcTime from, base::UtcTime to,
                                                                     std::size_t most);

@@ -45,12 +45,20 @@ base::Result<> make_all(sql::Database& database) {
   return write_version(database);
 }
 
+/// Pictures were all JPEG.
+base::Result<> tell_kinds_of_pictures(sql::Database& database) {
+  return database.execute(
+      "ALTER TABLE blobs ADD COLUMN media_type TEXT NOT NULL DEFAULT 'image/jpeg';"
+      "CREATE INDEX blobs_by_at_ns ON blobs (at_ns);");
+}
+
+base::Result<> keep_the_past_of_grids(sql::Database& database) {
+  return make_table(database, table::tile_shades);
+}
+
 /// From one version to the next; `steps[0]` leads from 1 to 2.
-constexpr char const* steps[] = {
-    // Pictures were all JPEG.
-    "ALTER TABLE blobs ADD COLUMN media_type TEXT NOT NULL DEFAULT 'image/jpeg';"
-    "CREATE INDEX blobs_by_at_ns ON blobs (at_ns);",
-};
+using Step = base::Result<> (*)(sql::Database& database);
+constexpr Step steps[] = {tell_kinds_of_pictures, keep_the_past_of_grids};
 static_assert(std::size(steps) == version - 1);
 
 /// A property that features have learnt since is a column that may be empty, and no other version.
@@ -94,7 +102,7 @@ std::unexpected<base::Error> from_the_future(std::string const& name, int found)
 
 base::Result<> bring_up(sql::Database& database, int from) {
   for (int reached = from; reached < version; ++reached)
-    if (auto done = database.execute(steps[reached - 1]); !done) return done;
+    if (auto done = steps[reached - 1](database); !done) return done;
   if (auto added = add_missing_columns(database); !added) return added;
   return from == version ? base::Result<>() : write_version(database);
 }

@@ -86,7 +86,7 @@ TEST_F(Schema, LeavesTheStoreOfANewerProgramAlone) {
   for (auto const& refused : {prepare(*database, "a store"), check(*database, "a store")}) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, base::ErrorKind::refused);
-    EXPECT_EQ(refused.error().message, "a store: the store is of version 99, and this program knows up to 2");
+    EXPECT_EQ(refused.error().message, "a store: the store is of version 99, and this program knows up to 3");
   }
 }
 

@@ -179,13 +179,20 @@ Table const shown_chunks = {.name = "shown_chunks",
                             .indices = {{"session", "first_ns"}, {"last_ns"}},
                             .owner = {"sessions", {"session"}}};
 
+Table const tile_shades = {
+    .name = "tile_shades",
+    .about = "How tiles of grids looked, by a hash of that: zlib, 8 bits a cell",
+    .columns = {{"name", text, true}, {"base", text, true}, {"last_ns", integer, true}, {"shades", bytes, true}},
+    .key = {"name"},
+    .indices = {{"base"}, {"last_ns"}}};
+
 }  // namespace table
 
 std::vector<Table const*> const& all_tables() {
   static auto const tables = [] {
-    std::vector<Table const*> all = {&table::about,      &table::revision, &table::sites,       &table::floors,
-                                     &table::removed,    &table::grids,    &table::grid_tiles,  &table::blobs,
-                                     &table::blob_bytes, &table::sessions, &table::shown_chunks};
+    std::vector<Table const*> all = {&table::about,      &table::revision, &table::sites,        &table::floors,
+                                     &table::removed,    &table::grids,    &table::grid_tiles,   &table::blobs,
+                                     &table::blob_bytes, &table::sessions, &table::shown_chunks, &table::tile_shades};
     for (auto const layer : all_layers) all.push_back(&layer_table(layer));
     return all;
   }();

@@ -9,7 +9,7 @@
 namespace lapwing::map::schema {
 
 /// Of the tables below. Whoever changes them writes the step from the version before (`migrate.cpp`).
-inline constexpr int version = 2;
+inline constexpr int version = 3;
 
 /// The features of a layer: its columns are those that all have, and the layer's properties.
 [[nodiscard]] sql::Table const& layer_table(LayerKind layer);
@@ -26,6 +26,7 @@ extern sql::Table const blobs;  ///< pictures by their hash; the bytes lie in fi
 extern sql::Table const blob_bytes;
 extern sql::Table const sessions;
 extern sql::Table const shown_chunks;  ///< what viewers were shown
+extern sql::Table const tile_shades;   ///< how tiles of grids looked then
 }  // namespace table
 
 /// In an order in which they can be made, and filled: owners first.

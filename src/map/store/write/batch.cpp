@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "map/store/rows/shade_rows.hpp"
 #include "map/store/rows/shown_rows.hpp"
 #include "map/store/rows/site_rows.hpp"
 
@@ -37,6 +38,9 @@ std::set<FeatureKey> keys_of(News const& news) {
 base::Result<> write_frames(sql::Database& database, Batch const& batch) {
   if (batch.session)
     if (auto named = rows::name_session(database, *batch.session); !named) return named;
+  // Before the lists that name them.
+  if (auto written = rows::write_shades(database, batch.shades, batch.shades_at); !written) return written;
+  if (auto touched = rows::touch_shades(database, batch.listed_shades, batch.shades_at); !touched) return touched;
   return rows::write_shown(database, batch.frames);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "map/live/live_map.hpp"
+#include "map/store/past/shade_packing.hpp"
 #include "map/store/rows/feature_rows.hpp"
 #include "map/store/rows/grid_rows.hpp"
 #include "map/store/sql/database.hpp"
@@ -27,9 +28,12 @@ struct Batch {
   std::map<GridKey, rows::GridPart> grids = {};
   std::optional<Store::Session> session = {};
   std::vector<Store::Shown> frames = {};
+  std::vector<past::PackedShades> shades = {};  ///< of grids
+  std::vector<std::string> listed_shades = {};  ///< that are still seen
+  base::UtcTime shades_at = {};
 
   [[nodiscard]] bool changes_map() const { return !changed_sites.empty() || !features.empty() || !grids.empty(); }
-  [[nodiscard]] bool is_empty() const { return !changes_map() && !session && frames.empty(); }
+  [[nodiscard]] bool is_empty() const { return !changes_map() && !session && frames.empty() && shades.empty(); }
 };
 
 /// What other stations have written.

@@ -62,10 +62,22 @@ void Pending::name(Store::Session session) {
 bool Pending::record(Store::Shown shown) {
   if (frame_bytes_ + shown.content.size() > most_frame_bytes) return false;
   ++last_;
-  if (frames_.empty()) first_frame_ = last_;
+  if (!has_frames()) first_frame_ = last_;
   frame_bytes_ += shown.content.size();
   frames_.push_back(std::move(shown));
   return true;
+}
+
+void Pending::record(std::vector<past::PackedShades> shades, std::vector<std::string> listed, base::UtcTime at) {
+  if (!has_frames()) first_frame_ = ++last_;
+  for (auto const& one : shades) frame_bytes_ += one.bytes.size();
+  std::ranges::move(shades, std::back_inserter(shades_));
+  std::ranges::move(listed, std::back_inserter(listed_shades_));
+  shades_at_ = at;
+}
+
+bool Pending::is_ready_to_record() const {
+  return frame_bytes_ < most_frame_bytes / 4;
 }
 
 Batch Pending::take(LiveMap const* map, Slow with) {
@@ -81,8 +93,11 @@ Batch Pending::take(LiveMap const* map, Slow with) {
   }
   batch.session = std::exchange(session_, std::nullopt);
   if (!with.frames) return batch;
-  if (!frames_.empty()) way_.frames = first_frame_;
+  if (has_frames()) way_.frames = first_frame_;
   batch.frames = std::exchange(frames_, {});
+  batch.shades = std::exchange(shades_, {});
+  batch.listed_shades = std::exchange(listed_shades_, {});
+  batch.shades_at = shades_at_;
   frame_bytes_ = 0;
   return batch;
 }
@@ -130,8 +145,13 @@ void Pending::give_back(Batch batch) {
     first_frame_ = *way_.frames;
     std::ranges::move(frames_, std::back_inserter(batch.frames));
     frames_ = std::move(batch.frames);
+    std::ranges::move(shades_, std::back_inserter(batch.shades));
+    shades_ = std::move(batch.shades);
+    std::ranges::move(listed_shades_, std::back_inserter(batch.listed_shades));
+    listed_shades_ = std::move(batch.listed_shades);
     frame_bytes_ = 0;
     for (auto const& frame : frames_) frame_bytes_ += frame.content.size();
+    for (auto const& one : shades_) frame_bytes_ += one.bytes.size();
   }
   way_ = {};
 }
@@ -153,7 +173,7 @@ std::optional<std::uint64_t> Pending::oldest() const {
   consider(sites_.oldest());
   consider(features_.oldest());
   consider(tiles_.oldest());
-  if (!frames_.empty()) consider(first_frame_);
+  if (has_frames()) consider(first_frame_);
   consider(least(way_.sites));
   consider(least(way_.features));
   consider(least(way_.tiles));

@@ -61,6 +61,10 @@ class Pending {
   void name(Store::Session session);
   /// False when there is no room for it: it is lost.
   bool record(Store::Shown shown);
+  /// How tiles of grids look, and which still look as they did; goes with the frames.
+  void record(std::vector<past::PackedShades> shades, std::vector<std::string> listed, base::UtcTime at);
+  /// Little enough waits.
+  [[nodiscard]] bool is_ready_to_record() const;
 
   /// What can wait: the more comes together, the less there is to write.
   struct Slow {
@@ -76,7 +80,7 @@ class Pending {
 
   [[nodiscard]] bool has_quick() const { return sites_.size() > 0 || features_.size() > 0 || session_; }
   [[nodiscard]] bool has_tiles() const { return tiles_.size() > 0; }
-  [[nodiscard]] bool has_frames() const { return !frames_.empty(); }
+  [[nodiscard]] bool has_frames() const { return !frames_.empty() || !shades_.empty(); }
   [[nodiscard]] bool is_empty() const { return !has_quick() && !has_tiles() && !has_frames(); }
   /// So much that nothing is gained by waiting.
   [[nodiscard]] bool fills_a_batch() const;
@@ -104,6 +108,9 @@ class Pending {
   std::vector<Store::Shown> frames_;
   std::size_t frame_bytes_ = 0;
   std::uint64_t first_frame_ = 0;  ///< the number of the oldest of them
+  std::vector<past::PackedShades> shades_;
+  std::vector<std::string> listed_shades_;
+  base::UtcTime shades_at_;
   OnTheirWay way_;
 };
 

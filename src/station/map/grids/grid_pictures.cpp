@@ -1,50 +1,18 @@
 #include "station/map/grids/grid_pictures.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/async/pool.hpp"
 #include "map/grid/grid_tiles.hpp"
 #include "map/grid/png.hpp"
+#include "station/map/grids/tile_range.hpp"
+#include "station/map/grids/under_way.hpp"
 
 namespace lapwing::station {
 
 namespace {
-
-/// Which of a grid's tiles a picture may show.
-struct TileRange {
-  map::TileKey least;
-  map::TileKey most;
-
-  [[nodiscard]] bool contains(map::TileKey const& key) const {
-    return least.x <= key.x && key.x <= most.x && least.y <= key.y && key.y <= most.y;
-  }
-};
-
-/// Nothing when it shows none of the site.
-std::optional<TileRange> tiles_under(map::OccupancyGrid const& grid, geo::Site const& site, map::XyzTile const& tile) {
-  constexpr TileRange all{{INT32_MIN, INT32_MIN}, {INT32_MAX, INT32_MAX}};
-  auto const reach = reach_of(bounds_of(tile), site);
-  if (reach.is_empty) return std::nullopt;
-  if (!reach.box) return all;
-  auto const grid_from_site = grid.site_from_grid().inverse();
-  std::optional<geo::Box<map::GridFrame>> box;
-  for (double const x : {reach.box->least.x(), reach.box->most.x()}) {
-    for (double const y : {reach.box->least.y(), reach.box->most.y()}) {
-      auto const corner = grid_from_site * map::SitePoint(x, y);
-      if (!box) box = geo::Box<map::GridFrame>{corner, corner};
-      box->least.v = box->least.v.cwiseMin(corner.v);
-      box->most.v = box->most.v.cwiseMax(corner.v);
-    }
-  }
-  double const side_m = grid.resolution_m() * map::tile_cells;
-  // The plane reaches 100 km: at a millimetre a cell that is 390,625 tiles, which fits.
-  auto const index = [side_m](double metres) { return static_cast<std::int32_t>(std::floor(metres / side_m)); };
-  return TileRange{{index(box->least.x()), index(box->least.y())}, {index(box->most.x()), index(box->most.y())}};
-}
 
 using Pyramid = std::shared_ptr<map::GridPyramid const>;
 
@@ -58,26 +26,6 @@ std::string draw(Pyramid const& pyramid, geo::Site const& site, map::XyzTile til
   if (!shades) shades.emplace(std::size_t{map::tile_px} * map::tile_px);
   return map::png_of(*shades, map::tile_px, map::scale_palette());
 }
-
-/// In a set for as long as it lives; then whoever waits looks again.
-template <class Key>
-class Entry {
- public:
-  Entry(std::set<Key>& set, Key key, base::Notifier& ended) : set_(set), key_(std::move(key)), ended_(ended) {
-    set_.insert(key_);
-  }
-  Entry(Entry const&) = delete;
-  Entry& operator=(Entry const&) = delete;
-  ~Entry() {
-    set_.erase(key_);
-    ended_.notify_all();
-  }
-
- private:
-  std::set<Key>& set_;
-  Key key_;
-  base::Notifier& ended_;
-};
 
 }  // namespace
 
@@ -93,7 +41,7 @@ GridPictures::GridPictures(base::Loop& loop, map::LiveMap const& map, std::share
 
 map::Revision GridPictures::revision_of(map::GridKey const& key, map::XyzTile const& tile) const {
   auto const& record = map_.grids().at(key);
-  auto const range = tiles_under(record.grid, *map_.site(key.site), tile);
+  auto const range = tiles_under(record.grid.resolution_m(), record.grid.site_from_grid(), *map_.site(key.site), tile);
   map::Revision newest = 0;
   if (!range) return newest;
   for (auto const& [at, revision] : record.tile_revisions)
@@ -116,7 +64,7 @@ base::Task<std::shared_ptr<std::string const>> GridPictures::picture(map::GridKe
     if (has_room(name)) break;
     co_await ended_.wait();
   }
-  Entry const entry(under_way_, name, ended_);
+  UnderWay const entry(under_way_, name, ended_);
   auto const revision = revision_of(key, tile);
   auto ready = co_await pyramid(key);
   auto png = co_await loop_.on_pool(draw, std::move(ready), *map_.site(key.site), tile);
@@ -132,7 +80,7 @@ base::Task<GridPictures::Pyramid> GridPictures::pyramid(map::GridKey key) {
   auto const revision = record.revision;
   auto& ready = ready_[key];
   if (ready.revision == revision) co_return ready.pyramid;
-  Entry const entry(being_made_ready_, key, ended_);
+  UnderWay const entry(being_made_ready_, key, ended_);
   auto made = co_await loop_.on_pool(make_ready, record.grid, ready.pyramid);
   ready = {revision, made};
   co_return made;

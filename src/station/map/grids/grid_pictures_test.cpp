@@ -18,7 +18,7 @@ using testing::header;
 using testing::put_tiles;
 
 struct GridPicturesTest : ::testing::Test, testing::MapDemo {
-  GridPicturesTest() { add_grid_routes(router, live, pictures, "run"); }
+  GridPicturesTest() { add_grid_routes(router, loop, live, pictures, nullptr, "run"); }
   [[nodiscard]] static map::XyzTile home_tile(int zoom = 18) {
     // In which the one cell is that is taken, 64 m east and north of the anchor.
     return tile_at(zoom, testing::yard_anchor.lon_deg() + 64.0 / 76'057.0,

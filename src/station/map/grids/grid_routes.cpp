@@ -1,6 +1,7 @@
 #include "station/map/grids/grid_routes.hpp"
 
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -9,18 +10,13 @@
 #include "station/map/features/feature_documents.hpp"
 #include "station/map/grids/grid_json.hpp"
 #include "station/map/ogc/ogc_documents.hpp"
+#include "station/past/moment_words.hpp"
 
 namespace lapwing::station {
 
 using map::LiveMap;
 
 namespace {
-
-/// The grid that a path names; "-" is the site's ground.
-map::GridKey key_of(PathArguments const& arguments) {
-  auto const& floor = arguments["floor"];
-  return {arguments["site"], floor == "-" ? "" : floor, arguments["name"]};
-}
 
 HttpResponse no_grid(map::GridKey const& key) {
   return problem(404,
@@ -57,12 +53,10 @@ base::Task<HttpResponse> draw(GridPictures& pictures, map::GridKey key, map::Xyz
 
 Reply get_picture(LiveMap const& map, GridPictures& pictures, std::string const& run, HttpRequest const& request,
                   PathArguments const& arguments) {
-  auto key = key_of(arguments);
+  auto key = grid_key_of(arguments);
   if (!map.grids().contains(key)) return no_grid(key);
   auto const tile = tile_address(arguments["z"], arguments["x"], arguments["y"]);
-  if (!tile)
-    return problem(404, "There is no such tile.",
-                   fmt::format("z is at most {}, x and y are below 2^z.", map::highest_zoom));
+  if (!tile) return no_tile();
   auto const tag = fmt::format("\"{}-{}\"", run, pictures.revision_of(key, *tile));
   std::vector<HttpHeader> headers{
       {"ETag", tag},
@@ -71,18 +65,49 @@ Reply get_picture(LiveMap const& map, GridPictures& pictures, std::string const&
   return draw(pictures, std::move(key), *tile, std::move(headers));
 }
 
+base::Task<HttpResponse> draw_past(base::Loop& loop, PastGrids& past, Moment moment, map::GridKey key,
+                                   map::XyzTile tile, HttpRequest request) {
+  bool const is_settled = moment.at + std::chrono::seconds(10) < loop.utc_now();
+  auto picture = co_await past.picture(std::move(moment), std::move(key), tile);
+  if (!picture) co_return problem(picture.error());
+  co_return picture_of_the_past(request, *std::move(picture), is_settled);
+}
+
+Reply get_past_picture(base::Loop& loop, PastGrids* past, HttpRequest const& request, PathArguments const& arguments) {
+  if (!past) return no_history();
+  auto const at = time_parameter(request, "at_ms");
+  if (!at) return problem(at.error());
+  auto session = request.parameter("session");
+  if (!session) return problem(400, "The parameter \"session\" is missing.", "See /api/v1/history.");
+  auto const tile = tile_address(arguments["z"], arguments["x"], arguments["y"]);
+  if (!tile) return no_tile();
+  return draw_past(loop, *past, {*std::move(session), *at}, grid_key_of(arguments), *tile, request);
+}
+
 }  // namespace
 
-void add_grid_routes(Router& router, LiveMap const& map, GridPictures& pictures, std::string run) {
+map::GridKey grid_key_of(PathArguments const& arguments) {
+  auto const& floor = arguments["floor"];
+  return {arguments["site"], floor == "-" ? "" : floor, arguments["name"]};
+}
+
+HttpResponse no_tile() {
+  return problem(404, "There is no such tile.",
+                 fmt::format("z is at most {}, x and y are below 2^z.", map::highest_zoom));
+}
+
+void add_grid_routes(Router& router, base::Loop& loop, LiveMap const& map, GridPictures& pictures, PastGrids* past,
+                     std::string run) {
   router.add("GET", "/api/v1/grids", [&map, run](HttpRequest const&) { return get_grids(map, run); });
   router.add("GET", "/api/v1/grids/{site}/{floor}/{name}/tiles.json",
              [&map](HttpRequest const& request, PathArguments const& arguments) -> Reply {
-               auto const key = key_of(arguments);
+               auto const key = grid_key_of(arguments);
                if (!map.grids().contains(key)) return no_grid(key);
                return HttpResponse{.body = dump(tile_json(map, key, origin_of(request)))};
              });
   router.add("GET", "/api/v1/grids/{site}/{floor}/{name}/tiles/{z}/{x}/{y}.png",
-             [&map, &pictures, run](HttpRequest const& request, PathArguments const& arguments) {
+             [&loop, &map, &pictures, past, run](HttpRequest const& request, PathArguments const& arguments) -> Reply {
+               if (request.parameter("at_ms")) return get_past_picture(loop, past, request, arguments);
                return get_picture(map, pictures, run, request, arguments);
              });
 }

@@ -19,7 +19,8 @@ class GridsFeed final : public Feed {
   GridsFeed(map::LiveMap const& map, std::shared_ptr<GridPlaces> places, std::string run)
       : map_(map), places_(std::move(places)), run_(std::move(run)) {}
 
-  [[nodiscard]] std::string_view name() const override { return "map.grids"; }
+  static constexpr std::string_view feed_name = "map.grids";
+  [[nodiscard]] std::string_view name() const override { return feed_name; }
   [[nodiscard]] std::uint64_t refresh(base::TimePoint now) override;
   [[nodiscard]] News since(std::uint64_t revision, base::TimePoint now, std::size_t room) const override;
 

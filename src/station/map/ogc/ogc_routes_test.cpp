@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 struct OgcRoutes : ::testing::Test, testing::MapDemo {
   OgcRoutes() {
     add_ogc_routes(router, loop, live);
-    add_grid_routes(router, live, pictures, "run");
+    add_grid_routes(router, loop, live, pictures, nullptr, "run");
     put(testing::slot("a", 0, 0, now() - 1h));
     put(testing::slot("b", 100, 0, now(), map::SlotState::taken));
     put(testing::door("north/1", 5, 5, now()));

@@ -1,9 +1,10 @@
-#include "station/history/recorder.hpp"
+#include "station/past/recorder.hpp"
 
 #include <limits>
 #include <utility>
 
 #include "station/feeds/envelope.hpp"
+#include "station/map/grids/grids_feed.hpp"
 
 namespace lapwing::station {
 
@@ -13,10 +14,23 @@ Recorder::Recorder(base::Loop& loop, std::vector<Feed*> const& feeds, map::Store
 }
 
 void Recorder::keep() {
-  auto const now = loop_.now();
-  // Pages ask for milliseconds: what is kept lies on one, so that none is asked for twice.
-  auto const utc = base::UtcTime(std::chrono::floor<std::chrono::milliseconds>(loop_.utc_now().time_since_epoch()));
-  for (auto& track : tracks_) keep(track, now, utc);
+  if (!store_.is_ready_to_record()) return;
+  auto const utc = moment();
+  for (auto& track : tracks_)
+    if (track.feed->name() != GridsFeed::feed_name) keep(track, loop_.now(), utc);
+}
+
+base::Task<> Recorder::keep_grids() {
+  if (!store_.is_ready_to_record()) co_return;
+  auto const utc = moment();
+  for (auto& track : tracks_)
+    if (track.feed->name() == GridsFeed::feed_name) keep(track, loop_.now(), utc);
+  co_await store_.record_grids(options_.session, utc);
+}
+
+/// Pages ask for milliseconds: what is kept lies on one, so that none is asked for twice.
+base::UtcTime Recorder::moment() const {
+  return base::UtcTime(std::chrono::floor<std::chrono::milliseconds>(loop_.utc_now().time_since_epoch()));
 }
 
 bool Recorder::wants_whole(Track const& track, base::TimePoint now) const {

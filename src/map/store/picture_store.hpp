@@ -5,12 +5,12 @@
 #include "base/async/task.hpp"
 #include "base/error.hpp"
 
-namespace lapwing::station {
+namespace lapwing::map {
 
 /// Where the pictures of the map are kept, by their hash (SHA-256, hex).
-class BlobStore {
+class PictureStore {
  public:
-  virtual ~BlobStore() = default;
+  virtual ~PictureStore() = default;
 
   struct Blob {
     std::string bytes;
@@ -22,4 +22,4 @@ class BlobStore {
   [[nodiscard]] virtual base::Task<base::Result<Blob>> blob(std::string hash) = 0;
 };
 
-}  // namespace lapwing::station
+}  // namespace lapwing::map

@@ -14,7 +14,8 @@ namespace lapwing::station {
 
 /// Keeps what viewers are shown, as they are shown it, so that looking back needs no second way to draw anything.
 ///
-/// It takes each feed as one more viewer would. Now and then a feed is kept whole: once what followed the last whole
+/// It takes each feed as one more viewer would. What there is of grids besides their feed's news (which tiles changed) is
+/// how these look, which the store packs; the two are kept together, so that who is told of news finds it. Now and then a feed is kept whole: once what followed the last whole
 /// has grown to some times its size, which bounds both what is kept and what must be read to come to any moment.
 class Recorder {
  public:
@@ -29,8 +30,10 @@ class Recorder {
   /// The feeds and the store outlive the recorder.
   Recorder(base::Loop& loop, std::vector<Feed*> const& feeds, map::Store& store, Options options);
 
-  /// Keeps what is new; called as often as is worth keeping.
+  /// Keeps what is new of every feed but that of grids; called as often as is worth keeping.
   void keep();
+  /// Keeps what is new of grids, and how their tiles look. Ends when it is ready to be kept; one at a time.
+  [[nodiscard]] base::Task<> keep_grids();
 
  private:
   struct Track {
@@ -42,6 +45,7 @@ class Recorder {
     base::TimePoint whole_at = {};
   };
   void keep(Track& track, base::TimePoint now, base::UtcTime utc);
+  [[nodiscard]] base::UtcTime moment() const;
   [[nodiscard]] bool wants_whole(Track const& track, base::TimePoint now) const;
 
   base::Loop& loop_;

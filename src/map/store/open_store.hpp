@@ -10,6 +10,7 @@
 #include "base/async/notifier.hpp"
 #include "base/async/scope.hpp"
 #include "base/async/side_thread.hpp"
+#include "map/store/past/grid_keeper.hpp"
 #include "map/store/reader.hpp"
 #include "map/store/store.hpp"
 #include "map/store/write/pending.hpp"
@@ -19,12 +20,12 @@ namespace lapwing::map {
 
 /// The store on the loop: what has changed, when it is written, and what became of it. The databases are on two threads
 /// beside it, one to write and one to read.
-class KeptMap final : public Store {
+class OpenStore final : public Store {
  public:
-  KeptMap(base::Loop& loop, bool is_shared, std::unique_ptr<write::Writer> writer, std::unique_ptr<Reader> reader);
-  KeptMap(KeptMap const&) = delete;
-  KeptMap& operator=(KeptMap const&) = delete;
-  ~KeptMap() override;
+  OpenStore(base::Loop& loop, bool is_shared, std::unique_ptr<write::Writer> writer, std::unique_ptr<Reader> reader);
+  OpenStore(OpenStore const&) = delete;
+  OpenStore& operator=(OpenStore const&) = delete;
+  ~OpenStore() override;
 
   base::Task<base::Result<>> load(LiveMap& into) override;
   void follow(LiveMap& map) override;
@@ -32,11 +33,15 @@ class KeptMap final : public Store {
   base::Task<base::Result<std::string>> keep(std::string bytes, std::string media_type) override;
   base::Task<base::Result<Blob>> blob(std::string hash) override;
   void record(Shown shown) override;
+  [[nodiscard]] bool is_ready_to_record() const override { return pending_.is_ready_to_record(); }
+  base::Task<> record_grids(std::string session, base::UtcTime at) override;
   void name_session(std::string id, std::string name) override;
   base::Task<base::Result<std::vector<Session>>> sessions() override;
   base::Task<base::Result<std::vector<Shown>>> state_at(std::string session, base::UtcTime at) override;
   base::Task<base::Result<std::vector<Shown>>> shown(std::string session, base::UtcTime from, base::UtcTime to,
                                                      std::size_t most) override;
+  base::Task<base::Result<PastGrids>> grids_at(std::string session, base::UtcTime at) override;
+  base::Task<base::Result<PastShades>> shades(std::vector<std::string> names) override;
   [[nodiscard]] Health health() const override;
 
  private:
@@ -58,6 +63,7 @@ class KeptMap final : public Store {
   std::shared_ptr<void> following_;
   bool is_applying_ = false;  ///< what changes on the map now is what others have written
   write::Pending pending_;
+  past::GridKeeper grids_;
   base::SideThread<write::Writer> writer_;
   base::SideThread<Reader> reader_;
 

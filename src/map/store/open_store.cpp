@@ -1,11 +1,13 @@
-#include "map/store/kept_map.hpp"
+#include "map/store/open_store.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/async/pool.hpp"
 #include "map/store/news.hpp"
+#include "map/store/rows/shade_rows.hpp"
 #include "map/store/rows/shown_rows.hpp"
 #include "map/store/rows/site_rows.hpp"
 
@@ -30,7 +32,7 @@ constexpr std::size_t page_size = 1000;
 
 }  // namespace
 
-KeptMap::KeptMap(base::Loop& loop, bool is_shared, std::unique_ptr<write::Writer> writer,
+OpenStore::OpenStore(base::Loop& loop, bool is_shared, std::unique_ptr<write::Writer> writer,
                  std::unique_ptr<Reader> reader)
     : loop_(loop),
       is_shared_(is_shared),
@@ -42,7 +44,7 @@ KeptMap::KeptMap(base::Loop& loop, bool is_shared, std::unique_ptr<write::Writer
   scope_.spawn(write_always());
 }
 
-KeptMap::~KeptMap() {
+OpenStore::~OpenStore() {
   scope_.clear();
   following_.reset();
   // What was on its way is written again, but for frames, which would be there twice.
@@ -54,7 +56,7 @@ KeptMap::~KeptMap() {
   }
 }
 
-void KeptMap::follow(LiveMap& map) {
+void OpenStore::follow(LiveMap& map) {
   map_ = &map;
   // What lies in them cannot be read without.
   for (auto const& [id, site] : map.sites()) pending_.note({.site = id});
@@ -65,7 +67,7 @@ void KeptMap::follow(LiveMap& map) {
   });
 }
 
-base::Task<base::Result<>> KeptMap::flush() {
+base::Task<base::Result<>> OpenStore::flush() {
   auto const wanted = pending_.last();
   auto const failures = failures_;
   for (;;) {
@@ -82,36 +84,58 @@ base::Task<base::Result<>> KeptMap::flush() {
   }
 }
 
-base::Task<base::Result<std::string>> KeptMap::keep(std::string bytes, std::string media_type) {
+base::Task<base::Result<std::string>> OpenStore::keep(std::string bytes, std::string media_type) {
   auto job = [blob = Blob{std::move(bytes), std::move(media_type)}, now = loop_.utc_now()](write::Writer& writer) {
     return writer.keep(blob, now);
   };
   co_return co_await writer_.run(std::move(job));
 }
 
-base::Task<base::Result<Store::Blob>> KeptMap::blob(std::string hash) {
+base::Task<base::Result<Store::Blob>> OpenStore::blob(std::string hash) {
   auto job = [hash = std::move(hash)](Reader& reader) { return blobs::read(*reader.database, *reader.bytes, hash); };
   co_return co_await reader_.run(std::move(job));
 }
 
-void KeptMap::record(Shown shown) {
+void OpenStore::record(Shown shown) {
   if (!pending_.record(std::move(shown))) ++lost_frames_;
   changed_.notify_all();
 }
 
-void KeptMap::name_session(std::string id, std::string name) {
+base::Task<> OpenStore::record_grids(std::string session, base::UtcTime at) {
+  if (!map_ || !is_ready_to_record()) co_return;
+  auto const work = grids_.take(*map_, session, at);
+  if (!work) co_return;
+  auto packed = co_await loop_.on_pool(past::GridKeeper::pack, *work);
+  auto lists = grids_.done(*work, packed);
+  pending_.record(std::move(packed.shades), std::move(lists.names), at);
+  bool is_whole = lists.is_whole;
+  for (auto& frame : lists.frames) {
+    bool const is_kept = pending_.record({.at = at,
+                                          .session = session,
+                                          .feed = std::string(past::list_feed),
+                                          .is_whole = std::exchange(is_whole, false),
+                                          .is_binary = true,
+                                          .content = std::move(frame)});
+    if (is_kept) continue;
+    ++lost_frames_;
+    grids_.has_lost_lists();
+  }
+  changed_.notify_all();
+}
+
+void OpenStore::name_session(std::string id, std::string name) {
   auto const now = loop_.utc_now();
   pending_.name({.id = std::move(id), .name = std::move(name), .began = now, .ended = now});
   changed_.notify_all();
 }
 
-base::Task<base::Result<std::vector<Store::Session>>> KeptMap::sessions() {
+base::Task<base::Result<std::vector<Store::Session>>> OpenStore::sessions() {
   (void)co_await flush();  // what cannot be written yet, cannot be read
   auto job = [](Reader& reader) { return rows::read_sessions(*reader.database); };
   co_return co_await reader_.run(std::move(job));
 }
 
-base::Task<base::Result<std::vector<Store::Shown>>> KeptMap::state_at(std::string session, base::UtcTime at) {
+base::Task<base::Result<std::vector<Store::Shown>>> OpenStore::state_at(std::string session, base::UtcTime at) {
   (void)co_await flush();
   auto job = [session = std::move(session), at](Reader& reader) {
     return rows::state_at(*reader.database, session, at);
@@ -119,7 +143,7 @@ base::Task<base::Result<std::vector<Store::Shown>>> KeptMap::state_at(std::strin
   co_return co_await reader_.run(std::move(job));
 }
 
-base::Task<base::Result<std::vector<Store::Shown>>> KeptMap::shown(std::string session, base::UtcTime from,
+base::Task<base::Result<std::vector<Store::Shown>>> OpenStore::shown(std::string session, base::UtcTime from,
                                                                    base::UtcTime to, std::size_t most) {
   (void)co_await flush();
   auto job = [session = std::move(session), from, to, most](Reader& reader) {
@@ -128,7 +152,20 @@ base::Task<base::Result<std::vector<Store::Shown>>> KeptMap::shown(std::string s
   co_return co_await reader_.run(std::move(job));
 }
 
-Store::Health KeptMap::health() const {
+base::Task<base::Result<PastGrids>> OpenStore::grids_at(std::string session, base::UtcTime at) {
+  (void)co_await flush();
+  auto job = [session = std::move(session), at](Reader& reader) {
+    return rows::grids_at(*reader.database, session, at);
+  };
+  co_return co_await reader_.run(std::move(job));
+}
+
+base::Task<base::Result<PastShades>> OpenStore::shades(std::vector<std::string> names) {
+  auto job = [names = std::move(names)](Reader& reader) { return rows::read_shades(*reader.database, names); };
+  co_return co_await reader_.run(std::move(job));
+}
+
+Store::Health OpenStore::health() const {
   return {.is_writing = trouble_.empty(),
           .trouble = trouble_.empty() ? faults_ : trouble_,
           .bytes = bytes_,
@@ -136,14 +173,14 @@ Store::Health KeptMap::health() const {
           .lost_frames = lost_frames_};
 }
 
-void KeptMap::note_fault(std::string fault) {
+void OpenStore::note_fault(std::string fault) {
   if (++fault_count_ == 1)
     faults_ = std::move(fault);
   else if (fault_count_ == 2)
     faults_ += "; there is more: `lapwing store verify` tells all";
 }
 
-base::Task<base::Result<>> KeptMap::load(LiveMap& into) {
+base::Task<base::Result<>> OpenStore::load(LiveMap& into) {
   struct Start {
     Revision revision;
     rows::Sites sites;
@@ -177,7 +214,7 @@ base::Task<base::Result<>> KeptMap::load(LiveMap& into) {
   co_return base::Result<>();
 }
 
-base::Task<base::Result<>> KeptMap::load_features(LiveMap& into, LayerKind layer, rows::Sites const& sites,
+base::Task<base::Result<>> OpenStore::load_features(LiveMap& into, LayerKind layer, rows::Sites const& sites,
                                                   std::map<write::FeatureKey, Account>& removals) {
   auto const shared_sites = std::make_shared<rows::Sites const>(sites);
   std::int64_t last_fid = 0;
@@ -199,7 +236,7 @@ base::Task<base::Result<>> KeptMap::load_features(LiveMap& into, LayerKind layer
   }
 }
 
-base::Task<base::Result<>> KeptMap::load_grids(LiveMap& into) {
+base::Task<base::Result<>> OpenStore::load_grids(LiveMap& into) {
   auto all = [](Reader& reader) { return rows::read_grids(*reader.database); };
   auto grids = co_await reader_.run(std::move(all));
   if (!grids) co_return std::unexpected(grids.error());
@@ -216,7 +253,7 @@ base::Task<base::Result<>> KeptMap::load_grids(LiveMap& into) {
   co_return base::Result<>();
 }
 
-base::TimePoint KeptMap::next_write() const {
+base::TimePoint OpenStore::next_write() const {
   if (is_urgent_) return base::TimePoint::min();
   auto next = base::TimePoint::max();
   if (pending_.has_quick()) next = std::min(next, quick_from_);
@@ -227,11 +264,11 @@ base::TimePoint KeptMap::next_write() const {
   return trouble_.empty() ? next : std::max(next, retry_from_);
 }
 
-base::TimePoint KeptMap::next_turn() const {
+base::TimePoint OpenStore::next_turn() const {
   return std::min(next_write(), clear_up_from_);
 }
 
-base::Task<> KeptMap::write_always() {
+base::Task<> OpenStore::write_always() {
   for (;;) {
     while (loop_.now() < next_turn()) co_await changed_.wait_until(next_turn());
     if (loop_.now() >= next_write()) co_await write_once();
@@ -239,7 +276,7 @@ base::Task<> KeptMap::write_always() {
   }
 }
 
-base::Task<> KeptMap::write_once() {
+base::Task<> OpenStore::write_once() {
   auto const now = loop_.now();
   bool const is_urgent = std::exchange(is_urgent_, false);
   bool const with_tiles = is_urgent || now >= tiles_from_;
@@ -263,20 +300,20 @@ base::Task<> KeptMap::write_once() {
   written_.notify_all();
 }
 
-void KeptMap::apply(write::News const& news) {
+void OpenStore::apply(write::News const& news) {
   is_applying_ = true;
   for (auto& fault : apply_news(*map_, news, pending_)) note_fault(std::move(fault));
   is_applying_ = false;
 }
 
-void KeptMap::has_failed(base::Error const& error) {
+void OpenStore::has_failed(base::Error const& error) {
   ++failures_;
   last_failure_ = error;
   retry_from_ = loop_.now() + retry_interval;
   trouble_ = error.hint.empty() ? error.message : fmt::format("{}: {}", error.message, error.hint);
 }
 
-base::Task<> KeptMap::clear_up() {
+base::Task<> OpenStore::clear_up() {
   struct Cleared {
     bool is_more;
     std::uint64_t bytes;
@@ -297,7 +334,7 @@ base::Result<std::unique_ptr<Store>> Store::open(base::Loop& loop, Options optio
   if (!writer) return std::unexpected(writer.error());
   auto reader = Reader::open(address);
   if (!reader) return std::unexpected(reader.error());
-  return std::make_unique<KeptMap>(loop, address.is_server(), std::move(*writer), std::move(*reader));
+  return std::make_unique<OpenStore>(loop, address.is_server(), std::move(*writer), std::move(*reader));
 }
 
 }  // namespace lapwing::map

@@ -1,5 +1,5 @@
 // What was shown is kept so that any moment can be come back to, at a bounded cost.
-#include "station/history/recorder.hpp"
+#include "station/past/recorder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
-#include "station/history/history_routes.hpp"
+#include "station/past/history_routes.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "base/time.hpp"
 #include "station/messages/json.hpp"
+#include "station/past/moment_words.hpp"
 
 namespace lapwing::station {
 
@@ -21,26 +21,6 @@ using map::Store;
 constexpr std::size_t most_frames = 5000;
 /// Of an answer: beyond it a slow page would wait for long before it can show anything.
 constexpr std::size_t most_bytes = std::size_t{8} * 1024 * 1024;
-/// The years 1970 to 2200: what else comes is a mistake, and would not fit into the clock's nanoseconds.
-constexpr std::int64_t latest_ms = 7'258'118'400'000;
-
-std::int64_t milliseconds_of(base::UtcTime time) {
-  return std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch()).count();
-}
-
-base::Result<base::UtcTime> time_parameter(HttpRequest const& request, std::string_view name) {
-  auto const text = request.parameter(name);
-  if (!text)
-    return base::fail(base::ErrorKind::invalid_input, fmt::format("The parameter \"{}\" is missing.", name),
-                      "Give milliseconds since 1970, UTC.");
-  std::int64_t value = 0;
-  auto const [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc{} || end != text->data() + text->size() || value < 0 || value > latest_ms)
-    return base::fail(base::ErrorKind::invalid_input, fmt::format("\"{}\" is no time.", name),
-                      "Give milliseconds since 1970, UTC.");
-  return base::UtcTime(std::chrono::milliseconds(value));
-}
-
 /// A message is JSON text already: parsing it to write it again would cost more than all the rest.
 std::string frame_text(Store::Shown const& shown) {
   return fmt::format(R"({{"at_ms":{},"feed":{},"whole":{},"message":{}}})", milliseconds_of(shown.at), dump(shown.feed),
@@ -104,27 +84,23 @@ base::Task<HttpResponse> frames(Store& store, std::string session, base::UtcTime
       .body = fmt::format(R"({{"complete_to_ms":{},"frames":[{}]}})", milliseconds_of(part.complete_to), part.text)};
 }
 
-HttpResponse no_store() {
-  return problem(404, "This station keeps no history.", "Start it with --store FOLDER.");
-}
-
 }  // namespace
 
 void add_history_routes(Router& router, Store* store) {
   router.add("GET", "/api/v1/history", [store](HttpRequest const&) -> Reply {
-    if (!store) return no_store();
+    if (!store) return no_history();
     return list_sessions(*store);
   });
   router.add("GET", "/api/v1/history/{session}/state",
              [store](HttpRequest const& request, PathArguments const& path) -> Reply {
-               if (!store) return no_store();
+               if (!store) return no_history();
                auto const at = time_parameter(request, "at_ms");
                if (!at) return problem(at.error());
                return state(*store, path["session"], *at);
              });
   router.add("GET", "/api/v1/history/{session}/frames",
              [store](HttpRequest const& request, PathArguments const& path) -> Reply {
-               if (!store) return no_store();
+               if (!store) return no_history();
                auto const from = time_parameter(request, "from_ms");
                if (!from) return problem(from.error());
                auto const to = time_parameter(request, "to_ms");

@@ -1,5 +1,5 @@
 // What pages get that look back: the state of a moment, and what followed, in parts that can be put together.
-#include "station/history/history_routes.hpp"
+#include "station/past/history_routes.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
