@@ -72,6 +72,21 @@ TEST_F(Endpoints, SpeakOverTcp) {
   EXPECT_TRUE(loop.run_until_done(client->session().drained(Kind::durable, 10s)));
 }
 
+TEST_F(Endpoints, SendAWholeWindowBeforeAnythingIsTaken) {
+  serve_with({});
+  connect_with({});
+  ASSERT_EQ(connection(), "connected");
+  auto& session = client->session();
+  for (int i = 0; i < 300; ++i) EXPECT_TRUE(session.send({.text = std::string(1000, 'x')}));
+  // Sooner than a ping or anything else gives another occasion.
+  auto const soon = loop.now() + 700ms;
+  loop.run_until_done([](base::Loop& on, base::TimePoint until, PeerSession& of) -> base::Task<int> {
+    while (on.now() < until && of.counters().messages_sent < 256) co_await on.sleep(1ms);
+    co_return 0;
+  }(loop, soon, session));
+  EXPECT_EQ(session.counters().messages_sent, 256u);
+}
+
 TEST_F(Endpoints, CarryLargeMessages) {
   serve_with({});
   connect_with({});

@@ -346,7 +346,10 @@ void PeerSession::pump() {
     channel_->say(**std::move(data));
     ++counters_.messages_sent;
   }
+  bool const is_full = !channel_->has_room();
   channel_->flush();
+  // The operating system took all of it at once, so nobody will say that there is room again.
+  if (is_full && channel_->has_room()) pump_soon();
 }
 
 void PeerSession::pump_plain() {
