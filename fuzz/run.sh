@@ -93,6 +93,15 @@ case $target in
     printf '\377\330\377\341\0\"Exif\0\0II*\0\10\0\0\0\1\0\22\1\3\0\1\0\0\0\6\0\0\0\0\0\0\0\377\300\0\13\10\0\10\0\10\1\1\21\0\377\332\0\10\1\1\0\0?\0\377\331' | seed jpeg
     printf 'RIFF\32\0\0\0WEBPVP8L\r\0\0\0/\0\0\0\20\7\20\21\21\210\210\376\7\0' | seed webp
     ;;
+  operator_link)
+    printf '\017LW\1\7\10\0\0\0\0\0\0\0\1\0\0\0\0\0\0\0' | seed frame
+    printf '\1\4\35\1\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\3keytext\5\11\0\2\0\0\0\0\0\0\0\11\4\2\0ok' | seed messages
+    printf '\15{"Type":"Autonomous Move","X":1,"Y":[2,{"a":"\\"}"}]}{}\r\n {"b":\n{"c":1}]x' | seed objects
+    ;;
+  journal)
+    eight='%b\0\0\0\0\0\0\0'
+    printf "\3\51\1$eight$eight$eight$eight$eight\14\2$eight\1kt\11\3$eight" '\7' '\1' '\1' '\5' '\2' '\1' '\1' | seed segment
+    ;;
   key_store)
     printf '[keys]\nfleet = "%064d"\nnext = "%064d"\n[use]\neverybody = "fleet"\n[use.vehicles]\n7 = ["next", "fleet"]\n[use.links]\n"udpin://0.0.0.0:14550" = "next"\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages = ["ADSB_VEHICLE", 0]\n' 1 2 | seed store
     ;;
