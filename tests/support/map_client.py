@@ -92,7 +92,7 @@ def said_before_listening(process) -> str:
     said = []
     for line in process.stderr:
         said.append(line)
-        if "listening" in line:
+        if "Ctrl-C ends" in line:
             break
     return "".join(said)
 
@@ -113,6 +113,17 @@ def station(*arguments):
     try:
         said = said_before_listening(process)
         yield Station(process, address_in(said), port)
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+
+
+@contextlib.contextmanager
+def replaying(*arguments):
+    """The address of a map that shows what is kept, until the block ends."""
+    process = subprocess.Popen([harness.LAPWING, "replay", *arguments, "--port", "0"], stderr=subprocess.PIPE, text=True)
+    try:
+        yield address_in(said_before_listening(process))
     finally:
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=20)

@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include "apps/vehicles/replay_store.hpp"
 #include "apps/verb.hpp"
 #include "host/files/files.hpp"
 #include "host/links/recording.hpp"
 #include "host/session/session.hpp"
 #include "host/session/signals.hpp"
 #include "link/pipe_link.hpp"
+#include "map/store/read_store.hpp"
 #include "mavlink/wire/tlog.hpp"
 
 namespace lapwing::apps {
@@ -18,6 +20,7 @@ namespace {
 
 struct ReplayOptions {
   std::string place;
+  std::string session;
   bool headless = false;
   std::string report;
   host::WebArguments web;
@@ -93,7 +96,21 @@ void keep_map(host::Session& session) {
   session.loop.run();
 }
 
+int replay_kept(ReplayOptions const& options) {
+  if (options.headless || !options.report.empty() || options.speedup)
+    return host::refuse({base::ErrorKind::invalid_input,
+                         "--headless, --report and --speedup are for recordings of telemetry, and this is a store",
+                         "the page has play, pause and speed; `lapwing store ls STORE` tells what is in it"});
+  return replay_store({.address = options.place, .session = options.session, .web = options.web});
+}
+
 int replay(ReplayOptions const& options) {
+  if (map::is_store(options.place)) return replay_kept(options);
+  if (!options.session.empty())
+    return host::refuse(
+        {base::ErrorKind::invalid_input,
+         fmt::format("{}: this is no store, so there is no session in it", options.place),
+         "--session names one of a store: a folder that a station was given by --store, or postgresql://..."});
   auto const file = host::find_recording(options.place);
   if (!file) return host::refuse(file.error());
   auto const began = begin_of(*file);
@@ -143,7 +160,10 @@ int replay(ReplayOptions const& options) {
 void add_replay(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   auto* verb = begin_verb(program, "replay");
-  verb->add_option("recording", options->place, "A .tlog file, or a folder with some: its youngest")->required();
+  verb->add_option("recording", options->place,
+                   "A .tlog file, or a folder with some: its youngest; or a station's store, to look back in")
+      ->required();
+  verb->add_option("--session", options->session, "Of a store: which session, by name or id; default the newest");
   verb->add_flag("--headless", options->headless, "No map: play as fast as it goes and tell what was in it");
   verb->add_option("--report", options->report, "Write which vehicles moved how far to this file as JSON");
   host::add_web_options(*verb, options->web);
