@@ -7,6 +7,7 @@ import { grids } from './found/grids';
 import { pointsOfInterest } from './found/points_of_interest';
 import { slots } from './found/slots';
 import { walls } from './found/walls';
+import { changes } from './changes';
 import { destinations } from './destinations';
 import { grid } from './grid';
 import { homes } from './homes';
@@ -33,6 +34,7 @@ const LAYERS: readonly MakeLayer[] = [
   intents,
   homes,
   pointsOfInterest,
+  changes,
   vehicles,
   measure,
 ];

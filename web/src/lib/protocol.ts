@@ -145,6 +145,8 @@ export interface Hello {
   /** Revisions mean something within one run of the station only. */
   run?: string;
   feeds?: FeedEntry[];
+  /** The station has no present: this session of what it keeps is what there is to see. */
+  looks_back?: { session: string };
 }
 
 export interface FeedEntry {

@@ -4,6 +4,7 @@ import { flushSync } from 'svelte';
 import { describe, expect, it } from 'vitest';
 import { Archive } from './archive';
 import { timeOf } from './clock';
+import { Comparison } from './comparison.svelte';
 import { Player } from './player.svelte';
 import TimeBar from './TimeBar.svelte';
 
@@ -13,13 +14,15 @@ const sessions = [
   { id: 'old', name: '', began_ms: began_ms - 9e7, ended_ms: began_ms - 8e7 },
 ];
 
-async function open(answer: unknown = { sessions, frames: [], complete_to_ms: 0 }) {
-  const player = new Player(new Archive(() => Promise.resolve(Response.json(answer))), 'yard');
+async function open(answer: unknown = { sessions, frames: [], complete_to_ms: 0 }, hasPresent = true) {
+  const archive = new Archive(() => Promise.resolve(Response.json(answer)));
+  const player = new Player(archive, 'yard');
+  const comparison = new Comparison(archive, player, () => {});
   let isLive = false;
-  render(TimeBar, { player, onlive: () => (isLive = true) });
+  render(TimeBar, { player, comparison, onlive: hasPresent ? () => (isLive = true) : undefined });
   await player.open();
   flushSync();
-  return { player, isLive: () => isLive };
+  return { player, comparison, isLive: () => isLive };
 }
 
 describe('the time bar', () => {
@@ -31,7 +34,7 @@ describe('the time bar', () => {
 
   it('asks for a moment once the slider is let go, and shows the time on the way', async () => {
     const { player } = await open();
-    const slider = screen.getByRole('slider');
+    const slider = screen.getByRole('slider', { name: 'Moment' });
     const before = player.at_ms;
     await fireEvent.input(slider, { target: { value: String(began_ms + 60_000) } });
     expect(screen.getByText('14:01:00')).toBeInTheDocument();
@@ -55,6 +58,27 @@ describe('the time bar', () => {
     expect(player.session?.id).toBe('old');
     await user.click(screen.getByRole('button', { name: 'Back to live' }));
     expect(isLive()).toBe(true);
+  });
+
+  it('compares the moment with another one, by a second handle or with now', async () => {
+    const user = userEvent.setup();
+    const { player, comparison } = await open();
+    expect(screen.queryByRole('slider', { name: 'Compare with' })).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'Compare' }));
+    expect(comparison.marked).toEqual({ session: 'new', at_ms: began_ms + 540_000 });
+    const mark = screen.getByRole('slider', { name: 'Compare with' });
+    await fireEvent.change(mark, { target: { value: String(began_ms + 60_000) } });
+    expect(comparison.marked).toEqual({ session: 'new', at_ms: began_ms + 60_000 });
+    await user.click(screen.getByRole('button', { name: 'With now' }));
+    expect(player.at_ms).toBe(began_ms + 600_000);
+    expect(comparison.marked?.at_ms).toBe(began_ms + 60_000);
+    await user.click(screen.getByRole('button', { name: 'Compare' }));
+    expect(comparison.isOn).toBe(false);
+  });
+
+  it('offers no present where there is none', async () => {
+    await open(undefined, false);
+    expect(screen.queryByRole('button', { name: 'Back to live' })).toBeNull();
   });
 
   it('says what is wrong where nothing is kept', async () => {

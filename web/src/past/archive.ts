@@ -1,3 +1,5 @@
+import { changesOf, type Changes } from './changes';
+
 /** One run of a station whose past is kept. Times are ms since 1970. */
 export interface KeptSession {
   id: string;
@@ -16,6 +18,11 @@ export interface KeptPart {
   frames: KeptFrame[];
   /** Up to there none is missing. */
   complete_to_ms: number;
+}
+
+export interface KeptMoment {
+  session: string;
+  at_ms: number;
 }
 
 /** Asks the station over HTTP; nothing when it does not answer. */
@@ -46,6 +53,12 @@ export class Archive {
     const { frames, complete_to_ms } = await this.get(`/api/v1/history/${encodeURIComponent(session)}/frames?${query}`);
     if (typeof complete_to_ms !== 'number') throw new NoPast('The station does not say how far its past goes.');
     return { frames: framesOf(frames), complete_to_ms };
+  }
+
+  /** What has changed from one moment to another, which may be of another session. */
+  async changes(from: KeptMoment, to: KeptMoment): Promise<Changes> {
+    const query = `from_ms=${Math.round(from.at_ms)}&to_session=${encodeURIComponent(to.session)}&to_ms=${Math.round(to.at_ms)}`;
+    return changesOf(await this.get(`/api/v1/history/${encodeURIComponent(from.session)}/changes?${query}`));
   }
 
   private async get(address: string): Promise<Record<string, unknown>> {

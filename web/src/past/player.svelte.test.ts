@@ -72,6 +72,24 @@ describe('looking back', () => {
     expect(stores.session.operator).toBe('');
   });
 
+  it('plays a session that is wanted from its beginning', async () => {
+    const { player } = playing();
+    await player.play('old');
+    expect([player.session?.id, player.at_ms, player.isPlaying]).toEqual(['old', 500_000, true]);
+  });
+
+  it('asks for pictures of what is shown as of then', async () => {
+    const { player } = playing();
+    const past = (): { session: string; at_ms: number } => ({ session: player.session!.id, at_ms: player.at_ms });
+    const network = { open: () => player.socket, fetch: () => Promise.reject(new Error('asked')), token: undefined, keepToken: () => {} };
+    await player.open(1_010_000);
+    const looksBack = createStores({ ...network, past }, quiet);
+    const isLive = createStores(network, quiet);
+    expect(looksBack.session.addressThen('/p?revision=2')).toBe('/p?revision=2&session=new&at_ms=1010000');
+    expect(isLive.session.addressThen('/p?revision=2')).toBe('/p?revision=2');
+    for (const { session } of [looksBack, isLive]) session.end();
+  });
+
   it('leaves out what is no session', async () => {
     const { player } = playing();
     await player.open();

@@ -45,13 +45,26 @@ export class Player {
 
   /** Which sessions there are; shows the newest at that moment, or a minute before its end. */
   async open(at_ms?: number): Promise<void> {
+    const newest = await this.find();
+    if (newest) await this.seek(at_ms ?? newest.ended_ms - 60_000);
+  }
+
+  /** Plays that session from its beginning. */
+  async play(id: string): Promise<void> {
+    if (!(await this.find(id))) return;
+    await this.seek(this.began_ms);
+    this.isPlaying = !this.failure;
+  }
+
+  /** The newest, where no other is wanted. */
+  private async find(wanted?: string): Promise<KeptSession | undefined> {
     await this.guarded(async () => {
       this.sessions = await this.archive.sessions();
       const [newest] = this.sessions;
       if (!newest) throw new NoPast('Nothing is kept yet.');
-      this.session = newest;
+      this.session = this.sessions.find(({ id }) => id === wanted) ?? newest;
     });
-    if (this.session) await this.seek(at_ms ?? this.ended_ms - 60_000);
+    return this.session;
   }
 
   async choose(id: string): Promise<void> {
@@ -77,6 +90,16 @@ export class Player {
       );
     });
     if (seek === this.seeks) this.isLoading = false;
+  }
+
+  /** The end of the newest session: the present, where it goes on. */
+  async showNewest(): Promise<void> {
+    this.isPlaying = false;
+    await this.guarded(async () => {
+      this.sessions = await this.archive.sessions();
+      this.session = this.sessions[0] ?? this.session;
+    });
+    await this.seek(this.ended_ms);
   }
 
   /** By so many seconds. */

@@ -11,8 +11,8 @@ export interface Network {
   fetch(address: string, init: RequestInit): Promise<Response>;
   readonly token: string | undefined;
   keepToken(token: string): void;
-  /** The clock of what is shown, in ms; this browser's where it says nothing. */
-  now?(): number;
+  /** Which moment of what is kept is shown; missing: the present, by this browser's clock. */
+  past?(): { session: string; at_ms: number };
 }
 
 /** A store that hears what the session hears, in the order in which they were given to it. */
@@ -34,6 +34,8 @@ export class Session {
   lastHeard = $state(0);
   site = $state.raw<Hello['site']>({ name: '' });
   version = $state('');
+  /** The session that a station without a present looks back at. */
+  looksBackAt = $state('');
   /** What this viewer is called as a commander; empty where vehicles cannot be commanded. */
   operator = $state('');
   /** The last thing to be told at once, for screen readers. */
@@ -91,7 +93,15 @@ export class Session {
 
   /** What is shown was long ago. */
   get isPast(): boolean {
-    return this.network.now !== undefined;
+    return this.network.past !== undefined;
+  }
+
+  /** Of pictures of what is shown: those of the moment that is. */
+  addressThen(address: string): string {
+    const moment = this.network.past?.();
+    if (!moment) return address;
+    const query = `session=${encodeURIComponent(moment.session)}&at_ms=${Math.round(moment.at_ms)}`;
+    return `${address}${address.includes('?') ? '&' : '?'}${query}`;
   }
 
   get hasToken(): boolean {
@@ -139,7 +149,7 @@ export class Session {
   }
 
   private clockNow(): number {
-    return this.network.now?.() ?? performance.now();
+    return this.network.past?.().at_ms ?? performance.now();
   }
 
   private tick(): void {
@@ -155,12 +165,13 @@ export class Session {
     for (const receiver of this.receivers) if (!feed || receiver.feeds.includes(feed)) receiver.received?.(message, now);
   }
 
-  private greet({ protocol, site, version, operator = '' }: Hello): void {
+  private greet({ protocol, site, version, operator = '', looks_back }: Hello): void {
     if (this.phase === 'lost') this.announce('The station is back.');
     if (protocol !== PROTOCOL) this.announce(`The station speaks protocol ${protocol}: reload this page.`);
     this.phase = 'live';
     this.site = site;
     this.version = version;
+    this.looksBackAt = looks_back?.session ?? '';
     this.operator = operator;
   }
 

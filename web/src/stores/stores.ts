@@ -4,6 +4,7 @@ import { BrowserVoices, type Voices } from '../lib/announcer';
 import { rememberToken, socketUrl, takeToken } from '../connection/token';
 import { AlarmsStore } from './alarms.svelte';
 import { BaseMapsStore } from './base_maps.svelte';
+import { ChangesStore } from './changes.svelte';
 import { ControlStore } from './control.svelte';
 import { ExportsStore } from './exports.svelte';
 import { FeedsStore } from './feeds.svelte';
@@ -26,6 +27,7 @@ export interface Stores {
   history: HistoryStore;
   mapLayers: MapLayersStore;
   feeds: FeedsStore;
+  changes: ChangesStore;
   floors: FloorsStore;
   baseMaps: BaseMapsStore;
   exports: ExportsStore;
@@ -49,6 +51,7 @@ export function createStores(network: Network, voices: Voices): Stores {
   const layers = new LayersStore(session, fleet);
   const feeds = new FeedsStore(session);
   const floors = new FloorsStore(feeds);
+  const changes = new ChangesStore();
   const baseMaps = new BaseMapsStore(session);
   const exports = new ExportsStore(session);
   const placing = new PlacingStore(session);
@@ -60,7 +63,7 @@ export function createStores(network: Network, voices: Voices): Stores {
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   // Who reads another store hears after it.
   session.begin([fleet, layers, history, control, scripts, log, alarms, baseMaps]);
-  return { session, fleet, layers, history, mapLayers, feeds, floors, baseMaps, exports, placing, scripts, control, log, alarms, settings };
+  return { session, fleet, layers, history, mapLayers, feeds, changes, floors, baseMaps, exports, placing, scripts, control, log, alarms, settings };
 }
 
 /** The stores of this page, over its own station. */

@@ -5,15 +5,17 @@ import { EMPTY, type MakeLayer } from '../layer';
 import { tilesWithin, type LonLatBox } from './tile_span';
 
 /** An occupancy grid of a floor: not its cells, but where its pictures are, and which part of them is new. */
-interface MapGrid {
+export interface MapGrid {
   key: string;
   properties: { site: string; floor: string };
   bounds: LonLatBox;
   /** Address of its pictures as they are now, with {z}, {x} and {y}. */
   pictures: string;
   tiling: { origin: [number, number]; x: [number, number]; y: [number, number] };
+  /** Since it was drawn. */
   changed: readonly (readonly [number, number])[];
   isNew: boolean;
+  isDrawn: boolean;
 }
 
 /** Below what lies on the ground, so its looks are put under this one, which shows nothing. */
@@ -27,7 +29,8 @@ export const grids: MakeLayer = ({ feeds, floors, mapLayers, session }) => {
   let on: MapLibreMap | undefined;
 
   function show(map: MapLibreMap, grid: MapGrid, before: MapGrid | undefined, opacity: number): void {
-    stationTiles.set(grid.key, grid.pictures, (address) => session.ask(address));
+    stationTiles.set(grid.key, session.addressThen(grid.pictures), (address) => session.ask(address));
+    grid.isDrawn = true;
     const isSame = before && before.bounds.join() === grid.bounds.join();
     if (!isSame && map.getLayer(grid.key)) drop(map, grid.key);
     if (!map.getSource(grid.key)) {
@@ -81,14 +84,20 @@ export const grids: MakeLayer = ({ feeds, floors, mapLayers, session }) => {
   };
 };
 
-function take(grids: ReadonlyMap<string, MapGrid>, { content, whole }: Frame): ReadonlyMap<string, MapGrid> {
+export function take(grids: ReadonlyMap<string, MapGrid>, { content, whole }: Frame): ReadonlyMap<string, MapGrid> {
   if (content instanceof Uint8Array || content.type !== 'grids' || !Array.isArray(content.grids)) return grids;
   const next = new Map(whole ? [] : grids);
   for (const one of content.grids as unknown[]) {
     const grid = gridOf(one);
-    if (grid) next.set(grid.key, grid);
+    if (grid) next.set(grid.key, following(grids.get(grid.key), grid));
   }
   return next;
+}
+
+/** What came before and has not been drawn yet is still to be drawn. */
+function following(before: MapGrid | undefined, grid: MapGrid): MapGrid {
+  if (!before || before.isDrawn) return grid;
+  return { ...grid, isNew: grid.isNew || before.isNew, changed: [...before.changed, ...grid.changed] };
 }
 
 function gridOf(value: unknown): MapGrid | undefined {
@@ -104,6 +113,7 @@ function gridOf(value: unknown): MapGrid | undefined {
     tiling: tiling as MapGrid['tiling'],
     changed: cells,
     isNew: full === true,
+    isDrawn: false,
   };
 }
 

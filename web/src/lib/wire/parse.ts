@@ -194,6 +194,7 @@ const HELLO: Shape<Hello> = {
   site: object({ name: text, origin: position, tiles: text }, []),
   run: text,
   feeds: list(object<FeedEntry>({ name: text, id: count }, ['name', 'id']), ({ id }) => id),
+  looks_back: object({ session: text }, ['session']),
 };
 const SCRIPT: Shape<Script> = {
   name: text,
