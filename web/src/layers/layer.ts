@@ -32,6 +32,8 @@ export interface Drawing {
   readonly source: (id: string) => GeoJSONSource | undefined;
   /** What the layer paints has changed. */
   readonly wantsPaint: () => void;
+  /** Gives sources what has changed, as often as this machine can draw it; of what has to wait the newest by that name is done. */
+  readonly paced: (name: string, work: () => void) => void;
 }
 
 /** What lies at a place on the screen. */

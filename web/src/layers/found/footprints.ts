@@ -11,7 +11,8 @@ export const footprints = foundLayer({
         id: 'footprints-fill',
         type: 'fill',
         filter: ['==', ['geometry-type'], 'Polygon'],
-        paint: { 'fill-color': accent, 'fill-opacity': 0.04 },
+        // Its edge is drawn by the line.
+        paint: { 'fill-antialias': false, 'fill-color': accent, 'fill-opacity': 0.04 },
       },
       {
         id: 'footprints-line',

@@ -33,7 +33,11 @@ export function foundLayer({ id, name, legend, looks }: Found): MakeLayer {
         return all;
       },
       update(drawing) {
-        if (drawing.generation > 0) drawn.show(drawing.source(source), drawing.generation, features.content, floors.isShown);
+        const { generation } = drawing;
+        const shown = new Map([...features.content].filter(([, feature]) => floors.isShown(feature)));
+        // A new style has asked for what it shows by then.
+        if (generation > 0)
+          drawing.paced(source, () => drawing.generation === generation && drawn.show(drawing.source(source), generation, shown));
       },
       hit({ x, y }, within, { map }): Hit | undefined {
         const reach = within / 3;

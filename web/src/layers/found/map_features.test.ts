@@ -38,18 +38,17 @@ describe('drawing them', () => {
     const told: unknown[] = [];
     const source = { setData: (data: unknown) => told.push(data), updateData: (data: unknown) => told.push(data) } as never;
     const drawn = new DrawnFeatures();
-    const all = (): boolean => true;
     const first: MapFeatures = new Map([['a', slot('a', 'free')], ['b', slot('b', 'free')]]); // prettier-ignore
-    drawn.show(source, 1, first, all);
+    drawn.show(source, 1, first);
     expect(told).toHaveLength(1);
     const second = tell(first, { full: false, features: [slot('b', 'taken')], removed: ['a'] });
-    drawn.show(source, 1, second, all);
+    drawn.show(source, 1, second);
     expect(told[1]).toMatchObject({ remove: ['a'], add: [{ id: 'b', properties: { state: 'taken', id: 'b' } }] });
-    drawn.show(source, 1, second, all);
+    drawn.show(source, 1, second);
     expect(told).toHaveLength(2);
-    drawn.show(source, 1, second, () => false);
+    drawn.show(source, 1, new Map());
     expect(told[2]).toMatchObject({ remove: ['b'], add: [] });
-    drawn.show(source, 2, second, all);
+    drawn.show(source, 2, second);
     expect(told[3]).toMatchObject({ type: 'FeatureCollection' });
   });
 });

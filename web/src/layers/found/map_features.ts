@@ -52,10 +52,8 @@ export class DrawnFeatures {
   private drawn: MapFeatures = new Map();
   private generation = 0;
 
-  /** Those of `features` that are `shown`. */
-  show(source: GeoJSONSource | undefined, generation: number, features: MapFeatures, shown: (feature: MapFeature) => boolean): void {
+  show(source: GeoJSONSource | undefined, generation: number, wanted: MapFeatures): void {
     if (!source) return;
-    const wanted = new Map([...features].filter(([, feature]) => shown(feature)));
     if (generation !== this.generation) {
       source.setData({ type: 'FeatureCollection', features: [...wanted.values()].map(marked) });
     } else {

@@ -20,7 +20,11 @@ export const slots = foundLayer({
   legend: [{ sign: 'area', text: 'a slot: ○ free, × taken, ? nobody knows' }],
   looks: (colours) =>
     [
-      { id: 'slots-fill', type: 'fill', paint: { 'fill-color': colourOf(colours), 'fill-opacity': byState(0.16, 0.55, 0.08) } },
+      {
+        id: 'slots-fill',
+        type: 'fill',
+        paint: { 'fill-antialias': false, 'fill-color': colourOf(colours), 'fill-opacity': byState(0.16, 0.55, 0.08) },
+      },
       { id: 'slots-line', type: 'line', minzoom: 16, paint: { 'line-color': colourOf(colours), 'line-width': 1.2 } },
       {
         id: 'slots-sign',
