@@ -16,8 +16,8 @@ import harness
 import reader
 
 GUIDES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs/guide").glob("*.md"))]
-# Settings of editors; editors.md's are tried by those who use them.
-FOREIGN = ("lua", "toml", "elisp")
+# Settings of other programs; editors.md's are tried by those who use them.
+FOREIGN = ("lua", "toml", "elisp", "ini", "nginx")
 
 
 def is_as_estimated(mission: dict) -> bool:

@@ -25,6 +25,7 @@ export class PlacingStore {
   round = $state(0);
   private image = '';
   private thumbnail = '';
+  private takenAt = '';
 
   constructor(private readonly session: Session) {}
 
@@ -49,7 +50,7 @@ export class PlacingStore {
 
   /** One that lies there: by three of its corners, which are as good as any places. */
   async adjust(feature: MapFeature): Promise<void> {
-    const { image, thumbnail, media_type, width_px, height_px, site, floor } = feature.properties;
+    const { image, thumbnail, taken_at, media_type, width_px, height_px, site, floor } = feature.properties;
     const ring = feature.geometry.type === 'Polygon' ? feature.geometry.coordinates[0] : undefined;
     const answer = await this.session.ask(`/api/v1/blobs/${String(image)}`);
     const bytes = answer?.ok ? await answer.blob() : undefined;
@@ -65,7 +66,7 @@ export class PlacingStore {
     this.pairs = [{ u: 0, v: 0, at: at(0) }, { u: width, v: 0, at: at(1) }, { u: width, v: height, at: at(2) }]; // prettier-ignore
     this.method = typeof this.placed !== 'string' && this.placed.residual_m < 0.01 ? 'similarity' : 'affine';
     [this.id, this.site, this.floor] = [feature.id, String(site), typeof floor === 'string' ? floor : ''];
-    [this.image, this.thumbnail] = [String(image), typeof thumbnail === 'string' ? thumbnail : ''];
+    [this.image, this.thumbnail, this.takenAt] = [String(image), typeof thumbnail === 'string' ? thumbnail : '', String(taken_at)];
     this.round += 1;
   }
 
@@ -141,6 +142,7 @@ export class PlacingStore {
         floor: this.floor,
         image: this.image,
         ...(this.thumbnail && { thumbnail: this.thumbnail }),
+        taken_at: this.takenAt || new Date().toISOString(),
         media_type: picture.media_type,
         width_px: picture.width,
         height_px: picture.height,
@@ -162,7 +164,7 @@ export class PlacingStore {
   private clear(): void {
     this.picture = this.waiting = undefined;
     this.pairs = [];
-    [this.method, this.id, this.failure, this.image, this.thumbnail] = ['similarity', '', '', '', ''];
+    [this.method, this.id, this.failure, this.image, this.thumbnail, this.takenAt] = ['similarity', '', '', '', '', ''];
   }
 }
 

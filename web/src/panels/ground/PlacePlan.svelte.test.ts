@@ -62,7 +62,7 @@ it('leads from place to place, tells how well they fit, and lays the picture on 
   const put = asked.find(({ method }) => method === 'PUT')!;
   expect(put.address).toBe('/api/v1/layers/pictures/features/office%20abcdef?writer=operator%201');
   const feature = JSON.parse(put.body as string) as { geometry: { coordinates: number[][][] }; properties: Record<string, unknown> };
-  expect(feature.properties).toMatchObject({ site: 'demo', floor: '1', image: 'abcdef12', width_px: 200, height_px: 100 });
+  expect(feature.properties).toMatchObject({ site: 'demo', floor: '1', image: 'abcdef12', taken_at: expect.any(String) as string, width_px: 200, height_px: 100 });
   const metres = feature.geometry.coordinates[0]!.map((corner) => corner.map((degrees) => Math.round(degrees / METRE)));
   expect(metres).toEqual([[10, 20], [30, 20], [30, 10], [10, 10], [10, 20]]); // prettier-ignore
 });
@@ -97,7 +97,7 @@ it('says what is wrong with places, and keeps the picture when the station refus
 
 it('lists what was laid there, to adjust it and to take it away, and no pictures of vehicles', async () => {
   const ring = [[0, 0], [20, 0], [20, -10], [0, -10], [0, 0]].map((corner) => corner.map((one) => one * METRE)); // prettier-ignore
-  const plan = { type: 'Feature', id: 'office', geometry: { type: 'Polygon', coordinates: [ring] }, properties: { site: 'demo', floor: '1', image: 'aa', media_type: 'image/png', width_px: 200, height_px: 100, writer: 'operator 1' } }; // prettier-ignore
+  const plan = { type: 'Feature', id: 'office', geometry: { type: 'Polygon', coordinates: [ring] }, properties: { site: 'demo', floor: '1', image: 'aa', taken_at: '2026-11-01T00:00:00Z', media_type: 'image/png', width_px: 200, height_px: 100, writer: 'operator 1' } }; // prettier-ignore
   const taken = { ...plan, id: 'seen', properties: { ...plan.properties, vehicle: '3' } };
   station.tell({
     type: 'features',
@@ -121,6 +121,7 @@ it('lists what was laid there, to adjust it and to take it away, and no pictures
   await waitFor(() =>
     expect(asked.at(-1)).toMatchObject({ method: 'PUT', address: expect.stringContaining('/features/office?') as string }),
   );
+  expect(asked.at(-1)!.body as string, 'a picture does not change').toContain('"taken_at":"2026-11-01T00:00:00Z"');
   expect(
     asked.some(({ method }) => method === 'POST'),
     'the picture is in the store already',
