@@ -79,7 +79,7 @@ async function firstMission() {
   });
 }
 
-/** What lies on the ground: what was found, a plan that is being laid there, and the past. */
+/** What lies on the ground: what was found, a plan that is being laid there, and what goes into a file. */
 async function ground() {
   const world = await startWorld();
   try {
@@ -117,11 +117,6 @@ async function ground() {
     await page.getByRole('region', { name: 'Export' }).scrollIntoViewIfNeeded();
     await page.getByRole('region', { name: 'Export' }).getByRole('button', { name: 'Export' }).waitFor();
     await picture('ground-export.png');
-    await page.getByRole('button', { name: 'Look back' }).click();
-    await page.getByRole('slider', { name: 'Moment' }).and(page.locator(':enabled')).waitFor();
-    await vehicle(page, 'copter 1').waitFor();
-    await atRest(page);
-    await picture('ground-past.png');
     if (complaints.length > 0) throw new Error(complaints.join('\n'));
   } finally {
     await world.stop();

@@ -62,7 +62,14 @@ it('leads from place to place, tells how well they fit, and lays the picture on 
   const put = asked.find(({ method }) => method === 'PUT')!;
   expect(put.address).toBe('/api/v1/layers/pictures/features/office%20abcdef?writer=operator%201');
   const feature = JSON.parse(put.body as string) as { geometry: { coordinates: number[][][] }; properties: Record<string, unknown> };
-  expect(feature.properties).toMatchObject({ site: 'demo', floor: '1', image: 'abcdef12', taken_at: expect.any(String) as string, width_px: 200, height_px: 100 });
+  expect(feature.properties).toMatchObject({
+    site: 'demo',
+    floor: '1',
+    image: 'abcdef12',
+    taken_at: expect.any(String) as string,
+    width_px: 200,
+    height_px: 100,
+  });
   const metres = feature.geometry.coordinates[0]!.map((corner) => corner.map((degrees) => Math.round(degrees / METRE)));
   expect(metres).toEqual([[10, 20], [30, 20], [30, 10], [10, 10], [10, 20]]); // prettier-ignore
 });
