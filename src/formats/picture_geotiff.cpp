@@ -89,7 +89,7 @@ base::Result<Image> decoded(std::string const& bytes) {
 Eigen::Matrix3d homography(std::array<Eigen::Vector2d, 4> const& ground, std::array<Eigen::Vector2d, 4> const& pixels) {
   Eigen::Matrix<double, 8, 8> equations = Eigen::Matrix<double, 8, 8>::Zero();
   Eigen::Matrix<double, 8, 1> values;
-  for (int i = 0; i < 4; ++i) {
+  for (Eigen::Index i = 0; i < 4; ++i) {
     auto const& from = ground[static_cast<std::size_t>(i)];
     auto const& to = pixels[static_cast<std::size_t>(i)];
     equations.row(2 * i) << from.x(), from.y(), 1.0, 0.0, 0.0, 0.0, -to.x() * from.x(), -to.x() * from.y();

@@ -276,8 +276,6 @@ Standing Goal::return_home(MavlinkVehicle const& craft, TimePoint now) const {
 }
 
 Standing Goal::go_to(MavlinkVehicle const& craft, TimePoint now) {
-  constexpr Duration stuck = 20s;
-  constexpr double widest_circle_m = 500.0;
   auto const& state = craft.state;
   auto const left_m = distance_m(craft, *command_.place);
   auto const to_go = left_m ? metres(*left_m) + " to go" : std::string("position not told");
@@ -297,20 +295,28 @@ Standing Goal::go_to(MavlinkVehicle const& craft, TimePoint now) {
   if (!heads_there_ && tells_target)
     return {Kind::unseen, fmt::format("it heads for a place {} from there", metres(off_m))};
   if (!heads_there_) return {Kind::unseen, "it does not come nearer"};
+  return arrival(craft, now, *left_m);
+}
+
+Standing Goal::arrival(MavlinkVehicle const& craft, TimePoint now, double left_m) const {
+  constexpr Duration stuck = 20s;
+  constexpr double widest_circle_m = 500.0;
+  auto const& state = craft.state;
+  bool const is_there = left_m <= arrival_m(state.family);
   auto const height = height_wanted_m_ ? height_m(craft) : std::nullopt;
   double const climb_m = height ? *height_wanted_m_ - *height : 0.0;
   double const tolerance_m = circles(state.family) ? 15.0 : std::max(1.5, 0.05 * height_wanted_m_.value_or(0.0));
   bool const is_high_enough = std::abs(climb_m) <= tolerance_m;
-  bool const circles_it = circles(state.family) && *left_m < widest_circle_m && nearing_->no_nearer_for(now) > stuck;
+  bool const circles_it = circles(state.family) && left_m < widest_circle_m && nearing_->no_nearer_for(now) > stuck;
   if ((is_there || circles_it) && is_high_enough)
-    return {Kind::reached, circles(state.family) ? fmt::format("circles it, {} away", metres(*left_m)) : "there"};
-  double const way_m = std::hypot(*left_m, climb_m);
+    return {Kind::reached, circles(state.family) ? fmt::format("circles it, {} away", metres(left_m)) : "there"};
+  double const way_m = std::hypot(left_m, climb_m);
   if (is_there)
     return {Kind::under_way, fmt::format("{} to {}", metres(std::abs(climb_m)), climb_m > 0 ? "climb" : "sink"), way_m};
-  bool const is_stuck = nearing_->no_nearer_for(now) > stuck && *left_m > nearing_->nearest_m - 1.0;
+  bool const is_stuck = nearing_->no_nearer_for(now) > stuck && left_m > nearing_->nearest_m - 1.0;
   auto const since = is_stuck ? fmt::format(", no nearer for {:.0f} s", base::to_seconds(nearing_->no_nearer_for(now)))
                               : std::string();
-  return {Kind::under_way, to_go + since, way_m};
+  return {Kind::under_way, metres(left_m) + " to go" + since, way_m};
 }
 
 }  // namespace lapwing::fleet

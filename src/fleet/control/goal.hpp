@@ -61,6 +61,8 @@ class Goal {
   [[nodiscard]] Standing landing(MavlinkVehicle const& craft, base::TimePoint now) const;
   [[nodiscard]] Standing return_home(MavlinkVehicle const& craft, base::TimePoint now) const;
   [[nodiscard]] Standing go_to(MavlinkVehicle const& craft, base::TimePoint now);
+  /// Of what heads for the place: whether it is there, or how far it has to go.
+  [[nodiscard]] Standing arrival(MavlinkVehicle const& craft, base::TimePoint now, double left_m) const;
 
   vehicle::VehicleCommand command_;
   base::TimePoint since_{};

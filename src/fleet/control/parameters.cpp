@@ -44,7 +44,9 @@ class Parameters::Loan {
   Loan& operator=(Loan const&) = delete;
   ~Loan() {
     // None left although this one goes on: its holder has commanded the vehicle since, and keeps it.
-    if (!is_lent_ || loans() == 0 || --loans() > 0) return;
+    if (!is_lent_ || loans() == 0) return;
+    --loans();
+    if (loans() > 0) return;
     (void)owner_.fleet_.authority().yield(craft_.id(), by_);
   }
 

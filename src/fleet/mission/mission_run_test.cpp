@@ -18,11 +18,11 @@ using vehicle::VehicleId;
 VehicleId const one{"1"};
 
 struct MissionRun : testing::Test {
-  std::unique_ptr<tasks::TaskRun> start(plan::Mission mission, VehicleId const& id = one) {
+  std::unique_ptr<tasks::TaskRun> start(plan::Mission mission, VehicleId const& id = one) const {
     return world->platform->start(task_of(std::move(mission)), id);
   }
   /// The state in which the run ended, `in_progress` when it did not.
-  RunState end_of(tasks::TaskRun const& run, base::Duration limit = 300s) {
+  RunState end_of(tasks::TaskRun const& run, base::Duration limit = 300s) const {
     (void)world->run_until([&run] { return run.state() != RunState::in_progress; }, limit);
     return run.state();
   }

@@ -14,10 +14,10 @@ using vehicle::VehicleId;
 VehicleId const one{"1"};
 
 struct MissionStop : testing::Test {
-  std::unique_ptr<tasks::TaskRun> start(MavCmd last = MavCmd::nav_loiter_unlim) {
+  std::unique_ptr<tasks::TaskRun> start(MavCmd last = MavCmd::nav_loiter_unlim) const {
     return world->platform->start(task_of(mission_ending_with(last)), one);
   }
-  void settle() { world->loop.run_until_done(world->platform->settle()); }
+  void settle() const { world->loop.run_until_done(world->platform->settle()); }
 
   std::unique_ptr<TestWorld> world = std::make_unique<TestWorld>();
 };

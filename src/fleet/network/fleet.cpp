@@ -63,7 +63,7 @@ std::vector<MavlinkVehicle*> Fleet::all() const {
   return crafts;
 }
 
-void Fleet::set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) {
+void Fleet::set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) const {
   if (auto* const craft = find(id)) craft->connection_timeout = timeout;
 }
 

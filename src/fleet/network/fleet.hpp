@@ -35,7 +35,7 @@ class Fleet {
   [[nodiscard]] MavlinkVehicle* find(vehicle::VehicleId const& id) const;
   /// Lost ones included.
   [[nodiscard]] std::vector<MavlinkVehicle*> all() const;
-  void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout);
+  void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) const;
 
   /// Who commands which vehicle.
   [[nodiscard]] vehicle::Authority& authority() { return authority_; }

@@ -59,8 +59,9 @@ void FenceMemory::note(mavlink::Message const& message, Autopilot autopilot, bas
   } else if (auto const* ack = std::get_if<mavlink::MissionAck>(&message)) {
     bool const is_ours = ack->type == mavlink::MissionType::fence || ack->type == mavlink::MissionType::all;
     if (is_ours) areas_.reset();
-  } else if (auto const* current = std::get_if<mavlink::MissionCurrent>(&message)) {
-    if (current->fence_id != 0 && std::exchange(fence_id_, current->fence_id) != current->fence_id) areas_.reset();
+  } else if (auto const* current = std::get_if<mavlink::MissionCurrent>(&message);
+             current && current->fence_id != 0 && std::exchange(fence_id_, current->fence_id) != current->fence_id) {
+    areas_.reset();
   }
 }
 

@@ -57,6 +57,14 @@ std::vector<std::string_view> missing(FenceMemory const& memory, std::span<std::
 }
 
 /// All at once: a link's round trip is waited for once, not ten times.
+Result<> ask_for(MavlinkVehicle& craft, std::span<std::string_view const> names, TimePoint since) {
+  for (auto const name : missing(craft.heard->fence, names, since)) {
+    auto sent = craft.connection.send(craft.address, mavlink::ParamRequestRead{.name = std::string(name)});
+    if (!sent) return sent;
+  }
+  return {};
+}
+
 Task<Result<>> read_values(MavlinkVehicle& craft, TimePoint deadline) {
   auto& loop = craft.connection.loop();
   auto const names = fence_names(craft.state.autopilot, craft.state.family);
@@ -64,10 +72,7 @@ Task<Result<>> read_values(MavlinkVehicle& craft, TimePoint deadline) {
   for (int round = 0;; ++round) {
     auto const next = std::min(begun + (round + 1) * ask_again, deadline);
     for (auto const& some : {names.needed, names.optional})
-      for (auto const name : missing(craft.heard->fence, some, begun))
-        if (auto sent = craft.connection.send(craft.address, mavlink::ParamRequestRead{.name = std::string(name)});
-            !sent)
-          co_return sent;
+      if (auto sent = ask_for(craft, some, begun); !sent) co_return sent;
     while (loop.now() < next) {
       bool const has_all = missing(craft.heard->fence, names.needed, begun).empty() &&
                            missing(craft.heard->fence, names.optional, begun).empty();
