@@ -15,13 +15,15 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 class RecordingTest : public testing::Test {
+ public:
+  ~RecordingTest() override { fs::remove_all(folder_); }
+
  protected:
   RecordingTest() {
     fs::remove_all(folder_);
     connection_.add_link(std::move(pipe_.b));
     pipe_.a->start([](link::Peer, link::Bytes) {});
   }
-  ~RecordingTest() override { fs::remove_all(folder_); }
 
   base::Task<> pass(base::Duration time) { co_await loop_.sleep(time); }
   void run_for(base::Duration time) { loop_.run_until_done(pass(time)); }

@@ -28,7 +28,7 @@ struct StationMapTest : ::testing::Test {
     EXPECT_TRUE(kept) << kept.error().message;
     return kept ? *std::move(kept) : nullptr;
   }
-  void put_wall(LiveMap& map) {
+  void put_wall(LiveMap& map) const {
     map.put_site(geo::Site::make("yard", geo::Wgs84::from_degrees(41.0, -8.0)).value());
     auto const put = map.put({.id = "w",
                               .site = "yard",

@@ -19,7 +19,7 @@ struct TrackWriterTest : ::testing::Test {
   }
   base::Task<> wait(base::Duration time) { co_await loop.sleep(time); }
   void go_on(base::Duration time) { loop.run_until_done(wait(time)); }
-  std::vector<lapwing::map::Track> tracks() {
+  [[nodiscard]] std::vector<lapwing::map::Track> tracks() const {
     std::vector<lapwing::map::Track> all;
     for (auto const& [id, site] : map.sites())
       for (auto const* record : map.within(LayerKind::tracks, id, std::nullopt, 1000))

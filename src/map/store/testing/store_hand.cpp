@@ -28,7 +28,8 @@ constexpr int step = 20;
 /// Everything about it follows from its number, so that half of one would show.
 std::string picture_of(std::string const& writer, int number) {
   std::string bytes = fmt::format("{} {} ", writer, number);
-  while (bytes.size() < 20'000) bytes += fmt::format("{:x} ", static_cast<unsigned>(number) * 2654435761U + bytes.size());
+  while (bytes.size() < 20'000)
+    bytes += fmt::format("{:x} ", static_cast<unsigned>(number) * 2654435761U + bytes.size());
   return bytes;
 }
 
