@@ -59,13 +59,13 @@ double rounded(double value, double steps) {
 
 nlohmann::json json_of(std::vector<Found> const& found) {
   auto all = nlohmann::json::array();
-  for (auto const& [picture, detections] : found) {
-    for (auto const& detection : detections) {
+  for (auto const& one : found) {
+    for (auto const& detection : one.detections) {
       auto const& box = detection.box;
       constexpr double tenths = 10.0;
       constexpr double thousandths = 1000.0;
       nlohmann::json entry{
-          {"image", picture},
+          {"image", one.picture},
           {"category", detection.category},
           {"bbox",
            {rounded(box.x, tenths), rounded(box.y, tenths), rounded(box.width, tenths), rounded(box.height, tenths)}},
@@ -100,7 +100,7 @@ base::Result<Found> look_at(std::string const& picture, Detector const& detector
   for (auto& detection : detections) detection.box = image->to_stored(detection.box);
   auto const drawn = vision::encode_jpeg(vision::annotated(image->stored, detections));
   if (auto const written = host::write_file(overlay, drawn); !written) return std::unexpected(written.error());
-  return Found{picture, std::move(detections)};
+  return Found{picture, image->stored.size(), std::move(detections)};
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ void add_common_options(CLI::App& part, CommonOptions& options);
 /// A picture's file and what was found in it, in stored pixels.
 struct Found {
   std::string picture;
+  cv::Size size{};  ///< as stored
   std::vector<vision::Detection> detections;
 };
 

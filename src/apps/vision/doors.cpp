@@ -1,15 +1,23 @@
 #include <array>
 #include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "apps/verb.hpp"
 #include "apps/vision/detect.hpp"
+#include "apps/vision/truth.hpp"
+#include "host/files/files.hpp"
 #include "vision/doors/classic.hpp"
+#include "vision/signs/sign_finder.hpp"
 
 namespace lapwing::apps::detect {
 
@@ -21,6 +29,8 @@ struct DoorOptions {
   CommonOptions common;
   std::string method = "classic";
   std::string colour;
+  std::filesystem::path truth;
+  bool without_signs = false;
 };
 
 /// "H,S,V-H,S,V".
@@ -40,20 +50,73 @@ std::optional<vision::DoorColour> colour_of(std::string_view text) {
   return vision::DoorColour{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
 }
 
-int doors(DoorOptions const& options) {
-  vision::DoorColour colour;
-  if (!options.colour.empty()) {
-    auto const given = colour_of(options.colour);
-    if (!given) {
-      auto const message = fmt::format("--colour {}: not a range of colours", options.colour);
-      return host::refuse({ErrorKind::invalid_input, message,
-                           "hue (0 to 179), saturation and value (0 to 255), lowest and highest: 5,60,40-25,255,230"});
-    }
-    colour = *given;
+std::string content_of(std::filesystem::path const& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Tesseract, and the recogniser where set-up has made it: without it blurred signs are read less often, which is said.
+base::Result<std::vector<std::unique_ptr<vision::LineReader>>> readers() {
+  std::vector<std::unique_ptr<vision::LineReader>> all;
+  auto tesseract = vision::make_tesseract_reader();
+  if (!tesseract) return std::unexpected(tesseract.error());
+  all.push_back(*std::move(tesseract));
+  auto const folder = host::home_directory() / "build/models";
+  auto const network = folder / "text-recogniser.onnx";
+  if (!std::filesystem::exists(network)) {
+    fmt::print(stderr,
+               "signs are read by Tesseract alone; with {}, which ./lapwing makes, blurred ones are read better\n",
+               network.string());
+    return all;
   }
-  return carry_out(options.common,
-                   [&colour](cv::Mat const& upright) { return vision::doors_by_colour(upright, colour); })
-      .exit_code;
+  auto recogniser = vision::make_recogniser(content_of(network), content_of(folder / "text-recogniser.txt"));
+  if (!recogniser) return std::unexpected(recogniser.error());
+  all.push_back(*std::move(recogniser));
+  return all;
+}
+
+base::Result<vision::DoorColour> door_colour(DoorOptions const& options) {
+  if (options.colour.empty()) return vision::DoorColour();
+  if (auto const given = colour_of(options.colour)) return *given;
+  return base::fail(ErrorKind::invalid_input, fmt::format("--colour {}: not a range of colours", options.colour),
+                    "hue (0 to 179), saturation and value (0 to 255), lowest and highest: 5,60,40-25,255,230");
+}
+
+int judge(DoorOptions const& options, Outcome const& outcome) {
+  auto const evaluation = evaluate_with(options.truth, outcome.found);
+  if (!evaluation) return host::refuse(evaluation.error());
+  auto const& doors = evaluation->doors;
+  // Beside the JSON of standard output.
+  auto* const out = options.common.as_json ? stderr : stdout;
+  if (doors.pictures > 0)
+    fmt::print(out,
+               "doors: {} pictures, {} doors: precision {:.3f}, recall {:.3f}, {:.2f} false a picture, average "
+               "precision {:.3f}\n",
+               doors.pictures, doors.there, doors.precision(), doors.recall(), doors.wrong_a_picture(),
+               doors.average_precision);
+  if (evaluation->signs > 0)
+    fmt::print(out, "signs: {} of {} read exactly\n", evaluation->right_signs, evaluation->signs);
+  return outcome.exit_code;
+}
+
+int doors(DoorOptions const& options) {
+  auto const colour = door_colour(options);
+  if (!colour) return host::refuse(colour.error());
+  std::optional<vision::SignFinder> signs;
+  if (!options.without_signs) {
+    auto all = readers();
+    if (!all) return host::refuse(all.error());
+    signs.emplace(*std::move(all));
+  }
+  auto const outcome = carry_out(options.common, [&](cv::Mat const& upright) {
+    auto found = vision::doors_by_colour(upright, *colour);
+    if (signs) {
+      for (auto& sign : signs->find(upright)) found.push_back(std::move(sign));
+      vision::name_doors(found);
+    }
+    return found;
+  });
+  return options.truth.empty() ? outcome.exit_code : judge(options, outcome);
 }
 
 }  // namespace
@@ -67,6 +130,9 @@ void add_doors(CLI::App& detect, int& exit_code) {
       ->capture_default_str();
   part->add_option("--colour", options->colour,
                    "Of the doors, for the classic way: H,S,V-H,S,V; default: wood and brown");
+  part->add_flag("--no-signs", options->without_signs, "Leave signs unread");
+  part->add_option("--truth", options->truth, "Folder with what people marked in these pictures: says how good it is")
+      ->check(CLI::ExistingDirectory);
   part->callback([options, &exit_code] { exit_code = doors(*options); });
 }
 
