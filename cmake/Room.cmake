@@ -1,9 +1,9 @@
 # lapwing_room(NAME [SOURCES ...] [USES ...] [PRIVATE_USES ...] [TESTS ...])
 #
 # One room of the house: the library lapwing_NAME (alias lapwing::NAME) from src/NAME, and its unit tests as NAME_test.
-# USES names what its headers include, PRIVATE_USES what only its sources do.
+# TEST_ENVIRONMENT: VARIABLE=VALUE for its tests. USES names what its headers include, PRIVATE_USES what only its sources do.
 function(lapwing_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATE_USES;TESTS;TEST_USES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATE_USES;TESTS;TEST_USES;TEST_ENVIRONMENT" ${ARGN})
   set(target lapwing_${name})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})
@@ -24,6 +24,10 @@ function(lapwing_room name)
         set_source_files_properties(${test} PROPERTIES COMPILE_DEFINITIONS LAPWING_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
       endif()
     endforeach()
-    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 60 LABELS unit)
+    set(environment)
+    if(ROOM_TEST_ENVIRONMENT)
+      set(environment ENVIRONMENT ${ROOM_TEST_ENVIRONMENT})
+    endif()
+    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 60 LABELS unit ${environment})
   endif()
 endfunction()
