@@ -6,9 +6,14 @@
 namespace lapwing::explore {
 
 Frontiers::Frontiers(KnownMap const& map, FrontierSettings const& settings)
-    : settings_(settings), given_up_(map.width(), map.height(), 0), seen_by_(map.width(), map.height(), 0) {}
+    : settings_(settings), left_(map.width(), map.height(), 0), seen_by_(map.width(), map.height(), 0) {}
 
 std::vector<Frontier> Frontiers::find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
+  auto found = find_open(map, roads, reach);
+  return found.empty() && take_up_again() ? find_open(map, roads, reach) : found;
+}
+
+std::vector<Frontier> Frontiers::find_open(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
   // Their own order is that in which they came and went; that of the cells is the same for the same map.
   std::vector<std::uint32_t> cells(map.frontier_cells().begin(), map.frontier_cells().end());
   std::ranges::sort(cells);
@@ -17,7 +22,7 @@ std::vector<Frontier> Frontiers::find(KnownMap const& map, RoadMap const& roads,
   auto const round = ++searches_;
   std::vector<Frontier> grown;
   for (auto const index : cells) {
-    if (seen_by_.at_index(index) == round || given_up_.at_index(index) != 0) continue;
+    if (seen_by_.at_index(index) == round || left_.at_index(index) != 0) continue;
     auto frontier = grow(map, map.cell_of(index), most);
     if (frontier.cells.size() >= least) grown.push_back(std::move(frontier));
   }
@@ -42,7 +47,7 @@ Frontier Frontiers::grow(KnownMap const& map, Cell from, std::size_t most_cells)
     for (auto const away : neighbours) {
       auto const next = cell + away;
       if (frontier.cells.size() >= most_cells || !map.is_frontier(next)) continue;
-      if (seen_by_[next] == round || given_up_[next] != 0) continue;
+      if (seen_by_[next] == round || left_[next] != 0) continue;
       seen_by_[next] = round;
       frontier.cells.push_back(static_cast<std::uint32_t>(map.index_of(next)));
     }
@@ -78,12 +83,21 @@ bool Frontiers::find_stand(KnownMap const& map, RoadMap const& roads, RoadMap::T
   return false;
 }
 
-void Frontiers::give_up(Frontier const& frontier) {
-  for (auto const cell : frontier.cells) given_up_.at_index(cell) = 1;
+void Frontiers::mark(Frontier const& frontier, std::uint8_t as) {
+  for (auto const cell : frontier.cells) left_.at_index(cell) = as;
 }
 
-void Frontiers::forgive() {
-  given_up_ = DenseGrid<std::uint8_t>(given_up_.width(), given_up_.height(), 0);
+bool Frontiers::take_up_again() {
+  constexpr int most_times = 2;
+  if (times_taken_up_ == most_times) return false;
+  ++times_taken_up_;
+  bool has_some = false;
+  for (std::size_t i = 0; i < left_.size(); ++i) {
+    if (left_.at_index(i) != was_put_off) continue;
+    left_.at_index(i) = 0;
+    has_some = true;
+  }
+  return has_some;
 }
 
 }  // namespace lapwing::explore

@@ -29,20 +29,26 @@ class Frontiers {
 
   /// Those to which there is a way in `reach`, in order of their cells.
   [[nodiscard]] std::vector<Frontier> find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
-  void give_up(Frontier const& frontier);
-  [[nodiscard]] bool is_given_up(std::size_t cell) const { return given_up_.at_index(cell) != 0; }
-  /// All are open again.
-  void forgive();
+  /// It was looked at from where one can stand, and remained.
+  void give_up(Frontier const& frontier) { mark(frontier, given_up); }
+  /// There was no way to it: it is tried again when nothing else is left, twice at most.
+  void put_off(Frontier const& frontier) { mark(frontier, was_put_off); }
 
  private:
+  enum : std::uint8_t { given_up = 1, was_put_off = 2 };
+
+  void mark(Frontier const& frontier, std::uint8_t as);
+  [[nodiscard]] bool take_up_again();
+  [[nodiscard]] std::vector<Frontier> find_open(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
   [[nodiscard]] Frontier grow(KnownMap const& map, Cell from, std::size_t most_cells);
   [[nodiscard]] bool find_stand(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach,
                                 Frontier& frontier);
 
   FrontierSettings settings_;
-  DenseGrid<std::uint8_t> given_up_;
+  DenseGrid<std::uint8_t> left_;      ///< of cells: why they are left alone, 0 for open ones
   DenseGrid<std::uint32_t> seen_by_;  ///< the number of the search
   std::uint32_t searches_ = 0;
+  int times_taken_up_ = 0;
 };
 
 }  // namespace lapwing::explore

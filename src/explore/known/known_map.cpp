@@ -23,6 +23,21 @@ Knowledge knowledge_of(map::Evidence evidence) {
   return evidence.probability() < 0.5 ? Knowledge::free : Knowledge::wall;
 }
 
+std::vector<Shift> beam_ways(double yaw_rad, std::size_t beams) {
+  std::vector<Shift> ways;
+  ways.reserve(beams);
+  // Each is the one before, turned by the same angle: a sine and a cosine a beam would cost as much as the beam.
+  double const step = 2.0 * std::numbers::pi / static_cast<double>(beams);
+  double const cos_step = std::cos(step);
+  double const sin_step = std::sin(step);
+  Shift way(std::cos(yaw_rad), std::sin(yaw_rad));
+  for (std::size_t i = 0; i < beams; ++i) {
+    ways.push_back(way);
+    way = Shift(cos_step * way.x() - sin_step * way.y(), sin_step * way.x() + cos_step * way.y());
+  }
+  return ways;
+}
+
 KnownMap::KnownMap(int width, int height, double cell_m, Distances distances)
     : cell_m_(cell_m),
       state_(width, height, Knowledge::unknown),
@@ -53,16 +68,12 @@ void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
   ++scans_;
   double const x = scan.from.position.x() / cell_m_;
   double const y = scan.from.position.y() / cell_m_;
-  auto const beams = scan.ranges_m.size();
+  auto const ways = beam_ways(scan.from.yaw_rad, scan.ranges_m.size());
   std::vector<std::uint32_t> ends;
-  auto const direction = [&](std::size_t beam) {
-    return scan.from.yaw_rad + static_cast<double>(beam) * 2.0 * std::numbers::pi / static_cast<double>(beams);
-  };
-  for (std::size_t beam = 0; beam < beams; ++beam) {
+  for (std::size_t beam = 0; beam < ways.size(); ++beam) {
     double const range_m = scan.ranges_m[beam];
     if (range_m >= scan.range_m) continue;
-    double const yaw = direction(beam);
-    Shift const way(std::cos(yaw), std::sin(yaw));
+    auto const& way = ways[beam];
     auto const end = scan.from.position + range_m * way;
     if (std::ranges::any_of(moving, [&](Disc const& disc) { return distance_m(disc.middle, end) < disc.radius_m; }))
       continue;
@@ -71,9 +82,9 @@ void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
     hit_by_[cell] = scans_;
     ends.push_back(static_cast<std::uint32_t>(state_.index_of(cell)));
   }
-  for (std::size_t beam = 0; beam < beams; ++beam) {
-    double const yaw = direction(beam);
-    walk_line(x, y, std::cos(yaw), std::sin(yaw), scan.ranges_m[beam] / cell_m_ - 0.3, [&](Cell cell, double) {
+  for (std::size_t beam = 0; beam < ways.size(); ++beam) {
+    double const length = scan.ranges_m[beam] / cell_m_ - 0.3;
+    walk_line(x, y, ways[beam].x(), ways[beam].y(), length, [&](Cell cell, double) {
       if (!state_.contains(cell)) return false;
       auto const index = state_.index_of(cell);
       if (hit_by_.at_index(index) != scans_) pass(index);

@@ -22,6 +22,9 @@ struct Scan {
   std::vector<float> ranges_m;
 };
 
+/// Where the beams of a scan look, each one long, from that straight ahead counterclockwise.
+[[nodiscard]] std::vector<Shift> beam_ways(double yaw_rad, std::size_t beams);
+
 /// Something that moves and is not to be drawn: people and other robots.
 struct Disc {
   Place middle;

@@ -139,8 +139,8 @@ std::optional<RoadMap::Node> RoadMap::node_near(Cell cell) const {
   return best;
 }
 
-RoadMap::Tree RoadMap::from(Node root, float most_m) const {
-  return grow(root, most_m, {}, {});
+RoadMap::Tree RoadMap::from(Node root, float most_m, std::vector<Disc> const& closed) const {
+  return grow(root, most_m, {}, closed);
 }
 
 std::vector<RoadMap::Node> RoadMap::way(Node root, Node goal, std::vector<Disc> const& closed) const {

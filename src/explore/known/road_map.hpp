@@ -36,8 +36,8 @@ class RoadMap {
     std::vector<Node> before;       ///< on the way from the root; the root's is itself
     [[nodiscard]] bool reaches(Node node) const { return distance_m[node] != unreachable; }
   };
-  /// Shortest ways from `root` (Dijkstra 1959) to all within `most_m`.
-  [[nodiscard]] Tree from(Node root, float most_m = unreachable) const;
+  /// Shortest ways from `root` (Dijkstra 1959) to all within `most_m`, not through nodes whose places are in `closed`.
+  [[nodiscard]] Tree from(Node root, float most_m = unreachable, std::vector<Disc> const& closed = {}) const;
   /// The shortest way between two, both included, not through nodes whose places are in `closed`; empty: there is none.
   [[nodiscard]] std::vector<Node> way(Node root, Node goal, std::vector<Disc> const& closed) const;
   /// The node of the standable cell nearest to `cell`, within half a metre.

@@ -17,6 +17,17 @@ constexpr double arrived_m = 0.15;
 constexpr double turn_first_rad = 0.6;  ///< farther to the side than this, the robot turns where it stands
 constexpr double turn_gain = 2.5;
 
+/// All cells on the straight line between the two can be stood on.
+bool is_way_clear(KnownMap const& map, Place const& from, Place const& to) {
+  auto const way = to - from;
+  double const length_m = way.length();
+  if (length_m < 1e-9) return true;
+  bool is_clear = true;
+  walk_line(from.x() / map.cell_m(), from.y() / map.cell_m(), way.x() / length_m, way.y() / length_m,
+            length_m / map.cell_m(), [&](Cell cell, double) { return is_clear = map.is_standable(cell); });
+  return is_clear;
+}
+
 }  // namespace
 
 void Navigator::go_to(Cell goal) {
@@ -85,7 +96,6 @@ void Navigator::plan(Roads roads, Pose const& pose, std::vector<Disc> const& clo
 
 Motion Navigator::steer(KnownMap const& map, Pose const& pose, double speed_m_s) {
   if (path_.empty() || !goal_) return {};
-  auto const here = map.cell_at(pose.position);
   // What lies nearest is where it is; a path may come by the same place twice, so only a little is looked ahead.
   auto const near_end = std::min(path_.size(), at_ + static_cast<std::size_t>(1.0 / map.cell_m()) + 2);
   for (std::size_t i = at_; i < near_end; ++i) {
@@ -94,7 +104,7 @@ Motion Navigator::steer(KnownMap const& map, Pose const& pose, double speed_m_s)
   std::size_t aim = std::min(at_ + 1, path_.size() - 1);
   for (std::size_t i = aim + 1; i < path_.size(); ++i) {
     if (distance_m(map.middle(path_[i]), pose.position) > look_ahead_m) break;
-    if (!is_line_clear(here, path_[i], [&](Cell cell) { return map.is_standable(cell); })) break;
+    if (!is_way_clear(map, pose.position, map.middle(path_[i]))) break;
     aim = i;
   }
   auto const target = map.middle(path_[aim]);

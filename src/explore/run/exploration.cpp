@@ -13,8 +13,9 @@ namespace lapwing::explore {
 namespace {
 
 constexpr int steps_a_look = 5;  ///< the map is kept up twice a second (seed 001)
-constexpr double scan_again_m = 0.04;
+constexpr double scan_again_m = 0.1;
 constexpr double home_m = 0.5;
+constexpr double home_among_others_m = 1.5;  ///< others may stand in the way
 constexpr double blocked_after_s = 20.0;
 constexpr double stuck_after_s = 600.0;
 constexpr double sonar_side_m = 5.0;
@@ -48,7 +49,11 @@ base::Result<Exploration> Exploration::begin(std::shared_ptr<World const> world,
 
 Exploration::Exploration(std::shared_ptr<World const> world, Settings const& settings, std::vector<Pose> const& starts,
                          std::unique_ptr<Strategy> strategy)
-    : world_(std::move(world)), settings_(settings), strategy_(std::move(strategy)), random_(settings.seed) {
+    : world_(std::move(world)),
+      settings_(settings),
+      strategy_(std::move(strategy)),
+      random_(settings.seed),
+      walkers_(*world_, settings.people, starts, random_) {
   map_ = std::make_unique<KnownMap>(
       world_->width(), world_->height(), world_->cell_m(),
       KnownMap::Distances{.keep_off_m = settings.carrier.radius_m + settings.carrier.safe_distance_m,
@@ -69,9 +74,12 @@ bool Exploration::step() {
     mind_standing();
     if (settings_.energy_m > 0.0) mind_energy();
     give_orders();
+    make_room();
+    plan_ways();
     if (is_over()) return false;
   }
   drive();
+  walk();
   check_collisions();
   ++steps_;
   return true;
@@ -88,7 +96,7 @@ void Exploration::look() {
     robot.scanned_at = pose.position;
     auto const others = others_than(i, 0.0);
     auto const own_scan = scan(*world_, pose, settings_.laser, others, random_);
-    map_->add(own_scan, others_than(i, 0.15));
+    map_->add(own_scan, robots_but(i, 0.15));
     if (robot.track.empty() || distance_m(robot.track.back(), pose.position) > 0.05)
       robot.track.push_back(pose.position);
   }
@@ -123,11 +131,17 @@ double Exploration::travel_m() const {
   return sum;
 }
 
-std::vector<Disc> Exploration::others_than(std::size_t robot, double more_m) const {
+std::vector<Disc> Exploration::robots_but(std::size_t robot, double more_m) const {
   std::vector<Disc> discs;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     if (i != robot) discs.push_back({robots_[i].carrier.pose().position, settings_.carrier.radius_m + more_m});
   }
+  return discs;
+}
+
+std::vector<Disc> Exploration::others_than(std::size_t robot, double more_m) const {
+  auto discs = robots_but(robot, more_m);
+  for (auto const& disc : walkers_.discs()) discs.push_back({disc.middle, disc.radius_m + more_m});
   return discs;
 }
 
@@ -136,21 +150,27 @@ std::vector<RobotView> Exploration::views() const {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     auto const& robot = robots_[i];
     auto const& pose = robot.carrier.pose();
-    auto const others = others_than(i, 0.0);
-    auto const at = [&](double yaw, double range_m) {
-      return sonar_m(*world_, pose.position, pose.yaw_rad + yaw, range_m, others);
-    };
-    constexpr double right_angle = std::numbers::pi / 2.0;
-    views.push_back({.pose = pose,
-                     .start = robot.start,
-                     .sides = {at(right_angle, sonar_side_m), at(0.0, sonar_front_m), at(-right_angle, sonar_side_m)},
-                     .goal = robot.navigator.goal(),
-                     .has_arrived = robot.navigator.state() == Navigator::State::arrived,
-                     .is_blocked = robot.is_blocked || robot.navigator.state() == Navigator::State::blocked,
-                     .is_out = robot.is_out,
-                     .driven_m = robot.carrier.driven_m()});
+    views.push_back(
+        {.pose = pose,
+         .start = robot.start,
+         .sides = [this, i] { return sides_of(i); },
+         .goal = robot.navigator.goal(),
+         .has_arrived = !robot.is_aside && robot.navigator.state() == Navigator::State::arrived,
+         .is_blocked = !robot.is_aside && (robot.is_blocked || robot.navigator.state() == Navigator::State::blocked),
+         .is_out = robot.is_out,
+         .driven_m = robot.carrier.driven_m()});
   }
   return views;
+}
+
+SideDistances Exploration::sides_of(std::size_t robot) const {
+  auto const pose = robots_[robot].carrier.pose();
+  auto const others = others_than(robot, 0.0);
+  auto const at = [&](double yaw, double range_m) {
+    return sonar_m(*world_, pose.position, pose.yaw_rad + yaw, range_m, others);
+  };
+  constexpr double right_angle = std::numbers::pi / 2.0;
+  return {at(right_angle, sonar_side_m), at(0.0, sonar_front_m), at(-right_angle, sonar_side_m)};
 }
 
 void Exploration::give_orders() {
@@ -162,24 +182,47 @@ void Exploration::give_orders() {
   }
   is_explored_ = std::ranges::all_of(
       robots_, [](Robot const& robot) { return robot.is_out || robot.order.kind == Order::Kind::home; });
+}
+
+void Exploration::make_room() {
+  if (robots_.size() == 1) return;
+  std::vector<GivingWay::Member> members;
+  for (auto const& robot : robots_) {
+    bool const wants_on = robot.navigator.goal() && robot.navigator.state() != Navigator::State::arrived;
+    members.push_back({robot.carrier.pose().position, wants_on, time_s() - robot.stood_since_s});
+  }
+  auto const cells = giving_way_.decide(*map_, *roads_, members, settings_.carrier.radius_m, time_s());
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    auto& robot = robots_[i];
+    bool const was_aside = std::exchange(robot.is_aside, cells[i].has_value());
+    if (cells[i])
+      robot.navigator.go_to(*cells[i]);
+    else if (was_aside)
+      follow(robot, Order(robot.order));
+  }
+}
+
+void Exploration::plan_ways() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     auto& robot = robots_[i];
     if (!robot.navigator.goal()) continue;
     Roads const roads{*map_, *roads_, *search_};
+    auto const& pose = robot.carrier.pose();
     auto near = others_than(i, settings_.carrier.radius_m + settings_.carrier.safe_distance_m + 0.1);
     std::erase_if(near, [&](Disc const& disc) {
-      double const far_m = distance_m(disc.middle, robot.carrier.pose().position);
+      double const far_m = distance_m(disc.middle, pose.position);
       return far_m > 3.0 || far_m < disc.radius_m;
     });
-    robot.navigator.plan(roads, robot.carrier.pose(), near);
-    if (robot.navigator.state() == Navigator::State::blocked && !near.empty())
-      robot.navigator.plan(roads, robot.carrier.pose(), {});
+    robot.navigator.plan(roads, pose, near);
+    // Where others leave no way, it goes up to them and waits.
+    if (robot.navigator.state() == Navigator::State::blocked && !near.empty()) robot.navigator.plan(roads, pose, {});
   }
 }
 
 void Exploration::follow(Robot& robot, Order const& order) {
   robot.order = order;
   robot.is_blocked = false;
+  if (robot.is_aside) return;
   switch (order.kind) {
     case Order::Kind::go: robot.navigator.go_to(order.goal); break;
     case Order::Kind::home:
@@ -201,7 +244,8 @@ std::optional<Cell> Exploration::home_of(Robot const& robot) const {
 }
 
 bool Exploration::is_home(Robot const& robot) const {
-  return distance_m(robot.carrier.pose().position, robot.start.position) < home_m;
+  return distance_m(robot.carrier.pose().position, robot.start.position) <
+         (robots_.size() == 1 ? home_m : home_among_others_m);
 }
 
 void Exploration::mind_energy() {
@@ -229,8 +273,7 @@ void Exploration::mind_standing() {
       robot.stood_at = place;
       robot.stood_since_s = time_s();
     }
-    double const stood_s = time_s() - robot.stood_since_s;
-    robot.is_blocked = stood_s > blocked_after_s;
+    robot.is_blocked = time_s() - robot.stood_since_s > blocked_after_s;
   }
   is_stuck_ =
       std::ranges::all_of(robots_, [&](Robot const& robot) { return time_s() - robot.stood_since_s > stuck_after_s; });
@@ -253,17 +296,25 @@ void Exploration::drive() {
     auto const pose = robot.carrier.pose();
     auto const others = others_than(i, settings_.carrier.radius_m + settings_.carrier.safe_distance_m);
     bool const is_near = map_->is_near_wall(map_->cell_at(pose.position));
+    double const wanted_m = settings_.carrier.radius_m + settings_.carrier.safe_distance_m;
+    double const kept_m = map_->has_room(pose.position, wanted_m) ? wanted_m : settings_.carrier.radius_m + 0.01;
     double const speed = is_near ? settings_.carrier.near_speed_m_s : settings_.carrier.speed_m_s;
     auto const wanted = robot.navigator.goal() ? robot.navigator.steer(*map_, pose, speed) : steered(robot);
     robot.carrier.drive(wanted, step_s, [&](Place const& place) {
-      if (!map_->is_standable(map_->cell_at(place)) && !map_->has_room(place, settings_.carrier.radius_m + 0.01))
-        return false;
+      // Whoever stands too near to something already may go where it just fits.
+      bool const has_room = map_->is_standable(map_->cell_at(place)) || map_->has_room(place, kept_m);
+      if (!has_room) return false;
       return std::ranges::all_of(others, [&](Disc const& disc) {
         double const far_m = distance_m(place, disc.middle);
         return far_m >= disc.radius_m || far_m > distance_m(pose.position, disc.middle);
       });
     });
   }
+}
+
+void Exploration::walk() {
+  if (settings_.people == 0) return;
+  walkers_.step(*world_, step_s, robots_but(robots_.size(), 0.0), random_);
 }
 
 void Exploration::check_collisions() {

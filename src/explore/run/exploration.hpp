@@ -8,10 +8,12 @@
 #include "explore/known/known_map.hpp"
 #include "explore/known/road_map.hpp"
 #include "explore/path/navigator.hpp"
+#include "explore/run/giving_way.hpp"
 #include "explore/run/report.hpp"
 #include "explore/run/settings.hpp"
 #include "explore/simulated/carrier.hpp"
 #include "explore/simulated/laser.hpp"
+#include "explore/simulated/walkers.hpp"
 #include "explore/simulated/world.hpp"
 #include "explore/strategy/strategy.hpp"
 
@@ -52,6 +54,7 @@ class Exploration {
     Place stood_at = {};         ///< where it was seen not to move on,
     double stood_since_s = 0.0;  ///< and since when
     bool is_blocked = false;
+    bool is_aside = false;  ///< makes room for another
     std::vector<Place> track = {};
   };
 
@@ -61,18 +64,23 @@ class Exploration {
   void look();
   void count_seen();
   void give_orders();
+  void plan_ways();
+  void make_room();
   void follow(Robot& robot, Order const& order);
   void mind_energy();
   void mind_standing();
   void drive();
+  void walk();
   void check_collisions();
   [[nodiscard]] std::vector<RobotView> views() const;
+  [[nodiscard]] SideDistances sides_of(std::size_t robot) const;
+  [[nodiscard]] std::vector<Disc> robots_but(std::size_t robot, double more_m) const;
+  /// People, too.
   [[nodiscard]] std::vector<Disc> others_than(std::size_t robot, double more_m) const;
   [[nodiscard]] Motion steered(Robot const& robot) const;
   [[nodiscard]] std::optional<Cell> home_of(Robot const& robot) const;
   [[nodiscard]] bool is_home(Robot const& robot) const;
   [[nodiscard]] bool is_over();
-  [[nodiscard]] double distance_to_99() const;
 
   std::shared_ptr<World const> world_;
   Settings settings_;
@@ -83,6 +91,8 @@ class Exploration {
   std::unique_ptr<GridSearch> search_;
   std::unique_ptr<Frontiers> frontiers_;
   std::vector<Robot> robots_;
+  Walkers walkers_;
+  GivingWay giving_way_;
   DenseGrid<std::uint8_t> is_counted_;
   std::size_t counted_ = 0;
   std::int64_t steps_ = 0;

@@ -21,7 +21,8 @@ base::Result<Pose> random_start(FloorPlan const& plan, std::vector<Place> const&
 
 base::Result<std::vector<Pose>> starts_around(World const& world, Pose const& first, Settings const& settings) {
   std::vector<Pose> starts = {first};
-  double const apart_m = 2.0 * (settings.carrier.radius_m + settings.carrier.safe_distance_m) + 0.1;
+  // So that one that stands at its start leaves a way between itself and the next.
+  double const apart_m = 4.0 * (settings.carrier.radius_m + settings.carrier.safe_distance_m) + 0.3;
   double const cell_m = world.cell_m();
   DenseGrid<std::uint8_t> reached(world.width(), world.height(), 0);
   std::vector<Cell> open = {cell_under(first.position, cell_m)};

@@ -24,13 +24,9 @@ Scan scan(World const& world, Pose const& from, LaserSettings const& settings, s
   Scan scan{from, settings.range_m, {}};
   scan.ranges_m.reserve(static_cast<std::size_t>(settings.beams));
   std::normal_distribution<double> noise(0.0, 1.0);
-  for (int beam = 0; beam < settings.beams; ++beam) {
-    double const yaw = from.yaw_rad + beam * 2.0 * std::numbers::pi / settings.beams;
-    double range_m = world.distance_to_wall_m(from.position, yaw, settings.range_m);
-    if (!discs.empty()) {
-      Shift const way(std::cos(yaw), std::sin(yaw));
-      for (auto const& disc : discs) range_m = distance_to_disc_m(from.position, way, disc, range_m);
-    }
+  for (auto const& way : beam_ways(from.yaw_rad, static_cast<std::size_t>(settings.beams))) {
+    double range_m = world.distance_to_wall_m(from.position, way, settings.range_m);
+    for (auto const& disc : discs) range_m = distance_to_disc_m(from.position, way, disc, range_m);
     if (range_m < settings.range_m && settings.noise_m > 0.0)
       range_m = std::clamp(range_m + settings.noise_m * noise(random), 0.0, settings.range_m);
     scan.ranges_m.push_back(static_cast<float>(range_m));
@@ -43,8 +39,8 @@ double sonar_m(World const& world, Place const& from, double yaw_rad, double ran
   double nearest_m = range_m;
   for (int i = 0; i < rays; ++i) {
     double const yaw = yaw_rad + sonar_cone_rad * (static_cast<double>(i) / (rays - 1) - 0.5);
-    nearest_m = std::min(nearest_m, world.distance_to_wall_m(from, yaw, range_m));
     Shift const way(std::cos(yaw), std::sin(yaw));
+    nearest_m = std::min(nearest_m, world.distance_to_wall_m(from, way, range_m));
     for (auto const& disc : discs) nearest_m = distance_to_disc_m(from, way, disc, nearest_m);
   }
   return nearest_m;

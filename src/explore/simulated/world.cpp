@@ -48,14 +48,24 @@ Mask with_room(Mask const& is_free, std::vector<Cell> const& keep_off) {
 class Sight {
  public:
   Sight(Mask const& is_free, Mask const& is_standable, double range_cells)
-      : is_free_(is_free), is_standable_(is_standable), range_cells_(range_cells) {}
-
-  [[nodiscard]] bool is_seen(Cell cell) const {
-    constexpr int directions = 360;
+      : is_free_(is_free), is_standable_(is_standable), range_cells_(range_cells) {
+    constexpr int directions = 96;
     for (int i = 0; i < directions; ++i) {
       double const yaw = (i + 0.5) * 2.0 * std::numbers::pi / directions;
+      ways_.emplace_back(std::cos(yaw), std::sin(yaw));
+    }
+    // Most cells that nobody can stand on lie beside some that one can.
+    std::ranges::sort(near_, {}, length_of);
+  }
+
+  [[nodiscard]] bool is_seen(Cell cell) const {
+    for (auto const& away : near_) {
+      if (is_standable_.or_else(cell + away, 0) == 0) continue;
+      if (is_line_clear(cell, cell + away, [&](Cell at) { return is_free_.or_else(at, 0) != 0; })) return true;
+    }
+    for (auto const& way : ways_) {
       bool sees = false;
-      walk_line(cell.x + 0.5, cell.y + 0.5, std::cos(yaw), std::sin(yaw), range_cells_, [&](Cell at, double) {
+      walk_line(cell.x + 0.5, cell.y + 0.5, way.x(), way.y(), range_cells_, [&](Cell at, double) {
         if (is_free_.or_else(at, 0) == 0) return false;
         sees = is_standable_[at] != 0;
         return !sees;
@@ -69,6 +79,8 @@ class Sight {
   Mask const& is_free_;
   Mask const& is_standable_;
   double range_cells_;
+  std::vector<Shift> ways_;
+  std::vector<Cell> near_ = cells_within(6.0, 1.0);
 };
 
 Mask wanted_cells(Mask const& is_free, Mask const& is_standable, double range_cells) {
@@ -124,7 +136,7 @@ base::Result<World> World::around(FloorPlan const& plan, Place const& start, Set
   Mask reached(plan.is_free.width(), plan.is_free.height(), 0);
   Bounds bounds;
   flood(
-      reached, start_cell, std::uint8_t{1}, 8, [&](Cell cell) { return plan.is_free[cell] != 0; },
+      reached, start_cell, std::uint8_t{1}, 4, [&](Cell cell) { return plan.is_free[cell] != 0; },
       [&](Cell cell) { bounds.add(cell); });
 
   World world;
@@ -156,14 +168,13 @@ base::Result<World> World::around(FloorPlan const& plan, Place const& start, Set
   return world;
 }
 
-double World::distance_to_wall_m(Place const& from, double yaw_rad, double range_m) const {
+double World::distance_to_wall_m(Place const& from, Shift const& way, double range_m) const {
   double distance_m = range_m;
-  walk_line(from.x() / fine_m_, from.y() / fine_m_, std::cos(yaw_rad), std::sin(yaw_rad), range_m / fine_m_,
-            [&](Cell cell, double at) {
-              if (is_free_.or_else(cell, 0) != 0) return true;
-              distance_m = at * fine_m_;
-              return false;
-            });
+  walk_line(from.x() / fine_m_, from.y() / fine_m_, way.x(), way.y(), range_m / fine_m_, [&](Cell cell, double at) {
+    if (is_free_.or_else(cell, 0) != 0) return true;
+    distance_m = at * fine_m_;
+    return false;
+  });
   return distance_m;
 }
 

@@ -34,8 +34,8 @@ class World {
   [[nodiscard]] bool is_free_at(Cell cell) const {
     return is_free_.or_else(cell_under(middle_of(cell, cell_m()), fine_m_), 0) != 0;
   }
-  /// Metres from `from` to the first wall in direction `yaw_rad`; `range_m` where there is none within.
-  [[nodiscard]] double distance_to_wall_m(Place const& from, double yaw_rad, double range_m) const;
+  /// Metres from `from` to the first wall in direction `way`, which is one long; `range_m` where there is none within.
+  [[nodiscard]] double distance_to_wall_m(Place const& from, Shift const& way, double range_m) const;
   /// A disc there touches no wall.
   [[nodiscard]] bool has_room(Place const& middle, double radius_m) const;
 

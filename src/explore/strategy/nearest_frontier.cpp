@@ -23,7 +23,10 @@ std::vector<Order> NearestFrontier::decide(Situation const& situation) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!chosen_[i] || robots[i].is_out) continue;
     if ((robots[i].has_arrived || robots[i].is_blocked) && is_open(situation.map, *chosen_[i])) {
-      situation.frontiers.give_up(*chosen_[i]);
+      if (robots[i].has_arrived)
+        situation.frontiers.give_up(*chosen_[i]);
+      else
+        situation.frontiers.put_off(*chosen_[i]);
       chosen_[i].reset();
       is_due = true;
     } else if (robots[i].has_arrived) {

@@ -5,15 +5,19 @@
 #include <array>
 
 #include "explore/strategy/nearest_frontier.hpp"
+#include "explore/strategy/right_hand.hpp"
 #include "explore/strategy/strategy.hpp"
+#include "explore/strategy/tour.hpp"
 
 namespace lapwing::explore {
 
 namespace {
 
 constexpr std::array names{
+    StrategyName{"tour", "a route over all open frontiers, made anew with every news"},
     StrategyName{"nearest", "the nearest frontier by its way, as explore_lite chooses"},
     StrategyName{"frontier", "the same"},
+    StrategyName{"right-hand", "along the right wall, side halls later (seed 001)"},
 };
 
 }  // namespace
@@ -24,6 +28,8 @@ std::span<StrategyName const> strategy_names() {
 
 base::Result<std::unique_ptr<Strategy>> make_strategy(Settings const& settings) {
   if (settings.strategy == "nearest" || settings.strategy == "frontier") return std::make_unique<NearestFrontier>();
+  if (settings.strategy == "right-hand") return std::make_unique<RightHand>();
+  if (settings.strategy == "tour") return std::make_unique<Tour>();
   std::vector<std::string_view> known;
   for (auto const& name : names) known.push_back(name.name);
   return base::fail(base::ErrorKind::invalid_input, fmt::format("there is no strategy `{}`", settings.strategy),

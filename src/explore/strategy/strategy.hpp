@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,11 +28,11 @@ struct SideDistances {
 struct RobotView {
   Pose pose;
   Pose start;
-  SideDistances sides;
-  std::optional<Cell> goal;  ///< where it was sent
-  bool has_arrived = false;  ///< there
-  bool is_blocked = false;   ///< there is no way to it at the moment
-  bool is_out = false;       ///< takes no orders any more: on its way home for good, or home
+  std::function<SideDistances()> sides;  ///< measured when asked for
+  std::optional<Cell> goal;              ///< where it was sent
+  bool has_arrived = false;              ///< there
+  bool is_blocked = false;               ///< there is no way to it at the moment
+  bool is_out = false;                   ///< takes no orders any more: on its way home for good, or home
   double driven_m = 0.0;
 };
 

@@ -1,0 +1,49 @@
+#include "explore/strategy/gain.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "explore/floor/ray.hpp"
+
+namespace lapwing::explore {
+
+namespace {
+
+constexpr std::size_t rays = 48;
+
+std::array<Shift, rays> make_directions() {
+  std::array<Shift, rays> directions;
+  for (std::size_t i = 0; i < rays; ++i) {
+    double const yaw = (static_cast<double>(i) + 0.5) * 2.0 * std::numbers::pi / static_cast<double>(rays);
+    directions[i] = Shift(std::cos(yaw), std::sin(yaw));
+  }
+  return directions;
+}
+
+}  // namespace
+
+double unknown_beyond_m2(KnownMap const& map, Frontier const& frontier, double reach_m) {
+  static std::array<Shift, rays> const directions = make_directions();
+  double const reach = reach_m / map.cell_m();
+  double sum = 0.0;
+  for (auto const& direction : directions) {
+    double entered = -1.0;  // where the unknown began that the ray is in
+    double last = 0.0;
+    walk_line(frontier.middle.x + 0.5, frontier.middle.y + 0.5, direction.x(), direction.y(), reach,
+              [&](Cell cell, double at) {
+                auto const knowledge = map.at(cell);
+                last = at;
+                if (knowledge == Knowledge::unknown && entered < 0.0) entered = at;
+                if (knowledge != Knowledge::unknown && entered >= 0.0) {
+                  sum += at * at - entered * entered;
+                  entered = -1.0;
+                }
+                return knowledge != Knowledge::wall;
+              });
+    if (entered >= 0.0) sum += last * last - entered * entered;
+  }
+  return sum * std::numbers::pi / static_cast<double>(rays) * map.cell_m() * map.cell_m();
+}
+
+}  // namespace lapwing::explore
