@@ -24,9 +24,14 @@ case $target in
     for script in "$root"/examples/*.dolphin "$root"/tests/conformance/*.dolphin "$root"/tests/golden/check/*.dolphin; do
       cp "$script" "$seeds/$(basename "$(dirname "$script")")-$(basename "$script")"
     done
-    options=(-max_len=8192 "-dict=$root/fuzz/dolphin.dict")
+    options=(-max_len=8192 "-dict=$root/fuzz/dictionaries/dolphin.dict")
     ;;
   decode | fleet | frame | tlog) "$bin/frame_seeds" "$target" "$seeds" ;;
+  floor_plan)
+    printf 'P2\n# a room\n9 9 1\n%s' "$(for y in 0 1 1 1 1 1 1 1 0; do for x in 0 1 1 1 1 1 1 1 0; do printf '%d ' $((x * y)); done; done)" | seed plain
+    printf 'P5\n3 2\n255\n\000\376\376\000\376\315' | seed binary
+    printf 'P5\n1 1\n65535\n\377\377' | seed deep
+    ;;
   url)
     i=0
     for url in udpin://0.0.0.0:14550 udpout://127.0.0.1:14550 tcpin://0.0.0.0:5760 tcpout://host:5760 serial:///dev/ttyUSB0:57600 \
@@ -114,7 +119,7 @@ case $target in
     ring='<LinearRing><coordinates>-8,41 -7,41 -7,42 -8,41</coordinates></LinearRing>'
     printf "$mark" fence exclusion "<MultiGeometry><Polygon><outerBoundaryIs>$ring</outerBoundaryIs><innerBoundaryIs>$ring</innerBoundaryIs></Polygon></MultiGeometry>" | seed area
     printf '<?xml version="1.0"?><!DOCTYPE kml [<!ENTITY a "b">]><kml><Folder><name>rally &amp; &a;</name></Folder></kml>' | seed whole
-    options=(-max_len=4096 "-dict=$root/fuzz/kml.dict")
+    options=(-max_len=4096 "-dict=$root/fuzz/dictionaries/kml.dict")
     ;;
   waypoints)
     printf '0\t1\t0\t16\t0\t0\t0\t0\t41\t-8\t90\t1\n1\t0\t3\t22\t15\tnan\t0\t0\t41.1\t-8\t30\t1\n2\t0\t2\t177\t1\t-1\t0\t0\t0\t0\t0\t1\n' | seed mission

@@ -7,13 +7,18 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "formats/internal/gdal.hpp"
 #include "formats/internal/grid_cells.hpp"
+#include "formats/pgm.hpp"
 
 namespace lapwing::formats {
 
@@ -97,29 +102,84 @@ struct Pixels {
   std::vector<std::uint8_t> alpha;  ///< empty: none
 };
 
-bool read_bands(GDALDataset& data, Pixels& pixels) {
-  auto const count = static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height);
-  int const bands = data.GetRasterCount();
-  int const colours = bands >= 3 ? 3 : 1;
-  bool const has_alpha = bands == 2 || bands == 4;
-  std::vector<std::uint16_t> sums(count, 0);
-  std::vector<std::uint8_t> row(count);
-  auto const read = [&](int band) {
-    return data.GetRasterBand(band)->RasterIO(GF_Read, 0, 0, pixels.width, pixels.height, row.data(), pixels.width,
-                                              pixels.height, GDT_Byte, 0, 0, nullptr) == CE_None;
+/// 0 to 255, whatever depth the band has: 1, 2, 4 or 16 bits are as common as 8 in floor plans.
+bool read_band(GDALRasterBand& band, Pixels const& pixels, std::vector<std::uint8_t>& values) {
+  values.resize(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+  auto const read_as = [&](void* into, GDALDataType type) {
+    return band.RasterIO(GF_Read, 0, 0, pixels.width, pixels.height, into, pixels.width, pixels.height, type, 0, 0,
+                         nullptr) == CE_None;
   };
-  for (int band = 1; band <= colours; ++band) {
-    if (!read(band)) return false;
-    for (std::size_t i = 0; i < count; ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + row[i]);
+  if (band.GetRasterDataType() == GDT_UInt16) {
+    std::vector<std::uint16_t> wide(values.size());
+    if (!read_as(wide.data(), GDT_UInt16)) return false;
+    std::ranges::transform(wide, values.begin(),
+                           [](std::uint16_t value) { return static_cast<std::uint8_t>(value / 257); });
+    return true;
   }
-  pixels.values.resize(count);
-  for (std::size_t i = 0; i < count; ++i) pixels.values[i] = static_cast<std::uint8_t>(sums[i] / colours);
-  if (has_alpha && !read(bands)) return false;
-  if (has_alpha) pixels.alpha = row;
+  if (!read_as(values.data(), GDT_Byte)) return false;
+  auto const* const bits = band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE");
+  int const depth = bits == nullptr ? 8 : std::atoi(bits);
+  if (depth >= 1 && depth < 8 && band.GetColorTable() == nullptr) {
+    int const greatest = (1 << depth) - 1;
+    for (auto& value : values) value = static_cast<std::uint8_t>(std::min<int>(value, greatest) * 255 / greatest);
+  }
   return true;
 }
 
+/// A palette's pixels are numbers of colours.
+void look_up(GDALColorTable const& colours, Pixels& pixels) {
+  std::array<std::uint8_t, 256> grey = {};
+  std::array<std::uint8_t, 256> alpha = {};
+  for (int i = 0; i < std::min(colours.GetColorEntryCount(), 256); ++i) {
+    auto const* const entry = colours.GetColorEntry(i);
+    grey[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>((entry->c1 + entry->c2 + entry->c3) / 3);
+    alpha[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(entry->c4);
+  }
+  pixels.alpha.resize(pixels.values.size());
+  for (std::size_t i = 0; i < pixels.values.size(); ++i) {
+    pixels.alpha[i] = alpha[pixels.values[i]];
+    pixels.values[i] = grey[pixels.values[i]];
+  }
+}
+
+bool read_bands(GDALDataset& data, Pixels& pixels) {
+  int const bands = data.GetRasterCount();
+  if (bands < 3) {
+    auto& band = *data.GetRasterBand(1);
+    if (!read_band(band, pixels, pixels.values)) return false;
+    if (band.GetColorTable() != nullptr) look_up(*band.GetColorTable(), pixels);
+  } else {
+    std::vector<std::uint16_t> sums(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height),
+                                    0);
+    std::vector<std::uint8_t> values;
+    for (int band = 1; band <= 3; ++band) {
+      if (!read_band(*data.GetRasterBand(band), pixels, values)) return false;
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + values[i]);
+    }
+    pixels.values.resize(sums.size());
+    std::ranges::transform(sums, pixels.values.begin(),
+                           [](std::uint16_t sum) { return static_cast<std::uint8_t>(sum / 3); });
+  }
+  bool const has_alpha = bands == 2 || bands == 4;
+  return !has_alpha || read_band(*data.GetRasterBand(bands), pixels, pixels.alpha);
+}
+
+/// GDAL knows neither plain grey maps nor greatest values other than 255.
+std::optional<base::Result<Pixels>> read_as_pgm(std::filesystem::path const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(2, '\0');
+  if (!file.read(bytes.data(), 2) || !is_pgm(bytes)) return {};
+  bytes.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  auto picture = read_pgm(bytes);
+  if (!picture)
+    return base::Result<Pixels>(fail(ErrorKind::invalid_input,
+                                     fmt::format("{} cannot be read: {}", path.string(), picture.error().message),
+                                     picture.error().hint));
+  return Pixels{picture->width, picture->height, std::move(picture->values), {}};
+}
+
 base::Result<Pixels> read_pixels(std::filesystem::path const& path) {
+  if (auto pgm = read_as_pgm(path)) return std::move(*pgm);
   Pixels pixels;
   bool is_too_large = false;
   auto const done = internal::with_gdal(fmt::format("{} cannot be read as a picture", path.string()), [&] {

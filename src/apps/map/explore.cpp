@@ -1,5 +1,6 @@
 #include <array>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -14,6 +15,7 @@
 
 #include "apps/verb.hpp"
 #include "explore/run/exploration.hpp"
+#include "explore/run/picture.hpp"
 #include "explore/run/starts.hpp"
 #include "formats/ros_map.hpp"
 #include "geo/json.hpp"
@@ -32,7 +34,6 @@ struct ExploreOptions {
   std::filesystem::path picture;
   std::vector<double> start;  ///< x, y, yaw in the map's frame
   int runs = 1;
-  bool stays = false;
   explore::Settings settings;
 };
 
@@ -98,40 +99,73 @@ class Worlds {
   std::shared_ptr<explore::World const> world_;
 };
 
-base::Result<Json> explore_floor(ExploreOptions const& options) {
+base::Result<> write(std::filesystem::path const& path, std::string const& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file)
+    return base::fail(base::ErrorKind::io, fmt::format("{} cannot be written", path.string()),
+                      "does its folder exist, and is there room?");
+  return {};
+}
+
+/// One floor, ready for any number of runs.
+struct Floor {
+  explore::FloorPlan plan;
+  std::vector<explore::Place> possible;  ///< starts; empty where one is given
+};
+
+base::Result<Floor> read_floor(ExploreOptions const& options) {
   auto const grid = formats::read_ros_map(options.map);
   if (!grid) return std::unexpected(grid.error());
-  auto const plan = explore::floor_plan_of(*grid);
+  auto plan = explore::floor_plan_of(*grid);
   if (!plan)
     return base::fail(plan.error().kind, fmt::format("{}: {}", options.map.string(), plan.error().message),
                       plan.error().hint);
-  std::vector<explore::Place> possible;
-  if (options.start.empty()) possible = explore::possible_starts(*plan, options.settings);
-  Worlds worlds(*plan);
+  Floor floor{std::move(*plan), {}};
+  if (options.start.empty()) floor.possible = explore::possible_starts(floor.plan, options.settings);
+  return floor;
+}
+
+base::Result<Json> run_once(ExploreOptions const& options, Floor const& floor, Worlds& worlds, int number) {
+  auto settings = options.settings;
+  settings.seed += static_cast<std::uint64_t>(number);
+  auto const began = std::chrono::steady_clock::now();
+  auto const first = options.start.empty() ? explore::random_start(floor.plan, floor.possible, settings.seed)
+                                           : pose_in(floor.plan, options.start);
+  if (!first) return std::unexpected(first.error());
+  auto const world = worlds.around(*first, settings);
+  if (!world) return std::unexpected(world.error());
+  auto const starts =
+      explore::starts_around(**world, {first->position - (*world)->plan_from_world(), first->yaw_rad}, settings);
+  if (!starts) return std::unexpected(starts.error());
+  auto exploration = Exploration::begin(*world, settings, *starts);
+  if (!exploration) return std::unexpected(exploration.error());
+  for (int steps = 0; exploration->step(); ++steps) {
+    if (steps % 5000 == 0) show(number + 1, options.runs, *exploration);
+  }
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
+  auto const report = exploration->report();
+  double const wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  fmt::print("{:3}  {:8.1f} m  {:8.0f} s  {:6.2f} %  {}{}\n", number + 1, report.travel_m, report.time_s,
+             report.coverage * 100.0, explore::to_string(report.ending), report.is_finished ? ", returned" : "");
+  std::fflush(stdout);
+  if (!options.picture.empty() && number == 0) {
+    if (auto const written = write(options.picture, explore::svg_of(*exploration)); !written)
+      return std::unexpected(written.error());
+  }
+  return run_json(**world, report, settings.seed, wall_s);
+}
+
+base::Result<Json> explore_floor(ExploreOptions const& options) {
+  auto const floor = read_floor(options);
+  if (!floor) return std::unexpected(floor.error());
+  Worlds worlds(floor->plan);
   Json runs = Json::array();
   for (int i = 0; i < options.runs; ++i) {
-    auto settings = options.settings;
-    settings.seed += static_cast<std::uint64_t>(i);
-    auto const began = std::chrono::steady_clock::now();
-    auto first =
-        options.start.empty() ? explore::random_start(*plan, possible, settings.seed) : pose_in(*plan, options.start);
-    if (!first) return std::unexpected(first.error());
-    auto world = worlds.around(*first, settings);
-    if (!world) return std::unexpected(world.error());
-    auto const starts =
-        explore::starts_around(**world, {first->position - (*world)->plan_from_world(), first->yaw_rad}, settings);
-    if (!starts) return std::unexpected(starts.error());
-    auto exploration = Exploration::begin(*world, settings, *starts);
-    if (!exploration) return std::unexpected(exploration.error());
-    for (int steps = 0; exploration->step(); ++steps) {
-      if (steps % 5000 == 0) show(i + 1, options.runs, *exploration);
-    }
-    if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
-    auto const report = exploration->report();
-    double const wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    fmt::print("{:3}  {:8.1f} m  {:8.0f} s  {:6.2f} %  {}{}\n", i + 1, report.travel_m, report.time_s,
-               report.coverage * 100.0, explore::to_string(report.ending), report.is_finished ? ", returned" : "");
-    runs.push_back(run_json(**world, report, settings.seed, wall_s));
+    auto run = run_once(options, *floor, worlds, i);
+    if (!run) return std::unexpected(run.error());
+    runs.push_back(std::move(*run));
   }
   return Json{{"strategy", options.settings.strategy},
               {"robots", options.settings.robots},
@@ -143,13 +177,8 @@ int run_explore(ExploreOptions const& options) {
   auto const report = explore_floor(options);
   if (!report) return host::refuse(report.error());
   if (options.report.empty()) return host::exit_done;
-  std::ofstream file(options.report);
-  file << report->dump(2) << '\n';
-  file.close();
-  if (!file)
-    return host::refuse({base::ErrorKind::io, fmt::format("{} cannot be written", options.report.string()),
-                         "does its folder exist, and is there room?"});
-  return host::exit_done;
+  auto const written = write(options.report, report->dump(2) + '\n');
+  return written ? host::exit_done : host::refuse(written.error());
 }
 
 }  // namespace
@@ -171,6 +200,25 @@ void add_explore(CLI::App& program, int& exit_code) {
       ->delimiter(',')
       ->expected(2, 3);
   verb->add_option("--runs", options->runs, "How many runs")->check(CLI::Range(1, 1000))->capture_default_str();
+  verb->add_option("--people", settings.people, "How many people walk about")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  verb->add_option("--energy", settings.energy_m, "Metres that each robot's battery takes it; 0: any way")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("--range", settings.laser.range_m, "Metres that the laser sees")
+      ->check(CLI::Range(1.0, 100.0))
+      ->capture_default_str();
+  verb->add_option("--radius", settings.carrier.radius_m, "Metres from a robot's middle to its rim")
+      ->check(CLI::Range(0.05, 1.0))
+      ->capture_default_str();
+  verb->add_option("--speed", settings.carrier.speed_m_s, "Metres a second at most")
+      ->check(CLI::Range(0.05, 2.0))
+      ->capture_default_str();
+  verb->add_option("--time-limit", settings.most_time_s, "Simulated seconds after which a run ends")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  verb->add_option("--picture", options->picture, "Draw the first run: its map and paths, as SVG");
   verb->add_option("--report", options->report, "Write the report as JSON");
   verb->callback([options, &exit_code] { exit_code = run_explore(*options); });
 }
