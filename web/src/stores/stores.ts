@@ -63,7 +63,24 @@ export function createStores(network: Network, voices: Voices): Stores {
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   // Who reads another store hears after it.
   session.begin([fleet, layers, history, control, scripts, log, alarms, baseMaps]);
-  return { session, fleet, layers, history, mapLayers, feeds, changes, floors, baseMaps, exports, placing, scripts, control, log, alarms, settings };
+  return {
+    session,
+    fleet,
+    layers,
+    history,
+    mapLayers,
+    feeds,
+    changes,
+    floors,
+    baseMaps,
+    exports,
+    placing,
+    scripts,
+    control,
+    log,
+    alarms,
+    settings,
+  };
 }
 
 /** The stores of this page, over its own station. */
