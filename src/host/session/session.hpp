@@ -106,7 +106,7 @@ class Session {
   lapwing::map::LiveMap live_map;           ///< what lies on the map
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
   std::unique_ptr<MapExports> map_exports;
-  std::unique_ptr<TrackWriter> tracks;      ///< where there is a station to show them
+  std::unique_ptr<TrackWriter> tracks;  ///< where there is a station to show them
   std::unique_ptr<station::Station> map;
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 

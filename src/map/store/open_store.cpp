@@ -33,7 +33,7 @@ constexpr std::size_t page_size = 1000;
 }  // namespace
 
 OpenStore::OpenStore(base::Loop& loop, bool is_shared, std::unique_ptr<write::Writer> writer,
-                 std::unique_ptr<Reader> reader)
+                     std::unique_ptr<Reader> reader)
     : loop_(loop),
       is_shared_(is_shared),
       writer_(loop, std::move(writer)),
@@ -144,7 +144,7 @@ base::Task<base::Result<std::vector<Store::Shown>>> OpenStore::state_at(std::str
 }
 
 base::Task<base::Result<std::vector<Store::Shown>>> OpenStore::shown(std::string session, base::UtcTime from,
-                                                                   base::UtcTime to, std::size_t most) {
+                                                                     base::UtcTime to, std::size_t most) {
   (void)co_await flush();
   auto job = [session = std::move(session), from, to, most](Reader& reader) {
     return rows::shown_between(*reader.database, session, from, to, most);
@@ -215,7 +215,7 @@ base::Task<base::Result<>> OpenStore::load(LiveMap& into) {
 }
 
 base::Task<base::Result<>> OpenStore::load_features(LiveMap& into, LayerKind layer, rows::Sites const& sites,
-                                                  std::map<write::FeatureKey, Account>& removals) {
+                                                    std::map<write::FeatureKey, Account>& removals) {
   auto const shared_sites = std::make_shared<rows::Sites const>(sites);
   std::int64_t last_fid = 0;
   for (;;) {

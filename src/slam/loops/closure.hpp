@@ -48,7 +48,7 @@ struct Closure {
 };
 
 /// Aligns the query's key frames to the submap's, point to line, from where the search found them.
-[[nodiscard]] Closure make_closure(Graph const& graph, Submap const& submap, int query,
-                                                  LoopMatch const& match, LoopOptions const& options);
+[[nodiscard]] Closure make_closure(Graph const& graph, Submap const& submap, int query, LoopMatch const& match,
+                                   LoopOptions const& options);
 
 }  // namespace lapwing::slam

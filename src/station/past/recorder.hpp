@@ -14,9 +14,10 @@ namespace lapwing::station {
 
 /// Keeps what viewers are shown, as they are shown it, so that looking back needs no second way to draw anything.
 ///
-/// It takes each feed as one more viewer would. What there is of grids besides their feed's news (which tiles changed) is
-/// how these look, which the store packs; the two are kept together, so that who is told of news finds it. Now and then a feed is kept whole: once what followed the last whole
-/// has grown to some times its size, which bounds both what is kept and what must be read to come to any moment.
+/// It takes each feed as one more viewer would. What there is of grids besides their feed's news (which tiles changed)
+/// is how these look, which the store packs; the two are kept together, so that who is told of news finds it. Now and
+/// then a feed is kept whole: once what followed the last whole has grown to some times its size, which bounds both
+/// what is kept and what must be read to come to any moment.
 class Recorder {
  public:
   struct Options {
