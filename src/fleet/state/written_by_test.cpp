@@ -21,8 +21,8 @@ class Reader {
  public:
   template <class Part>
   static constexpr bool may_write = requires(Part& part) { part.write(As<Reader>()); };
-  template <class Part>
-  static constexpr bool may_forge = requires(Part& part) { part.write(As<Author>()); };
+  template <class Part, class Pass = As<Author>>
+  static constexpr bool may_forge = requires(Part& part) { part.write(Pass()); };
   template <class Part>
   static constexpr bool may_assign = requires(Part& part) { *part = std::string(); };
 };
