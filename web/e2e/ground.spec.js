@@ -195,7 +195,7 @@ test('looks back, and never leaves in doubt that it does', async ({ open, world 
   const frame = await page.locator('div.past').evaluate((element) => getComputedStyle(element).borderTopColor);
   assert.equal(frame, 'rgb(224, 161, 0)');
   await page.getByText('You look back.').waitFor();
-  await bar.getByRole('combobox', { name: 'Speed' }).selectOption('4');
+  await bar.getByRole('combobox', { name: 'Speed' }).selectOption('5');
   assert.ok((await bar.getByRole('combobox', { name: 'Session' }).locator('option').count()) >= 1);
   const time = bar.locator('time');
   await bar

@@ -23,7 +23,12 @@ export function baseStyle(base: BaseMap | undefined, drawing: FeatureCollection 
   if (base.kind === 'drawing') return drawing ? drawn(drawing, isDark ? NIGHT : DAY) : PLAIN;
   const { min_zoom: minzoom, max_zoom: maxzoom, bounds_deg: bounds } = base;
   const address = base.url.startsWith('/') ? stationTiles.address(BASE) : base.url;
-  const where = { tiles: [address], ...(minzoom && { minzoom }), ...(maxzoom && { maxzoom }), ...(bounds && { bounds }) };
+  const where = {
+    tiles: [address],
+    ...(minzoom !== undefined && { minzoom }),
+    ...(maxzoom !== undefined && { maxzoom }),
+    ...(bounds && { bounds }),
+  };
   if (base.kind === 'tiles') return tiles({ type: 'raster', tileSize: 256, ...where });
   return { sources: { [BASE]: { type: 'vector', ...where } }, layers: vectorLooks(BASE, base.vector_layers ?? [], isDark) };
 }
