@@ -398,8 +398,8 @@ def main():
     say(f"machine {results['machine']}")
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "shown": map_feeds, "upload": upload, "start": start,
-                         "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "load": load, "store": store}[name]()
-                         "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "store": store, "explore": explore}[name]()
+                         "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "load": load, "store": store,
+                         "explore": explore}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
