@@ -26,7 +26,7 @@ struct LaserSettings {
 struct Settings {
   CarrierLimits carrier;
   LaserSettings laser;
-  std::string strategy = "tour";
+  std::string strategy = "nearest";
   int robots = 1;
   int people = 0;
   std::uint64_t seed = 1;
