@@ -40,6 +40,12 @@ case $target in
     done
     options=(-max_len=256)
     ;;
+  scan_log)
+    printf 'PARAM robot_frontlaser_offset 0.1\nFLASER 3 1 2 3 0 0 0 0 0 0 1.5 h 1.5\n' | seed flaser
+    printf 'ROBOTLASER1 0 -1.5 3.0 0.5 50 0.01 0 2 1 2 0 0 0 0 0 0 0 0 0 0 0 0 7.5 h 7.5\n' | seed robot_laser
+    printf 'VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n' | seed g2o
+    printf '1.5 2.5 1 2 0 0 0 0.5\n' | seed relations
+    ;;
   client_request)
     printf '{"type":"ping","id":"1"}' | seed ping
     printf '{"type":"stop_script","id":"2"}' | seed stop

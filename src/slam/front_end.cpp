@@ -80,8 +80,8 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   // The search leaves the prediction only for a better fit: so much of the score a squared standard deviation costs.
   constexpr double cost_of_deviation = 0.003;
   constexpr double deviations = 5.0;
-  SearchWindow const window{.reach_m = std::clamp(deviations * spread.shift_m, 0.2, 0.6),
-                            .reach_rad = std::clamp(deviations * spread.turn_rad, 0.07, 0.5),
+  SearchWindow const window{.reach_m = std::clamp(deviations * spread.shift_m, 0.4, 0.8),
+                            .reach_rad = std::clamp(deviations * spread.turn_rad, 0.35, 0.6),
                             .cost_per_m2 = cost_of_deviation / (spread.shift_m * spread.shift_m),
                             .cost_per_rad2 = cost_of_deviation / (spread.turn_rad * spread.turn_rad)};
   auto const found = correlate(grid_, frame, predicted, window);

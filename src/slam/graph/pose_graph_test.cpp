@@ -55,7 +55,7 @@ TEST(BlockSystem, SolvesAsADenseSolverDoes) {
     dense.block<3, 3>(3 * k, 3 * k) += block;
     gradient.segment<3>(3 * k) += slope;
   }
-  for (auto const [a, b] : {std::pair{0, 1}, {2, 1}, {5, 3}, {6, 0}, {4, 2}}) {
+  for (auto const& [a, b] : {std::pair{0, 1}, {2, 1}, {5, 3}, {6, 0}, {4, 2}}) {
     Eigen::Matrix3d coupling;
     for (auto& value : coupling.reshaped()) value = number(random);
     system.add_coupling(a, b, coupling);

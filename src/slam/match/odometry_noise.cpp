@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t memory = 200;  // key frames; some minutes
 constexpr std::size_t enough = 20;   // before that the nominal spread stands
-constexpr double least_scale = 0.5;  // scan matching has noise of its own
+constexpr double least_scale = 1.0;  // a robot that has driven well may still slip
 constexpr double most_scale = 3.0;
 constexpr double gaussian_p90 = 1.645;  // of |error| / sigma
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 namespace lapwing::slam {
 namespace {

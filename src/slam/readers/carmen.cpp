@@ -81,11 +81,12 @@ class Reader {
                      double time) {
     auto mounted = sensor;
     mounted.mount_m = offset_ ? Eigen::Vector2f(*offset_, 0.0F) : mount(laser, robot);
-    if (builder_.add({.time = LogTime(time),
-                      .sensor = builder_.sensor(mounted),
-                      .odometry = robot,
-                      .ranges_m = std::move(ranges)}))
-      return {};
+    auto const number = builder_.sensor(mounted);
+    if (!number)
+      return fail_at(lines_.number(), fmt::format("more than {} kinds of scans", LogBuilder::most_sensors),
+                     "is the angle between beams different in each line?");
+    Scan scan{.time = LogTime(time), .sensor = *number, .odometry = robot, .ranges_m = std::move(ranges)};
+    if (builder_.add(std::move(scan))) return {};
     return fail_at(lines_.number(), fmt::format("more than {} readings", LogBuilder::most_readings),
                    "cut the log into parts");
   }

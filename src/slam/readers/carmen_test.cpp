@@ -72,6 +72,11 @@ TEST(Carmen, SaysInWhichLineWhatIsWrong) {
             "line 1: expected the numbers x y theta odom_x odom_y odom_theta ipc_timestamp after the readings");
   EXPECT_EQ(message("ROBOTLASER1 0 -1.5 3.0 0 50.0 0.01 0 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 h 1\n"),
             "line 1: start angle and resolution do not describe a scan of at most one turn");
+  std::string many;
+  for (int i = 0; i < 300; ++i)
+    many +=
+        "ROBOTLASER1 0 -1.5 3.0 0.0" + std::to_string(100 + i) + " 50.0 0.01 0 2 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 h 1\n";
+  EXPECT_EQ(message(many), "line 201: more than 200 kinds of scans");
   EXPECT_EQ(message("hello\n"), "no FLASER or ROBOTLASER1 line");
 }
 

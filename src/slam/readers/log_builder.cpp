@@ -23,14 +23,17 @@ void find_no_return(Sensor& sensor, int number, std::vector<Scan> const& scans) 
     if (scan.sensor == number)
       at_largest += static_cast<std::size_t>(std::ranges::count_if(
           scan.ranges_m, [&](float range) { return range < sensor.no_return_m && range >= same * largest; }));
-  if (static_cast<double>(at_largest) > often * static_cast<double>(count)) sensor.no_return_m = same * largest;
+  constexpr std::size_t again_and_again = 20;
+  if (at_largest >= again_and_again && static_cast<double>(at_largest) > often * static_cast<double>(count))
+    sensor.no_return_m = same * largest;
 }
 
 }  // namespace
 
-int LogBuilder::sensor(Sensor const& sensor) {
+std::optional<int> LogBuilder::sensor(Sensor const& sensor) {
   auto const found = std::ranges::find(log_.sensors, sensor);
   if (found != log_.sensors.end()) return static_cast<int>(found - log_.sensors.begin());
+  if (log_.sensors.size() == most_sensors) return std::nullopt;
   log_.sensors.push_back(sensor);
   return static_cast<int>(log_.sensors.size()) - 1;
 }

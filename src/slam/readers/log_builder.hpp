@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "slam/log/scan_log.hpp"
 
 namespace lapwing::slam {
@@ -10,8 +12,10 @@ class LogBuilder {
   static constexpr std::size_t most_beams = 20'000;
   static constexpr std::size_t most_readings = 400'000'000;  ///< of a log; 1.6 GB
 
-  /// The number of that sensor, a new one or the one that is the same.
-  [[nodiscard]] int sensor(Sensor const& sensor);
+  static constexpr std::size_t most_sensors = 200;
+
+  /// The number of that sensor, a new one or the one that is the same. Nothing: there are too many.
+  [[nodiscard]] std::optional<int> sensor(Sensor const& sensor);
   /// False: there are too many readings.
   [[nodiscard]] bool add(Scan scan);
   [[nodiscard]] bool is_empty() const { return log_.scans.empty(); }

@@ -57,7 +57,8 @@ class Robot {
  public:
   Robot(Building const& building, Pose2 const& start, DriveOptions const& options)
       : building_(building), options_(options), random_(options.seed), pose_(start) {
-    Sensor sensor{.no_return_m = static_cast<float>(options.most_range_m)};
+    Sensor sensor;
+    sensor.no_return_m = static_cast<float>(options.most_range_m);
     auto const steps = options.field_of_view_rad > 6.2 ? options.beams : options.beams - 1;
     for (int b = 0; b < options.beams; ++b)
       sensor.bearings_rad.push_back(

@@ -1,0 +1,44 @@
+#include "slam/mapper.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/async/parallel_for.hpp"
+#include "slam/testing/simulated_drive.hpp"
+
+namespace lapwing::slam {
+namespace {
+
+/// Once and a half round a ring of corridors.
+testing::Drive round_the_office(double variety) {
+  auto const building = testing::office(20.0, 12.0, 4.0, variety, 5);
+  return testing::drive(building, {{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {20, 0}, {20, 6}}, {.beams = 91});
+}
+
+Mapping mapped(ScanLog const& log, ForEach const& for_each = one_by_one) {
+  return map_log(log, {}, for_each, [](std::string_view, double) {});
+}
+
+TEST(Mapper, ClosesTheLoopOfAnOfficeAgainstDriftingOdometry) {
+  auto const drive = round_the_office(1.0);
+  std::vector<Pose2> odometry;
+  for (auto const& scan : drive.log.scans) odometry.push_back(scan.odometry);
+  ASSERT_GT(testing::greatest_error_m(odometry, drive.truth), 0.8);
+  auto const mapping = mapped(drive.log);
+  EXPECT_GT(mapping.loops.closures, 0);
+  EXPECT_LT(testing::greatest_error_m(mapping.trajectory, drive.truth), 0.1);
+}
+
+TEST(Mapper, IsTheSameOnAnyNumberOfThreads) {
+  auto const drive = round_the_office(1.0);
+  auto const threads = [](std::size_t count, std::function<void(std::size_t)> const& work) {
+    base::parallel_for(4, count, work);
+  };
+  EXPECT_EQ(mapped(drive.log).trajectory, mapped(drive.log, threads).trajectory);
+}
+
+TEST(Mapper, OfNothingIsNothing) {
+  EXPECT_TRUE(mapped({}).trajectory.empty());
+}
+
+}  // namespace
+}  // namespace lapwing::slam
