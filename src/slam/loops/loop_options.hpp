@@ -9,7 +9,7 @@ struct LoopOptions {
   double least_gap_m = 20.0;  ///< driven between two places; nearer ones the front end has joined already
   int submap_frames = 15;     ///< so many key frames are looked for others in
   int query_frames = 9;       ///< so many are looked for together
-  double least_score = 0.55;
+  double least_score = 0.5;
   double window_m = 0.6;  ///< least search window; beyond, `window_sigmas` of the drift
   double window_rad = 0.08;
   double window_sigmas = 2.5;
