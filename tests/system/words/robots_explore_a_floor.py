@@ -56,11 +56,11 @@ with tempfile.TemporaryDirectory() as name:
     # The contract, for each strategy.
     for strategy in ("tour", "nearest", "frontier", "right-hand"):
         report = folder / f"{strategy}.json"
-        explore("--map", plan, "--strategy", strategy, "--start", "2,2,0", "--report", report, "--picture", folder / "run.svg")
+        explore("--map", plan, "--strategy", strategy, "--start", "1.25,2,0", "--report", report, "--picture", folder / "run.svg")
         told = json.loads(report.read_text())
         assert told["strategy"] == strategy and told["robots"] == 1 and len(told["runs"]) == 1, told
         run = told["runs"][0]
-        assert run["start"] == [2.0, 2.0, 0.0], run
+        assert run["start"] == [1.25, 2.0, 0.0], run
         assert run["finished"] is True and run["reason"] == "explored" and run["coverage"] >= 0.99 and run["collisions"] == 0, run
         assert 10 < run["travel_to_99_m"] <= run["travel_m"] < 1000 and run["time_s"] > run["travel_m"] / 0.3 - 1, run
     assert (folder / "run.svg").read_text().startswith("<svg")
@@ -80,10 +80,10 @@ with tempfile.TemporaryDirectory() as name:
     # The same floor drawn the other way around, with a turned origin: the same way from the same place.
     pgm(folder / "negative.pgm", wall=255, free=0)
     negative = write_yaml(folder / "negative.yaml", "negative.pgm", negate=1, origin="[10, -5, 1.5707963267948966]")
-    explore("--map", negative, "--start", "8,-3,1.5707963267948966", "--report", folder / "negative.json")
+    explore("--map", negative, "--start", "8,-3.75,1.5707963267948966", "--report", folder / "negative.json")
     turned = json.loads((folder / "negative.json").read_text())["runs"][0]
-    plain = json.loads((folder / "tour.json").read_text())["runs"][0]
-    assert abs(turned["travel_m"] - plain["travel_m"]) < 1e-6 and turned["start"][:2] == [8.0, -3.0], (turned, plain)
+    plain = json.loads((folder / "nearest.json").read_text())["runs"][0]
+    assert abs(turned["travel_m"] - plain["travel_m"]) < 1e-6 and turned["start"][:2] == [8.0, -3.75], (turned, plain)
 
     # What is wrong is said, with exit code 2.
     def refused(text, *words):
@@ -93,7 +93,8 @@ with tempfile.TemporaryDirectory() as name:
     refused("cannot start at 0.20, 0.20: there is a wall", "--map", plan, "--start", "0.2,0.2")
     refused("outside of the floor plan", "--map", plan, "--start", "-50,2,0")
     refused("no strategy `left-hand`", "--map", plan, "--strategy", "left-hand")
-    refused("no free cell", "--map", write_yaml(folder / "all_wall.yaml", "plan.pgm", negate=1, free_thresh=0.001))
+    pgm(folder / "solid.pgm", free=0)
+    refused("no free cell", "--map", write_yaml(folder / "solid.yaml", "solid.pgm"))
     refused("is no ROS map", "--map", write_yaml(folder / "no_metres.yaml", "plan.pgm", resolution="wide"))
     refused("nowhere on the floor plan has a robot room", "--map", write_yaml(folder / "doll.yaml", "plan.pgm", resolution=0.002))
     (folder / "cut.pgm").write_bytes((folder / "plan.pgm").read_bytes()[:40])
