@@ -1,7 +1,7 @@
 import type { MapFeature } from '../layers/found/map_features';
 import { bodyOf } from '../lib/files/answers';
 import { thumbnailOf, type ChosenPicture } from '../lib/files/picture_file';
-import { controlPoints, Ground, type Pair } from '../lib/places/ground';
+import { controlPoints, Ground, pictureCorners, type Pair } from '../lib/places/ground';
 import { place, type Method, type Placement } from '../lib/places/placement';
 import type { Session } from './session.svelte';
 
@@ -52,17 +52,18 @@ export class PlacingStore {
   async adjust(feature: MapFeature): Promise<void> {
     const { image, thumbnail, taken_at, media_type, width_px, height_px, site, floor } = feature.properties;
     const ring = feature.geometry.type === 'Polygon' ? feature.geometry.coordinates[0] : undefined;
+    const corners = ring && pictureCorners(ring);
     const answer = await this.session.ask(`/api/v1/blobs/${String(image)}`);
     const bytes = answer?.ok ? await answer.blob() : undefined;
     this.clear();
     const isJpeg = media_type === 'image/jpeg';
-    if (!bytes || !ring || !(isJpeg || media_type === 'image/png')) {
+    if (!bytes || !corners || !(isJpeg || media_type === 'image/png')) {
       this.failure = 'The station does not give this picture.';
       return;
     }
     const [width, height] = [Number(width_px), Number(height_px)];
     this.picture = { name: feature.id, bytes, media_type: isJpeg ? 'image/jpeg' : 'image/png', width, height };
-    const at = (corner: number): Pair['at'] => ({ lon_deg: ring[corner]![0]!, lat_deg: ring[corner]![1]! });
+    const at = (corner: 0 | 1 | 2): Pair['at'] => ({ lon_deg: corners[corner][0], lat_deg: corners[corner][1] });
     this.pairs = [{ u: 0, v: 0, at: at(0) }, { u: width, v: 0, at: at(1) }, { u: width, v: height, at: at(2) }]; // prettier-ignore
     this.method = typeof this.placed !== 'string' && this.placed.residual_m < 0.01 ? 'similarity' : 'affine';
     [this.id, this.site, this.floor] = [feature.id, String(site), typeof floor === 'string' ? floor : ''];

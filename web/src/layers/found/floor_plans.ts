@@ -1,4 +1,5 @@
 import type { ImageSource, Map as MapLibreMap } from 'maplibre-gl';
+import { pictureCorners } from '../../lib/places/ground';
 import { stationTiles } from '../../map/station_tiles';
 import { isPlan } from '../../stores/placing.svelte';
 import { featuresOf } from '../features';
@@ -108,6 +109,6 @@ function drop(map: MapLibreMap, key: string): void {
 
 function sheetOf({ id, geometry, properties }: MapFeature): [string, Sheet][] {
   const ring = geometry.type === 'Polygon' ? geometry.coordinates[0] : undefined;
-  if (ring?.length !== 5) return [];
-  return [[`plan ${id}`, { image: String(properties.image), corners: ring.slice(0, 4) as Corners }]];
+  const corners = ring && pictureCorners(ring);
+  return corners ? [[`plan ${id}`, { image: String(properties.image), corners }]] : [];
 }

@@ -35,6 +35,17 @@ export class Ground {
   }
 }
 
+/**
+ * The corners of a picture's footprint from its upper left one clockwise, as the picture has them: GeoJSON's outer rings go
+ * counterclockwise (RFC 7946, 3.1.6), from the same first corner. None for what has not four corners.
+ */
+export function pictureCorners(ring: readonly (readonly number[])[]): [LonLat, LonLat, LonLat, LonLat] | undefined {
+  if (ring.length !== 5) return undefined;
+  const [a, b, c, d] = ring.map(([lon, lat]): LonLat => [lon!, lat!]) as [LonLat, LonLat, LonLat, LonLat];
+  const twiceArea = (c[0] - a[0]) * (d[1] - b[1]) - (d[0] - b[0]) * (c[1] - a[1]);
+  return twiceArea > 0 ? [a, d, c, b] : [a, b, c, d];
+}
+
 /** A place in a picture, and where it is on the globe. */
 export interface Pair {
   u: number;
