@@ -34,7 +34,7 @@ class LoopCloser {
 
   /// After each new key frame, the graph's last. Returns whether the poses have changed.
   bool follow(Graph& graph);
-  /// Looks at the whole graph once more, now that it is in better shape: loops that the drift had hidden.
+  /// Optimizes the whole graph once more, to the end. It looks for no further loops.
   void finish(Graph& graph);
 
   struct Counts {
