@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "slam/graph/block_system.hpp"
+#include "slam/graph/relative_pose.hpp"
 
 namespace lapwing::slam {
 namespace {
@@ -39,12 +40,7 @@ void fill(BlockSystem& system, std::vector<Constraint> const& constraints, std::
     auto const error = error_of(constraint, poses);
     auto const weight = scaling(constraint, error.dot(constraint.information * error), tolerance).weight;
     Eigen::Matrix3d const information = weight * constraint.information;
-    Turn const turn(from.yaw);
-    Eigen::Vector2d const apart = place(to) - place(from);
-    Eigen::Matrix3d by_to = Eigen::Matrix3d::Identity();
-    by_to.topLeftCorner<2, 2>() << turn.cosine, turn.sine, -turn.sine, turn.cosine;
-    Eigen::Matrix3d by_from = -by_to;
-    by_from.block<2, 1>(0, 2) = turn.back({apart.y(), -apart.x()});
+    auto const [by_from, by_to] = relative_pose_slopes(from, to);
     Eigen::Matrix3d const from_part = by_from.transpose() * information;
     Eigen::Matrix3d const to_part = by_to.transpose() * information;
     system.add(constraint.from, from_part * by_from, from_part * error);

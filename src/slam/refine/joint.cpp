@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "slam/graph/block_system.hpp"
+#include "slam/graph/relative_pose.hpp"
 #include "slam/match/point_to_line.hpp"
 #include "slam/refine/overlap.hpp"
 
@@ -36,12 +37,7 @@ void hold_steps(BlockSystem& system, std::vector<Pose2> const& before, std::vect
     auto const& to = poses[k];
     Eigen::Vector3d error = numbers(between(from, to)) - numbers(between(before[k - 1], before[k]));
     error.z() = geo::wrap_pi(error.z());
-    Turn const turn(from.yaw);
-    Eigen::Vector2d const apart = place(to) - place(from);
-    Eigen::Matrix3d by_to = Eigen::Matrix3d::Identity();
-    by_to.topLeftCorner<2, 2>() << turn.cosine, turn.sine, -turn.sine, turn.cosine;
-    Eigen::Matrix3d by_from = -by_to;
-    by_from.block<2, 1>(0, 2) = turn.back({apart.y(), -apart.x()});
+    auto const [by_from, by_to] = relative_pose_slopes(from, to);
     system.add(k - 1, by_from.transpose() * trust.asDiagonal() * by_from,
                by_from.transpose() * trust.cwiseProduct(error));
     system.add(k, by_to.transpose() * trust.asDiagonal() * by_to, by_to.transpose() * trust.cwiseProduct(error));
