@@ -39,7 +39,7 @@ std::string_view to_string(LoopRecord::Verdict verdict) {
 std::vector<LoopCloser::Candidate> LoopCloser::candidates(Graph const& graph, int query) const {
   auto const drifts = drift_from(query, graph.poses, graph.constraints, options_.rates);
   struct Near {
-    double excess_m;  ///< how far beyond its window
+    double apart_m;
     int submap;
   };
   std::vector<Near> near;
@@ -53,7 +53,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::candidates(Graph const& graph, in
     auto const apart = distance_m(graph.poses[query], graph.poses[reference]);
     if (apart < window_of(drifts[reference]) + sight_m) near.push_back({apart, s});
   }
-  std::ranges::sort(near, {}, [](Near const& n) { return std::pair(n.excess_m, n.submap); });
+  std::ranges::sort(near, {}, [](Near const& n) { return std::pair(n.apart_m, n.submap); });
   std::vector<Candidate> chosen;
   for (auto const& n : near) {
     auto const reference = submaps_[n.submap].reference;
@@ -186,8 +186,9 @@ bool LoopCloser::follow(Graph& graph) {
   auto const size = options_.submap_frames;
   if ((last + 1) % size == 0)
     if (auto submap = make_submap(graph, last - size + 1, last)) submaps_.push_back(*std::move(submap));
-  if (last < options_.least_gap_m || graph.frames[last].path_m - last_search_m_ < options_.every_m) return false;
-  last_search_m_ = graph.frames[last].path_m;
+  auto const path_m = graph.frames[last].path_m;
+  if (path_m < options_.least_gap_m || path_m - last_search_m_ < options_.every_m) return false;
+  last_search_m_ = path_m;
   return look(graph, last);
 }
 
