@@ -82,16 +82,27 @@ base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
   return relations;
 }
 
-/// On a terminal one line that changes; elsewhere nothing until the end.
-void show(std::string_view stage, double share) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  static int shown = -1;
-  auto const percent = static_cast<int>(share * 100.0);
-  if (percent == shown) return;
-  shown = percent;
-  fmt::print(stderr, "\r\033[K{:3} % {}", percent, stage);
-  if (percent == 100) fmt::print(stderr, "\r\033[K");
-}
+/// On a terminal one line that changes; elsewhere a line a stage.
+class ProgressLine {
+ public:
+  void operator()(std::string_view stage, double share) {
+    auto const percent = static_cast<int>(share * 100.0);
+    if (is_terminal_) {
+      if (percent == percent_) return;
+      fmt::print(stderr, "\r\033[K{:3} % {}", percent, stage);
+      if (percent == 100) fmt::print(stderr, "\r\033[K");
+    } else if (stage != stage_) {
+      fmt::print(stderr, "{:3} % {}\n", percent, stage);
+    }
+    percent_ = percent;
+    stage_ = stage;
+  }
+
+ private:
+  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  int percent_ = -1;
+  std::string stage_;
+};
 
 std::vector<slam::TimedPose> timed(slam::ScanLog const& log, std::vector<slam::Pose2> const& trajectory) {
   std::vector<slam::TimedPose> poses;
@@ -214,7 +225,7 @@ base::Result<> make_map(MapOptions const& options) {
   slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
     base::parallel_for(threads, count, work);
   };
-  auto const mapping = slam::map_log(*log, *settings, for_each, show);
+  auto const mapping = slam::map_log(*log, *settings, for_each, ProgressLine());
   auto const poses = timed(*log, mapping.trajectory);
   auto report = report_of(*log, mapping, poses, *relations);
   auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
