@@ -51,8 +51,8 @@ Extent extent_of(Subject const& subject) {
     for (auto const& polygon : zone.polygons)
       for (auto const& ring : polygon.rings)
         for (auto const& corner : ring)
-          extent.include(std::clamp(corner.north_m, flight.low.north - reach_m, flight.high.north + reach_m),
-                         std::clamp(corner.east_m, flight.low.east - reach_m, flight.high.east + reach_m));
+          extent.include(std::clamp(corner.x(), flight.low.north - reach_m, flight.high.north + reach_m),
+                         std::clamp(corner.y(), flight.low.east - reach_m, flight.high.east + reach_m));
   auto const room = [](double metres) { return std::max(metres * room_share, (smallest_m - metres) / 2.0); };
   double const north = room(extent.height());
   double const east = room(extent.width());
@@ -165,8 +165,7 @@ class Map {
       std::vector<Line> rings;
       for (auto const& polygon : zone.polygons)
         for (auto const& ring : polygon.rings)
-          for (auto& line = rings.emplace_back(); auto const& corner : ring)
-            line.push_back(at(corner.north_m, corner.east_m));
+          for (auto& line = rings.emplace_back(); auto const& corner : ring) line.push_back(at(corner.x(), corner.y()));
       auto name = zone.name;
       if (zone.highest_m) name += fmt::format(", up to {} m", number_text(*zone.highest_m, 0));
       if (zone.lowest_m) name += fmt::format(", from {} m", number_text(*zone.lowest_m, 0));

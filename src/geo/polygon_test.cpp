@@ -5,6 +5,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace lapwing::geo {
 namespace {
@@ -70,6 +71,24 @@ TEST(Polygon, KnowsHowFarItsEdgeIs) {
   EXPECT_DOUBLE_EQ(distance_to_edge_m(yard, Corner(5.0, 3.5)), 0.5);
   EXPECT_DOUBLE_EQ(distance_to_edge_m(yard, Corner(13.0, 14.0)), 5.0);
   EXPECT_EQ(distance_to_edge_m(Polygon<Map>{}, Corner(0.0, 0.0)), std::numeric_limits<double>::infinity());
+}
+
+TEST(Polygon, HoldsTheSamePlacesTurnedAndMoved) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> spread(-50.0, 50.0);
+  auto const somewhere = [&] { return Corner(spread(random), spread(random)); };
+  for (int round = 0; round < 500; ++round) {
+    Polygon<Map> polygon{{{}}};
+    for (int i = 0; i < 7; ++i) polygon.rings[0].push_back(somewhere());
+    auto const at = somewhere();
+    Eigen::Rotation2Dd const turn(spread(random));
+    auto const shift = somewhere();
+    auto const moved = [&](Corner const& place) { return Corner(Corner::Numbers(shift.v + turn * place.v)); };
+    Polygon<Map> turned{{{}}};
+    for (auto const& corner : polygon.rings[0]) turned.rings[0].push_back(moved(corner));
+    EXPECT_EQ(contains(polygon, at), contains(turned, moved(at)));
+    EXPECT_NEAR(distance_to_edge_m(polygon, at), distance_to_edge_m(turned, moved(at)), 1e-9);
+  }
 }
 
 struct Unsound {

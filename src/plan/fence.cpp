@@ -20,21 +20,6 @@ LevelPoint level(geo::Ned place) {
   return {place.north, place.east};
 }
 
-template <class Visit>
-void for_each_edge(Polygon const& polygon, Visit&& visit) {
-  for (auto const& ring : polygon.rings)
-    for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
-}
-
-double distance_to_segment_m(LevelPoint point, LevelPoint a, LevelPoint b) {
-  double const north = b.north_m - a.north_m;
-  double const east = b.east_m - a.east_m;
-  double const square = north * north + east * east;
-  double const along = (point.north_m - a.north_m) * north + (point.east_m - a.east_m) * east;
-  double const share = square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
-  return std::hypot(point.north_m - a.north_m - share * north, point.east_m - a.east_m - share * east);
-}
-
 /// A stretch of the track, even motion from one point to the next.
 struct Stretch {
   TrackPoint from;
@@ -53,17 +38,13 @@ struct Stretch {
 /// Where the stretch meets the line through the edge within the edge, as a share of the stretch.
 std::optional<double> crossing(Stretch const& stretch, LevelPoint a, LevelPoint b) {
   auto const from = level(stretch.from.place_m);
-  auto const to = level(stretch.to.place_m);
-  double const way_n = to.north_m - from.north_m;
-  double const way_e = to.east_m - from.east_m;
-  double const edge_n = b.north_m - a.north_m;
-  double const edge_e = b.east_m - a.east_m;
-  double const cross = way_n * edge_e - way_e * edge_n;
+  auto const way = level(stretch.to.place_m) - from;
+  auto const edge = b - a;
+  double const cross = way.cross(edge);
   if (cross == 0.0) return std::nullopt;  // side by side: it changes sides at the edges that join this one
-  double const gap_n = a.north_m - from.north_m;
-  double const gap_e = a.east_m - from.east_m;
-  double const share = (gap_n * edge_e - gap_e * edge_n) / cross;
-  double const along = (gap_n * way_e - gap_e * way_n) / cross;
+  auto const gap = a - from;
+  double const share = gap.cross(edge) / cross;
+  double const along = gap.cross(way) / cross;
   if (share <= 0.0 || share >= 1.0 || along < 0.0 || along > 1.0) return std::nullopt;
   return share;
 }
@@ -88,9 +69,9 @@ Watched watched(Zone const& zone, TrackPart track) {
 
 void add_crossings(Stretch const& stretch, Zone const& zone, std::vector<double>& shares) {
   for (auto const& polygon : zone.polygons)
-    for_each_edge(polygon, [&](LevelPoint a, LevelPoint b) {
-      if (auto const share = crossing(stretch, a, b)) shares.push_back(*share);
-    });
+    for (auto const& ring : polygon.rings)
+      for (std::size_t i = 0; i < ring.size(); ++i)
+        if (auto const share = crossing(stretch, ring[i], ring[(i + 1) % ring.size()])) shares.push_back(*share);
   double const from_m = -stretch.from.place_m.down;
   double const to_m = -stretch.to.place_m.down;
   for (auto const& limit : {zone.lowest_m, zone.highest_m}) {
@@ -214,23 +195,6 @@ class Examination {
 };
 
 }  // namespace
-
-bool contains(Polygon const& polygon, LevelPoint point) {
-  bool is_inside = false;
-  for_each_edge(polygon, [&](LevelPoint a, LevelPoint b) {
-    if ((a.north_m > point.north_m) == (b.north_m > point.north_m)) return;
-    double const share = (point.north_m - a.north_m) / (b.north_m - a.north_m);
-    if (point.east_m < a.east_m + share * (b.east_m - a.east_m)) is_inside = !is_inside;
-  });
-  return is_inside;
-}
-
-double distance_to_edge_m(Polygon const& polygon, LevelPoint point) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for_each_edge(polygon,
-                [&](LevelPoint a, LevelPoint b) { nearest = std::min(nearest, distance_to_segment_m(point, a, b)); });
-  return nearest;
-}
 
 std::vector<Breach> breaches(TrackPart track, Fence const& fence) {
   std::vector<Breach> all;

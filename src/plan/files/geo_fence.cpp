@@ -84,7 +84,7 @@ class Leveller {
     for (int i = 0; i < corners; ++i) {
       double const angle = 2.0 * std::numbers::pi * i / corners;
       ring.push_back(
-          {center->north_m + circle.radius_m * std::cos(angle), center->east_m + circle.radius_m * std::sin(angle)});
+          {center->x() + circle.radius_m * std::cos(angle), center->y() + circle.radius_m * std::sin(angle)});
     }
     zone.polygons.push_back({{std::move(ring)}});
     return zone;

@@ -47,8 +47,8 @@ TEST(GeoJsonFence, TakesACollectionWithProperties) {
   EXPECT_EQ(field.lowest_m, 10.0);
   ASSERT_EQ(field.polygons.size(), 1U);
   EXPECT_EQ(field.polygons[0].rings[0].size(), 4U);
-  EXPECT_NEAR(field.polygons[0].rings[0][0].north_m, -111.05, 0.1);
-  EXPECT_NEAR(field.polygons[0].rings[0][0].east_m, -84.11, 0.1);
+  EXPECT_NEAR(field.polygons[0].rings[0][0].x(), -111.05, 0.1);
+  EXPECT_NEAR(field.polygons[0].rings[0][0].y(), -84.11, 0.1);
   auto const& mast = fence->zones[1];
   EXPECT_EQ(mast.name, "zone 2");
   EXPECT_EQ(mast.kind, Zone::Kind::exclusion);

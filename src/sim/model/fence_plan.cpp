@@ -88,13 +88,13 @@ std::vector<FenceArea> fence_areas(MissionPlan const& fence, Site const& site) {
 }
 
 bool contains(FenceArea const& area, geo::Ned point) {
-  if (!area.polygon.rings.empty()) return plan::contains(area.polygon, {point.north, point.east});
-  return std::hypot(point.north - area.center.north_m, point.east - area.center.east_m) <= area.radius_m;
+  if (!area.polygon.rings.empty()) return geo::contains(area.polygon, {point.north, point.east});
+  return std::hypot(point.north - area.center.x(), point.east - area.center.y()) <= area.radius_m;
 }
 
 double distance_to_edge_m(FenceArea const& area, geo::Ned point) {
-  if (!area.polygon.rings.empty()) return plan::distance_to_edge_m(area.polygon, {point.north, point.east});
-  double const off_m = std::hypot(point.north - area.center.north_m, point.east - area.center.east_m);
+  if (!area.polygon.rings.empty()) return geo::distance_to_edge_m(area.polygon, {point.north, point.east});
+  double const off_m = std::hypot(point.north - area.center.x(), point.east - area.center.y());
   return std::abs(off_m - area.radius_m);
 }
 
