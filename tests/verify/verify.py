@@ -6,6 +6,7 @@ Without a part all of them run, the quick ones first. A part that fails does not
 
 import argparse
 import collections.abc
+import concurrent.futures
 import dataclasses
 import os
 import pathlib
@@ -74,12 +75,18 @@ def fuzz_targets() -> list[str]:
 def fuzz(run: Run, seconds: int) -> None:
     targets = fuzz_targets()
     folder = build(run, CLANG, "frame_seeds", *(f"fuzz_{target}" for target in targets))
-    found = []
-    for target in targets:
-        try:
-            run(str(ROOT / "fuzz/run.sh"), target, str(seconds), str(folder))
-        except Failed:
-            found.append(target)
+
+    def survives(target: str) -> bool:
+        with (LOGS / f"fuzz-{target}.log").open("w") as log:
+            try:
+                runner(log)(str(ROOT / "fuzz/run.sh"), target, str(seconds), str(folder))
+            except Failed:
+                return False
+        return True
+
+    # A fuzzer has one thread: as many at once as there are processors.
+    with concurrent.futures.ThreadPoolExecutor(int(JOBS)) as pool:
+        found = [target for target, well in zip(targets, pool.map(survives, targets)) if not well]
     if found:
         raise Failed(f"inputs that fail are in build/fuzz/failures: {' '.join(found)}")
 
