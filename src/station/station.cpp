@@ -88,6 +88,7 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       .closed = [this](SessionId session) { close_session(session); },
   });
   server_->every(options_.period, [this] { viewers_.send_news(); });
+  server_->every(options_.map_period, [this] { show_map_news(); });
   if (options_.store && options_.looks_back.empty()) {
     if (!options_.site.name.empty()) options_.store->name_session(viewers_.run(), options_.site.name);
     recorder_ = std::make_unique<Recorder>(loop, viewers_.all_feeds(), *options_.store,
@@ -120,6 +121,19 @@ base::Task<> Station::watch_membership() {
     co_await loop_.sleep(moment);
     viewers_.send_news();
   }
+}
+
+/// What takes long to write for everybody comes less often, and with the usual rounds at the latest: most of the loop's
+/// time belongs to vehicles.
+void Station::show_map_news() {
+  constexpr int rests_per_work = 9;
+  auto const revision = map_face_.revision();
+  auto const begun = std::chrono::steady_clock::now();
+  if (revision == shown_map_ || begun < map_rests_until_) return;
+  shown_map_ = revision;
+  viewers_.send_news(MapFace::feed_group);
+  auto const ended = std::chrono::steady_clock::now();
+  map_rests_until_ = ended + rests_per_work * (ended - begun);
 }
 
 // ---- from the viewers

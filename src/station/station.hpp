@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -41,7 +42,10 @@ class Station {
   struct Options {
     HttpServer::Options http = {};
     std::chrono::milliseconds period{200};  ///< between two messages about vehicles: 5 Hz, in wall time
-    std::size_t log_history = 500;          ///< lines kept for viewers that connect later
+    /// Between two looks at whether the map has changed, in wall time: what is written on it is there for viewers
+    /// sooner than the next round.
+    std::chrono::milliseconds map_period{50};
+    std::size_t log_history = 500;  ///< lines kept for viewers that connect later
     std::string program_version = "0";
     Site site = {};
     std::filesystem::path scripts = {};                ///< folder of scripts that viewers may choose from; empty: none
@@ -83,6 +87,7 @@ class Station {
   [[nodiscard]] base::Task<> watch_membership();
   [[nodiscard]] base::Task<> record_always();
   [[nodiscard]] base::Task<> record_grids_always();
+  void show_map_news();
   void open_session(SessionId session, HttpRequest const& request);
   void close_session(SessionId session);
   void receive(SessionId session, std::string_view text);
@@ -109,7 +114,9 @@ class Station {
   std::shared_ptr<LogHistory const> history_;
   std::unique_ptr<map::LiveMap> own_map_;
   MapFace map_face_;
-  std::unique_ptr<ExportJobs> exports_;                ///< null without an exporter
+  std::unique_ptr<ExportJobs> exports_;  ///< null without an exporter
+  map::Revision shown_map_ = 0;          ///< as viewers have it, but for the slow ones
+  std::chrono::steady_clock::time_point map_rests_until_{};
   int sessions_ = 0;                                   ///< ever opened: numbers the operators
   std::map<SessionId, vehicle::Commander> operators_;  ///< "operator 3", where vehicles are commanded
   Viewers viewers_;

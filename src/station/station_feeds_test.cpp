@@ -41,7 +41,7 @@ class StationFeedsTest : public ::testing::Test {
  protected:
   void open(Station::Options options = {}) {
     options.http.port = 0;
-    options.period = std::chrono::milliseconds(5);
+    options.period = period;
     auto opened = Station::open(loop, registry, script, hub, std::move(options));
     ASSERT_TRUE(opened) << opened.error().message;
     station = std::move(*opened);
@@ -101,6 +101,7 @@ class StationFeedsTest : public ::testing::Test {
   }
 
   base::Loop loop;
+  std::chrono::milliseconds period{5};
   vehicle::Registry registry{loop};
   testing::FakeScript script;
   base::LogHub hub;
@@ -373,6 +374,26 @@ TEST_F(StationFeedsTest, SendsASlowViewerTheNewestOfWhatItMissed) {
     last = bytes->substr(binary_header_size + 1);
   }
   EXPECT_LT(came, drawn) << "what was drawn over meanwhile is not sent";
+}
+
+TEST_F(StationFeedsTest, ShowsTheMapsNewsBeforeTheNextRound) {
+  map::LiveMap map([this] { return loop.utc_now(); });
+  map.put_site(geo::Site::make("lot", {}, {}).value());
+  period = std::chrono::hours(1);
+  Station::Options options;
+  options.map = &map;
+  open(std::move(options));
+  auto const viewer = watch();
+  ASSERT_TRUE(viewer);
+  viewer->send(R"({"type":"subscribe","id":"s","feeds":["map.areas"]})");
+  (void)next(*viewer, "reply");
+  ASSERT_TRUE(map.put({.id = "a",
+                       .site = "lot",
+                       .account = {.writer = "operator", .at = loop.utc_now()},
+                       .content = map::Area{.outline = {{{{0, 0}, {9, 0}, {9, 9}}}}}}));
+  auto const news = next(*viewer, "features");
+  ASSERT_EQ(news["features"].size(), 1U);
+  EXPECT_EQ(news["features"][0]["id"], "a");
 }
 
 }  // namespace

@@ -146,10 +146,10 @@ bool Viewers::is_watched(Channel const& channel) const {
   return std::ranges::any_of(viewers_, [&](auto const& entry) { return entry.second.feeds.contains(channel.id); });
 }
 
-void Viewers::send_news() {
+void Viewers::send_news(std::string_view group) {
   auto const now = loop_.now();
   for (auto& channel : channels_) {
-    if (!is_watched(channel)) continue;
+    if (!channel.feed->name().starts_with(group) || !is_watched(channel)) continue;
     refresh(channel, now);
     Round round{.now = now};
     for (auto& [session, viewer] : viewers_) {

@@ -45,8 +45,8 @@ class Viewers {
   /// no more than who watches.
   void begin(SessionId session);
 
-  /// To everybody what he lacks and has room for.
-  void send_news();
+  /// To everybody what he lacks and has room for; only of feeds whose names begin so.
+  void send_news(std::string_view group = {});
   /// The network has taken all that waited: what had no room may follow.
   void go_on(SessionId session);
 

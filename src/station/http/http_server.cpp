@@ -30,8 +30,10 @@
 #include <boost/beast/websocket/stream.hpp>
 
 #include "station/http/access.hpp"
+#include "station/http/internal/beast_messages.hpp"
 #include "station/http/internal/connection_places.hpp"
 #include "station/http/internal/outbox.hpp"
+#include "station/http/internal/web_socket_options.hpp"
 #include "station/http/static_files.hpp"
 #include "station/messages/message_pace.hpp"
 
@@ -47,14 +49,6 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 namespace {
-
-/// What a page from this server may load. Map tiles may come from anywhere the operator names, over TLS or from this
-/// machine; MapLibre runs its worker from a blob.
-constexpr std::string_view content_security_policy =
-    "default-src 'self'; script-src 'self'; style-src 'self'; worker-src 'self' blob:; child-src blob:; "
-    "img-src 'self' data: blob: https: http://127.0.0.1:* http://localhost:*; "
-    "connect-src 'self' https: http://127.0.0.1:* http://localhost:*; "
-    "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// A connection is a WebSocket stream from the start; plain HTTP is spoken on the layer below it until the upgrade.
 struct Connection {
@@ -92,18 +86,6 @@ void wake(void* pending) noexcept {
   static_cast<Pending*>(pending)->ended.cancel(ignored);
 }
 
-int status_of(error_code error) {
-  if (error == http::error::header_limit) return 431;
-  if (error == http::error::body_limit) return 413;
-  return 400;
-}
-
-/// Whether the client broke the protocol, rather than the connection.
-bool is_malformed(error_code error) {
-  return error.category() == make_error_code(http::error::bad_method).category() &&
-         error != http::error::end_of_stream && error != http::error::partial_message;
-}
-
 using Parser = http::request_parser<http::string_body>;
 
 /// What came, as far as it could be read, and the answer that it gets without being carried out.
@@ -112,41 +94,6 @@ struct Received {
   std::optional<HttpResponse> answer;
   bool is_malformed = false;
 };
-
-/// The plain request without its body; nothing when its target is badly encoded.
-std::optional<HttpRequest> plain(http::request<http::string_body> const& request) {
-  auto const target = request.target();
-  auto const method = request.method_string();
-  auto result = request_for({method.data(), method.size()}, {target.data(), target.size()});
-  if (!result) return std::nullopt;
-  for (auto const& field : request) {
-    result->headers.push_back({std::string(field.name_string()), std::string(field.value())});
-  }
-  return result;
-}
-
-http::response<http::string_body> wire(HttpResponse response, bool is_head, bool keep_alive) {
-  http::response<http::string_body> result;
-  result.result(static_cast<unsigned>(response.status));
-  result.set(http::field::server, "lapwing");
-  result.set("Content-Security-Policy",
-             beast::string_view(content_security_policy.data(), content_security_policy.size()));
-  result.set("X-Content-Type-Options", "nosniff");
-  result.set("Referrer-Policy", "no-referrer");
-  result.set("Permissions-Policy",
-             "accelerometer=(), camera=(), display-capture=(), geolocation=(), gyroscope=(), magnetometer=(), "
-             "microphone=(), midi=(), payment=(), serial=(), usb=()");
-  result.set("Cross-Origin-Opener-Policy", "same-origin");
-  result.set("Cross-Origin-Resource-Policy", "same-origin");
-  result.set(http::field::cache_control, "no-store");
-  if (!response.content_type.empty()) result.set(http::field::content_type, response.content_type);
-  for (auto const& header : response.headers) result.set(header.name, header.value);
-  result.keep_alive(keep_alive);
-  auto const length = response.body.size();
-  if (!is_head) result.body() = std::move(response.body);
-  if (response.status != 304) result.content_length(length);
-  return result;
-}
 
 }  // namespace
 
@@ -308,7 +255,7 @@ Received HttpServer::Core::judge(Connection& connection, Parser const& parser) {
   Received received;
   auto& asked = received.asked;
   auto& answer = received.answer;
-  asked = plain(parser.get());
+  asked = internal::plain(parser.get());
   if (!asked) {
     answer = problem(400, "The request's target is badly encoded.");
     return received;
@@ -358,8 +305,8 @@ asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection
     }
     error = co_await read_body(connection, buffer, parser, received);
   }
-  if (closed || (error && !is_malformed(error))) co_return false;
-  if (error) received.answer = problem(status_of(error), error.message());
+  if (closed || (error && !internal::is_malformed(error))) co_return false;
+  if (error) received.answer = problem(internal::status_of(error), error.message());
   received.is_malformed = error.failed();
   co_return co_await respond(connection, parser, received);
 }
@@ -377,7 +324,7 @@ asio::awaitable<bool> HttpServer::Core::respond(std::shared_ptr<Connection> conn
     if (closed) co_return false;
   }
   auto& transport = connection->transport();
-  auto const message = wire(*std::move(received.answer), is_head, keep_alive);
+  auto const message = internal::wire(*std::move(received.answer), is_head, keep_alive);
   transport.expires_after(options.request_timeout);
   error_code error;
   co_await http::async_write(transport, message, redirect_error(use_awaitable, error));
@@ -434,6 +381,8 @@ asio::awaitable<void> HttpServer::Core::serve_websocket(std::shared_ptr<Connecti
   timeouts.idle_timeout = std::chrono::seconds(30);
   timeouts.keep_alive_pings = true;
   stream.set_option(timeouts);
+  internal::keep_kernel_backlog_short(connection->transport().socket());
+  stream.set_option(internal::compression_for(options.compression, connection->transport().socket(), asked));
   stream.read_message_max(options.max_body_bytes);
   error_code error;
   co_await stream.async_accept(request, redirect_error(use_awaitable, error));

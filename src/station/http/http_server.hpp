@@ -34,6 +34,10 @@ struct WebSocketEvents {
 /// All of Boost Asio and Beast is behind this interface. Thread-bound to its loop, which must outlive it.
 class HttpServer {
  public:
+  /// Which WebSockets compress what they send (permessage-deflate, RFC 7692), if the client offers it. On one machine
+  /// it costs processor time and saves nothing.
+  enum class Compression { never, to_other_machines, always };
+
   struct Options {
     std::string address = "127.0.0.1";
     int port = 8080;                         ///< 0 picks a free one
@@ -41,6 +45,7 @@ class HttpServer {
     std::string websocket_path = "/api/v1/ws";
     std::string token = {};                    ///< API requests must carry it; must be set beyond loopback
     std::vector<std::string> host_names = {};  ///< further names of this machine that browsers may use
+    Compression compression = Compression::to_other_machines;
     /// When all are taken, the one that has done nothing for longest gives way to who comes (internal/places.hpp).
     std::size_t max_connections = 256;
     std::size_t max_strangers_per_address = 64;  ///< connections that have shown no token; with none set, no request

@@ -381,6 +381,52 @@ TEST_F(HttpServerTest, SendsTextAsTextAndBytesAsBytes) {
   EXPECT_FALSE(client->last_was_binary());
 }
 
+/// An upgrade as a browser asks for it.
+std::string upgrade_that_offers_compression(int port, std::string const& more = "") {
+  return "GET /api/v1/ws HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+         "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Extensions: permessage-deflate\r\n" +
+         more + "\r\n";
+}
+
+TEST_F(HttpServerTest, CompressesOnlyWhereItSaysSo) {
+  constexpr std::string_view agreed = "permessage-deflate";
+  for (auto const compression :
+       {HttpServer::Compression::never, HttpServer::Compression::to_other_machines, HttpServer::Compression::always}) {
+    serve({.compression = compression});
+    auto const viewer = RawConnection::open(loop, server->port());
+    ASSERT_TRUE(viewer);
+    viewer->send(upgrade_that_offers_compression(server->port()));
+    auto const answer = viewer->receive("\r\n\r\n");
+    EXPECT_TRUE(answer.contains("101 Switching Protocols"));
+    EXPECT_EQ(answer.contains(agreed), compression == HttpServer::Compression::always) << "this is the same machine";
+  }
+}
+
+TEST_F(HttpServerTest, CompressesForWhoComesThroughAProxy) {
+  serve({});
+  auto const viewer = RawConnection::open(loop, server->port());
+  ASSERT_TRUE(viewer);
+  viewer->send(upgrade_that_offers_compression(server->port(), "X-Forwarded-For: 192.0.2.1\r\n"));
+  EXPECT_TRUE(viewer->receive("\r\n\r\n").contains("Sec-WebSocket-Extensions: permessage-deflate"));
+}
+
+TEST_F(HttpServerTest, SaysTheSameCompressed) {
+  serve({.compression = HttpServer::Compression::always, .max_body_bytes = 100'000});
+  auto const client = WebSocketClient::open(loop, server->port(), {.target = "/api/v1/ws", .offers_compression = true});
+  ASSERT_TRUE(client);
+  client->send("one");
+  EXPECT_EQ(client->receive(), "echo one");
+  std::array const messages{text(std::string(300'000, 'x'))[0],
+                            HttpServer::Message{text(std::string("\0\xff", 2))[0].content, true}};
+  EXPECT_TRUE(server->send(sessions[0], messages));
+  EXPECT_EQ(client->receive(), std::string(300'000, 'x'));
+  EXPECT_EQ(client->receive(), std::string("\0\xff", 2));
+  EXPECT_TRUE(client->last_was_binary());
+  client->send(std::string(100'001, 'x'));
+  EXPECT_FALSE(client->receive()) << "the limit is on what it unfolds to";
+}
+
 TEST_F(HttpServerTest, RepeatsInWallTime) {
   serve({});
   int calls = 0;

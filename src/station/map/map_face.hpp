@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/async/loop.hpp"
@@ -20,9 +21,14 @@ class MapFace {
   /// Loop, map and store outlive it. `store` is null where nothing is kept: no pictures, no past.
   MapFace(base::Loop& loop, map::LiveMap& map, map::Store* store);
 
+  /// With what the names of all its feeds begin.
+  static constexpr std::string_view feed_group = "map.";
+
   /// Sites, each layer, grids. They outlive neither this nor the map.
   [[nodiscard]] std::vector<std::unique_ptr<Feed>> feeds() const;
   void add_routes(Router& router);
+  /// Whether anything on the map is new.
+  [[nodiscard]] map::Revision revision() const { return map_.revision(); }
 
  private:
   base::Loop& loop_;

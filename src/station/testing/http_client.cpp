@@ -211,6 +211,9 @@ std::unique_ptr<WebSocketClient> WebSocketClient::open(base::Loop& loop, int por
   state->stream.set_option(websocket::stream_base::decorator([&request](websocket::request_type& upgrade) {
     for (auto const& header : request.headers) upgrade.set(header.name, header.value);
   }));
+  websocket::permessage_deflate compression;
+  compression.client_enable = request.offers_compression;
+  state->stream.set_option(compression);
   auto const host = request.host.empty() ? fmt::format("127.0.0.1:{}", port) : request.host;
   Waited upgraded(loop);
   state->stream.async_handshake(host, request.target, upgraded.handler());

@@ -25,7 +25,8 @@ struct Ask {
   std::string target = "/";
   std::vector<HttpHeader> headers = {};
   std::string body = {};
-  std::string host = {};  ///< of the Host header; empty: the server's own address
+  std::string host = {};            ///< of the Host header; empty: the server's own address
+  bool offers_compression = false;  ///< of a WebSocket: permessage-deflate
 };
 
 /// One request on a connection of its own.
