@@ -25,7 +25,7 @@ bool pack(void* archive, files::path const& file) {
   auto const piece = std::make_unique<std::array<char, piece_bytes>>();
   bool is_written = true;
   while (is_written && in) {
-    in.read(piece->data(), piece->size());
+    in.read(piece->data(), static_cast<std::streamsize>(piece->size()));
     auto const count = static_cast<int>(in.gcount());
     if (count > 0) is_written = CPLWriteFileInZip(archive, piece->data(), count) == CE_None;
   }

@@ -152,7 +152,8 @@ void put(Extreme extreme, WireType type, std::mt19937& random, std::uint8_t* at)
   bool const is_real = type == WireType::float_ || type == WireType::double_;
   bool const is_signed =
       type == WireType::int8_ || type == WireType::int16_ || type == WireType::int32_ || type == WireType::int64_;
-  using Limits = std::numeric_limits<float>;
+  using Limits = std::numeric_limits<double>;
+  using FloatLimits = std::numeric_limits<float>;
   switch (extreme) {
     case Extreme::zero: std::fill_n(at, size, std::uint8_t{0}); break;
     case Extreme::minus_one: std::fill_n(at, size, std::uint8_t{0xFF}); break;
@@ -170,8 +171,8 @@ void put(Extreme extreme, WireType type, std::mt19937& random, std::uint8_t* at)
       for (std::size_t i = 0; i < size; ++i) at[i] = static_cast<std::uint8_t>(random());
   }
   if (!is_real) return;
-  if (extreme == Extreme::lowest) put_real(type, Limits::lowest(), at);
-  if (extreme == Extreme::highest) put_real(type, Limits::max(), at);
+  if (extreme == Extreme::lowest) put_real(type, double{FloatLimits::lowest()}, at);
+  if (extreme == Extreme::highest) put_real(type, double{FloatLimits::max()}, at);
   if (extreme == Extreme::minus_one) put_real(type, -1.0, at);
   if (extreme == Extreme::not_a_number) put_real(type, Limits::quiet_NaN(), at);
   if (extreme == Extreme::infinite) put_real(type, Limits::infinity(), at);

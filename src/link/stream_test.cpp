@@ -143,7 +143,7 @@ TEST(Stream, KeepsCommandsMovingWhenNobodyReads) {
       loop, {.descriptor = ends[0], .bytes_per_s = 5760.0}, counters, [](Bytes) {}, [](std::string const&) {});
   std::uint64_t taken = 0;
   for (int i = 0; i < 5000; ++i) {
-    taken += stream.send(packet('a' + static_cast<char>(i % 26)), Urgency::perishable);
+    taken += stream.send(packet(static_cast<char>('a' + i % 26)), Urgency::perishable);
     if (i % 100 == 0) loop.run_until_done(pass(loop, 1ms));
   }
   EXPECT_EQ(taken, 5000u) << "the newest always gets in";

@@ -11,8 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using enum mavlink::MavParamType;
 
-class CacheTest : public ::testing::Test {
- protected:
+struct CacheTest : ::testing::Test {
   void SetUp() override {
     auto name = (fs::temp_directory_path() / "lapwing-cache-XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);

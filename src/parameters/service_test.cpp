@@ -90,8 +90,7 @@ class Owner {
   base::Scope scope_;
 };
 
-class Service : public ::testing::Test {
- protected:
+struct Service : ::testing::Test {
   void SetUp() override {
     auto name = (std::filesystem::temp_directory_path() / "lapwing-service-XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);

@@ -13,8 +13,7 @@ using geo::Wgs84;
 
 auto const home = Wgs84::from_degrees(40.0, -8.0, 100.0);
 
-class EstimateTest : public ::testing::Test {
- protected:
+struct EstimateTest : ::testing::Test {
   EstimateTest() { EXPECT_TRUE(builder_.home(home)); }
   void move(double north_m, double up_m = 0.0) {
     EXPECT_TRUE(builder_.waypoint(*builder_.from_last({.north_m = north_m, .up_m = up_m})));

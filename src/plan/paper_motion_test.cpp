@@ -65,8 +65,7 @@ TEST(Curves, GiveUpWhatTheyCannotReach) {
   EXPECT_LT(curves.go_to({0.0, 30.0, 0.0}, 0.1).time_s, 100.0);
 }
 
-class DetailedEstimate : public ::testing::Test {
- protected:
+struct DetailedEstimate : ::testing::Test {
   static Estimate of(vehicle::Family family, MissionBuilder const& builder) {
     return estimate(*builder.finish("m"), std::nullopt, performance_of(family));
   }

@@ -37,8 +37,7 @@ struct Header {
   std::uint64_t revision;
 };
 
-class StationFeedsTest : public ::testing::Test {
- protected:
+struct StationFeedsTest : ::testing::Test {
   void open(Station::Options options = {}) {
     options.http.port = 0;
     options.period = period;

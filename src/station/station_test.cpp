@@ -26,8 +26,7 @@ using testing::ask;
 using testing::run_until;
 using testing::WebSocketClient;
 
-class StationTest : public ::testing::Test {
- protected:
+struct StationTest : ::testing::Test {
   void open(Station::Options options = {}) {
     options.http.port = 0;
     options.period = period;

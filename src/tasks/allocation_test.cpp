@@ -21,8 +21,7 @@ std::string text(base::Result<Allocation> const& allocation) {
   return all;
 }
 
-class AllocationTest : public ::testing::Test {
- protected:
+struct AllocationTest : ::testing::Test {
   TaskTree task(std::string_view name) { return stage_.task(name); }
   std::string allocated(TaskTree const& tree, std::vector<std::string> const& picked) {
     return text(allocate(tree, stage_.pick(picked)));

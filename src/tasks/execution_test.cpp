@@ -10,8 +10,7 @@ namespace {
 
 using namespace testing;
 
-class ExecutionTest : public ::testing::Test {
- protected:
+struct ExecutionTest : ::testing::Test {
   TaskTree task(std::string_view name) { return stage_.task(name); }
   Outcome execute(TaskTree const& tree) { return stage_.execute(tree, {"a1", "a2"}); }
   auto& trace() { return stage_.trace; }
@@ -348,8 +347,7 @@ TEST_F(ExecutionTest, RunsAThousandTasksAtOnce) {
 
 // ---- from outside
 
-class DrivenExecutionTest : public ExecutionTest {
- protected:
+struct DrivenExecutionTest : ExecutionTest {
   void begin(TaskTree const& tree) {
     execution_.emplace(tree, *allocate(tree, stage_.pick({"a1", "a2"})), stage_.platform, stage_.observer());
     execution_->start(stage_.loop.now());

@@ -31,7 +31,9 @@ void for_each_seen(map::OccupancyGrid const& grid, Visit visit) {
   for (auto const& [key, tile] : grid.tiles())
     for (int y = 0; y < map::tile_cells; ++y)
       for (int x = 0; x < map::tile_cells; ++x)
-        if (auto const evidence = tile->cells[static_cast<std::size_t>(y * map::tile_cells + x)]; evidence.is_seen())
+        if (auto const evidence =
+                tile->cells[static_cast<std::size_t>(y) * map::tile_cells + static_cast<std::size_t>(x)];
+            evidence.is_seen())
           visit(key.x * map::tile_cells + x, key.y * map::tile_cells + y, evidence);
 }
 

@@ -60,10 +60,11 @@ ast::ExprPtr Parser::literal() {
       auto const whole = text(word);
       bool const is_typographic = whole[0] != '\'' && whole[0] != '"';  // the lexer has complained
       if (is_typographic) return make(ast::StringLiteral{}, word.span);
-      std::uint32_t const quotes = whole.size() >= 6 && whole[1] == whole[0] && whole[2] == whole[0] ? 3 : 1;
+      std::size_t const quotes = whole.size() >= 6 && whole[1] == whole[0] && whole[2] == whole[0] ? 3 : 1;
       auto const closed = whole.size() >= 2 * quotes && whole.back() == whole[0];
-      auto const end = closed ? word.span.end - quotes : word.span.end;
-      return make(ast::StringLiteral{decode_string({word.span.begin + quotes, end}, diagnostics_)}, word.span);
+      auto const width = static_cast<std::uint32_t>(quotes);
+      auto const end = closed ? word.span.end - width : word.span.end;
+      return make(ast::StringLiteral{decode_string({word.span.begin + width, end}, diagnostics_)}, word.span);
     }
     default: return make(decode_number(word.span, word.kind == decimal, diagnostics_), word.span);
   }

@@ -10,7 +10,6 @@
 /// that nothing else is wrong because of it.
 namespace lapwing::dolphin {
 
-using base::Span;
 using enum TokenKind;
 
 std::string Parser::hint_for_place() const {

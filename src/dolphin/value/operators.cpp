@@ -270,35 +270,48 @@ Checked<Value> task_value(Heap& heap, tasks::TaskTree tree) {
   return Value(heap.make<TaskValue>(std::move(tree)));
 }
 
+namespace {
+
+/// task >> task, task | task; nothing for anything else.
+std::optional<Checked<Value>> tasks_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right,
+                                              tasks::Origin const& origin) {
+  auto const* const first = left.as<TaskValue>();
+  auto const* const second = right.as<TaskValue>();
+  if (!first || !second) return std::nullopt;
+  if (op == BinaryOp::shift_right) return task_value(heap, tasks::sequence(first->value, second->value, origin));
+  if (op == BinaryOp::bit_or) return task_value(heap, tasks::concurrent(first->value, second->value, origin));
+  return std::nullopt;
+}
+
+/// Of a list or a range. A range counts as the list of its numbers where there is more to do than to look at it.
+Checked<Value> items_operation(Heap& heap, BinaryOp op, Value const& left, Value const& right,
+                               tasks::Origin const& origin) {
+  if (auto const* const range = right.as<Range>(); range && op != BinaryOp::shift_left) {
+    auto const list = as_list(heap, *range);
+    return list ? apply(heap, op, left, Value(list), origin) : no_such_operation(op, left, right);
+  }
+  if (auto const* const range = left.as<Range>(); range && (op == BinaryOp::add || op == BinaryOp::subtract)) {
+    auto const list = as_list(heap, *range);
+    return list ? apply(heap, op, Value(list), right, origin) : no_such_operation(op, left, right);
+  }
+  return left.is(ValueKind::list) ? list_operation(heap, op, left, right) : no_such_operation(op, left, right);
+}
+
+}  // namespace
+
 Checked<Value> apply(Heap& heap, BinaryOp op, Value const& left, Value const& right, tasks::Origin const& origin) {
   if (left.is(ValueKind::integer) && right.is(ValueKind::integer))
     return integer_operation(op, left.integer(), right.integer());
   if (left.is_number() && right.is_number()) return real_operation(op, left, right);
   if (left.is(ValueKind::boolean) && right.is(ValueKind::boolean)) return truth_operation(op, left, right);
-  bool const takes_items = left.is(ValueKind::list) || left.is(ValueKind::range);
-  if (op == BinaryOp::add && (left.is(ValueKind::text) || (right.is(ValueKind::text) && !takes_items))) {
+  bool const has_items = left.is(ValueKind::list) || left.is(ValueKind::range);
+  if (op == BinaryOp::add && (left.is(ValueKind::text) || (right.is(ValueKind::text) && !has_items)))
     return make_text(heap, to_text(left) + to_text(right));
-  }
-  auto const* task = left.as<TaskValue>();
-  if (auto const* other = right.as<TaskValue>(); task && other) {
-    if (op == BinaryOp::shift_right) return task_value(heap, tasks::sequence(task->value, other->value, origin));
-    if (op == BinaryOp::bit_or) return task_value(heap, tasks::concurrent(task->value, other->value, origin));
-  }
-  if (auto const a = as_set(heap, left)) {
+  if (auto joined = tasks_operation(heap, op, left, right, origin)) return *std::move(joined);
+  if (auto const a = as_set(heap, left))
     if (auto const b = as_set(heap, right)) return vehicles_operation(heap, op, *a, *b);
-  }
+  if (has_items) return items_operation(heap, op, left, right, origin);
   if (left.is(ValueKind::text)) return text_operation(heap, op, left, right);
-  auto const* left_range = left.as<Range>();
-  auto const* right_range = left.is(ValueKind::list) || left_range ? right.as<Range>() : nullptr;
-  if (right_range && op != BinaryOp::shift_left) {
-    auto const list = as_list(heap, *right_range);
-    return list ? apply(heap, op, left, Value(list), origin) : no_such_operation(op, left, right);
-  }
-  if (left_range && (op == BinaryOp::add || op == BinaryOp::subtract)) {
-    auto const list = as_list(heap, *left_range);
-    return list ? apply(heap, op, Value(list), right, origin) : no_such_operation(op, left, right);
-  }
-  if (left.is(ValueKind::list)) return list_operation(heap, op, left, right);
   if (left.is(ValueKind::position)) return position_operation(heap, op, left, right);
   if (left.is(ValueKind::map)) return map_operation(heap, op, left, right);
   return no_such_operation(op, left, right);

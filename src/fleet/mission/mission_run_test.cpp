@@ -27,7 +27,7 @@ struct MissionRun : testing::Test {
     return run.state();
   }
   /// Why a mission fails whose copter says this in flight and returns home.
-  std::string error_after(mavlink::MavSeverity severity, char const* text) {
+  std::string error_after(mavlink::MavSeverity severity, char const* text) const {
     auto& copter = world->add();
     world->run_for(5s);
     auto const run = start(mission_ending_with(MavCmd::nav_land));

@@ -141,7 +141,11 @@ TEST_F(Telemetry, EstimatesTheTimeLeftThatTheVehicleDoesNotTell) {
   mavlink::ExtendedSysState air;
   air.landed_state = mavlink::MavLandedState::in_air;
   take(air, 600s);
-  for (int second = 0; second <= 60; ++second) report(1.0 - 0.01 * (second / 6), 30.0, 600s + second * 1s);  // 600 s
+  // A percent every six seconds: all of it in 600 s.
+  for (int second = 0; second <= 60; ++second) {
+    int const used_percent = second / 6;
+    report(1.0 - 0.01 * used_percent, 30.0, 600s + second * 1s);
+  }
   auto const& battery = *state.power.battery.value;
   ASSERT_TRUE(battery.time_left);
   EXPECT_TRUE(battery.time_left_is_estimate);

@@ -225,35 +225,33 @@ MavResult TestAutopilot::execute(MavCmd command, std::array<float, 7> const& par
     case MavCmd::do_set_mission_current:
       current_item = static_cast<std::uint16_t>(params[0]);
       return MavResult::accepted;
-    case MavCmd::set_message_interval: {
-      auto const id = static_cast<MessageId>(params[0]);
-      if (denied_intervals.contains(id)) return MavResult::denied;
-      if (params[1] < 0.0F) intervals_.erase(id);
-      if (params[1] > 0.0F)
-        intervals_[id] = {std::chrono::microseconds(static_cast<long long>(params[1])), loop_.now()};
-      return MavResult::accepted;
-    }
-    case MavCmd::get_message_interval: {
-      auto const id = static_cast<MessageId>(params[0]);
-      if (denied_intervals.contains(id)) return MavResult::denied;
-      mavlink::MessageInterval answer{.message = id, .interval = std::nullopt};
-      if (auto const rate = interval(id))
-        answer.interval = std::chrono::duration_cast<std::chrono::microseconds>(*rate);
-      send(answer);
-      return MavResult::accepted;
-    }
-    case MavCmd::request_message: {
-      auto const wanted = static_cast<MessageId>(params[0]);
-      bool const is_told = wanted == MessageId::home_position
-                               ? has_home
-                               : wanted == MessageId::global_position_int && options_.tells_place;
-      if (!is_told) return MavResult::unsupported;
-      send_message(wanted);
-      return MavResult::accepted;
-    }
+    case MavCmd::set_message_interval:
+    case MavCmd::get_message_interval:
+    case MavCmd::request_message: return serve_stream(command, params);
     case MavCmd::do_set_home: return MavResult::accepted;
     default: return MavResult::unsupported;
   }
+}
+
+MavResult TestAutopilot::serve_stream(MavCmd command, std::array<float, 7> const& params) {
+  auto const id = static_cast<MessageId>(params[0]);
+  if (command == MavCmd::request_message) {
+    bool const is_told =
+        id == MessageId::home_position ? has_home : id == MessageId::global_position_int && options_.tells_place;
+    if (!is_told) return MavResult::unsupported;
+    send_message(id);
+    return MavResult::accepted;
+  }
+  if (denied_intervals.contains(id)) return MavResult::denied;
+  if (command == MavCmd::get_message_interval) {
+    mavlink::MessageInterval answer{.message = id, .interval = std::nullopt};
+    if (auto const rate = interval(id)) answer.interval = std::chrono::duration_cast<std::chrono::microseconds>(*rate);
+    send(answer);
+    return MavResult::accepted;
+  }
+  if (params[1] < 0.0F) intervals_.erase(id);
+  if (params[1] > 0.0F) intervals_[id] = {std::chrono::microseconds(static_cast<long long>(params[1])), loop_.now()};
+  return MavResult::accepted;
 }
 
 MavResult TestAutopilot::arm() {

@@ -136,6 +136,7 @@ class TestAutopilot {
   void take(mavlink::Frame const& frame);
   void obey(mavlink::MavCmd command, std::array<float, 7> const& params, mavlink::Address from);
   mavlink::MavResult execute(mavlink::MavCmd command, std::array<float, 7> const& params);
+  mavlink::MavResult serve_stream(mavlink::MavCmd command, std::array<float, 7> const& params);
   void move();
   mavlink::MavResult arm();
   void serve_upload(mavlink::Message const& message, mavlink::Address from);

@@ -20,7 +20,7 @@ struct Plans : testing::Test {
     std::filesystem::create_directory(folder);
   }
   ~Plans() override { std::filesystem::remove_all(folder); }
-  void write(std::string const& name, std::string_view text) {
+  void write(std::string const& name, std::string_view text) const {
     EXPECT_TRUE(write_file((folder / name).string(), text));
   }
   [[nodiscard]] base::Result<LoadedPlans> load() const { return load_plans(folder.string()); }

@@ -12,8 +12,7 @@
 namespace lapwing::host {
 namespace {
 
-class ConsoleTest : public ::testing::Test {
- protected:
+struct ConsoleTest : ::testing::Test {
   ConsoleTest() : standard_input_(::dup(STDIN_FILENO)) {
     hub_.add_sink([this](base::LogRecord const& record) { logged.push_back(record.source + ": " + record.text); });
   }

@@ -20,8 +20,7 @@ using namespace std::chrono_literals;
 
 base::UtcTime const noon = std::chrono::sys_days(std::chrono::year(2027) / 1 / 1);
 
-class Server : public ::testing::Test {
- protected:
+struct Server : ::testing::Test {
   void SetUp() override {
     auto const* const address = std::getenv("LAPWING_TEST_POSTGRES");
     if (!address) GTEST_SKIP() << "LAPWING_TEST_POSTGRES names no server";

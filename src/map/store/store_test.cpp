@@ -19,8 +19,7 @@ using namespace std::chrono_literals;
 base::UtcTime const noon = std::chrono::sys_days(std::chrono::year(2027) / 1 / 1);
 
 /// What is kept in one folder, opened anew as often as a test likes.
-class Stores : public ::testing::Test {
- protected:
+struct Stores : ::testing::Test {
   Stores() { options.address = folder.path().string(); }
 
   std::unique_ptr<Store> open() {
@@ -267,8 +266,7 @@ TEST_F(Stores, TellWhatCannotBeReadAndGiveTheRest) {
   EXPECT_EQ(trouble_of_loading, "slots \"bad\" in the store: taken_probability is 7, not from 0 to 1");
 }
 
-class Past : public Stores {
- protected:
+struct Past : Stores {
   static Store::Shown frame(double s, std::string content, bool is_whole = false) {
     return {.at = noon + base::from_seconds(s),
             .session = "run 1",

@@ -8,8 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-class PicturesFeedTest : public ::testing::Test {
- protected:
+struct PicturesFeedTest : ::testing::Test {
   /// The camera takes the next picture; the vehicle keeps the last three.
   void take(std::string const& id) {
     vehicle::VehicleId const name{id};

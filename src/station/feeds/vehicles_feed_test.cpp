@@ -12,8 +12,7 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-class VehiclesFeedTest : public ::testing::Test {
- protected:
+struct VehiclesFeedTest : ::testing::Test {
   static base::TimePoint at(base::Duration since_start) { return base::TimePoint(since_start); }
   vehicle::VehicleState& edit(std::string const& id) {
     vehicle::VehicleId const name{id};

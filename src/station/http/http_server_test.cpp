@@ -22,8 +22,7 @@ std::array<HttpServer::Message, 1> text(std::string bytes) {
   return {HttpServer::Message{std::make_shared<std::string const>(std::move(bytes))}};
 }
 
-class HttpServerTest : public ::testing::Test {
- protected:
+struct HttpServerTest : ::testing::Test {
   void serve(HttpServer::Options options) {
     options.port = 0;
     auto opened = HttpServer::open(loop, std::move(options), base::Logger());

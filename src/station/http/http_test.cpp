@@ -83,8 +83,7 @@ TEST(Router, FindsWhatPathsName) {
   EXPECT_EQ(std::get<HttpResponse>(router.answer(*request_for("PUT", "/tiles/3/17.png"))).status, 405);
 }
 
-class StaticFiles : public ::testing::Test {
- protected:
+struct StaticFiles : ::testing::Test {
   StaticFiles() {
     std::string name = (fs::temp_directory_path() / "lapwing-static-XXXXXX").string();
     base_ = ::mkdtemp(name.data());

@@ -9,8 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ScriptFolder : public ::testing::Test {
- protected:
+struct ScriptFolder : ::testing::Test {
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "lapwing-scripts-XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);

@@ -98,7 +98,7 @@ std::string to_text(plan::Plan const& plan) {
   auto const estimate = plan::estimate(mission, mission.planned_home);
   if (!mission.items.empty())
     fmt::format_to(out, ", {:.0f} m{}", estimate.path_m, estimate.is_endless ? " until it goes on without end" : "");
-  text += "\n";
+  text += '\n';
   for (std::size_t i = 0; i < mission.items.size(); ++i) text += line_of(mission.items[i], i + 1);
   fmt::format_to(out, "fence   {} zones\n", plan.fence.zones.size());
   for (auto const& zone : plan.fence.zones) text += line_of(zone);

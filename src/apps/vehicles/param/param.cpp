@@ -42,8 +42,8 @@ struct ParamArguments {
 struct ParamGround : host::LinkSession {
   explicit ParamGround(host::SigningSetup signing) : host::LinkSession(std::move(signing), "param") {}
 
-  base::Result<> open(std::vector<std::string> const& urls) {
-    if (auto opened = host::LinkSession::open(urls); !opened) return opened;
+  base::Result<> open_with_parameters(std::vector<std::string> const& urls) {
+    if (auto opened = open(urls); !opened) return opened;
     for (auto& [name, network] : ground.networks) services.try_emplace(name, network, host::parameter_cache(), log);
     return {};
   }
@@ -69,7 +69,7 @@ int run_job(ParamArguments const& arguments, Job const& job) {
   // Two files are compared without anybody else.
   bool const needs_no_vehicle = arguments.sides.size() == 2 && std::ranges::none_of(arguments.sides, is_vehicle);
   if (!needs_no_vehicle)
-    if (auto opened = ground.open(arguments.links); !opened) return host::refuse(opened.error());
+    if (auto opened = ground.open_with_parameters(arguments.links); !opened) return host::refuse(opened.error());
   return ground.run(job(ground, arguments));
 }
 
@@ -118,9 +118,8 @@ base::Task<int> list(ParamGround& ground, ParamArguments const& of) {
   auto const vehicles = co_await wanted_vehicles(ground, of.wait_s, std::move(names));
   if (!vehicles) co_return host::refuse(vehicles.error());
   auto const wanted = of.cached ? Wanted::cached_too : Wanted::confirmed;
-  Vehicles const which = *vehicles;
   std::vector<std::string> const patterns = of.names;
-  auto const listings = co_await list_parameters(ground.loop, which, wanted, patterns);
+  auto const listings = co_await list_parameters(ground.loop, *vehicles, wanted, patterns);
   if (!listings) co_return host::refuse(listings.error());
   print(of.json ? listing_json(*listings) : listing_text(*listings));
   co_return host::exit_done;
@@ -179,10 +178,8 @@ base::Task<int> set(ParamGround& ground, ParamArguments const& of) {
   if (!values) co_return host::refuse(values.error());
   auto const vehicles = co_await named_vehicles(ground, of);
   if (!vehicles) co_return host::refuse(vehicles.error());
-  Vehicles const which = *vehicles;
-  std::vector<Parameter> const what = *values;
   // Who names a parameter means it.
-  co_return co_await apply(ground, of, which, what, ApplyOptions{.leave_out_own = false});
+  co_return co_await apply(ground, of, *vehicles, *values, ApplyOptions{.leave_out_own = false});
 }
 
 base::Result<std::vector<Parameter>> read_file(std::string const& path) {
@@ -208,9 +205,8 @@ base::Task<int> load(ParamGround& ground, ParamArguments const& of) {
   if (!all) co_return host::refuse(all.error());
   auto const vehicles = co_await named_vehicles(ground, of);
   if (!vehicles) co_return host::refuse(vehicles.error());
-  Vehicles const which = *vehicles;
   auto const values = chosen(*all, of.names);
-  co_return co_await apply(ground, of, which, values,
+  co_return co_await apply(ground, of, *vehicles, values,
                            ApplyOptions{.leave_out_own = !of.everything, .only_tell = of.only_tell});
 }
 
@@ -251,9 +247,8 @@ base::Task<base::Result<std::vector<Parameter>>> side(ParamGround& ground, Param
     std::vector<std::string> names{text};
     auto const vehicles = co_await wanted_vehicles(ground, of.wait_s, std::move(names));
     if (!vehicles) co_return std::unexpected(vehicles.error());
-    Vehicles const which = *vehicles;
     std::vector<std::string> const patterns;
-    auto const listings = co_await list_parameters(ground.loop, which, Wanted::confirmed, patterns);
+    auto const listings = co_await list_parameters(ground.loop, *vehicles, Wanted::confirmed, patterns);
     if (!listings) co_return std::unexpected(listings.error());
     all = listings->front().parameters;
   } else {

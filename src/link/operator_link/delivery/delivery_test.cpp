@@ -43,8 +43,16 @@ class Delivery : public ::testing::Test {
     co_await loop.sleep(time);
     co_return 0;
   }
-  PeerSession& at_station() { return client->session(); }
-  PeerSession& at_drone() { return *server->find("station"); }
+  PeerSession& at_station() const { return client->session(); }
+  PeerSession& at_drone() const { return *server->find("station"); }
+  using Texts = std::vector<std::string>;
+  static constexpr std::size_t much_said = 200;
+  /// Every other time, until much was said.
+  static void say_something(PeerSession& by, Texts& said, std::mt19937_64& random) {
+    if (said.size() >= much_said || random() % 2 != 0) return;
+    said.push_back(fmt::format("{} {}", said.size(), std::string(random() % 300, 'x')));
+    EXPECT_TRUE(by.send(durable(said.back())));
+  }
   static std::vector<std::string> take_all(PeerSession& session) {
     std::vector<std::string> texts;
     while (auto message = session.take()) texts.push_back(message->text);
@@ -58,7 +66,6 @@ class Delivery : public ::testing::Test {
     return {.kind = Kind::latest, .text = std::move(text), .key = std::move(key)};
   }
 
-  using Texts = std::vector<std::string>;
   base::Loop loop{{.unpaced = true}};
   MemoryNetwork network{loop, 1};
   std::vector<std::string> events;
@@ -143,15 +150,9 @@ TEST_F(Delivery, SurvivesCutsAtRandomBytes) {
     connect({.back_off = {.first = 10ms, .most = 100ms}});
     ASSERT_TRUE(server->expect("station"));
     Texts said_here, said_there, heard_here, heard_there;
-    for (int round = 0; round < 20'000 && (heard_there.size() < 200 || heard_here.size() < 200); ++round) {
-      if (said_here.size() < 200 && random() % 2 == 0) {
-        said_here.push_back(fmt::format("{} {}", said_here.size(), std::string(random() % 300, 'x')));
-        ASSERT_TRUE(at_station().send(durable(said_here.back())));
-      }
-      if (said_there.size() < 200 && random() % 2 == 0) {
-        said_there.push_back(fmt::format("{} {}", said_there.size(), std::string(random() % 300, 'y')));
-        ASSERT_TRUE(at_drone().send(durable(said_there.back())));
-      }
+    for (int round = 0; round < 20'000 && (heard_there.size() < much_said || heard_here.size() < much_said); ++round) {
+      say_something(at_station(), said_here, random);
+      say_something(at_drone(), said_there, random);
       wait(std::chrono::milliseconds(random() % 20));
       if (random() % 3 == 0)
         if (auto message = at_drone().take()) heard_there.push_back(message->text);

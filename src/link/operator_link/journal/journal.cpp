@@ -107,12 +107,9 @@ base::Result<> Journal::recover_segment(Disk::File const& file, bool is_last) {
   auto const state = is_ours ? record_at(*content, offset) : std::nullopt;
   if (!state || !replay(*state)) {
     // Cut off while it was begun: nothing had been accepted in it. Another one is not ours to remove.
-    if (is_last && !is_ours && !std::ranges::equal(*content, file_magic.substr(0, content->size())))
-      damaged_bytes_ += file.size;
-    else if (is_last)
-      return disk_->remove(file.name);
-    else
-      damaged_bytes_ += file.size;
+    bool const begins_as_ours = is_ours || std::ranges::equal(*content, file_magic.substr(0, content->size()));
+    if (is_last && begins_as_ours) return disk_->remove(file.name);
+    damaged_bytes_ += file.size;
     return {};
   }
   Segment segment{file.name, next_, 0};

@@ -20,8 +20,7 @@ using namespace std::chrono_literals;
 using testing::MemoryDisk;
 using testing::Platter;
 
-class JournalTest : public ::testing::Test {
- protected:
+struct JournalTest : ::testing::Test {
   std::unique_ptr<Journal> open(JournalLimits limits = {.bytes = 100'000, .segment_bytes = 500}) {
     auto journal = Journal::open(std::make_unique<MemoryDisk>(loop, platter), limits, 1000 + ++opened);
     LAPWING_ASSERT(journal.has_value());

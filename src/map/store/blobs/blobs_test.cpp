@@ -16,8 +16,7 @@ namespace {
 constexpr auto hash_of_abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
 base::UtcTime const now = sql::time_of_nanoseconds(1'700'000'000'000'000'000);
 
-class Blobs : public ::testing::Test {
- protected:
+struct Blobs : ::testing::Test {
   Blobs() : database(sql::open_sqlite(folder.path() / "map.gpkg", sql::Access::write).value()) {
     EXPECT_TRUE(schema::prepare(*database, "map.gpkg"));
   }

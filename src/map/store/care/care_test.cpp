@@ -21,8 +21,7 @@ using namespace std::chrono_literals;
 base::UtcTime const noon = std::chrono::sys_days(std::chrono::year(2027) / 1 / 1);
 
 /// A store with something of everything.
-class Care : public ::testing::Test {
- protected:
+struct Care : ::testing::Test {
   Care() : address((folder.path() / "store").string()) {
     LiveMap map([] { return noon; });
     map.put_site(geo::Site::make("car park", geo::Wgs84::from_degrees(47.4, 8.5, 420.0)).value());

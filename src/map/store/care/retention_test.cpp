@@ -18,8 +18,7 @@ using namespace std::chrono_literals;
 
 base::UtcTime const now = std::chrono::sys_days(std::chrono::year(2027) / 1 / 1);
 
-class Retention : public ::testing::Test {
- protected:
+struct Retention : ::testing::Test {
   Retention() { EXPECT_TRUE(schema::prepare(*database, "a store")); }
   /// Of some kilobytes that do not become smaller.
   std::string noise(std::size_t size) {

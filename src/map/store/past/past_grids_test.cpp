@@ -22,8 +22,7 @@ base::UtcTime const noon = std::chrono::floor<std::chrono::milliseconds>(base::w
 /// A grid as it is shown now; what is not there was never seen.
 using Look = std::map<TileKey, TileShades>;
 
-class PastGridsTest : public ::testing::Test {
- protected:
+struct PastGridsTest : ::testing::Test {
   PastGridsTest() {
     put_site(47.0);
     open();

@@ -24,8 +24,7 @@ geo::Site car_park(double lon_deg = 8.5) {
   return geo::Site::make("car park", geo::Wgs84::from_degrees(47.4, lon_deg, 420.0), {ground, upper}).value();
 }
 
-class Rows : public ::testing::Test {
- protected:
+struct Rows : ::testing::Test {
   Rows() : database(sql::open_sqlite(folder.path() / "map.gpkg", sql::Access::write).value()) {
     EXPECT_TRUE(schema::prepare(*database, "map.gpkg"));
     sites.emplace("car park", car_park());
@@ -253,8 +252,7 @@ TEST(Tiles, ThatAreDamagedAreNone) {
   EXPECT_FALSE(unpacked(deflated(std::string(131072, '\x7f')))) << "beyond what evidence may be";
 }
 
-class ShownRows : public Rows {
- protected:
+struct ShownRows : Rows {
   static base::UtcTime second(double s) { return base::UtcTime(1'700'000'000s) + base::from_seconds(s); }
   static Store::Shown frame(std::string feed, double s, std::string content, bool is_whole = false) {
     return {.at = second(s),

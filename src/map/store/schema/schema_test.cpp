@@ -17,8 +17,7 @@
 namespace lapwing::map::schema {
 namespace {
 
-class Schema : public ::testing::Test {
- protected:
+struct Schema : ::testing::Test {
   std::int64_t number(std::string const& query) {
     return sql::as_integer(sql::value_of(*database, query).value()).value();
   }

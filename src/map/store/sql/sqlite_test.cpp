@@ -21,8 +21,7 @@ Table const things = {.name = "things",
                       .key = {"id"}};
 std::vector<std::string> const columns = {"id", "yes", "size", "weight", "at", "data"};
 
-class Sqlite : public ::testing::Test {
- protected:
+struct Sqlite : ::testing::Test {
   Sqlite() : database(open_sqlite(folder.path() / "a.gpkg", Access::write).value()) {
     EXPECT_TRUE(database->execute(create_statements(Dialect::geopackage, things)));
   }
