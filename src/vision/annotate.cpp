@@ -1,6 +1,7 @@
 #include "vision/annotate.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -34,6 +35,13 @@ cv::Mat annotated(cv::Mat const& pixels, std::span<Detection const> detections) 
     auto const& box = detection.box;
     cv::Rect const frame(cv::Point(static_cast<int>(box.x), static_cast<int>(box.y)),
                          cv::Size(static_cast<int>(box.width), static_cast<int>(box.height)));
+    if (detection.corners) {
+      std::vector<cv::Point> corners;
+      for (auto const& corner : *detection.corners)
+        corners.emplace_back(static_cast<int>(corner.x), static_cast<int>(corner.y));
+      constexpr bool is_closed = true;
+      cv::polylines(drawn, corners, is_closed, colour_of(detection), std::max(1, line / 2), cv::LINE_AA);
+    }
     cv::rectangle(drawn, frame, colour_of(detection), line);
     int baseline = 0;
     auto const label = label_of(detection);

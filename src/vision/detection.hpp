@@ -1,9 +1,18 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
 namespace lapwing::vision {
+
+/// In pixels, as a box.
+struct Point {
+  double x = 0.0;
+  double y = 0.0;
+
+  friend bool operator==(Point const&, Point const&) = default;
+};
 
 /// In pixels; x to the right, y down, from the upper left corner of the picture.
 struct Box {
@@ -26,6 +35,8 @@ struct Detection {
   double score = 0.0;                 ///< 0 to 1, more is surer
   std::optional<std::string> text{};  ///< what is written there: the room's number, if there is one
   std::optional<std::string> kind{};  ///< what kind of room it says: "office", "stairs", ...
+  /// Of a door: upper left, upper right, lower right, lower left, as it is seen.
+  std::optional<std::array<Point, 4>> corners{};
 };
 
 }  // namespace lapwing::vision
