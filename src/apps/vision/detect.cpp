@@ -72,6 +72,10 @@ nlohmann::json json_of(std::vector<Found> const& found) {
           {"score", rounded(detection.score, thousandths)}};
       if (detection.text) entry["text"] = *detection.text;
       if (detection.kind) entry["kind"] = *detection.kind;
+      if (detection.corners) {
+        for (auto const& corner : *detection.corners)
+          entry["corners"].push_back({rounded(corner.x, tenths), rounded(corner.y, tenths)});
+      }
       all.push_back(std::move(entry));
     }
   }
@@ -93,11 +97,20 @@ void tell(Found const& found) {
   }
 }
 
+void to_stored(vision::Image const& image, vision::Detection& detection) {
+  detection.box = image.to_stored(detection.box);
+  if (!detection.corners) return;
+  for (auto& corner : *detection.corners) {
+    auto const stored = image.to_stored(vision::Box{.x = corner.x, .y = corner.y});
+    corner = {stored.x, stored.y};
+  }
+}
+
 base::Result<Found> look_at(std::string const& picture, Detector const& detector, fs::path const& overlay) {
   auto const image = image_of(picture);
   if (!image) return std::unexpected(image.error());
   auto detections = detector(image->upright());
-  for (auto& detection : detections) detection.box = image->to_stored(detection.box);
+  for (auto& detection : detections) to_stored(*image, detection);
   auto const drawn = vision::encode_jpeg(vision::annotated(image->stored, detections));
   if (auto const written = host::write_file(overlay, drawn); !written) return std::unexpected(written.error());
   return Found{picture, image->stored.size(), std::move(detections)};

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -17,6 +19,9 @@
 #include "apps/vision/truth.hpp"
 #include "host/files/files.hpp"
 #include "vision/doors/classic.hpp"
+#include "vision/doors/door_network.hpp"
+#include "vision/doors/door_shape.hpp"
+#include "vision/signs/door_signs.hpp"
 #include "vision/signs/sign_finder.hpp"
 
 namespace lapwing::apps::detect {
@@ -27,8 +32,9 @@ using base::ErrorKind;
 
 struct DoorOptions {
   CommonOptions common;
-  std::string method = "classic";
+  std::string method = "network";
   std::string colour;
+  double least_score = 0.4;
   std::filesystem::path truth;
   bool without_signs = false;
 };
@@ -75,11 +81,63 @@ base::Result<std::vector<std::unique_ptr<vision::LineReader>>> readers() {
   return all;
 }
 
+using DoorFinder = std::function<std::vector<vision::Detection>(cv::Mat const& upright)>;
+
 base::Result<vision::DoorColour> door_colour(DoorOptions const& options) {
   if (options.colour.empty()) return vision::DoorColour();
   if (auto const given = colour_of(options.colour)) return *given;
   return base::fail(ErrorKind::invalid_input, fmt::format("--colour {}: not a range of colours", options.colour),
                     "hue (0 to 179), saturation and value (0 to 255), lowest and highest: 5,60,40-25,255,230");
+}
+
+base::Result<DoorFinder> finder(DoorOptions const& options) {
+  auto const colour = door_colour(options);
+  if (!colour) return std::unexpected(colour.error());
+  auto const least = options.least_score;
+  if (options.method == "classic") {
+    return [colour = *colour, least](cv::Mat const& upright) {
+      auto doors = vision::doors_by_colour(upright, colour);
+      std::erase_if(doors, [least](auto const& door) { return door.score < least; });
+      return doors;
+    };
+  }
+  auto const file = host::home_directory() / "models/doors.onnx";
+  if (!std::filesystem::exists(file))
+    return base::fail(ErrorKind::not_found, fmt::format("{} is not there", file.string()),
+                      "it comes with the checkout; --method classic does without");
+  auto network = vision::DoorNetwork::load(content_of(file));
+  if (!network) return std::unexpected(network.error());
+  return [network = std::make_shared<vision::DoorNetwork>(*std::move(network)), least](cv::Mat const& upright) {
+    return network->find(upright, least);
+  };
+}
+
+/// Each door as it is seen, for whoever wants to look at it from the front.
+void give_corners(cv::Mat const& upright, std::vector<vision::Detection>& doors) {
+  for (auto& door : doors) {
+    auto const shape = vision::door_shape(upright, door.box);
+    auto& corners = door.corners.emplace();
+    for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = {shape.corners[k].x, shape.corners[k].y};
+  }
+}
+
+/// Those of the whole picture, and of each door that has none of these what is on it and beside it, from the front.
+void read_signs(vision::SignFinder& signs, cv::Mat const& upright, std::vector<vision::Detection>& found) {
+  auto const doors = static_cast<std::ptrdiff_t>(found.size());
+  for (auto& sign : signs.find(upright)) found.push_back(std::move(sign));
+  vision::name_doors(found);
+  std::vector<vision::Detection> more;
+  for (auto const& door : std::vector(found.begin(), found.begin() + doors)) {
+    if (door.text || door.kind) continue;
+    for (auto& sign : vision::signs_of_door(signs, upright, door)) more.push_back(std::move(sign));
+  }
+  for (auto& sign : more) {
+    if (!std::ranges::any_of(found, [&](auto const& other) {
+          return other.category == "sign" && vision::overlap(other.box, sign.box) > 0.0;
+        }))
+      found.push_back(std::move(sign));
+  }
+  vision::name_doors(found);
 }
 
 int judge(DoorOptions const& options, Outcome const& outcome) {
@@ -100,8 +158,8 @@ int judge(DoorOptions const& options, Outcome const& outcome) {
 }
 
 int doors(DoorOptions const& options) {
-  auto const colour = door_colour(options);
-  if (!colour) return host::refuse(colour.error());
+  auto const find = finder(options);
+  if (!find) return host::refuse(find.error());
   std::optional<vision::SignFinder> signs;
   if (!options.without_signs) {
     auto all = readers();
@@ -109,11 +167,9 @@ int doors(DoorOptions const& options) {
     signs.emplace(*std::move(all));
   }
   auto const outcome = carry_out(options.common, [&](cv::Mat const& upright) {
-    auto found = vision::doors_by_colour(upright, *colour);
-    if (signs) {
-      for (auto& sign : signs->find(upright)) found.push_back(std::move(sign));
-      vision::name_doors(found);
-    }
+    auto found = (*find)(upright);
+    give_corners(upright, found);
+    if (signs) read_signs(*signs, upright, found);
     return found;
   });
   return options.truth.empty() ? outcome.exit_code : judge(options, outcome);
@@ -125,11 +181,14 @@ void add_doors(CLI::App& detect, int& exit_code) {
   auto const options = std::make_shared<DoorOptions>();
   auto* const part = detect.add_subcommand("doors", "Doors, and what is written on the signs beside them");
   add_common_options(*part, options->common);
-  part->add_option("--method", options->method, "classic: by the doors' colour")
-      ->check(CLI::IsMember({"classic"}))
+  part->add_option("--method", options->method, "network: doors of any colour; classic: by their colour")
+      ->check(CLI::IsMember({"network", "classic"}))
       ->capture_default_str();
   part->add_option("--colour", options->colour,
                    "Of the doors, for the classic way: H,S,V-H,S,V; default: wood and brown");
+  part->add_option("--least-score", options->least_score, "Doors that are less sure are not told, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   part->add_flag("--no-signs", options->without_signs, "Leave signs unread");
   part->add_option("--truth", options->truth, "Folder with what people marked in these pictures: says how good it is")
       ->check(CLI::ExistingDirectory);

@@ -1,0 +1,153 @@
+"""Labelled pictures as arrays of one size: photographs of a folder, rendered scenes of a seed; and random views of both to train with."""
+
+from __future__ import annotations
+
+import dataclasses
+import pathlib
+
+import numpy
+import torch
+from PIL import Image
+
+import scenes
+
+INPUT = 160  # pixels a side of what the network sees
+GREY, CONTRAST = 114.0, 64.0  # what fills the square beside the picture is 0 to the network
+MOST_BOXES = 24
+DOOR, CUPBOARD = 0, 1
+
+
+@dataclasses.dataclass
+class Set:
+    pixels: torch.Tensor  # pictures, RGB, side, side; in the upper left corner
+    sizes: torch.Tensor  # width, height
+    boxes: torch.Tensor  # pictures, MOST_BOXES, 5: left, top, right, bottom, kind (-1: none)
+
+    def __len__(self) -> int:
+        return len(self.sizes)
+
+    def only(self, which) -> Set:
+        return Set(self.pixels[which], self.sizes[which], self.boxes[which])
+
+
+def packed(side: int, pictures: list[tuple[numpy.ndarray, list]]) -> Set:
+    pixels = torch.full((len(pictures), 3, side, side), int(GREY), dtype=torch.uint8)
+    sizes, boxes = torch.zeros(len(pictures), 2), torch.full((len(pictures), MOST_BOXES, 5), -1.0)
+    for k, (picture, things) in enumerate(pictures):
+        height, width = picture.shape[:2]
+        pixels[k, :, :height, :width] = torch.from_numpy(picture.copy()).permute(2, 0, 1)
+        sizes[k] = torch.tensor([width, height])
+        for j, thing in enumerate(sorted(things, key=lambda thing: thing[4])[:MOST_BOXES]):
+            boxes[k, j] = torch.tensor(thing)
+    return Set(pixels, sizes, boxes)
+
+
+def half_of(folder: pathlib.Path, half: str) -> list[pathlib.Path]:
+    """Photographs by name: every second, from the first on, is to build with; the others are held out."""
+    return sorted((folder / "images").iterdir())[0 if half == "built-with" else 1::2]
+
+
+def photographs(folder: pathlib.Path, files: list[pathlib.Path], side: int) -> Set:
+    """Labels as YOLO has them: class 0 is a door, 2 and 3 are doors of cupboards and refrigerators."""
+    pictures = []
+    for file in files:
+        image = Image.open(file).convert("RGB")
+        shrink = side / max(image.size)
+        width, height = (max(1, round(n * shrink)) for n in image.size)
+        things = []
+        for line in (folder / "labels" / f"{file.stem}.txt").read_text().splitlines():
+            kind, x, y, w, h = (float(word) for word in line.split())
+            if kind in (0, 2, 3):
+                things.append([(x - w / 2) * width, (y - h / 2) * height, (x + w / 2) * width, (y + h / 2) * height, DOOR if kind == 0 else CUPBOARD])
+        pictures.append((numpy.asarray(image.resize((width, height), Image.Resampling.BOX)), things))
+    return packed(side, pictures)
+
+
+def rendered(seed: int, count: int, side: int) -> Set:
+    rng, pictures = numpy.random.default_rng(seed), []
+    for scene in scenes.rendered(rng, count, side):
+        things = [[*box, DOOR] for box in scene.doors.tolist()] + [[*box, CUPBOARD] for box in scene.cupboards.tolist()]
+        pictures.append((scene.pixels, things))
+    return packed(side, pictures)
+
+
+def uniform(count: int, low: float, high: float) -> torch.Tensor:
+    return torch.rand(count) * (high - low) + low
+
+
+def views(of: Set, which: torch.Tensor, at_random: bool) -> tuple[torch.Tensor, torch.Tensor]:
+    """What the network is shown: the whole picture in the middle of the square, or a random view of it. Returns pixels and boxes of the square."""
+    count, side = len(which), of.pixels.shape[-1]
+    size, boxes = of.sizes[which], of.boxes[which].clone()
+    scale = (INPUT / size.max(1).values)[:, None].repeat(1, 2)
+    middle = size / 2
+    flip, angle = torch.ones(count), torch.zeros(count)
+    if at_random:
+        grow = torch.exp(uniform(count, -0.45, 0.6))[:, None]
+        stretch = torch.exp(torch.randn(count) * 0.12)[:, None]
+        scale = scale * grow * torch.cat([stretch, 1 / stretch], 1)
+        # Larger than the square: another part of it; smaller: elsewhere in the square.
+        room = (size * scale - INPUT).abs() / 2 / scale + 0.06 * size
+        middle = middle + (torch.rand(count, 2) * 2 - 1) * room
+        flip = torch.where(torch.rand(count) < 0.5, -1.0, 1.0)
+        angle = torch.randn(count) * 0.035
+    # From the square to the picture: turned, scaled, mirrored about the middle.
+    cos, sin = torch.cos(angle), torch.sin(angle)
+    a = torch.stack([torch.stack([cos * flip / scale[:, 0], -sin / scale[:, 0]], 1), torch.stack([sin * flip / scale[:, 1], cos / scale[:, 1]], 1)], 1)
+    matrix = torch.cat([a * (INPUT / side), ((middle * 2 - side) / side)[:, :, None]], 2)
+    grid = torch.nn.functional.affine_grid(matrix, [count, 3, INPUT, INPUT], align_corners=False)
+    shown = torch.nn.functional.grid_sample((of.pixels[which].float() - GREY) / CONTRAST, grid, align_corners=False)
+    there = boxes[..., 4] >= 0
+    corners = boxes[..., [0, 1, 2, 1, 2, 3, 0, 3]].reshape(count, -1, 2) - middle[:, None]
+    corners = (torch.linalg.inv(a) @ corners.transpose(1, 2)).transpose(1, 2).reshape(count, MOST_BOXES, 4, 2) + INPUT / 2
+    whole = torch.cat([corners.min(2).values, corners.max(2).values], 2)
+    seen = whole.clamp(0, INPUT)
+    # What the picture's own edge cuts off is not in the square either.
+    area = lambda b: (b[..., 2] - b[..., 0]).clamp(min=0) * (b[..., 3] - b[..., 1]).clamp(min=0)
+    part = area(seen) / area(whole).clamp(min=1e-6)
+    # A sliver at the edge is neither a door nor none.
+    kind = torch.where(there & (part > 0), torch.where((part < 0.3) & (boxes[..., 4] == DOOR), torch.tensor(2.0), boxes[..., 4]), torch.tensor(-1.0))
+    small = (seen[..., 2] - seen[..., 0] < 5) | (seen[..., 3] - seen[..., 1] < 10)
+    kind = torch.where((kind == DOOR) & small, torch.tensor(2.0), kind)
+    return (coloured(shown) if at_random else shown), torch.cat([seen, kind[..., None]], 2)
+
+
+def coloured(shown: torch.Tensor) -> torch.Tensor:
+    """Other light, other cameras."""
+    count = len(shown)
+    of_each = lambda low, high: uniform(count, low, high)[:, None, None, None]
+    empty = (shown == 0).all(1, keepdim=True)
+    light = shown * torch.exp(of_each(-0.45, 0.35)) * torch.exp(torch.randn(count, 3, 1, 1) * 0.1) + of_each(-0.5, 0.5) + torch.randn(count, 3, 1, 1) * 0.08
+    grey = light.mean(1, keepdim=True)
+    light = grey + (light - grey) * of_each(0.1, 1.6)
+    # Hues change places now and then: a green door is as good as a red one.
+    order = torch.stack([torch.randperm(3) if torch.rand(1) < 0.25 else torch.arange(3) for _ in range(count)])
+    light = torch.gather(light, 1, order[:, :, None, None].expand_as(light))
+    blurred = torch.nn.functional.avg_pool2d(light, 3, 1, 1)
+    light = light + (blurred - light) * (of_each(-1.2, 1.0).clamp(min=0))
+    light = light + torch.randn_like(light) * of_each(-0.1, 0.12).clamp(min=0)
+    return torch.where(empty, torch.zeros(()), light)
+
+
+def pasted(shown: torch.Tensor, boxes: torch.Tensor, share: float) -> tuple[torch.Tensor, torch.Tensor]:
+    """Doors of one view put into others: the same door before many walls, the same wall with many doors."""
+    out, told = shown.clone(), boxes.clone()
+    for k in torch.nonzero(torch.rand(len(shown)) < share).flatten().tolist():
+        source = int(torch.randint(len(shown), (1,)))
+        doors = boxes[source][boxes[source, :, 4] == DOOR]
+        free = torch.nonzero(told[k, :, 4] < 0).flatten()
+        if source == k or not len(doors) or not len(free):
+            continue
+        x0, y0, x1, y1 = (int(n) for n in doors[int(torch.randint(len(doors), (1,)))][:4].round())
+        width, height = x1 - x0, y1 - y0
+        if width < 10 or height < 20 or width > 0.6 * INPUT:
+            continue
+        x, y = int(torch.randint(INPUT - width + 1, (1,))), int(torch.randint(INPUT - height + 1, (1,)))
+        out[k, :, y:y + height, x:x + width] = shown[source, :, y0:y1, x0:x1]
+        others = told[k]
+        common = (others[:, 2].clamp(max=x + width) - others[:, 0].clamp(min=x)).clamp(min=0) * (others[:, 3].clamp(max=y + height) - others[:, 1].clamp(min=y)).clamp(min=0)
+        hidden = common / ((others[:, 2] - others[:, 0]) * (others[:, 3] - others[:, 1])).clamp(min=1)
+        gone = torch.where(hidden > 0.8, torch.tensor(-1.0), torch.tensor(2.0))
+        told[k, :, 4] = torch.where((others[:, 4] >= 0) & (hidden > 0.35), gone, others[:, 4])
+        told[k, free[0]] = torch.tensor([x, y, x + width, y + height, DOOR], dtype=torch.float32)
+    return out, told

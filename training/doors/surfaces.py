@@ -1,0 +1,393 @@
+"""Walls with doors in them and with what is easily taken for doors, as flat pictures: a surface knows its size in metres, and what lies on it.
+
+Nothing here comes from photographs: colours, grain and wear are drawn by the random numbers of one generator, so that a seed repeats a picture.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy
+
+PIXELS_A_METRE = 72
+
+WOODS = [(96, 62, 36), (130, 86, 48), (158, 112, 66), (184, 142, 94), (72, 44, 28), (110, 52, 30), (146, 98, 70), (206, 172, 126)]
+PAINTS = [(238, 236, 230), (226, 222, 210), (246, 246, 246), (200, 204, 206), (40, 66, 104), (30, 84, 60), (132, 30, 30), (58, 58, 62), (24, 24, 28), (90, 120, 150),
+          (170, 60, 44), (210, 180, 60), (120, 140, 120), (70, 110, 120), (160, 160, 150), (104, 88, 120), (44, 120, 130), (222, 210, 180)]
+WALLS = [(232, 228, 220), (216, 206, 188), (240, 240, 238), (200, 196, 190), (222, 200, 160), (180, 190, 196), (206, 216, 200), (176, 150, 128), (150, 156, 160), (228, 214, 206),
+         (190, 120, 90), (120, 110, 104), (246, 236, 210), (160, 180, 204)]
+
+
+@dataclasses.dataclass
+class Thing:
+    """A rectangle of a surface, in metres from its lower left corner."""
+    kind: str  # "door" or "cupboard"
+    left: float
+    bottom: float
+    width: float
+    height: float
+
+
+class Surface:
+    def __init__(self, rng: numpy.random.Generator, width: float, height: float, scale: float = PIXELS_A_METRE):
+        self.rng, self.width, self.height, self.scale = rng, width, height, scale
+        self.pixels = numpy.empty((max(8, round(height * scale)), max(8, round(width * scale)), 3), numpy.float32)
+        self.things: list[Thing] = []
+
+    def part(self, left: float, bottom: float, width: float, height: float) -> numpy.ndarray:
+        rows, columns = self.pixels.shape[:2]
+        at = lambda metres, most: int(min(max(round(metres * self.scale), 0), most))
+        return self.pixels[at(self.height - bottom - height, rows):at(self.height - bottom, rows), at(left, columns):at(left + width, columns)]
+
+    def fill(self, left: float, bottom: float, width: float, height: float, colour) -> None:
+        self.part(left, bottom, width, height)[...] = colour
+
+    def rim(self, left: float, bottom: float, width: float, height: float, thick: float, colour) -> None:
+        """A frame inside the rectangle."""
+        self.fill(left, bottom, thick, height, colour)
+        self.fill(left + width - thick, bottom, thick, height, colour)
+        self.fill(left, bottom, width, thick, colour)
+        self.fill(left, bottom + height - thick, width, thick, colour)
+
+    def relief(self, left: float, bottom: float, width: float, height: float, depth: float, colour) -> None:
+        """A field that is sunk in or stands out: lit from above and the left, or the other way round."""
+        line = 1.3 / self.scale
+        light, dark = numpy.asarray(colour) * (1 + depth), numpy.asarray(colour) * (1 - depth)
+        self.fill(left, bottom, line, height, dark)
+        self.fill(left, bottom + height - line, width, line, dark)
+        self.fill(left + width - line, bottom, line, height, light)
+        self.fill(left, bottom, width, line, light)
+
+    def shade(self, left: float, bottom: float, width: float, height: float, factor: float) -> None:
+        self.part(left, bottom, width, height)[...] *= factor
+
+
+def pick(rng, colours, spread: float = 14.0) -> numpy.ndarray:
+    return numpy.clip(numpy.asarray(colours[rng.integers(len(colours))]) + rng.normal(0, spread, 3) + rng.normal(0, spread), 4, 252).astype(numpy.float32)
+
+
+def grain(rng, part: numpy.ndarray, strength: float, along: str = "y") -> None:
+    """Wood: streaks along one direction."""
+    rows, columns = part.shape[:2]
+    if rows < 2 or columns < 2:
+        return
+    if along == "y":
+        streaks = numpy.repeat(numpy.cumsum(rng.normal(0, 1, (rows // 24 + 2, columns)), 0), 24, 0)[:rows]
+    else:
+        streaks = numpy.repeat(numpy.cumsum(rng.normal(0, 1, (rows, columns // 24 + 2)), 1), 24, 1)[:, :columns]
+    part *= (1 + strength * numpy.tanh(streaks / 2))[..., None].astype(numpy.float32)
+
+
+def blotches(rng, part: numpy.ndarray, strength: float, cells: int = 6) -> None:
+    """Light and wear: smooth in two directions."""
+    rows, columns = part.shape[:2]
+    if rows < 2 or columns < 2:
+        return
+    coarse = rng.normal(0, strength, (cells, cells))
+    y, x = numpy.linspace(0, cells - 1.001, rows), numpy.linspace(0, cells - 1.001, columns)
+    top, left = y.astype(int), x.astype(int)
+    fy, fx = (y - top)[:, None], (x - left)[None]
+    smooth = (coarse[top][:, left] * (1 - fx) + coarse[top][:, left + 1] * fx) * (1 - fy) + (coarse[top + 1][:, left] * (1 - fx) + coarse[top + 1][:, left + 1] * fx) * fy
+    part *= (1 + smooth)[..., None].astype(numpy.float32)
+
+
+def paint_wall(s: Surface, outside: bool) -> None:
+    rng = s.rng
+    colour = pick(rng, WALLS)
+    s.pixels[...] = colour
+    way = rng.choice(["plain", "brick", "tiles", "boards", "stripes", "dado"], p=[0.25, 0.35, 0.15, 0.15, 0.0, 0.1] if outside else [0.6, 0.06, 0.1, 0.06, 0.06, 0.12])
+    if way in ("brick", "tiles"):
+        high, wide = (0.075, 0.24) if way == "brick" else (rng.uniform(0.1, 0.4),) * 2
+        joint = colour * rng.uniform(0.6, 1.25)
+        if way == "brick":
+            s.pixels[...] = pick(rng, [(150, 74, 54), (176, 110, 80), (120, 60, 48), (200, 180, 150)], 10)
+        line = max(1, round(0.012 * s.scale))
+        for row, bottom in enumerate(numpy.arange(0, s.height, high)):
+            across = s.part(0, bottom, s.width, high)
+            shift = (row % 2) * wide / 2 if way == "brick" else 0
+            for left in numpy.arange(-shift, s.width, wide):
+                s.part(left, bottom, wide, high)[...] *= rng.uniform(0.86, 1.12)
+                s.part(left, bottom, line / s.scale, high)[...] = joint
+            across[-line:] = joint
+    elif way in ("boards", "stripes"):
+        wide = rng.uniform(0.08, 0.3)
+        flat = rng.random() < 0.4 and outside
+        for at in numpy.arange(0, s.height if flat else s.width, wide):
+            part = s.part(0, at, s.width, wide) if flat else s.part(at, 0, wide, s.height)
+            part *= rng.uniform(0.9, 1.08)
+            if way == "boards":
+                (part[-1:] if flat else part[:, :1])[...] *= 0.65
+    elif way == "dado":
+        height = rng.uniform(0.8, 1.3)
+        s.fill(0, 0, s.width, height, pick(rng, WALLS + WOODS))
+        s.fill(0, height, s.width, 0.04, pick(rng, PAINTS))
+    if not outside and rng.random() < 0.7:
+        s.fill(0, 0, s.width, rng.uniform(0.06, 0.14), pick(rng, PAINTS[:4] + WOODS))
+    blotches(rng, s.pixels, rng.uniform(0.01, 0.1))
+
+
+def glass(s: Surface, left: float, bottom: float, width: float, height: float) -> None:
+    rng = s.rng
+    part = s.part(left, bottom, width, height)
+    if part.size == 0:
+        return
+    if rng.random() < 0.5:
+        part[...] = pick(rng, [(30, 34, 38), (50, 60, 70), (90, 100, 104)], 10)
+    else:
+        part[...] = pick(rng, [(214, 226, 236), (240, 244, 248), (150, 180, 150), (190, 200, 190)], 14)
+    blotches(rng, part, rng.uniform(0.05, 0.4), 4)
+    # What is mirrored or seen behind: a few edges of any direction.
+    for _ in range(rng.integers(0, 4)):
+        x, w = sorted(rng.uniform(0, 1, 2) * width)
+        y, h = sorted(rng.uniform(0, 1, 2) * height)
+        s.shade(left + x, bottom + y, w - x, h - y, rng.uniform(0.7, 1.3))
+
+
+def panes(s: Surface, left: float, bottom: float, width: float, height: float, bars, colour) -> None:
+    glass(s, left, bottom, width, height)
+    across, down = bars
+    for k in range(1, across):
+        s.fill(left + width * k / across - 0.012, bottom, 0.024, height, colour)
+    for k in range(1, down):
+        s.fill(left, bottom + height * k / down - 0.012, width, 0.024, colour)
+
+
+def handle(s: Surface, x: float, y: float, inwards: float) -> None:
+    rng = s.rng
+    metal = pick(rng, [(200, 200, 204), (120, 110, 90), (190, 160, 80), (40, 40, 42), (150, 150, 154)], 12)
+    way = rng.integers(4)
+    if way == 0:
+        s.fill(min(x, x + 0.12 * inwards), y - 0.012, 0.12, 0.025, metal)
+        s.fill(x - 0.02, y - 0.03, 0.04, 0.06, metal * 0.85)
+    elif way == 1:
+        s.fill(x - 0.03, y - 0.03, 0.06, 0.06, metal)
+        s.fill(x - 0.03, y - 0.03, 0.06, 0.02, metal * 0.6)
+    elif way == 2:
+        high = rng.uniform(0.2, 0.9)
+        s.fill(x - 0.015, y - high / 2, 0.03, high, metal)
+    else:
+        s.fill(x - 0.025, y - 0.11, 0.05, 0.22, metal * 0.9)
+        s.fill(min(x, x + 0.11 * inwards), y, 0.11, 0.025, metal)
+
+
+def paint_leaf(s: Surface, left: float, bottom: float, width: float, height: float, hinge_left: bool, style: dict | None = None) -> dict:
+    """One door leaf. Two leaves of one door share a style."""
+    rng = s.rng
+    if style is None:
+        wooden = rng.random() < 0.5
+        style = {"wooden": wooden, "colour": pick(rng, WOODS if wooden else PAINTS), "cut": rng.choice(["flat", "panels", "glazed", "half", "slit", "boards", "allglass", "louvre"],
+                                                                                                  p=[0.26, 0.26, 0.12, 0.12, 0.08, 0.07, 0.05, 0.04]),
+                 "rows": int(rng.integers(1, 5)), "columns": int(rng.integers(1, 3)), "depth": rng.uniform(0.08, 0.4), "bars": (int(rng.integers(1, 4)), int(rng.integers(1, 6))),
+                 "handle": rng.uniform(0.9, 1.15), "has_handle": rng.random() < 0.9, "grain": rng.uniform(0.02, 0.16), "stile": rng.uniform(0.08, 0.16), "plate": rng.random() < 0.12,
+                 "sign": rng.random() < 0.12}
+    colour, cut = style["colour"], style["cut"]
+    part = s.part(left, bottom, width, height)
+    if part.size == 0:
+        return style
+    part[...] = colour
+    if style["wooden"]:
+        grain(rng, part, style["grain"])
+    blotches(rng, part, rng.uniform(0.01, 0.08), 3)
+    stile = min(style["stile"], width * 0.25)
+    inner = (left + stile, width - 2 * stile)
+    if cut in ("panels", "half"):
+        rows, columns = style["rows"], style["columns"]
+        low = 0.2
+        parts = numpy.linspace(low, height - stile, rows + 1)
+        wide = inner[1] / columns
+        for row in range(rows):
+            for column in range(columns):
+                x, w = inner[0] + wide * column + 0.02, wide - 0.04
+                y, h = bottom + parts[row] + 0.02, parts[row + 1] - parts[row] - 0.06
+                if cut == "half" and row == rows - 1:
+                    panes(s, x, y, w, h, (1, 1) if rng.random() < 0.6 else style["bars"], colour)
+                else:
+                    s.relief(x, y, w, h, style["depth"], colour)
+                    if rng.random() < 0.5:
+                        s.relief(x + 0.03, y + 0.03, w - 0.06, h - 0.06, -style["depth"], colour)
+    elif cut == "glazed":
+        low = rng.uniform(0.12, 0.9)
+        panes(s, inner[0], bottom + low, inner[1], height - low - stile, style["bars"], colour * 0.97)
+    elif cut == "allglass":
+        panes(s, left + 0.04, bottom + 0.06, width - 0.08, height - 0.1, (1, 1), colour)
+    elif cut == "slit":
+        w = rng.uniform(0.08, 0.2)
+        x = left + (width - w) * rng.choice([0.25, 0.5, 0.75])
+        glass(s, x, bottom + rng.uniform(0.9, 1.2), w, rng.uniform(0.3, 0.8))
+    elif cut == "boards":
+        for x in numpy.arange(0.1, width, 0.12):
+            s.shade(left + x, bottom, 0.016, height, 0.6)
+        if rng.random() < 0.5:
+            for y in (0.3, height - 0.4):
+                s.fill(left + 0.04, bottom + y, width - 0.08, 0.12, colour * 0.85)
+    elif cut == "louvre":
+        for y in numpy.arange(0.15, height - 0.15, 0.06):
+            s.shade(inner[0], bottom + y, inner[1], 0.028, 0.7)
+    if style["plate"]:
+        s.fill(left + 0.04, bottom + 0.04, width - 0.08, rng.uniform(0.15, 0.3), (170, 170, 172))
+    if style["sign"]:
+        w = rng.uniform(0.12, 0.4)
+        s.fill(left + (width - w) / 2, bottom + rng.uniform(1.3, 1.7), w, rng.uniform(0.08, 0.3), pick(rng, PAINTS))
+    if style["has_handle"]:
+        x = left + width - 0.07 if hinge_left else left + 0.07
+        handle(s, x, bottom + style["handle"] * min(1.0, height / 2), -1.0 if hinge_left else 1.0)
+    return style
+
+
+def paint_door(s: Surface, left: float, width: float, height: float, bottom: float = 0.0, opened: bool = False) -> None:
+    """A door with its frame. `opened` shows what is behind; the leaf is the scene's to draw."""
+    rng = s.rng
+    frame = rng.choice([0.0, 0.05, 0.09, 0.14], p=[0.12, 0.3, 0.38, 0.2])
+    colour = pick(rng, WOODS + PAINTS[:4] * 3 + WALLS[:3])
+    if frame:
+        s.fill(left - frame, bottom, width + 2 * frame, height + frame, colour)
+        line = 1.5 / s.scale
+        s.fill(left - frame, bottom, line, height + frame, colour * rng.uniform(0.55, 0.95))
+        s.fill(left + width + frame - line, bottom, line, height + frame, colour * rng.uniform(0.55, 0.95))
+        s.fill(left - frame, bottom + height + frame - line, width + 2 * frame, line, colour * rng.uniform(0.55, 1.05))
+    over = 0.0
+    if rng.random() < 0.14 and s.height > height + 0.5:  # a fanlight above
+        over = rng.uniform(0.25, 0.45)
+        s.fill(left - frame, bottom + height, width + 2 * frame, over + frame, colour)
+        panes(s, left, bottom + height + 0.05, width, over - 0.05, (int(rng.integers(1, 4)), 1), colour)
+    if rng.random() < 0.1:  # a side light
+        panes(s, left + width + frame, bottom + 0.1, 0.35, height - 0.1, (1, int(rng.integers(1, 4))), colour)
+    if opened:
+        part = s.part(left, bottom, width, height)
+        if part.size:
+            part[...] = pick(rng, WALLS + [(30, 28, 26), (60, 56, 50), (90, 84, 76)]) * rng.uniform(0.3, 1.0)
+            blotches(rng, part, 0.3, 4)
+            floor = height * rng.uniform(0.05, 0.3)
+            s.fill(left, bottom, width, floor, pick(rng, WOODS + WALLS) * 0.7)
+            if rng.random() < 0.5:
+                x = rng.uniform(0, 0.7) * width
+                s.fill(left + x, bottom, rng.uniform(0.1, 0.4) * width, rng.uniform(0.3, 0.9) * height, pick(rng, PAINTS + WOODS) * 0.7)
+        return
+    hinge_left = bool(rng.random() < 0.5)
+    if width > 1.25:
+        style = paint_leaf(s, left, bottom, width / 2, height, True)
+        paint_leaf(s, left + width / 2, bottom, width / 2, height, False, style)
+        s.fill(left + width / 2 - 0.006, bottom, 0.012, height, style["colour"] * 0.4)
+    else:
+        paint_leaf(s, left, bottom, width, height, hinge_left)
+    gap = 1.0 / s.scale * rng.uniform(0.6, 1.6)
+    dark = rng.uniform(0.25, 0.8)
+    for side in (left, left + width - gap):
+        s.shade(side, bottom, gap, height, dark)
+    s.shade(left, bottom + height - gap, width, gap, dark)
+    # People mark leaves, each of its own, without the frame.
+    leaves = 2 if width > 1.25 else 1
+    s.things += [Thing("door", left + k * width / leaves, bottom, width / leaves, height) for k in range(leaves)]
+
+
+def paint_cupboards(s: Surface, left: float, width: float) -> None:
+    """Kitchen and office cupboards, wardrobes, refrigerators, shelves: what opens and is no door to a room."""
+    rng = s.rng
+    way = rng.choice(["base", "wall", "both", "wardrobe", "fridge", "shelf", "lockers"])
+    colour = pick(rng, WOODS + PAINTS)
+
+    def fronts(bottom: float, height: float, wide: float, rows: int) -> None:
+        count = max(1, int(width / wide))
+        for k in range(count):
+            for row in range(rows):
+                x, w, y, h = left + k * width / count, width / count, bottom + row * height / rows, height / rows
+                s.fill(x, y, w, h, colour * rng.uniform(0.96, 1.03))
+                s.rim(x, y, w, h, 0.012, colour * 0.6)
+                if rng.random() < 0.5:
+                    s.relief(x + 0.06, y + 0.06, w - 0.12, h - 0.12, rng.uniform(0.1, 0.3), colour)
+                if rng.random() < 0.7:
+                    s.fill(x + w * (0.85 if k % 2 else 0.1), y + h * rng.uniform(0.4, 0.8), 0.03, min(0.14, h / 3), (60, 60, 64) if colour.mean() > 90 else (210, 210, 210))
+                s.things.append(Thing("cupboard", x, y, w, h))
+
+    if way in ("base", "both"):
+        fronts(0.1, 0.72, rng.uniform(0.35, 0.6), int(rng.integers(1, 4)))
+        s.fill(left - 0.02, 0.84, width + 0.04, 0.05, pick(rng, WOODS + PAINTS))
+    if way in ("wall", "both"):
+        fronts(1.4, rng.uniform(0.5, 0.8), rng.uniform(0.35, 0.6), 1)
+    if way == "wardrobe":
+        fronts(0.05, rng.uniform(1.7, 2.3), rng.uniform(0.4, 0.6), 1 if rng.random() < 0.4 else 2)
+    if way == "lockers":
+        fronts(0.1, rng.uniform(1.6, 2.0), rng.uniform(0.25, 0.4), int(rng.integers(2, 5)))
+    if way == "fridge":
+        colour, w, h = pick(rng, [(240, 240, 242), (180, 182, 186), (40, 40, 42)], 8), 0.65, rng.uniform(1.4, 1.9)
+        split = h * rng.choice([0.3, 0.65])
+        for y, part in ((0.04, split), (0.04 + split, h - split)):
+            s.fill(left, y, w, part, colour)
+            s.rim(left, y, w, part, 0.012, colour * 0.6)
+            s.fill(left + 0.04, y + part * 0.3, 0.03, part * 0.4, colour * 0.7)
+            s.things.append(Thing("cupboard", left, y, w, part))
+    if way == "shelf":
+        h = rng.uniform(0.8, 2.1)
+        s.fill(left, 0, width, h, colour * 0.5)
+        for y in numpy.arange(0, h, 0.32):
+            s.fill(left, y, width, 0.03, colour)
+            x = left
+            while x < left + width - 0.05:
+                w = rng.uniform(0.02, 0.09)
+                s.fill(x, y + 0.03, w, rng.uniform(0.12, 0.26), pick(rng, PAINTS + WOODS))
+                x += w + (rng.uniform(0, 0.2) if rng.random() < 0.2 else 0)
+
+
+def paint_window(s: Surface, left: float, width: float, bottom: float, height: float) -> None:
+    rng = s.rng
+    colour = pick(rng, PAINTS[:4] * 3 + WOODS + PAINTS)
+    thick = rng.uniform(0.04, 0.1)
+    s.fill(left - thick, bottom - thick, width + 2 * thick, height + 2 * thick, colour)
+    panes(s, left, bottom, width, height, (int(rng.integers(1, 4)), int(rng.integers(1, 5))), colour)
+    if rng.random() < 0.3:
+        s.fill(left - 0.1, bottom - thick - 0.04, width + 0.2, 0.05, colour * 0.9)
+    if rng.random() < 0.2:  # curtains or shutters
+        cloth, w = pick(rng, PAINTS + WALLS), width * rng.uniform(0.15, 0.5)
+        for x in (left - w * 0.5, left + width - w * 0.5):
+            s.fill(x, bottom - rng.uniform(0, 0.6), w, height + 0.2, cloth)
+            grain(rng, s.part(x, bottom, w, height), 0.2)
+
+
+def paint_picture(s: Surface, left: float, width: float, bottom: float, height: float) -> None:
+    rng = s.rng
+    s.fill(left, bottom, width, height, pick(rng, PAINTS + WOODS))
+    part = s.part(left + 0.04, bottom + 0.04, width - 0.08, height - 0.08)
+    part[...] = pick(rng, WALLS + PAINTS)
+    for _ in range(rng.integers(0, 6)):
+        x, y = rng.uniform(0, 0.8) * width, rng.uniform(0, 0.8) * height
+        s.fill(left + x, bottom + y, rng.uniform(0.1, 0.3) * width, rng.uniform(0.1, 0.3) * height, pick(rng, PAINTS))
+
+
+def furnish(s: Surface, outside: bool) -> list[Thing]:
+    """Doors and other things from left to right. Returns the openings whose leaf stands out of the wall."""
+    rng = s.rng
+    opened: list[Thing] = []
+    chance = numpy.array([0.4, 0.0, 0.34, 0.04, 0.06, 0.16] if outside else [0.34, 0.16, 0.12, 0.12, 0.06, 0.2])
+    x = rng.uniform(0.0, 0.9)
+    while x < s.width - 0.5:
+        kind = rng.choice(["door", "cupboards", "window", "picture", "arch", "nothing"], p=chance)
+        if kind == "door":
+            width = rng.uniform(0.7, 1.05) if rng.random() < 0.75 else rng.uniform(1.3, 1.9)
+            height = min(s.height - 0.1, rng.uniform(1.95, 2.3) + (rng.uniform(0, 0.5) if outside else 0))
+            opens = not outside and width < 1.2 and rng.random() < 0.22
+            bottom = rng.choice([0.0, 0.15, 0.3], p=[0.7, 0.15, 0.15]) if outside else 0.0
+            if bottom:
+                s.fill(x - 0.3, 0, width + 0.6, bottom, pick(rng, WALLS) * 0.85)
+            if x + width < s.width - 0.05:
+                paint_door(s, x, width, min(height, s.height - bottom - 0.08), bottom, opens)
+                if opens:
+                    opened.append(Thing("leaf", x, 0.0, width, height))
+        elif kind == "cupboards":
+            width = rng.uniform(0.7, 2.6)
+            paint_cupboards(s, x, width)
+        elif kind == "window":
+            width, height = rng.uniform(0.5, 1.8), rng.uniform(0.7, 1.6)
+            paint_window(s, x, width, rng.uniform(0.6, 1.1), min(height, s.height - 1.2))
+        elif kind == "picture":
+            width = rng.uniform(0.3, 1.2)
+            paint_picture(s, x, width, rng.uniform(1.0, 1.4), rng.uniform(0.3, 0.9))
+        elif kind == "arch":
+            width = rng.uniform(0.8, 1.6)
+            s.fill(x, 0, width, rng.uniform(2.0, 2.4), pick(rng, WALLS + [(30, 28, 26)]) * rng.uniform(0.3, 0.95))
+            blotches(rng, s.part(x, 0, width, 2.2), 0.25, 4)
+        else:
+            width = rng.uniform(0.3, 1.5)
+        x += width + rng.uniform(0.05, 0.9)
+    if rng.random() < 0.3:  # a switch, a fire extinguisher, a plate
+        s.fill(rng.uniform(0, s.width), rng.uniform(0.9, 1.6), rng.uniform(0.06, 0.2), rng.uniform(0.06, 0.4), pick(rng, PAINTS))
+    return opened
