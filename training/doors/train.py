@@ -5,7 +5,8 @@
     train.py begin --scenes scenes.pt --seconds T --out a.pt    learns from rendered pictures alone
     train.py judge --from a.pt --photographs DIR [--half held-out]
     train.py cross --from a.pt --scenes scenes.pt --photographs DIR --seconds T --folds K --out cross.pt
-    train.py finish --from a.pt --scenes scenes.pt --photographs DIR --seconds T --out b.pt
+    train.py finish --from a.pt --scenes scenes.pt --photographs DIR --seconds T --out b.pt      learns from the whole half to build with
+    train.py join --scenes scenes.pt --photographs DIR --cross cross.pt --out b.pt               or: the mean of the networks of `cross`, for nothing
     train.py export --from b.pt --cross cross.pt --out doors.onnx
 
 Seconds are of one core, not of the clock on the wall. `cross` learns from a part of the half to build with and looks at the rest of it, in turn: its
@@ -183,6 +184,25 @@ def cross(words) -> None:
     torch.save({"slope": slope, "offset": offset, "found": everything, "nets": [net.state_dict() for net, _ in folds]}, words.out)
 
 
+def join(words) -> None:
+    """The mean of weights that began as the same ones and learnt from different photographs; what each layer usually sees is counted anew."""
+    parts = torch.load(words.cross)["nets"]
+    net = network.Doors()
+    net.load_state_dict({name: sum(part[name] for part in parts) / len(parts) if value.dtype.is_floating_point else value for name, value in parts[0].items()})
+    for layer in net.modules():
+        if isinstance(layer, torch.nn.BatchNorm2d):
+            layer.reset_running_stats()
+            layer.momentum = None
+    files = pictures.half_of(words.photographs, "built-with")
+    photographs, drawn = pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE), torch.load(words.scenes)
+    net.train()
+    with torch.no_grad():
+        for _ in range(16):
+            shown = [pictures.views(of, torch.randint(len(of), (count,)), True)[0] for of, count in ((photographs, 10), (drawn, 6))]
+            net(torch.cat(shown))
+    torch.save(net.state_dict(), words.out)
+
+
 def show(words) -> None:
     for part in ("images", "labels"):
         (words.out / part).mkdir(parents=True, exist_ok=True)
@@ -196,7 +216,7 @@ def show(words) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("step", choices=["scenes", "show", "begin", "judge", "cross", "finish", "export"])
+    parser.add_argument("step", choices=["scenes", "show", "begin", "judge", "cross", "finish", "join", "export"])
     for name in ("out", "scenes", "photographs", "cross"):
         parser.add_argument(f"--{name}", type=pathlib.Path)
     parser.add_argument("--from", dest="start", type=pathlib.Path)
@@ -220,6 +240,8 @@ def main() -> None:
         tell(words.half, detections(restored(words.start), of), truths(of))
     elif words.step == "cross":
         cross(words)
+    elif words.step == "join":
+        join(words)
     elif words.step == "finish":
         of = pictures.photographs(words.photographs, pictures.half_of(words.photographs, "built-with"), PHOTOGRAPH_SIDE)
         torch.save(learn(restored(words.start), [(of, 10), (torch.load(words.scenes), 6)], words.seconds, words.rate, "photographs", words.out).state_dict(), words.out)

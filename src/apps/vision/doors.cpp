@@ -34,7 +34,7 @@ struct DoorOptions {
   CommonOptions common;
   std::string method = "network";
   std::string colour;
-  double least_score = 0.4;
+  double least_score = 0.3;
   std::filesystem::path truth;
   bool without_signs = false;
 };
