@@ -34,7 +34,7 @@ struct LaserScan {
 
 /// The hardware as the program needs it: a microcontroller's pins, or a simulated body.
 ///
-/// Nothing here waits. What is borrowed stays until the next call of the same function.
+/// Nothing here waits. What is borrowed stays until the next call of the same function that has something newer.
 class Board {
  public:
   [[nodiscard]] virtual Pulses pulses() = 0;
