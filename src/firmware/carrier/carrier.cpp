@@ -62,6 +62,7 @@ void Carrier::accept(Time now, Order const& order, Outbox& out) {
   if (is_killed_ || (needs_heading(order) && heading_.is_silent(now)))
     return out.log(now, LogCode::refused, order.number);
   command_ = order;
+  heading_integral_rad_s_ = 0;
   last_number_ = order.number;
   reached_since_.reset();
   has_watchdog_bitten_ = false;
@@ -84,9 +85,9 @@ void Carrier::control(Time now, Pulses const& pulses, Outbox& out) {
   look_for_slip(period, now, out);
   if (is_killed_) return;
   look_for_faults(now, out);
-  Motion const safe_motion = safe(now, wanted(), out);
   // A longer pause than this is a board that stood still, not one that ramps.
   float const period_s = std::min(to_seconds(period), 3 * to_seconds(tuning_.control_period));
+  Motion const safe_motion = safe(now, wanted(period_s), out);
   ramped_ = ramp(ramped_, safe_motion, period_s, tuning_, body_.braking_m_s2);
   // What keeps the distance counts the braking already, so that it need not be made gentler.
   if (is_too_near_) ramped_ = safe_motion;
@@ -125,7 +126,7 @@ void Carrier::look_for_slip(Time period, Time now, Outbox& out) {
   is_slipping_ = is_slipping;
 }
 
-Motion Carrier::wanted() const {
+Motion Carrier::wanted(float period_s) {
   if (auto const* const turn = std::get_if<Turn>(&command_)) {
     float const error = wrapped(turn->heading_rad - heading_.heading_rad());
     // Good enough to stand: friction would have the wheels jerk about the last tenths of a degree for ever.
@@ -133,12 +134,20 @@ Motion Carrier::wanted() const {
     return {.speed_m_s = 0, .turn_rad_s = is_there ? 0.0F : turn_for(error, tuning_)};
   }
   auto const* const drive = std::get_if<Drive>(&command_);
-  if (drive == nullptr) return {};
-  float const speed = std::clamp(drive->speed_m_s, -body_.top_speed_m_s, body_.top_speed_m_s);
-  if (drive->by == Drive::By::rate) return {.speed_m_s = speed, .turn_rad_s = drive->turn};
-  float const error = wrapped(drive->turn - heading_.heading_rad());
+  return drive == nullptr ? Motion{} : wanted_by(*drive, period_s);
+}
+
+Motion Carrier::wanted_by(Drive const& drive, float period_s) {
+  float const speed = std::clamp(drive.speed_m_s, -body_.top_speed_m_s, body_.top_speed_m_s);
+  if (drive.by == Drive::By::rate) return {.speed_m_s = speed, .turn_rad_s = drive.turn};
+  float const error = wrapped(drive.turn - heading_.heading_rad());
   float const part = std::max(0.0F, 1 - std::abs(error) / tuning_.drive_error_rad);
-  return {.speed_m_s = speed * part, .turn_rad_s = turn_for(error, tuning_)};
+  float const most = tuning_.most_heading_integral_rad_s;
+  // Not while it turns towards a new heading: that error is none of the wheels'.
+  if (part > 0.5F)
+    heading_integral_rad_s_ =
+        std::clamp(heading_integral_rad_s_ + tuning_.heading_integral_per_s2 * error * period_s, -most, most);
+  return {.speed_m_s = speed * part, .turn_rad_s = turn_for(error, tuning_) + heading_integral_rad_s_};
 }
 
 Motion Carrier::safe(Time now, Motion wanted, Outbox& out) {

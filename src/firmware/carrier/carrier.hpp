@@ -61,7 +61,8 @@ class Carrier {
 
   void look_for_faults(Time now, Outbox& out);
   void look_for_slip(Time period, Time now, Outbox& out);
-  [[nodiscard]] Motion wanted() const;
+  [[nodiscard]] Motion wanted(float period_s);
+  [[nodiscard]] Motion wanted_by(Drive const& drive, float period_s);
   [[nodiscard]] Motion safe(Time now, Motion wanted, Outbox& out);
   [[nodiscard]] bool is_reached() const;
   void look_for_completion(Time now, Outbox& out);
@@ -79,6 +80,7 @@ class Carrier {
   CommandNumber last_number_ = 0;
   CommandNumber completed_ = 0;
   Motion ramped_;
+  float heading_integral_rad_s_ = 0;
   Time last_control_{};
   Time heard_{};
   std::optional<Time> reached_since_;

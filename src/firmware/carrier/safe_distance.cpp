@@ -7,13 +7,15 @@ namespace lapwing::firmware {
 
 namespace {
 
-/// A speed that the rule leaves and that is no more than creeping: the body as good as stands.
+/// Where the rule leaves no more than this the body stands: wheels do not creep, they stick and jerk.
 float constexpr creeping_m_s = 0.01F;
+/// And goes on where it leaves this, so that an echo's trembling does not start it again and again.
+float constexpr going_on_m_s = 0.03F;
 
 }  // namespace
 
 float SafeDistance::allowed(float clearance_m) const {
-  float const free_m = clearance_m - tuning_.safe_distance_m;
+  float const free_m = clearance_m - tuning_.safe_distance_m - tuning_.far_enough_m;
   if (free_m <= 0) return 0;
   float const t = tuning_.reaction_s;
   return braking_m_s2_ * (std::sqrt(t * t + 2 * free_m / braking_m_s2_) - t);
@@ -44,8 +46,9 @@ SafeDistance::Answer SafeDistance::limit(Time now, float wanted_m_s, Clearance c
     return go_away(clearance, way_m);
   }
   float const most = allowed(towards_m);
-  float const speed = std::clamp(wanted_m_s, -most, most);
-  return {.speed_m_s = speed, .rules = std::abs(wanted_m_s) > most && most < creeping_m_s};
+  is_held_ = std::abs(wanted_m_s) > most && most < (is_held_ ? going_on_m_s : creeping_m_s);
+  if (is_held_) return {.speed_m_s = 0, .rules = true};
+  return {.speed_m_s = std::clamp(wanted_m_s, -most, most)};
 }
 
 SafeDistance::Answer SafeDistance::go_away(Clearance const& clearance, float way_m) {
@@ -59,6 +62,7 @@ SafeDistance::Answer SafeDistance::go_away(Clearance const& clearance, float way
 void SafeDistance::rest() {
   away_ = Away::none;
   is_near_ = false;
+  is_held_ = false;
 }
 
 }  // namespace lapwing::firmware

@@ -8,9 +8,9 @@ namespace lapwing::firmware {
 
 /// The speed along the way that is safe, whatever was asked for (the seed's CAR_MR_04).
 ///
-/// Towards a thing at clearance c the speed stays at what lets the body stand at the safe distance s: the v with
-/// v t + v²/(2a) = c - s for reaction t and braking a, so v = a (√(t² + 2(c - s)/a) - t). Nearer than s, and asked or
-/// moving towards it, the body goes the opposite way until it is farther than s.
+/// Towards a thing at clearance c the speed stays at what lets the body stand at s, the safe distance and a little
+/// more: the v with v t + v²/(2a) = c - s for reaction t and braking a, so v = a (√(t² + 2(c - s)/a) - t). Nearer than
+/// the safe distance, and asked to go towards the thing, the body goes the opposite way until it is farther than s.
 class SafeDistance {
  public:
   SafeDistance(Tuning const& tuning, float braking_m_s2) : tuning_(tuning), braking_m_s2_(braking_m_s2) {}
@@ -36,6 +36,7 @@ class SafeDistance {
   Away away_ = Away::none;
   float began_at_m_ = 0;
   bool is_near_ = false;
+  bool is_held_ = false;
   Time near_since_{};
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lapwing::firmware {
 
@@ -9,6 +10,14 @@ namespace {
 
 /// What a laser sees so far inside of the hull is the body itself.
 float constexpr own_body_m = 0.02F;
+
+/// The direction within a sonar's cone that is nearest to the body's axis, ahead or back.
+float inner_edge(SonarPlace const& sonar) {
+  float const axis = std::abs(sonar.angle_rad) > std::numbers::pi_v<float> / 2
+                         ? std::copysign(std::numbers::pi_v<float>, sonar.angle_rad)
+                         : 0.0F;
+  return sonar.angle_rad + std::clamp(axis - sonar.angle_rad, -sonar.half_cone_rad, sonar.half_cone_rad);
+}
 
 }  // namespace
 
@@ -37,8 +46,7 @@ void Surroundings::hear(std::span<std::uint16_t const> echoes_us) {
     auto const& sonar = sonars[i];
     float const range_m = static_cast<float>(echoes_us[i]) / echo_us_per_m;
     if (range_m > sonar.longest_m) continue;
-    for (float const side : {-1.0F, 0.0F, 1.0F}) {
-      float const angle = sonar.angle_rad + side * sonar.half_cone_rad;
+    for (float const angle : {sonar.angle_rad, inner_edge(sonar)}) {
       narrow(by_sonar_, sonar.x_m + range_m * std::cos(angle), sonar.y_m + range_m * std::sin(angle));
     }
   }

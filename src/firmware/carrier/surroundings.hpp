@@ -21,8 +21,8 @@ struct Clearance {
 
 /// What sonars and laser see, as the way that is free.
 ///
-/// A sonar's echo may come from anywhere on the arc of its cone, so the arc's middle and both ends are taken for
-/// things.
+/// A sonar's echo may come from anywhere on the arc of its cone: the arc's middle is taken for a thing, and so is the
+/// place on it that is most in the way. Its outer end is not: a wall ahead would seem nearer by it than it is.
 class Surroundings {
  public:
   Surroundings(Description const& description, Tuning const& tuning);

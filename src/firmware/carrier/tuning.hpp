@@ -16,13 +16,17 @@ struct Tuning {
   float speed_integral_per_s = 3.0F;
   /// Turn rate for each radian of heading error.
   float heading_gain_per_s = 2.5F;
+  /// While driving only: a wheel that slips, or is worn, turns the body for as long as it drives.
+  float heading_integral_per_s2 = 1.5F;
+  float most_heading_integral_rad_s = 0.3F;
   float acceleration_m_s2 = 0.4F;
   float turn_acceleration_rad_s2 = 4.0F;
   float top_turn_rad_s = 1.2F;
   /// With a heading error beyond this it turns on the spot before it drives.
   float drive_error_rad = 0.5F;
 
-  /// 5 cm (the seed's k_safe_distance), and how far beyond it the way counts as free again.
+  /// 5 cm (the seed's k_safe_distance), and how much more it leaves before it: where it stands, and where the way
+  /// counts as free again.
   float safe_distance_m = 0.05F;
   float far_enough_m = 0.01F;
   /// From a thing's coming near to the wheels' slowing: a sonar's period and the speed loop's lag.

@@ -7,8 +7,10 @@ namespace lapwing::firmware {
 
 namespace {
 
-/// Below this a wheel that is to stand does: the brake holds it.
-float constexpr standing_m_s = 0.01F;
+/// Below this a wheel that is to stand does, since the speed that is measured is that of a twentieth of a second ago.
+float constexpr standing_m_s = 0.02F;
+/// No geared motor turns as slowly as this: it sticks, and then it jerks.
+float constexpr slowest_m_s = 0.002F;
 
 }  // namespace
 
@@ -37,15 +39,19 @@ void Wheel::watch(Time period, bool has_moved) {
 }
 
 float Wheel::drive(Time now, float target_m_s) {
-  if (target_m_s == 0 && std::abs(speed_m_s_) < standing_m_s) {
+  bool const is_to_stand = std::abs(target_m_s) < slowest_m_s;
+  if (is_to_stand && std::abs(speed_m_s_) < standing_m_s) {
     rest();
     return output_;
   }
   float const period_s = is_driven_ ? to_seconds(now - last_drive_) : 0.0F;
   last_drive_ = now;
   is_driven_ = true;
+  // What the integral learnt of driving would push a wheel that is to stand beyond its standing.
+  if (is_to_stand) integral_m_s_ = 0;
   float const error = target_m_s - speed_m_s_;
-  float const integral = integral_m_s_ + tuning_.speed_integral_per_s * error * period_s;
+  float const learnt = is_to_stand ? 0.0F : tuning_.speed_integral_per_s * error * period_s;
+  float const integral = integral_m_s_ + learnt;
   float const wanted = (target_m_s + tuning_.speed_gain * error + integral) / tuning_.full_voltage_speed_m_s;
   output_ = std::clamp(wanted, -1.0F, 1.0F);
   if (wanted == output_ || std::abs(integral) < std::abs(integral_m_s_)) integral_m_s_ = integral;
