@@ -13,7 +13,7 @@ namespace lapwing::firmware {
 
 /// The whole program of a board: `step` again and again, at least once each control period.
 ///
-/// Takes commands, runs the carrier, sends readings ten times a second and scans as they come. About six kilobytes, no
+/// Takes commands, runs the carrier, sends readings ten times a second and scans as they come. Three kilobytes, no
 /// heap. Deterministic: what it does depends on the calls' times and what the board gives, nothing else.
 class Program {
  public:
