@@ -113,6 +113,16 @@ case $target in
     eight='%b\0\0\0\0\0\0\0'
     printf "\3\51\1$eight$eight$eight$eight$eight\14\2$eight\1kt\11\3$eight" '\7' '\1' '\1' '\5' '\2' '\1' '\1' | seed segment
     ;;
+  robot_frames)
+    printf '\6\1\26\5\334\2\0' | seed alive
+    printf '\21\1\0\240\0\0\0\0\0\0' | seed drive
+    { printf '\2'; head -c 8 /dev/zero; printf '\1\0\0\0\2\0\0\0\60\165'; head -c 24 /dev/zero; printf '\1\144\0\340\56\120\0\0\1\0\0\0\0\0\0\0'; } | seed readings
+    { printf '\1'; head -c 8 /dev/zero; printf '\200\251\3\0\100\113\114\0\54\1\364\1\226\0\226\0\214\0\1\226\0\0\0\0\0\372\0\114\35'; head -c 22 /dev/zero; } | seed hello
+    { printf '\3'; head -c 16 /dev/zero; printf '\4\0\2\0\2\1\0\2\0'; } | seed laser
+    ;;
+  seed_text)
+    printf ' PLN_CAR_1_Medium\nPLN_CAR_2_90\nSIM_PLN_3_120:-:300\nMMU_CM_4_10-20-90\r\nPOI_CM_5_"Name Tag", "2%%5F21", 15, 20\nCC_CAR_6_e-Stop\nMMU_CC_7_ready:302:9\n' | seed lines
+    ;;
   key_store)
     printf '[keys]\nfleet = "%064d"\nnext = "%064d"\n[use]\neverybody = "fleet"\n[use.vehicles]\n7 = ["next", "fleet"]\n[use.links]\n"udpin://0.0.0.0:14550" = "next"\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages = ["ADSB_VEHICLE", 0]\n' 1 2 | seed store
     ;;

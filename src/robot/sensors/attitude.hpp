@@ -14,7 +14,8 @@ struct Attitude {
 /// Of a quaternion that turns body into level frame, of any length but zero. With the nose straight up or down yaw
 /// and roll turn about the same axis: all of it is said to be yaw.
 ///
-/// Source: Diebel, "Representing Attitude" (2006), section 5.6.1, with the angles named for x ahead, y left, z up.
+/// Source: J. Diebel, "Representing Attitude: Euler Angles, Unit Quaternions, and Rotation Vectors" (Stanford, 2006),
+/// with the angles named for x ahead, y left, z up.
 [[nodiscard]] Attitude attitude(firmware::Quaternion const& orientation);
 
 }  // namespace lapwing::robot

@@ -36,7 +36,7 @@ Matrix3 skew(Vector const& v) {
   return matrix;
 }
 
-/// Exp of a rotation vector (Solà, equation 101).
+/// The turn by a rotation vector (Exp, in the paper).
 Eigen::Quaterniond rotation(Vector const& turn_rad) {
   double const angle = turn_rad.norm();
   if (angle == 0) return Eigen::Quaterniond::Identity();

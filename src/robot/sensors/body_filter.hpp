@@ -8,7 +8,7 @@
 namespace lapwing::robot {
 
 /// How good the sensors are, as standard deviations. The defaults are a MEMS unit of the MPU-6050's kind, whose values
-/// are means over a tenth of a second (0.005 deg/s/√Hz, 400 ug/√Hz by its data sheet, rounded up threefold for
+/// are means over a tenth of a second (0.005 deg/s/√Hz, 400 ug/√Hz by its data sheet, several times that for
 /// vibration), and geared wheels on a hard floor.
 struct FilterNoise {
   double rate_rad_s = 6e-4;
