@@ -19,7 +19,7 @@ void check_fence(Fence const& fence) {
     for (auto const& polygon : zone.polygons) {
       for (auto const& ring : polygon.rings) {
         require(ring.size() >= 3);
-        for (auto const& corner : ring) require(std::isfinite(corner.north_m) && std::isfinite(corner.east_m));
+        for (auto const& corner : ring) require(std::isfinite(corner.x()) && std::isfinite(corner.y()));
       }
     }
   }
