@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -40,9 +39,24 @@ class FrontEnd {
   [[nodiscard]] OdometryNoise const& noise() const { return noise_; }
 
  private:
+  // A scan that fits less well than this share of what is usual was expected in the wrong place, if another place fits
+  // so many times better.
+  static constexpr double poor_share = 0.6;
+  static constexpr double clearly_better = 1.3;
+  static constexpr double score_memory = 0.05;  ///< of a key frame in the usual score
+
+  struct Guess {
+    Pose2 pose;
+    OdometryNoise::Spread spread;
+  };
+  [[nodiscard]] Correlation search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                   Frame const& frame, Guess const& guess);
+
   FrontEndOptions options_;
   OdometryNoise noise_;
   LocalGrid grid_;
+  double usual_score_ = 0.0;
+  Pose2 last_motion_;  ///< of the key frame before last to the last
   std::optional<Pose2> last_odometry_;
 };
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string_view>
 
 #include "slam/front_end.hpp"
 #include "slam/graph.hpp"
+#include "slam/grid/draw_grid.hpp"
 #include "slam/log/scan_log.hpp"
 #include "slam/loops/loop_closer.hpp"
+#include "slam/match/scan_odometry.hpp"
 #include "slam/refine/fill.hpp"
 #include "slam/refine/joint.hpp"
 
@@ -30,6 +33,50 @@ struct Mapping {
 
 /// `share`: how much of the work is done, 0 to 1.
 using Progress = std::function<void(std::string_view stage, double share)>;
+
+/// What a robot brings along.
+struct RobotKind {
+  bool has_odometry = true;  ///< without, the scans alone say how it moves
+};
+
+/// A map that grows scan by scan. It knows no clock and no thread; who wants the answer of `follow` at once does
+/// `close_loops` when there is time, on any thread, but never both at once.
+class Mapper {
+ public:
+  Mapper(MapperOptions const& options, RobotKind const& kind, ForEach for_each);
+
+  /// The robot's pose at that scan, by what is known now. Takes a few milliseconds however large the map is.
+  Pose2 follow(Scan const& scan, Sensor const& sensor);
+  /// Looks for places where the robot has been before, if there is reason to. True: a loop was closed, so that every
+  /// pose has changed. Takes the longer the larger the map.
+  bool close_loops();
+
+  [[nodiscard]] Pose2 pose() const;
+  [[nodiscard]] Graph const& graph() const { return graph_; }
+  [[nodiscard]] LoopCloser const& loops() const { return loops_; }
+  /// What all key frames have seen, drawn from where they stand now.
+  [[nodiscard]] map::OccupancyGrid grid(BeamModel const& model) const;
+  /// The last scan's odometry: as it was told, or made of scans.
+  [[nodiscard]] Pose2 const& odometry() const { return odometry_; }
+
+  /// After the last scan: what still can be closed, then all key frames aligned at once.
+  void finish(Progress const& progress);
+  [[nodiscard]] Graph take_graph() && { return std::move(graph_); }
+
+ private:
+  MapperOptions options_;
+  RobotKind kind_;
+  ForEach for_each_;
+  Graph graph_;
+  FrontEnd front_end_;
+  LoopCloser loops_;
+  ScanOdometry scan_odometry_;
+  ScanLog seen_;  ///< the key frames' scans
+  int scans_ = 0;
+  Pose2 odometry_;
+  Pose2 key_odometry_;
+  bool is_new_ = false;  ///< the last key frame has not been looked for elsewhere
+};
 
 /// Maps a log: follows the robot, closes loops as they come, then refines everything together. The same result on any
 /// number of threads.

@@ -1,5 +1,7 @@
 #include "slam/mapper.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/async/parallel_for.hpp"
@@ -34,6 +36,35 @@ TEST(Mapper, IsTheSameOnAnyNumberOfThreads) {
     base::parallel_for(4, count, work);
   };
   EXPECT_EQ(mapped(drive.log).trajectory, mapped(drive.log, threads).trajectory);
+}
+
+TEST(Mapper, KnowsWhereTheRobotIsAfterEveryScan) {
+  auto const drive = round_the_office(1.0);
+  Mapper mapper({}, {}, one_by_one);
+  auto most_m = 0.0;
+  for (std::size_t i = 0; i < drive.truth.size(); ++i) {
+    auto const pose = mapper.follow(drive.log.scans[i], drive.log.sensors[0]);
+    mapper.close_loops();
+    most_m = std::max(most_m, distance_m(pose, drive.truth[i]));
+    EXPECT_EQ(mapper.graph().frames.size(), mapper.graph().poses.size());
+  }
+  EXPECT_LT(most_m, 0.6);
+  EXPECT_FALSE(mapper.grid({}).tiles().empty());
+}
+
+TEST(Mapper, IsNotCarriedAwayByAJumpOfOdometry) {
+  auto drive = round_the_office(1.0);
+  Pose2 const jump{4.0, -3.0, 1.2};
+  for (std::size_t i = drive.log.scans.size() / 3; i < drive.log.scans.size(); ++i)
+    drive.log.scans[i].odometry = jump * drive.log.scans[i].odometry;
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.15);
+}
+
+TEST(Mapper, MapsByScansAloneWhereThereIsNoOdometry) {
+  auto drive = round_the_office(1.0);
+  for (auto& scan : drive.log.scans) scan.odometry = {};
+  drive.log.has_odometry = false;
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.2);
 }
 
 TEST(Mapper, OfNothingIsNothing) {

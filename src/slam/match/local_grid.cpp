@@ -97,12 +97,12 @@ void LocalGrid::add(Frame const& frame, Pose2 const& pose) {
   }
 }
 
-Pose2 correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess, SearchWindow const& window) {
-  if (frame.points.empty()) return guess;
+Correlation correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess, SearchWindow const& window) {
+  if (frame.points.empty()) return {guess, 0.0};
   auto best = coarse(grid, frame, guess, window);
+  auto best_score = score(grid, frame, best, 1);
   constexpr int most_steps = 6;
   for (auto [step_m, step_rad] : {std::pair{0.05, 0.5 * degree}, {0.025, 0.25 * degree}}) {
-    auto best_score = score(grid, frame, best, 1);
     for (int round = 0; round < most_steps; ++round) {
       auto const centre = best;
       for (auto const& step :
@@ -117,7 +117,7 @@ Pose2 correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess, S
       if (best == centre) break;
     }
   }
-  return best;
+  return {best, best_score};
 }
 
 }  // namespace lapwing::slam

@@ -45,9 +45,14 @@ struct SearchWindow {
   double cost_per_rad2 = 1.0;
 };
 
+struct Correlation {
+  Pose2 pose;
+  double score = 0.0;  ///< mean over the points, 1 when every one lies on a wall
+};
+
 /// The pose near `guess` at which the frame's points lie best on what the grid has: every pose of the window in steps
 /// of 0.1 m and 1 degree with some of the points, then downhill in smaller steps with all of them.
-[[nodiscard]] Pose2 correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess,
-                              SearchWindow const& window);
+[[nodiscard]] Correlation correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess,
+                                    SearchWindow const& window);
 
 }  // namespace lapwing::slam

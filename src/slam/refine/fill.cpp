@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/Dense>
-
-#include "slam/match/point_to_line.hpp"
+#include "base/assert.hpp"
+#include "slam/match/align.hpp"
 #include "slam/refine/overlap.hpp"
 
 namespace lapwing::slam {
@@ -22,55 +21,48 @@ Around around(Graph const& graph, int scan) {
   return {before, next == graph.frames.end() ? before : static_cast<int>(next - graph.frames.begin())};
 }
 
-Pose2 align(Frame const& frame, Pose2 const& start, Graph const& graph, std::vector<int> const& targets,
-            double point_information) {
-  constexpr int rounds = 4;
-  constexpr Association wide{.gate_m = 0.25, .scale_m = 0.08};
-  constexpr Association narrow{.gate_m = 0.12, .scale_m = 0.03};
-  Eigen::Vector3d const trust(400.0, 400.0, 2500.0);  // in odometry, over a part of a key frame's step
-  auto pose = start;
-  for (int round = 0; round < rounds; ++round) {
-    Eigen::Matrix3d hessian = trust.asDiagonal();
-    Eigen::Vector3d off = numbers(pose) - numbers(start);
-    off.z() = geo::wrap_pi(off.z());
-    Eigen::Vector3d gradient = trust.cwiseProduct(off);
-    for (auto const target : targets) {
-      auto const term =
-          point_to_line(frame, pose, graph.frames[target].frame, graph.poses[target], round < 1 ? wide : narrow);
-      if (!term.is_usable()) continue;
-      hessian += point_information * term.hessian.topLeftCorner<3, 3>();
-      gradient += point_information * term.gradient.head<3>();
-    }
-    Eigen::Vector3d const step = hessian.ldlt().solve(-gradient);
-    pose = stepped(pose, step);
-    if (step.norm() < 1e-3) break;
-  }
-  return pose;
+/// Where odometry puts the scan: carried from the nearer key frame, or from the one before where odometry jumped on the
+/// way to the next, for that one was taken right after the jump.
+Pose2 carried(Graph const& graph, std::vector<Pose2> const& odometry, Around const& keys, int scan) {
+  constexpr double jump_m = 1.0;
+  constexpr double jump_rad = 0.5;
+  auto const [before, after] = keys;
+  auto const of_key = [&](int key) { return odometry[graph.frames[key].scan]; };
+  auto const told = between(of_key(before), of_key(after));
+  auto const mapped = between(graph.poses[before], graph.poses[after]);
+  auto const has_jumped = distance_m(told, mapped) > jump_m || turn_rad(told, mapped) > jump_rad;
+  auto const is_after_nearer =
+      after != before && graph.frames[after].scan - scan < scan - graph.frames[before].scan && !has_jumped;
+  auto const nearest = is_after_nearer ? after : before;
+  return graph.poses[nearest] * between(of_key(nearest), odometry[scan]);
 }
 
 }  // namespace
 
-std::vector<Pose2> fill(ScanLog const& log, Graph const& graph, FrameOptions const& frame_options,
-                        FillOptions const& options, ForEach const& for_each) {
+std::vector<Pose2> fill(ScanLog const& log, std::vector<Pose2> const& odometry, Graph const& graph,
+                        FrameOptions const& frame_options, FillOptions const& options, ForEach const& for_each) {
+  LAPWING_ASSERT(odometry.size() == log.scans.size(), odometry.size(), log.scans.size());
   std::vector<Pose2> poses(log.scans.size());
   if (graph.frames.empty()) return poses;
   PlaceIndex const index(graph.poses, options.radius_m);
   for_each(log.scans.size(), [&](std::size_t i) {
     auto const scan = static_cast<int>(i);
-    auto const [before, after] = around(graph, scan);
-    if (graph.frames[before].scan == scan) {
-      poses[i] = graph.poses[before];
+    auto const keys = around(graph, scan);
+    if (graph.frames[keys.before].scan == scan) {
+      poses[i] = graph.poses[keys.before];
       return;
     }
-    auto const nearest =
-        graph.frames[after].scan - scan < scan - graph.frames[before].scan && after != before ? after : before;
-    auto const& key = log.scans[graph.frames[nearest].scan];
-    auto const start = graph.poses[nearest] * between(key.odometry, log.scans[i].odometry);
-    auto targets = index.near(start, -1, options.neighbours);
-    targets.push_back(before);
-    if (after != before) targets.push_back(after);
+    auto const start = carried(graph, odometry, keys, scan);
+    std::vector<Target> targets;
+    auto const lay_upon = [&](int key) { targets.push_back({&graph.frames[key].frame, graph.poses[key]}); };
+    for (auto const key : index.near(start, -1, options.neighbours)) lay_upon(key);
+    lay_upon(keys.before);
+    if (keys.after != keys.before) lay_upon(keys.after);
     auto const frame = frame_of(log.scans[i], log.sensors[log.scans[i].sensor], frame_options);
-    poses[i] = align(frame, start, graph, targets, options.point_information);
+    Eigen::Vector3d const trust(400.0, 400.0, 2500.0);  // in odometry, over a part of a key frame's step
+    poses[i] = align(frame, start, {.pose = start, .trust = trust}, targets,
+                     {.rounds = 4, .wide_rounds = 1, .point_information = options.point_information})
+                   .pose;
   });
   return poses;
 }

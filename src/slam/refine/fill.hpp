@@ -13,8 +13,9 @@ struct FillOptions {
 };
 
 /// Where each scan of the log was taken: key frames where the graph has them, every other one carried from its key
-/// frame by odometry and aligned to the key frames around it.
-[[nodiscard]] std::vector<Pose2> fill(ScanLog const& log, Graph const& graph, FrameOptions const& frame_options,
-                                      FillOptions const& options, ForEach const& for_each);
+/// frame by odometry and aligned to the key frames around it. Precondition: as many odometry poses as scans.
+[[nodiscard]] std::vector<Pose2> fill(ScanLog const& log, std::vector<Pose2> const& odometry, Graph const& graph,
+                                      FrameOptions const& frame_options, FillOptions const& options,
+                                      ForEach const& for_each);
 
 }  // namespace lapwing::slam

@@ -1,0 +1,66 @@
+#include "slam/match/scan_odometry.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "slam/match/align.hpp"
+
+namespace lapwing::slam {
+namespace {
+
+// A robot or drone indoors changes its speed by about so much from scan to scan.
+constexpr double shift_sigma_m = 0.12;
+constexpr double turn_sigma_rad = 0.12;
+constexpr SearchWindow window{.reach_m = 0.4,
+                              .reach_rad = 0.4,
+                              .cost_per_m2 = 0.003 / (shift_sigma_m * shift_sigma_m),
+                              .cost_per_rad2 = 0.003 / (turn_sigma_rad * turn_sigma_rad)};
+constexpr double keep_step_m = 0.15;
+constexpr double keep_turn_rad = 0.1;
+constexpr std::size_t kept = 10;
+
+}  // namespace
+
+Pose2 ScanOdometry::follow(Frame const& frame, LogTime time) {
+  if (!time_) {
+    time_ = time;
+    keep(frame);
+    return pose_;
+  }
+  constexpr double shortest_s = 1e-3;
+  constexpr double longest_s = 1.0;  // after a longer gap nobody knows how it went on
+  auto const elapsed = std::clamp((time - *time_).count(), shortest_s, longest_s);
+  time_ = time;
+  Eigen::Vector3d const motion = speed_ * elapsed;
+  auto const predicted = pose_ * Pose2{motion.x(), motion.y(), motion.z()};
+  auto const found = correlate(grid_, frame, predicted, window);
+  std::vector<Target> targets;
+  auto const count = static_cast<int>(last_.size());
+  for (int const back : {1, 2, 4, 7})
+    if (back <= count)
+      targets.push_back(
+          {&last_[static_cast<std::size_t>(count - back)].frame, last_[static_cast<std::size_t>(count - back)].pose});
+  Prior const prior{.pose = predicted,
+                    .trust = {1.0 / (shift_sigma_m * shift_sigma_m), 1.0 / (shift_sigma_m * shift_sigma_m),
+                              1.0 / (turn_sigma_rad * turn_sigma_rad)}};
+  auto const next = align(frame, found.pose, prior, targets, {}).pose;
+  auto const moved = between(pose_, next);
+  constexpr double most_m_s = 4.0;
+  constexpr double most_rad_s = 4.0;
+  speed_ = numbers(moved) / elapsed;
+  speed_ = speed_.cwiseMax(Eigen::Vector3d(-most_m_s, -most_m_s, -most_rad_s))
+               .cwiseMin(Eigen::Vector3d(most_m_s, most_m_s, most_rad_s));
+  pose_ = next;
+  auto const& newest = last_.back().pose;
+  if (distance_m(newest, pose_) >= keep_step_m || turn_rad(newest, pose_) >= keep_turn_rad) keep(frame);
+  return pose_;
+}
+
+void ScanOdometry::keep(Frame const& frame) {
+  last_.push_back({frame, pose_});
+  if (last_.size() > kept) last_.pop_front();
+  grid_.move_to(pose_);
+  for (auto const& seen : last_) grid_.add(seen.frame, seen.pose);
+}
+
+}  // namespace lapwing::slam

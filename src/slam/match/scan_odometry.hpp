@@ -1,0 +1,32 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "slam/log/scan_log.hpp"
+#include "slam/match/local_grid.hpp"
+
+namespace lapwing::slam {
+
+/// Odometry made of scans, for robots that tell none: each scan is searched around where the robot would be if it went
+/// on as before, and aligned to some that were taken shortly before. It drifts as wheels do.
+class ScanOdometry {
+ public:
+  /// Where the robot is now, in a frame that begins at its first scan.
+  [[nodiscard]] Pose2 follow(Frame const& frame, LogTime time);
+
+ private:
+  void keep(Frame const& frame);
+
+  struct Seen {
+    Frame frame;
+    Pose2 pose;
+  };
+  std::deque<Seen> last_;
+  LocalGrid grid_;
+  std::optional<LogTime> time_;
+  Pose2 pose_;
+  Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();  ///< in the robot's frame, a second
+};
+
+}  // namespace lapwing::slam
