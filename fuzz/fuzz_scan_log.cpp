@@ -4,13 +4,13 @@
 
 #include "require.hpp"
 #include "slam/graph/g2o.hpp"
-#include "slam/readers/carmen.hpp"
+#include "slam/readers/any_log.hpp"
 #include "slam/relations.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace lapwing;
   std::string_view const text(reinterpret_cast<char const*>(data), size);
-  if (auto const log = slam::read_carmen(text)) {
+  if (auto const log = slam::read_log(text)) {
     for (auto const& scan : log->scans)
       fuzz::require(scan.ranges_m.size() == log->sensors.at(static_cast<std::size_t>(scan.sensor)).bearings_rad.size());
   }
