@@ -1,7 +1,7 @@
 #include "slam/front_end.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include <Eigen/Dense>
 
@@ -14,6 +14,24 @@ namespace {
 bool is_pinned(Eigen::Matrix3d const& seen) {
   constexpr double enough = 250.0;  // ten points' worth across the weakest direction
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(seen.topLeftCorner<2, 2>()).eigenvalues()(0) > enough;
+}
+
+/// Whether most beams of the two end at about the same range.
+bool look_alike(Frame const& a, Frame const& b) {
+  constexpr double most = 0.7;
+  constexpr float near_m = 0.2F;
+  constexpr float share = 0.1F;
+  if (a.bins() != b.bins()) return false;
+  int seen = 0;
+  int same = 0;
+  for (std::size_t bin = 0; bin < a.free_of_bin.size(); ++bin) {
+    auto const x = a.free_of_bin[bin];
+    auto const y = b.free_of_bin[bin];
+    if (x == 0.0F && y == 0.0F) continue;
+    ++seen;
+    same += std::abs(x - y) < near_m + share * x ? 1 : 0;
+  }
+  return same > most * seen;
 }
 
 Eigen::Vector3d trust_of(OdometryNoise::Spread const& spread) {
@@ -48,7 +66,7 @@ Correlation FrontEnd::search(std::vector<KeyFrame> const& frames, std::vector<Po
 }
 
 FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
-                             Pose2 const& odometry) {
+                             Pose2 const& odometry, bool has_leapt) {
   if (!last_odometry_) {
     last_odometry_ = odometry;
     return {.pose = odometry, .constraint = std::nullopt};
@@ -56,27 +74,22 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   auto const driven = between(*last_odometry_, odometry);
   last_odometry_ = odometry;
   auto const count = static_cast<int>(frames.size());
-  Guess guess{.pose = poses.back() * driven, .spread = noise_.of(driven)};
-  auto found = search(frames, poses, frame, guess);
-  auto is_by_odometry = true;
-  if (found.score < poor_share * usual_score_) {
-    // Wheels that were lifted, or counters that began anew: as if it had gone on as before.
-    Guess const onward{.pose = poses.back() * last_motion_, .spread = {.shift_m = 0.3, .turn_rad = 0.2}};
-    auto const other = search(frames, poses, frame, onward);
-    if (other.score > clearly_better * found.score) {
-      guess = onward;
-      found = other;
-      is_by_odometry = false;
-    }
-  }
-  usual_score_ += score_memory * (found.score - usual_score_);
+  auto spread = noise_.of(driven);
+  spread.shift_m *= options_.odometry_spread;
+  spread.turn_rad *= options_.odometry_spread;
+  Guess guess{.pose = poses.back() * driven, .spread = spread};
+  // Counters that began anew: what is seen is what was seen just now, so it went on as before. After a gap in the
+  // recording something else is seen, and odometry is right.
+  auto const is_misled = has_leapt && look_alike(frame, frames.back().frame);
+  if (is_misled) guess = {.pose = poses.back() * last_motion_, .spread = {.shift_m = 0.3, .turn_rad = 0.2}};
+  auto const found = search(frames, poses, frame, guess);
 
   std::vector<Target> targets;
   for (int const back : {1, 2, 3, 5, 8})
     if (back <= count) targets.push_back({&frames[count - back].frame, poses[count - back]});
   auto const aligned = align(frame, found.pose, {.pose = guess.pose, .trust = trust_of(guess.spread)}, targets,
                              {.point_information = options_.point_information});
-  if (is_by_odometry) noise_.learn(guess.pose, aligned.pose, is_pinned(aligned.seen));
+  if (!is_misled) noise_.learn(guess.pose, aligned.pose, is_pinned(aligned.seen));
   last_motion_ = between(poses.back(), aligned.pose);
 
   // The information is along the map's axes; the constraint is measured in the frame of the last key frame.

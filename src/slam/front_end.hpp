@@ -16,6 +16,7 @@ struct FrontEndOptions {
   /// Of one matched point, 1 / m^2: a tenth of what a 2 cm laser has, as beams err together. With a tenth of this,
   /// odometry that is out of step in turns outweighed the scans of a small room.
   double point_information = 250.0;
+  double odometry_spread = 1.0;  ///< times what is usual
   double edge_share =
       0.1;  ///< of a key frame's information that its edge to the last one has, as neighbours err together
 };
@@ -32,19 +33,14 @@ class FrontEnd {
     Pose2 pose;                            ///< of the new key frame, in the map
     std::optional<Constraint> constraint;  ///< to the last one; none for the first
   };
-  /// `frames`, `poses`: of all key frames so far, as they are known by now; the new one is not among them.
+  /// `frames`, `poses`: of all key frames so far, as they are known by now; the new one is not among them. `has_leapt`:
+  /// odometry has moved as no robot does since the last one.
   [[nodiscard]] Step add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
-                         Pose2 const& odometry);
+                         Pose2 const& odometry, bool has_leapt = false);
 
   [[nodiscard]] OdometryNoise const& noise() const { return noise_; }
 
  private:
-  // A scan that fits less well than this share of what is usual was expected in the wrong place, if another place fits
-  // so many times better.
-  static constexpr double poor_share = 0.6;
-  static constexpr double clearly_better = 1.3;
-  static constexpr double score_memory = 0.05;  ///< of a key frame in the usual score
-
   struct Guess {
     Pose2 pose;
     OdometryNoise::Spread spread;
@@ -55,7 +51,6 @@ class FrontEnd {
   FrontEndOptions options_;
   OdometryNoise noise_;
   LocalGrid grid_;
-  double usual_score_ = 0.0;
   Pose2 last_motion_;  ///< of the key frame before last to the last
   std::optional<Pose2> last_odometry_;
 };

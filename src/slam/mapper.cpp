@@ -1,30 +1,57 @@
 #include "slam/mapper.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lapwing::slam {
+namespace {
+
+/// Whether no robot moves so within that time.
+bool is_leap(Pose2 const& motion, LogTime elapsed) {
+  constexpr double most_m_s = 3.0;
+  constexpr double most_rad_s = 4.0;
+  constexpr double least_s = 0.2;  // stamps of recordings come in bunches
+  auto const seconds = std::max(least_s, elapsed.count());
+  return std::hypot(motion.x, motion.y) > most_m_s * seconds || std::abs(motion.yaw) > most_rad_s * seconds;
+}
+
+}  // namespace
 
 Mapper::Mapper(MapperOptions const& options, RobotKind const& kind, ForEach for_each)
-    : options_(options),
+    : options_(options_for(kind, options)),
       kind_(kind),
       for_each_(std::move(for_each)),
-      front_end_(options.front_end),
-      loops_(options.loops, for_each_) {}
+      front_end_(options_.front_end),
+      loops_(options_.loops, for_each_),
+      gatherer_(options_.gather, options_.frame) {}
 
 Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
   std::optional<Frame> frame;
-  auto const number = scans_++;
+  ++scans_;
+  auto const last_odometry = odometry_;
   odometry_ = scan.odometry;
   if (!kind_.has_odometry) {
     frame = frame_of(scan, sensor, options_.frame);
     odometry_ = scan_odometry_.follow(*frame, scan.time);
   }
-  if (!front_end_.wants(odometry_)) return pose();
-  if (!frame) frame = frame_of(scan, sensor, options_.frame);
-  auto const step = front_end_.add(graph_.frames, graph_.poses, *frame, odometry_);
+  has_leapt_ = has_leapt_ || (scans_ > 1 && is_leap(between(last_odometry, odometry_), scan.time - time_));
+  time_ = scan.time;
+  if (kind_.is_sparse) {
+    gatherer_.add(scan, sensor, odometry_);
+    if (gatherer_.is_due()) add_key_frame(gatherer_.take(), scan, sensor);
+  } else if (front_end_.wants(odometry_)) {
+    if (!frame) frame = frame_of(scan, sensor, options_.frame);
+    add_key_frame(*std::move(frame), scan, sensor);
+  }
+  return pose();
+}
+
+void Mapper::add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor) {
+  auto const step = front_end_.add(graph_.frames, graph_.poses, frame, odometry_, has_leapt_);
+  has_leapt_ = false;
   auto const path_m =
       graph_.frames.empty() ? 0.0 : graph_.frames.back().path_m + distance_m(graph_.poses.back(), step.pose);
-  graph_.frames.push_back({.scan = number, .frame = *std::move(frame), .path_m = path_m});
+  graph_.frames.push_back({.scan = scans_ - 1, .frame = std::move(frame), .path_m = path_m});
   graph_.poses.push_back(step.pose);
   if (step.constraint) graph_.constraints.push_back(*step.constraint);
   key_odometry_ = odometry_;
@@ -34,7 +61,6 @@ Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
   if (known == seen_.sensors.end()) known = seen_.sensors.insert(known, sensor);
   seen_.scans.push_back(scan);
   seen_.scans.back().sensor = static_cast<int>(known - seen_.sensors.begin());
-  return step.pose;
 }
 
 bool Mapper::close_loops() {
@@ -59,7 +85,8 @@ void Mapper::finish(Progress const& progress) {
 }
 
 Mapping map_log(ScanLog const& log, MapperOptions const& options, ForEach const& for_each, Progress const& progress) {
-  Mapper mapper(options, {.has_odometry = log.has_odometry}, for_each);
+  auto const kind = kind_of(log, options.gather);
+  Mapper mapper(options, kind, for_each);
   constexpr double driving = 0.7;  // of the time that a log takes
   constexpr double finishing = 0.15;
   std::vector<Pose2> odometry;
@@ -76,7 +103,8 @@ Mapping map_log(ScanLog const& log, MapperOptions const& options, ForEach const&
   mapping.loops = mapper.loops().counts();
   mapping.loop_records = mapper.loops().records();
   mapping.graph = std::move(mapper).take_graph();
-  mapping.trajectory = fill(log, odometry, mapping.graph, options.frame, options.fill, for_each);
+  mapping.trajectory = kind.is_sparse ? spread_over_scans(odometry, mapping.graph)
+                                      : fill(log, odometry, mapping.graph, options.frame, options.fill, for_each);
   progress("done", 1.0);
   return mapping;
 }

@@ -4,24 +4,14 @@
 #include <optional>
 #include <string_view>
 
-#include "slam/front_end.hpp"
 #include "slam/graph.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/log/scan_log.hpp"
 #include "slam/loops/loop_closer.hpp"
 #include "slam/match/scan_odometry.hpp"
-#include "slam/refine/fill.hpp"
-#include "slam/refine/joint.hpp"
+#include "slam/robot_kind.hpp"
 
 namespace lapwing::slam {
-
-struct MapperOptions {
-  FrameOptions frame;
-  FrontEndOptions front_end;
-  LoopOptions loops;
-  JointOptions joint;
-  FillOptions fill;
-};
 
 /// What a log came to.
 struct Mapping {
@@ -33,11 +23,6 @@ struct Mapping {
 
 /// `share`: how much of the work is done, 0 to 1.
 using Progress = std::function<void(std::string_view stage, double share)>;
-
-/// What a robot brings along.
-struct RobotKind {
-  bool has_odometry = true;  ///< without, the scans alone say how it moves
-};
 
 /// A map that grows scan by scan. It knows no clock and no thread; who wants the answer of `follow` at once does
 /// `close_loops` when there is time, on any thread, but never both at once.
@@ -64,6 +49,8 @@ class Mapper {
   [[nodiscard]] Graph take_graph() && { return std::move(graph_); }
 
  private:
+  void add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor);
+
   MapperOptions options_;
   RobotKind kind_;
   ForEach for_each_;
@@ -71,9 +58,12 @@ class Mapper {
   FrontEnd front_end_;
   LoopCloser loops_;
   ScanOdometry scan_odometry_;
+  Gatherer gatherer_;
   ScanLog seen_;  ///< the key frames' scans
   int scans_ = 0;
   Pose2 odometry_;
+  LogTime time_{0.0};
+  bool has_leapt_ = false;  ///< odometry, since the last key frame
   Pose2 key_odometry_;
   bool is_new_ = false;  ///< the last key frame has not been looked for elsewhere
 };

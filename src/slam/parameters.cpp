@@ -25,6 +25,7 @@ constexpr Parameter rate(std::string_view name) {
 using M = MapperOptions;
 using L = LoopOptions;
 using J = JointOptions;
+using G = GatherOptions;
 
 constexpr std::array table{
     parameter<&M::frame, &FrameOptions::most_range_m>("frame.most_range_m"),
@@ -52,6 +53,9 @@ constexpr std::array table{
     parameter<&M::loops, &L::witnesses>("loops.witnesses"),
     parameter<&M::loops, &L::point_information>("loops.point_information"),
     parameter<&M::loops, &L::tolerance>("loops.tolerance"),
+    parameter<&M::loops, &L::most_contradiction>("loops.most_contradiction"),
+    parameter<&M::loops, &L::late_sigmas>("loops.late_sigmas"),
+    parameter<&M::loops, &L::late_rounds>("loops.late_rounds"),
     rate<&DriftRates::shift_per_sqrt_m>("loops.drift_shift"),
     rate<&DriftRates::turn_per_sqrt_m>("loops.drift_turn"),
     rate<&DriftRates::turn_per_rad>("loops.drift_turn_per_rad"),
@@ -63,8 +67,22 @@ constexpr std::array table{
     parameter<&M::joint, &J::first_scale_m>("joint.first_scale_m"),
     parameter<&M::joint, &J::last_scale_m>("joint.last_scale_m"),
     parameter<&M::joint, &J::point_information>("joint.point_information"),
+    parameter<&M::gather, &G::few_readings>("gather.few_readings"),
+    parameter<&M::gather, &G::least_m>("gather.least_m"),
+    parameter<&M::gather, &G::most_m>("gather.most_m"),
+    parameter<&M::gather, &G::most_turn_rad>("gather.most_turn_rad"),
+    parameter<&M::gather, &G::enough_points>("gather.enough_points"),
+    parameter<&M::gather, &G::submap_frames>("gather.submap_frames"),
+    parameter<&M::gather, &G::query_frames>("gather.query_frames"),
+    parameter<&M::gather, &G::least_matches>("gather.least_matches"),
+    parameter<&M::gather, &G::least_score>("gather.least_score"),
+    parameter<&M::gather, &G::odometry_spread>("gather.odometry_spread"),
+    parameter<&M::gather, &G::point_information>("gather.point_information"),
+    parameter<&M::gather, &G::step_trust>("gather.step_trust"),
     parameter<&M::fill, &FillOptions::neighbours>("fill.neighbours"),
     parameter<&M::fill, &FillOptions::radius_m>("fill.radius_m"),
+    parameter<&M::fill, &FillOptions::stride>("fill.stride"),
+    parameter<&M::joint, &J::first_stride>("joint.first_stride"),
 };
 
 }  // namespace

@@ -3,12 +3,12 @@
 #include <span>
 #include <string_view>
 
-#include "slam/mapper.hpp"
+#include "slam/mapper_options.hpp"
 
 namespace lapwing::slam {
 
 /// One number of the mapper's options by its name, for who tries others (`lapwing map --set`,
-/// bench/slam_sensitivity.py).
+/// bench/slam/sensitivity.py).
 struct Parameter {
   std::string_view name;
   double (*get)(MapperOptions const&);

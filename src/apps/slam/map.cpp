@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/slam/map_files.hpp"
+#include "apps/slam/map_graph.hpp"
 #include "apps/verb.hpp"
 #include "base/async/parallel_for.hpp"
 #include "base/text/json.hpp"
@@ -25,7 +26,7 @@
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
 #include "slam/parameters.hpp"
-#include "slam/readers/carmen.hpp"
+#include "slam/readers/any_log.hpp"
 #include "slam/relations.hpp"
 
 namespace lapwing::apps {
@@ -65,14 +66,6 @@ std::unexpected<base::Error> in_file(fs::path const& path, base::Error error) {
   return std::unexpected(std::move(error));
 }
 
-base::Result<slam::ScanLog> read_log(fs::path const& path) {
-  auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
-  auto log = slam::read_carmen(*text);
-  if (!log) return in_file(path, log.error());
-  return log;
-}
-
 base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
   if (path.empty()) return std::vector<slam::Relation>();
   auto text = read_file(path);
@@ -81,6 +74,26 @@ base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
   if (!relations) return in_file(path, relations.error());
   return relations;
 }
+
+/// How long each scan took while the robot was followed, by the calls that tell of progress before each.
+class ScanTimes {
+ public:
+  void operator()(std::string_view stage) {
+    auto const now = std::chrono::steady_clock::now();
+    if (last_) took_ms_.push_back(std::chrono::duration<double, std::milli>(now - *last_).count());
+    last_ = stage == "following" ? std::optional(now) : std::nullopt;
+  }
+  /// Milliseconds that so large a share of the scans did not exceed.
+  [[nodiscard]] double percentile_ms(double share) {
+    if (took_ms_.empty()) return 0.0;
+    std::ranges::sort(took_ms_);
+    return took_ms_[static_cast<std::size_t>(share * static_cast<double>(took_ms_.size() - 1))];
+  }
+
+ private:
+  std::optional<std::chrono::steady_clock::time_point> last_;
+  std::vector<double> took_ms_;
+};
 
 /// On a terminal one line that changes; elsewhere a line a stage.
 class ProgressLine {
@@ -205,6 +218,8 @@ Json loops_json(slam::ScanLog const& log, slam::Mapping const& mapping) {
                     {"shift_m", r.shift_m},
                     {"turn_rad", r.turn_rad},
                     {"witnesses", r.witnesses},
+                    {"contradiction", r.contradiction},
+                    {"is_late", r.is_late},
                     {"verdict", to_string(r.verdict)}});
   return list;
 }
@@ -215,17 +230,30 @@ base::Result<> make_map(MapOptions const& options) {
   if (!relations) return std::unexpected(relations.error());
   auto const settings = mapper_options(options.settings);
   if (!settings) return std::unexpected(settings.error());
-  auto const log = read_log(options.log);
-  if (!log) return std::unexpected(log.error());
+  auto text = read_file(options.log);
+  if (!text) return std::unexpected(text.error());
   std::error_code error;
   fs::create_directories(options.out, error);
   if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", options.out.string(), error.message()));
+  if (is_pose_graph(*text)) {
+    auto done = settle_graph(*text, options.out);
+    return done ? done : in_file(options.log, done.error());
+  }
+  auto const log = slam::read_log(*text);
+  if (!log) return in_file(options.log, log.error());
+  text->clear();
+  text->shrink_to_fit();
 
   auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
     base::parallel_for(threads, count, work);
   };
-  auto const mapping = slam::map_log(*log, *settings, for_each, ProgressLine());
+  ScanTimes times;
+  ProgressLine line;
+  auto const mapping = slam::map_log(*log, *settings, for_each, [&](std::string_view stage, double share) {
+    times(stage);
+    line(stage, share);
+  });
   auto const poses = timed(*log, mapping.trajectory);
   auto report = report_of(*log, mapping, poses, *relations);
   auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -233,6 +261,8 @@ base::Result<> make_map(MapOptions const& options) {
   report["cpu_s"] = cpu_s();
   report["peak_mb"] = peak_mb();
   report["threads"] = threads;
+  report["scan_ms"] = {
+      {"p50", times.percentile_ms(0.5)}, {"p99", times.percentile_ms(0.99)}, {"max", times.percentile_ms(1.0)}};
   if (options.wants_loops)
     if (auto done = host::write_file(options.out / "loops.json", base::to_text(loops_json(*log, mapping), 1)); !done)
       return done;
@@ -254,7 +284,8 @@ base::Result<> make_map(MapOptions const& options) {
 void add_map(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<MapOptions>();
   auto* verb = begin_verb(program, "map");
-  verb->add_option("log", options->log, "What a robot recorded: a log of CARMEN (.clf, .log)")
+  verb->add_option("log", options->log,
+                   "What a robot recorded: a log of CARMEN (.clf, .log), a table of few ranges, or a pose graph (.g2o)")
       ->required()
       ->check(CLI::ExistingFile);
   verb->add_option("--out", options->out,

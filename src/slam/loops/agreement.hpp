@@ -18,11 +18,9 @@ struct Agreement {
     out_of_sight += other.out_of_sight;
     return *this;
   }
+  [[nodiscard]] int seen() const { return on_wall + in_free_space; }
   /// Of the points that the other could see; 0 when there are none.
-  [[nodiscard]] double conflict() const {
-    auto const seen = on_wall + in_free_space;
-    return seen == 0 ? 0.0 : static_cast<double>(in_free_space) / seen;
-  }
+  [[nodiscard]] double conflict() const { return seen() == 0 ? 0.0 : static_cast<double>(in_free_space) / seen(); }
 };
 
 /// The points of either against the beams of the other.

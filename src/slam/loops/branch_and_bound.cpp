@@ -1,5 +1,6 @@
 #include "slam/loops/branch_and_bound.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -47,7 +48,7 @@ class Search {
   }
 
   std::optional<LoopMatch> run(double least_score) {
-    floor_ = least_score;
+    least_share_ = least_score;
     constexpr int top = Pyramid::levels - 1;
     for (int a = 0; a <= 2 * turns_; ++a)
       for (int x = -shifts_; x <= shifts_; x += 1 << top)
@@ -86,10 +87,22 @@ class Search {
            other.y + width <= best.y + cells && std::abs(other.turn - best.turn) <= degrees;
   }
 
+  /// Of the branch's pose that is nearest to the guess.
+  [[nodiscard]] double cost(int level, int x, int y, int turn) const {
+    constexpr double of_deviation = 0.015;  // of the score a squared standard deviation costs
+    auto const width = (1 << level) - 1;
+    auto const off = [&](int low) { return Pyramid::cell_m * static_cast<double>(std::max({0, low, -(low + width)})); };
+    auto const shift2 = (off(x) * off(x) + off(y) * off(y)) / (window_.sigma_m * window_.sigma_m);
+    auto const turned = (turn - turns_) * step_rad / window_.sigma_rad;
+    return of_deviation * (shift2 + turned * turned);
+  }
+
   void push(int level, int x, int y, int turn) {
     int sum = 0;
     for (auto const& p : turned_[turn]) sum += pyramid_.at(level, p.x() + x, p.y() + y);
-    auto const score = sum / (255.0 * count_);
+    auto const share = sum / (255.0 * count_);
+    if (share <= least_share_) return;
+    auto const score = share - cost(level, x, y, turn);
     if (score > floor_) queue_.push({score, level, x, y, turn});
   }
 
@@ -105,7 +118,8 @@ class Search {
     return {.pose = {guess.x + best.x * double{Pyramid::cell_m}, guess.y + best.y * double{Pyramid::cell_m},
                      yaw(best.turn)},
             .score = best.score,
-            .rival = rival};
+            .rival = std::max(0.0, rival),
+            .is_at_edge = std::max(std::abs(best.x), std::abs(best.y)) >= shifts_ - 1};
   }
 
   Pyramid const& pyramid_;
@@ -113,6 +127,7 @@ class Search {
   double count_;
   int shifts_;
   int turns_;
+  double least_share_ = 0.0;
   double floor_ = 0.0;
   std::vector<std::vector<Eigen::Vector2i>> turned_;  ///< the query's cells at each turn
   std::priority_queue<Branch> queue_;

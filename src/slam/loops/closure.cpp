@@ -11,9 +11,9 @@ namespace lapwing::slam {
 namespace {
 
 /// The three key frames of a query that are aligned together, as steps back from its last.
-constexpr std::array query_steps{0, 3, 6};
+constexpr std::array query_steps{0, 1, 2};
 /// The five of a submap, around its reference.
-constexpr std::array target_steps{-6, -3, 0, 3, 6};
+constexpr std::array target_steps{-2, -1, 0, 1, 2};
 
 struct Alignment {
   Pose2 pose;  ///< of the query's last key frame, in the map
@@ -25,21 +25,32 @@ bool is_of(Graph const& graph, int frame) {
   return frame >= 0 && frame < graph.size();
 }
 
+/// Two places, each as a key frame and how far apart those are that are taken around it.
+struct Places {
+  int target;
+  int query;
+  int step;
+
+  /// Whether the key frame is of the query's own surroundings.
+  [[nodiscard]] bool is_near_query(int frame) const { return std::abs(frame - query) < 3 * step + 1; }
+};
+
 /// One round of Gauss-Newton over all pairs of the query's and the target's key frames, the query's rigid.
-Alignment accumulate(Graph const& graph, int target, int query, Pose2 const& pose, Association const& association,
+Alignment accumulate(Graph const& graph, Places const& places, Pose2 const& pose, Association const& association,
                      Eigen::Vector3d& gradient) {
+  auto const [target, query, apart] = places;
   Alignment sum{.pose = pose};
   gradient.setZero();
   for (auto const back : query_steps) {
-    auto const source = query - back;
+    auto const source = query - back * apart;
     if (!is_of(graph, source)) continue;
     auto const source_pose = pose * between(graph.poses[query], graph.poses[source]);
     Eigen::Matrix3d by_query = Eigen::Matrix3d::Identity();  // how the source moves when the query's last one does
     by_query(0, 2) = -(source_pose.y - pose.y);
     by_query(1, 2) = source_pose.x - pose.x;
     for (auto const step : target_steps) {
-      auto const frame = target + step;
-      if (!is_of(graph, frame) || std::abs(frame - query) < 10) continue;
+      auto const frame = target + step * apart;
+      if (!is_of(graph, frame) || places.is_near_query(frame)) continue;
       auto const term = point_to_line(graph.frames[source].frame, source_pose, graph.frames[frame].frame,
                                       graph.poses[frame], association);
       if (!term.is_usable()) continue;
@@ -51,7 +62,7 @@ Alignment accumulate(Graph const& graph, int target, int query, Pose2 const& pos
   return sum;
 }
 
-Alignment align(Graph const& graph, int target, int query, Pose2 pose) {
+Alignment align(Graph const& graph, Places const& places, Pose2 const& pose) {
   constexpr int rounds = 8;
   constexpr Association wide{.gate_m = 0.3, .scale_m = 0.1};
   constexpr Association narrow{.gate_m = 0.12, .scale_m = 0.04};
@@ -59,7 +70,7 @@ Alignment align(Graph const& graph, int target, int query, Pose2 pose) {
   Alignment result{.pose = pose};
   for (int round = 0; round < rounds; ++round) {
     Eigen::Vector3d gradient;
-    auto sum = accumulate(graph, target, query, result.pose, round < 3 ? wide : narrow, gradient);
+    auto sum = accumulate(graph, places, result.pose, round < 3 ? wide : narrow, gradient);
     if (sum.matches < hopeless) return sum;
     // Along a corridor nothing holds the query: there it stays where the search put it.
     Eigen::Matrix3d damped = sum.hessian;
@@ -72,15 +83,16 @@ Alignment align(Graph const& graph, int target, int query, Pose2 pose) {
   return result;
 }
 
-Agreement look_through(Graph const& graph, int target, int query, Pose2 const& pose) {
+Agreement look_through(Graph const& graph, Places const& places, Pose2 const& pose) {
+  auto const [target, query, apart] = places;
   Agreement sum;
   for (auto const back : query_steps) {
-    auto const source = query - back;
+    auto const source = query - back * apart;
     if (!is_of(graph, source)) continue;
     auto const source_pose = pose * between(graph.poses[query], graph.poses[source]);
     for (auto const step : target_steps) {
-      auto const frame = target + step;
-      if (!is_of(graph, frame) || std::abs(frame - query) < 10) continue;
+      auto const frame = target + step * apart;
+      if (!is_of(graph, frame) || places.is_near_query(frame)) continue;
       sum += agreement(graph.frames[source].frame, source_pose, graph.frames[frame].frame, graph.poses[frame]);
     }
   }
@@ -129,7 +141,8 @@ std::vector<Eigen::Vector2f> query_cloud(Graph const& graph, int last, int frame
 Closure make_closure(Graph const& graph, Submap const& submap, int query, LoopMatch const& match,
                      LoopOptions const& options) {
   auto const target = submap.reference;
-  auto const aligned = align(graph, target, query, graph.poses[target] * match.pose);
+  Places const places{.target = target, .query = query, .step = options.step_frames};
+  auto const aligned = align(graph, places, graph.poses[target] * match.pose);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-graph.poses[target].yaw).toRotationMatrix();
   return {.target = target,
@@ -139,7 +152,7 @@ Closure make_closure(Graph const& graph, Submap const& submap, int query, LoopMa
           .score = match.score,
           .rival = match.rival,
           .matches = aligned.matches,
-          .agreement = look_through(graph, target, query, aligned.pose)};
+          .agreement = look_through(graph, places, aligned.pose)};
 }
 
 }  // namespace lapwing::slam

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "slam/graph/pose_graph.hpp"
+#include "slam/loops/consistency.hpp"
+#include "slam/loops/contradiction.hpp"
 
 namespace lapwing::slam {
 namespace {
 
-Pose2 claimed_pose(Graph const& graph, Closure const& closure) {
-  return graph.poses[closure.target] * closure.target_to_query;
-}
+using Verdict = LoopRecord::Verdict;
 
 /// How far the closure would move its query.
 struct Correction {
@@ -22,94 +23,37 @@ Correction correction(Graph const& graph, Closure const& closure) {
   return {distance_m(claimed, graph.poses[closure.query]), turn_rad(claimed, graph.poses[closure.query])};
 }
 
+/// Whether the poses are as the loop says.
+bool holds(std::vector<Pose2> const& poses, int from, int to, Pose2 const& from_to) {
+  constexpr double most_shift_m = 0.3;
+  constexpr double most_turn = 0.05;
+  auto const claimed = poses[from] * from_to;
+  return distance_m(claimed, poses[to]) < most_shift_m && turn_rad(claimed, poses[to]) < most_turn;
+}
+
 }  // namespace
 
-std::string_view to_string(LoopRecord::Verdict verdict) {
-  using enum LoopRecord::Verdict;
-  switch (verdict) {
-    case not_found: return "not found";
-    case mismatched: return "mismatched";
-    case doubted: return "doubted";
-    case revoked: return "revoked";
-    case closed: return "closed";
+LoopCloser::Counts LoopCloser::counts() const {
+  Counts counts{.searches = search_.searches()};
+  for (auto const& record : records()) {
+    counts.closures += record.verdict == Verdict::closed ? 1 : 0;
+    counts.doubted += record.verdict == Verdict::doubted ? 1 : 0;
+    counts.revoked += record.verdict == Verdict::revoked ? 1 : 0;
   }
-  return "";
+  return counts;
 }
 
-std::vector<LoopCloser::Candidate> LoopCloser::candidates(Graph const& graph, int query) const {
-  auto const drifts = drift_from(query, graph.poses, graph.constraints, options_.rates);
-  struct Near {
-    double apart_m;
-    int submap;
-  };
-  std::vector<Near> near;
-  auto const window_of = [&](Drift const& drift) {
-    return std::min(options_.most_window_m, options_.window_m + options_.window_sigmas * drift.shift_m);
-  };
-  constexpr double sight_m = 3.0;  // a query sees so far into its neighbours
-  for (int s = 0; s < static_cast<int>(submaps_.size()); ++s) {
-    auto const reference = submaps_[s].reference;
-    if (std::abs(graph.frames[query].path_m - graph.frames[reference].path_m) < options_.least_gap_m) continue;
-    auto const apart = distance_m(graph.poses[query], graph.poses[reference]);
-    if (apart < window_of(drifts[reference]) + sight_m) near.push_back({apart, s});
-  }
-  std::ranges::sort(near, {}, [](Near const& n) { return std::pair(n.apart_m, n.submap); });
-  std::vector<Candidate> chosen;
-  for (auto const& n : near) {
-    auto const reference = submaps_[n.submap].reference;
-    auto const& pose = graph.poses[reference];
-    auto const is_known = [&](Candidate const& c) {
-      return std::abs(c.submap - n.submap) < 3 || distance_m(graph.poses[submaps_[c.submap].reference], pose) < 1.0;
-    };
-    if (std::ranges::any_of(chosen, is_known)) continue;
-    auto const& drift = drifts[reference];
-    chosen.push_back({n.submap,
-                      {.guess = between(pose, graph.poses[query]),
-                       .reach_m = window_of(drift),
-                       .reach_rad = std::min(options_.most_window_rad,
-                                             options_.window_rad + options_.window_sigmas * drift.turn_rad)}});
-    if (static_cast<int>(chosen.size()) >= options_.most_candidates) break;
-  }
-  return chosen;
+bool LoopCloser::is_small(Graph const& graph, Closure const& closure) const {
+  auto const [shift, turn] = correction(graph, closure);
+  return shift < options_.small_shift_m && turn < options_.small_turn_rad;
 }
 
-std::vector<Closure> LoopCloser::search(Graph const& graph, int query) {
-  constexpr std::size_t least_points = 60;
-  auto const cloud = query_cloud(graph, query, options_.query_frames);
-  if (cloud.size() < least_points) return {};
-  auto const places = candidates(graph, query);
-  std::vector<std::optional<LoopMatch>> matches(places.size());
-  std::vector<std::optional<Closure>> found(places.size());
-  for_each_(places.size(), [&](std::size_t i) {
-    auto const& [submap, window] = places[i];
-    matches[i] = branch_and_bound(submaps_[submap].pyramid, cloud, window, options_.least_score);
-    if (matches[i]) found[i] = make_closure(graph, submaps_[submap], query, *matches[i], options_);
-    if (found[i]) found[i]->window_m = window.reach_m;
-  });
-  counts_.searches += static_cast<int>(places.size());
-  std::vector<Closure> closures;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    records_.push_back({.query = query,
-                        .target = submaps_[places[i].submap].reference,
-                        .window = places[i].window,
-                        .score = matches[i] ? matches[i]->score : 0.0,
-                        .rival = matches[i] ? matches[i]->rival : 0.0});
-    if (matches[i]) records_.back().verdict = LoopRecord::Verdict::mismatched;
-    if (!found[i]) continue;
-    found[i]->record = static_cast<int>(records_.size()) - 1;
-    records_.back().conflict = found[i]->agreement.conflict();
-    records_.back().matches = found[i]->matches;
-    if (found[i]->fits(options_)) closures.push_back(*found[i]);
-  }
-  return closures;
-}
-
-std::vector<Closure> LoopCloser::witnesses_of(Graph const& graph, Closure const& closure) const {
+LoopCloser::Group LoopCloser::witnesses_of(Graph const& graph, Closure const& closure) const {
   constexpr double together_m = 10.0;  // over which the front end does not drift by more than is allowed here
   constexpr double shift_m = 0.35;
   constexpr double turn = 0.05;
   auto const claimed = claimed_pose(graph, closure);
-  std::vector<Closure> witnesses;
+  Group witnesses;
   for (auto const& other : pending_) {
     if (other.query == closure.query) continue;
     if (std::abs(graph.frames[closure.query].path_m - graph.frames[other.query].path_m) > together_m) continue;
@@ -119,20 +63,24 @@ std::vector<Closure> LoopCloser::witnesses_of(Graph const& graph, Closure const&
   return witnesses;
 }
 
-bool LoopCloser::is_believed(Graph const& graph, Closure const& closure, std::size_t witnesses) const {
-  auto const [shift, turn] = correction(graph, closure);
-  auto const is_ambiguous = closure.rival > options_.ambiguous_rival * closure.score;
-  if (shift < options_.small_shift_m && turn < options_.small_turn_rad) return true;
-  auto needed = static_cast<std::size_t>(options_.witnesses);
-  if (closure.window_m > 4.0) ++needed;
-  if (is_ambiguous) needed += 2;
-  return witnesses >= needed;
+bool LoopCloser::is_believed(Group const& group) const {
+  std::set<int> queries;
+  int unmistakable = 0;
+  double window_m = 0.0;
+  for (auto const& closure : group) {
+    queries.insert(closure.query);
+    unmistakable += closure.rival > options_.ambiguous_rival * closure.score ? 0 : 1;
+    window_m = std::max(window_m, closure.window_m);
+  }
+  constexpr double wide_m = 4.0;
+  auto needed = 1 + options_.witnesses;
+  if (window_m > wide_m) ++needed;
+  if (unmistakable == 0) needed += 2;
+  return static_cast<int>(queries.size()) >= needed;
 }
 
-bool LoopCloser::close(Graph& graph, std::vector<Closure> const& closures) {
-  auto const before = graph.constraints.size();
-  auto const poses = graph.poses;
-  for (auto const& closure : closures) graph.constraints.push_back(closure.constraint());
+void LoopCloser::settle_with(Graph& graph, Group const& group) const {
+  for (auto const& closure : group) graph.constraints.push_back(closure.constraint());
   // First as if all were true, for a robust kernel would not feel a loop that is metres open; then robustly.
   graph.poses =
       optimize(graph.poses, graph.constraints, {.most_rounds = 10, .small_step = 1e-3, .small_gain = 1e-3}).poses;
@@ -140,61 +88,144 @@ bool LoopCloser::close(Graph& graph, std::vector<Closure> const& closures) {
       optimize(graph.poses, graph.constraints,
                {.most_rounds = 10, .loop_tolerance = options_.tolerance, .small_step = 1e-3, .small_gain = 1e-4})
           .poses;
-  constexpr double most_shift_m = 0.3;
-  constexpr double most_turn = 0.05;
-  auto const holds = [&](Closure const& closure) {
-    auto const [shift, turn] = correction(graph, closure);
-    return shift < most_shift_m && turn < most_turn;
+}
+
+LoopCloser::Group LoopCloser::held_of(Graph const& graph, Group const& group) const {
+  Group held;
+  for (auto const& closure : group)
+    if (holds(graph.poses, closure.target, closure.query, closure.target_to_query)) held.push_back(closure);
+  return held;
+}
+
+void LoopCloser::mark(Group const& group, Verdict verdict) {
+  for (auto const& closure : group) search_.record_of(closure).verdict = verdict;
+}
+
+bool LoopCloser::close(Graph& graph, Group const& group) {
+  auto const constraints = graph.constraints;
+  auto const poses = graph.poses;
+  auto const undo = [&] {
+    graph.constraints = constraints;
+    graph.poses = poses;
   };
-  if (std::ranges::all_of(closures, holds)) {
-    counts_.closures += static_cast<int>(closures.size());
+  settle_with(graph, group);
+  auto held = held_of(graph, group);
+  if (held.size() < group.size() && is_believed(held)) {
+    undo();
+    settle_with(graph, held);
+    held = held_of(graph, held);
+  }
+  auto const passes = agreement_of_passes(graph, graph.poses, poses, options_.least_gap_m, for_each_);
+  for (auto const& closure : group) search_.record_of(closure).contradiction = passes.conflict();
+  mark(group, Verdict::revoked);
+  if (is_believed(held) && passes.conflict() <= options_.most_contradiction) {
+    mark(held, Verdict::closed);
     return true;
   }
-  graph.constraints.resize(before);
-  graph.poses = poses;
-  counts_.revoked += static_cast<int>(closures.size());
+  undo();
   return false;
+}
+
+bool LoopCloser::close_small(Graph& graph) {
+  if (small_.empty()) return false;
+  auto const constraints = graph.constraints;
+  settle_with(graph, small_);
+  auto const held = held_of(graph, small_);
+  mark(small_, Verdict::revoked);
+  mark(held, Verdict::closed);
+  if (held.size() < small_.size()) {
+    graph.constraints = constraints;
+    settle_with(graph, held);
+  }
+  small_.clear();
+  return !held.empty();
+}
+
+void LoopCloser::note(Graph const& graph, Closure const& closure, int witnesses, Verdict verdict) {
+  auto const [shift, turn] = correction(graph, closure);
+  auto& record = search_.record_of(closure);
+  record.shift_m = shift;
+  record.turn_rad = turn;
+  record.witnesses = witnesses;
+  record.verdict = verdict;
 }
 
 bool LoopCloser::look(Graph& graph, int query) {
   bool has_closed = false;
-  for (auto& closure : search(graph, query)) {
-    auto witnesses = witnesses_of(graph, closure);
-    auto const [shift, turn] = correction(graph, closure);
-    auto& record = records_[closure.record];
-    record.shift_m = shift;
-    record.turn_rad = turn;
-    record.witnesses = static_cast<int>(witnesses.size());
-    pending_.push_back(closure);
-    if (pending_.size() > 100) pending_.erase(pending_.begin());
-    if (!is_believed(graph, closure, witnesses.size())) {
-      ++counts_.doubted;
-      record.verdict = LoopRecord::Verdict::doubted;
+  for (auto& closure :
+       search_.look(graph, query, {.window_sigmas = options_.window_sigmas, .most_places = options_.most_candidates})) {
+    if (is_small(graph, closure)) {
+      note(graph, closure, 0, Verdict::doubted);
+      small_.push_back(closure);
       continue;
     }
-    if (shift < options_.small_shift_m && turn < options_.small_turn_rad) witnesses.clear();
-    witnesses.push_back(closure);
-    auto const holds = close(graph, witnesses);
-    record.verdict = holds ? LoopRecord::Verdict::closed : LoopRecord::Verdict::revoked;
-    has_closed = has_closed || holds;
+    auto group = witnesses_of(graph, closure);
+    note(graph, closure, static_cast<int>(group.size()), Verdict::doubted);
+    group.push_back(closure);
+    if (is_believed(group)) {
+      close_small(graph);
+      if (close(graph, group)) {
+        has_closed = true;
+        std::erase_if(pending_, [&](Closure const& p) { return search_.record_of(p).verdict == Verdict::closed; });
+        continue;
+      }
+    }
+    constexpr std::size_t most_pending = 100;
+    pending_.push_back(closure);
+    if (pending_.size() > most_pending) pending_.erase(pending_.begin());
   }
+  if (static_cast<int>(small_.size()) >= options_.small_batch) has_closed = close_small(graph) || has_closed;
   return has_closed;
 }
 
 bool LoopCloser::follow(Graph& graph) {
+  search_.follow(graph);
   auto const last = graph.size() - 1;
-  auto const size = options_.submap_frames;
-  if ((last + 1) % size == 0)
-    if (auto submap = make_submap(graph, last - size + 1, last)) submaps_.push_back(*std::move(submap));
   auto const path_m = graph.frames[last].path_m;
   if (path_m < options_.least_gap_m || path_m - last_search_m_ < options_.every_m) return false;
   last_search_m_ = path_m;
   return look(graph, last);
 }
 
+bool LoopCloser::look_everywhere(Graph& graph) {
+  LoopSearch::Scope const scope{
+      .window_sigmas = options_.late_sigmas, .most_places = 2 * options_.most_candidates, .skips_joined = true};
+  Group claims;
+  auto next_m = options_.least_gap_m;
+  for (int query = 0; query < graph.size(); ++query) {
+    if (graph.frames[query].path_m < next_m) continue;
+    next_m = graph.frames[query].path_m + options_.every_m;
+    for (auto const& closure : search_.look(graph, query, scope)) claims.push_back(closure);
+  }
+  bool has_closed = false;
+  for (auto const& numbers : consistent_groups(graph, claims, options_.rates)) {
+    Group group;
+    for (auto const i : numbers) group.push_back(claims[static_cast<std::size_t>(i)]);
+    for (auto const& closure : group) note(graph, closure, static_cast<int>(group.size()) - 1, Verdict::doubted);
+    if (std::ranges::all_of(group, [&](Closure const& c) { return is_small(graph, c); })) {
+      small_.insert(small_.end(), group.begin(), group.end());
+    } else if (is_believed(group)) {
+      has_closed = close(graph, group) || has_closed;
+    }
+  }
+  return close_small(graph) || has_closed;
+}
+
+void LoopCloser::drop_open_loops(Graph& graph) {
+  std::erase_if(graph.constraints,
+                [&](Constraint const& c) { return c.is_loop && !holds(graph.poses, c.from, c.to, c.from_to); });
+}
+
 void LoopCloser::finish(Graph& graph) {
-  auto result = optimize(graph.poses, graph.constraints, {.most_rounds = 30, .loop_tolerance = options_.tolerance});
-  graph.poses = std::move(result.poses);
+  auto const settle = [&] {
+    graph.poses =
+        optimize(graph.poses, graph.constraints, {.most_rounds = 30, .loop_tolerance = options_.tolerance}).poses;
+  };
+  close_small(graph);
+  settle();
+  for (int round = 0; round < options_.late_rounds && look_everywhere(graph); ++round) settle();
+  drop_open_loops(graph);
+  settle();
 }
 
 }  // namespace lapwing::slam

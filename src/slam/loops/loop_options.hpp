@@ -21,7 +21,15 @@ struct LoopOptions {
   double ambiguous_rival = 0.85;  ///< another place with that share of the score makes a closure doubtful
   double small_shift_m = 0.35;    ///< corrections up to here need few witnesses
   double small_turn_rad = 0.05;
-  int witnesses = 2;  ///< other closures that must agree with a large correction
+  int small_batch = 5;  ///< so many of these are taken in at once
+  int witnesses = 2;    ///< other closures that must agree with a large correction
+  /// Of the points of other passes that a closure brings into sight, the share in free space.
+  double most_contradiction = 0.25;
+  double late_sigmas = 4.0;  ///< of the drift, when everything is looked for again after the last scan
+  int late_rounds = 3;
+  int least_points = 60;  ///< of the query; with fewer nothing is looked for
+  int near_submaps = 3;   ///< of submaps nearer to each other in time only one is looked at
+  int step_frames = 3;    ///< of a place's key frames every so manieth is aligned
   double point_information = 5.0;
   double tolerance = 20.0;  ///< of the robust optimiser
   DriftRates rates;

@@ -25,6 +25,7 @@ struct AlignOptions {
   int rounds = 6;
   int wide_rounds = 2;  ///< of these, how many begin with the wide association
   double point_information = 250.0;
+  int stride = 1;  ///< every n-th point, each counting for n
 };
 
 struct Alignment {

@@ -43,7 +43,8 @@ Pose2 ScanOdometry::follow(Frame const& frame, LogTime time) {
   Prior const prior{.pose = predicted,
                     .trust = {1.0 / (shift_sigma_m * shift_sigma_m), 1.0 / (shift_sigma_m * shift_sigma_m),
                               1.0 / (turn_sigma_rad * turn_sigma_rad)}};
-  auto const next = align(frame, found.pose, prior, targets, {}).pose;
+  auto const aligned = align(frame, found.pose, prior, targets, {});
+  auto const next = aligned.seen.isZero() ? found.pose : aligned.pose;  // too few points for lines
   auto const moved = between(pose_, next);
   constexpr double most_m_s = 4.0;
   constexpr double most_rad_s = 4.0;

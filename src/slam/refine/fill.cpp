@@ -37,7 +37,34 @@ Pose2 carried(Graph const& graph, std::vector<Pose2> const& odometry, Around con
   return graph.poses[nearest] * between(of_key(nearest), odometry[scan]);
 }
 
+/// `share` of the way from one pose to the other.
+Pose2 mixed(Pose2 const& from, Pose2 const& to, double share) {
+  auto const step = between(from, to);
+  return from * Pose2{share * step.x, share * step.y, share * step.yaw};
+}
+
 }  // namespace
+
+std::vector<Pose2> spread_over_scans(std::vector<Pose2> const& odometry, Graph const& graph) {
+  std::vector<Pose2> poses(odometry.size());
+  if (graph.frames.empty()) return odometry;
+  std::vector<double> path_m(odometry.size(), 0.0);
+  for (std::size_t i = 1; i < odometry.size(); ++i) {
+    constexpr double m_per_rad = 0.5;  // a robot that turns on the spot moves on, too
+    path_m[i] =
+        path_m[i - 1] + distance_m(odometry[i - 1], odometry[i]) + m_per_rad * turn_rad(odometry[i - 1], odometry[i]);
+  }
+  for (std::size_t i = 0; i < odometry.size(); ++i) {
+    auto const [before, after] = around(graph, static_cast<int>(i));
+    auto const from = static_cast<std::size_t>(graph.frames[before].scan);
+    auto const to = static_cast<std::size_t>(graph.frames[after].scan);
+    auto const by_before = graph.poses[before] * between(odometry[from], odometry[i]);
+    auto const by_after = graph.poses[after] * between(odometry[to], odometry[i]);
+    auto const length = path_m[to] - path_m[from];
+    poses[i] = length > 0.0 ? mixed(by_before, by_after, (path_m[i] - path_m[from]) / length) : by_before;
+  }
+  return poses;
+}
 
 std::vector<Pose2> fill(ScanLog const& log, std::vector<Pose2> const& odometry, Graph const& graph,
                         FrameOptions const& frame_options, FillOptions const& options, ForEach const& for_each) {
@@ -60,9 +87,10 @@ std::vector<Pose2> fill(ScanLog const& log, std::vector<Pose2> const& odometry, 
     if (keys.after != keys.before) lay_upon(keys.after);
     auto const frame = frame_of(log.scans[i], log.sensors[log.scans[i].sensor], frame_options);
     Eigen::Vector3d const trust(400.0, 400.0, 2500.0);  // in odometry, over a part of a key frame's step
-    poses[i] = align(frame, start, {.pose = start, .trust = trust}, targets,
-                     {.rounds = 4, .wide_rounds = 1, .point_information = options.point_information})
-                   .pose;
+    poses[i] =
+        align(frame, start, {.pose = start, .trust = trust}, targets,
+              {.rounds = 4, .wide_rounds = 1, .point_information = options.point_information, .stride = options.stride})
+            .pose;
   });
   return poses;
 }

@@ -16,8 +16,8 @@ struct Pair {
 };
 
 std::vector<Pair> overlapping(Graph const& graph, JointOptions const& options) {
-  constexpr int in_time = 4;
-  PlaceIndex const index(graph.poses, options.radius_m);
+  auto const in_time = options.in_time;
+  PlaceIndex const index(graph.poses, options.radius_m, in_time);
   std::vector<Pair> pairs;
   for (int k = 0; k < graph.size(); ++k) {
     for (int back : {1, 2, 4})
@@ -30,8 +30,8 @@ std::vector<Pair> overlapping(Graph const& graph, JointOptions const& options) {
 
 /// That neighbours in time stay about where the graph had put them to each other: what holds a key frame that sees
 /// little.
-void hold_steps(BlockSystem& system, std::vector<Pose2> const& before, std::vector<Pose2> const& poses) {
-  Eigen::Vector3d const trust(400.0, 400.0, 2500.0);  // 5 cm, 1.1 degrees
+void hold_steps(BlockSystem& system, std::vector<Pose2> const& before, std::vector<Pose2> const& poses, double scale) {
+  Eigen::Vector3d const trust = scale * Eigen::Vector3d(400.0, 400.0, 2500.0);  // 5 cm, 1.1 degrees
   for (int k = 1; k < static_cast<int>(poses.size()); ++k) {
     auto const& from = poses[k - 1];
     auto const& to = poses[k];
@@ -60,7 +60,9 @@ void refine_jointly(Graph& graph, JointOptions const& options, ForEach const& fo
     auto const share = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1.0;
     Association const association{
         .gate_m = options.first_gate_m * std::pow(options.last_gate_m / options.first_gate_m, share),
-        .scale_m = options.first_scale_m * std::pow(options.last_scale_m / options.first_scale_m, share)};
+        .scale_m = options.first_scale_m * std::pow(options.last_scale_m / options.first_scale_m, share),
+        .stride = round + 2 < options.rounds ? options.first_stride : 1};
+    auto const point_information = association.stride * options.point_information;
     for_each(pairs.size(), [&](std::size_t i) {
       auto const [source, target] = pairs[i];
       terms[i] = point_to_line(graph.frames[source].frame, graph.poses[source], graph.frames[target].frame,
@@ -70,13 +72,13 @@ void refine_jointly(Graph& graph, JointOptions const& options, ForEach const& fo
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (!terms[i].is_usable()) continue;
       auto const [source, target] = pairs[i];
-      Eigen::Matrix<double, 6, 6> const hessian = options.point_information * terms[i].hessian;
-      Eigen::Matrix<double, 6, 1> const gradient = options.point_information * terms[i].gradient;
+      Eigen::Matrix<double, 6, 6> const hessian = point_information * terms[i].hessian;
+      Eigen::Matrix<double, 6, 1> const gradient = point_information * terms[i].gradient;
       system.add(source, hessian.topLeftCorner<3, 3>(), gradient.head<3>());
       system.add(target, hessian.bottomRightCorner<3, 3>(), gradient.tail<3>());
       system.add_coupling(source, target, hessian.topRightCorner<3, 3>());
     }
-    hold_steps(system, before, graph.poses);
+    hold_steps(system, before, graph.poses, options.step_trust);
     system.fix(0);
     auto const solution = system.solve();
     if (!solution.is_valid) return;

@@ -13,6 +13,9 @@ struct JointOptions {
   double last_gate_m = 0.12;
   double first_scale_m = 0.10;
   double last_scale_m = 0.03;
+  int first_stride = 2;              ///< every n-th point in all rounds but the last two
+  int in_time = 4;                   ///< key frames that overlap as one was taken shortly after the other
+  double step_trust = 1.0;           ///< times 5 cm and 1.1 degrees, in the steps that the pose graph made
   double point_information = 250.0;  ///< 1 / m^2; a tenth of what a 2 cm laser has, as beams err together
 };
 

@@ -5,7 +5,8 @@
 
 namespace lapwing::slam {
 
-PlaceIndex::PlaceIndex(std::vector<Pose2> const& poses, double radius_m) : poses_(&poses), radius_m_(radius_m) {
+PlaceIndex::PlaceIndex(std::vector<Pose2> const& poses, double radius_m, int in_time)
+    : poses_(&poses), radius_m_(radius_m), in_time_(in_time) {
   for (int k = 0; k < static_cast<int>(poses.size()); ++k) cells_[cell(poses[k].x, poses[k].y)].push_back(k);
 }
 
@@ -16,7 +17,6 @@ std::int64_t PlaceIndex::cell(double x, double y) const {
 
 std::vector<int> PlaceIndex::near(Pose2 const& pose, int own, int most) const {
   constexpr double metres_per_rad = 0.7;
-  constexpr int neighbours = 4;  // key frames that show nothing that the chosen one does not
   std::vector<std::pair<double, int>> found;
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
@@ -32,7 +32,7 @@ std::vector<int> PlaceIndex::near(Pose2 const& pose, int own, int most) const {
   std::ranges::sort(found);
   std::vector<int> chosen;
   for (auto const& [cost, k] : found) {
-    if (std::ranges::any_of(chosen, [k = k](int c) { return std::abs(c - k) < neighbours; })) continue;
+    if (std::ranges::any_of(chosen, [this, k = k](int c) { return std::abs(c - k) < in_time_; })) continue;
     chosen.push_back(k);
     if (static_cast<int>(chosen.size()) >= most) break;
   }

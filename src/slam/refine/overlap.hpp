@@ -10,10 +10,11 @@ namespace lapwing::slam {
 /// Key frames by place, to find those that may see the same walls.
 class PlaceIndex {
  public:
-  PlaceIndex(std::vector<Pose2> const& poses, double radius_m);
+  /// `in_time`: key frames nearer to each other in time than so many show nothing that the one does not.
+  PlaceIndex(std::vector<Pose2> const& poses, double radius_m, int in_time = 4);
 
   /// The nearest to the pose (a turn counts as a distance, for who looks elsewhere sees less of the same), none of them
-  /// neighbours in time of each other or of `own` (-1: of none).
+  /// neighbours in time of each other; `own` is left out (-1: none).
   [[nodiscard]] std::vector<int> near(Pose2 const& pose, int own, int most) const;
 
  private:
@@ -21,6 +22,7 @@ class PlaceIndex {
 
   std::vector<Pose2> const* poses_;
   double radius_m_;
+  int in_time_;
   std::unordered_map<std::int64_t, std::vector<int>> cells_;
 };
 

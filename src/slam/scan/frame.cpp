@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/assert.hpp"
+#include "slam/scan/line_through.hpp"
 
 namespace lapwing::slam {
 namespace {
@@ -27,31 +28,6 @@ void lay_bins(Frame& frame, std::vector<float> const& bearings, float step) {
   frame.first_bearing = bearings.front() - 0.5F * frame.bin_width;
   auto const count = frame.goes_round ? std::lround(round / frame.bin_width) : std::lround(span / step) + 1;
   frame.free_of_bin.assign(static_cast<std::size_t>(count), 0.0F);
-}
-
-struct Line {
-  Eigen::Vector2f normal;
-  bool is_one;
-};
-
-/// Principal axis of the points; a line when they lie at most a third as far across it as along.
-Line line_through(Eigen::Vector2f const* points, int count) {
-  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
-  for (int i = 0; i < count; ++i) mean += points[i];
-  mean /= static_cast<float>(count);
-  float xx = 0.0F;
-  float xy = 0.0F;
-  float yy = 0.0F;
-  for (int i = 0; i < count; ++i) {
-    Eigen::Vector2f const d = points[i] - mean;
-    xx += d.x() * d.x();
-    xy += d.x() * d.y();
-    yy += d.y() * d.y();
-  }
-  auto const angle = 0.5F * std::atan2(2.0F * xy, xx - yy);
-  auto const along = 0.5F * (xx + yy) + std::sqrt(0.25F * (xx - yy) * (xx - yy) + xy * xy);
-  auto const across = xx + yy - along;
-  return {{-std::sin(angle), std::cos(angle)}, across <= 0.1F * along};
 }
 
 }  // namespace

@@ -142,6 +142,32 @@ Building office(double width, double height, double spacing, double variety, std
   return building;
 }
 
+Building comb(int teeth, double apart, double depth) {
+  constexpr double half = 1.0;
+  auto const end = (teeth - 1) * apart + 3.0;
+  Building building{{{-3.0, -half}, {end, -half}}, {{-3.0, -half}, {-3.0, half}}, {{end, -half}, {end, half}}};
+  auto last = -3.0;
+  for (int tooth = 0; tooth < teeth; ++tooth) {
+    auto const left = tooth * apart - half;
+    auto const right = tooth * apart + half;
+    building.insert(building.end(), {{{last, half}, {left, half}},
+                                     {{left, half}, {left, depth}},
+                                     {{left, depth}, {right, depth}},
+                                     {{right, depth}, {right, half}}});
+    last = right;
+  }
+  building.push_back({{last, half}, {end, half}});
+  return building;
+}
+
+std::vector<Eigen::Vector2d> way_through_comb(int teeth, double apart, double depth) {
+  std::vector<Eigen::Vector2d> way{{-2.0, 0.0}};
+  for (int tooth = 0; tooth < teeth; ++tooth)
+    way.insert(way.end(), {{tooth * apart, 0.0}, {tooth * apart, depth - 1.5}, {tooth * apart, 0.0}});
+  way.emplace_back(-2.0, 0.0);
+  return way;
+}
+
 Drive drive(Building const& building, std::vector<Eigen::Vector2d> const& way, DriveOptions const& options) {
   Robot robot(building, {way.front().x(), way.front().y(), 0.0}, options);
   for (auto const& next : way) {

@@ -18,6 +18,11 @@ using Building = std::vector<Wall>;
 /// and offices every `spacing` metres. `variety` 0: every office is like every other; 1: each has furniture of its own.
 [[nodiscard]] Building office(double width, double height, double spacing, double variety, std::uint64_t seed);
 
+/// A corridor 2 m wide along x, from which `teeth` others, all alike, go off to the left every `apart` metres.
+[[nodiscard]] Building comb(int teeth, double apart, double depth);
+/// The way through the first corridor, into each of the others and back out, and home.
+[[nodiscard]] std::vector<Eigen::Vector2d> way_through_comb(int teeth, double apart, double depth);
+
 struct DriveOptions {
   int beams = 181;
   double field_of_view_rad = 3.14159265358979;

@@ -1,0 +1,47 @@
+// Buildings in which one place looks like another: better a loop left open than one closed falsely.
+#include <gtest/gtest.h>
+
+#include "slam/mapper.hpp"
+#include "slam/testing/simulated_drive.hpp"
+
+namespace lapwing::slam {
+namespace {
+
+Mapping mapped(ScanLog const& log) {
+  return map_log(log, {}, one_by_one, [](std::string_view, double) {});
+}
+
+double error_of_odometry_m(testing::Drive const& drive) {
+  std::vector<Pose2> odometry;
+  for (auto const& scan : drive.log.scans) odometry.push_back(scan.odometry);
+  return testing::greatest_error_m(odometry, drive.truth);
+}
+
+TEST(Buildings, SideCorridorsThatAreAllAlikeAreNotTakenForEachOther) {
+  constexpr int teeth = 4;
+  auto const building = testing::comb(teeth, 6.0, 9.0);
+  auto const drive = testing::drive(building, testing::way_through_comb(teeth, 6.0, 9.0),
+                                    {.beams = 91, .most_range_m = 8.0, .turn_bias_per_m = 0.006});
+  EXPECT_GT(error_of_odometry_m(drive), 1.0);
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.5);
+}
+
+TEST(Buildings, OfficesThatAreAllAlikeAreNotTakenForEachOther) {
+  auto const building = testing::office(20.0, 12.0, 4.0, 0.0, 5);
+  auto const drive =
+      testing::drive(building, {{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {20, 0}, {20, 6}}, {.beams = 91});
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.5);
+}
+
+TEST(Buildings, AFewRangersCloseTheLoopOfAnOffice) {
+  auto const building = testing::office(20.0, 12.0, 4.0, 1.0, 5);
+  auto const drive = testing::drive(building, {{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {20, 0}, {20, 6}},
+                                    {.beams = 11, .most_range_m = 5.0, .range_noise_m = 0.01, .scale_bias = 0.01});
+  EXPECT_GT(error_of_odometry_m(drive), 0.6);
+  auto const mapping = mapped(drive.log);
+  EXPECT_GT(mapping.loops.closures, 0);
+  EXPECT_LT(testing::greatest_error_m(mapping.trajectory, drive.truth), 0.35);
+}
+
+}  // namespace
+}  // namespace lapwing::slam

@@ -1,0 +1,112 @@
+#include "slam/loops/loop_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lapwing::slam {
+namespace {
+
+/// The earlier ends of loops that begin near the query.
+std::vector<int> joined_with(Graph const& graph, int query, int frames) {
+  std::vector<int> targets;
+  for (auto const& constraint : graph.constraints)
+    if (constraint.is_loop && std::abs(constraint.to - query) < frames) targets.push_back(constraint.from);
+  return targets;
+}
+
+}  // namespace
+
+std::string_view to_string(LoopRecord::Verdict verdict) {
+  using enum LoopRecord::Verdict;
+  switch (verdict) {
+    case not_found: return "not found";
+    case mismatched: return "mismatched";
+    case doubted: return "doubted";
+    case revoked: return "revoked";
+    case closed: return "closed";
+  }
+  return "";
+}
+
+void LoopSearch::follow(Graph const& graph) {
+  auto const last = graph.size() - 1;
+  auto const size = options_.submap_frames;
+  if ((last + 1) % size != 0) return;
+  if (auto submap = make_submap(graph, last - size + 1, last)) submaps_.push_back(*std::move(submap));
+}
+
+std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, int query, Scope const& scope) const {
+  auto const drifts = drift_from(query, graph.poses, graph.constraints, options_.rates);
+  auto const joined = scope.skips_joined ? joined_with(graph, query, options_.query_frames) : std::vector<int>();
+  struct Near {
+    double apart_m;
+    int submap;
+  };
+  std::vector<Near> near;
+  auto const window_of = [&](Drift const& drift) {
+    return std::min(options_.most_window_m, options_.window_m + scope.window_sigmas * drift.shift_m);
+  };
+  constexpr double sight_m = 3.0;  // a query sees so far into its neighbours
+  for (int s = 0; s < static_cast<int>(submaps_.size()); ++s) {
+    auto const reference = submaps_[s].reference;
+    if (graph.frames[query].path_m - graph.frames[reference].path_m < options_.least_gap_m) continue;
+    auto const is_same = [&](int target) { return std::abs(target - reference) <= options_.submap_frames; };
+    if (std::ranges::any_of(joined, is_same)) continue;
+    auto const apart = distance_m(graph.poses[query], graph.poses[reference]);
+    if (apart < window_of(drifts[reference]) + sight_m) near.push_back({apart, s});
+  }
+  std::ranges::sort(near, {}, [](Near const& n) { return std::pair(n.apart_m, n.submap); });
+  std::vector<Candidate> chosen;
+  for (auto const& n : near) {
+    auto const reference = submaps_[n.submap].reference;
+    auto const& pose = graph.poses[reference];
+    auto const is_known = [&](Candidate const& c) {
+      return std::abs(c.submap - n.submap) < options_.near_submaps ||
+             distance_m(graph.poses[submaps_[c.submap].reference], pose) < 1.0;
+    };
+    if (std::ranges::any_of(chosen, is_known)) continue;
+    auto const& drift = drifts[reference];
+    chosen.push_back(
+        {n.submap,
+         {.guess = between(pose, graph.poses[query]),
+          .reach_m = window_of(drift),
+          .reach_rad = std::min(options_.most_window_rad, options_.window_rad + scope.window_sigmas * drift.turn_rad),
+          .sigma_m = options_.window_m + drift.shift_m,
+          .sigma_rad = options_.window_rad + drift.turn_rad}});
+    if (static_cast<int>(chosen.size()) >= scope.most_places) break;
+  }
+  return chosen;
+}
+
+std::vector<Closure> LoopSearch::look(Graph const& graph, int query, Scope const& scope) {
+  auto const cloud = query_cloud(graph, query, options_.query_frames);
+  if (cloud.size() < static_cast<std::size_t>(options_.least_points)) return {};
+  auto const places = candidates(graph, query, scope);
+  std::vector<std::optional<LoopMatch>> matches(places.size());
+  std::vector<std::optional<Closure>> found(places.size());
+  for_each_(places.size(), [&](std::size_t i) {
+    auto const& [submap, window] = places[i];
+    matches[i] = branch_and_bound(submaps_[submap].pyramid, cloud, window, options_.least_score);
+    if (matches[i] && !matches[i]->is_at_edge)
+      found[i] = make_closure(graph, submaps_[submap], query, *matches[i], options_);
+    if (found[i]) found[i]->window_m = window.reach_m;
+  });
+  std::vector<Closure> closures;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    records_.push_back({.query = query,
+                        .target = submaps_[places[i].submap].reference,
+                        .window = places[i].window,
+                        .score = matches[i] ? matches[i]->score : 0.0,
+                        .rival = matches[i] ? matches[i]->rival : 0.0,
+                        .is_late = scope.skips_joined});
+    if (matches[i]) records_.back().verdict = LoopRecord::Verdict::mismatched;
+    if (!found[i]) continue;
+    found[i]->record = static_cast<int>(records_.size()) - 1;
+    records_.back().conflict = found[i]->agreement.conflict();
+    records_.back().matches = found[i]->matches;
+    if (found[i]->fits(options_)) closures.push_back(*found[i]);
+  }
+  return closures;
+}
+
+}  // namespace lapwing::slam

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "slam/front_end.hpp"
+#include "slam/loops/loop_options.hpp"
+#include "slam/refine/fill.hpp"
+#include "slam/refine/joint.hpp"
+#include "slam/scan/gather.hpp"
+
+namespace lapwing::slam {
+
+struct MapperOptions {
+  FrameOptions frame;
+  FrontEndOptions front_end;
+  LoopOptions loops;
+  JointOptions joint;
+  FillOptions fill;
+  GatherOptions gather;
+};
+
+}  // namespace lapwing::slam
