@@ -80,7 +80,9 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   Guess guess{.pose = poses.back() * driven, .spread = spread};
   // Counters that began anew: what is seen is what was seen just now, so it went on as before. After a gap in the
   // recording something else is seen, and odometry is right.
-  auto const is_misled = has_leapt && look_alike(frame, frames.back().frame);
+  constexpr double farthest_m = 3.0;  // that a robot may have gone while nothing was recorded
+  auto const is_misled =
+      has_leapt && (std::hypot(driven.x, driven.y) > farthest_m || look_alike(frame, frames.back().frame));
   if (is_misled) guess = {.pose = poses.back() * last_motion_, .spread = {.shift_m = 0.3, .turn_rad = 0.2}};
   auto const found = search(frames, poses, frame, guess);
 

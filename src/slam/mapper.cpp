@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slam/match/odometry_bias.hpp"
+
 namespace lapwing::slam {
 namespace {
 
@@ -91,8 +93,12 @@ Mapping map_log(ScanLog const& log, MapperOptions const& options, ForEach const&
   constexpr double finishing = 0.15;
   std::vector<Pose2> odometry;
   odometry.reserve(log.scans.size());
-  for (auto const& scan : log.scans) {
+  std::vector<Pose2> told;
+  for (auto const& scan : log.scans) told.push_back(scan.odometry);
+  if (kind.is_sparse && kind.has_odometry) told = without_bias(told, find_bias(log, told));
+  for (auto scan : log.scans) {
     progress("following", driving * static_cast<double>(odometry.size()) / static_cast<double>(log.scans.size()));
+    scan.odometry = told[odometry.size()];
     mapper.follow(scan, log.sensors[scan.sensor]);
     mapper.close_loops();
     odometry.push_back(mapper.odometry());

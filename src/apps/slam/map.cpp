@@ -219,6 +219,7 @@ Json loops_json(slam::ScanLog const& log, slam::Mapping const& mapping) {
                     {"turn_rad", r.turn_rad},
                     {"witnesses", r.witnesses},
                     {"contradiction", r.contradiction},
+                    {"was_contradiction", r.was_contradiction},
                     {"is_late", r.is_late},
                     {"verdict", to_string(r.verdict)}});
   return list;

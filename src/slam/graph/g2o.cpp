@@ -72,7 +72,17 @@ class Reader {
     return {};
   }
 
-  base::Result<PoseGraph> connected() const {
+  /// Where a file names no pose, those that its edges name are, each where the edge that names it first puts it.
+  void pose_by_edges() {
+    if (!poses_.empty()) return;
+    for (auto const& edge : edges_) {
+      auto const from = poses_.try_emplace(edge.from, Pose2{}).first->second;
+      poses_.try_emplace(edge.to, from * edge.motion);
+    }
+  }
+
+  base::Result<PoseGraph> connected() {
+    pose_by_edges();
     PoseGraph graph;
     std::map<std::int64_t, int> place_of;
     for (auto const& [id, pose] : poses_) {
@@ -90,7 +100,7 @@ class Reader {
                                    .information = edge.information,
                                    .is_loop = std::abs(edge.from - edge.to) != 1});
     }
-    if (graph.poses.empty()) return base::fail(base::ErrorKind::invalid_input, "no VERTEX_SE2");
+    if (graph.poses.empty()) return base::fail(base::ErrorKind::invalid_input, "no VERTEX_SE2 or EDGE_SE2");
     return graph;
   }
 

@@ -16,7 +16,8 @@ struct PoseGraph {
 };
 
 /// Numbers of the file may have gaps; here they are counted in the order of the numbers. Lines of other kinds than
-/// SE2 are refused, FIX is passed over. Errors: invalid_input, with the line.
+/// SE2 are refused, FIX is passed over; where there is no VERTEX at all, the edges name the poses. Errors:
+/// invalid_input, with the line.
 [[nodiscard]] base::Result<PoseGraph> read_g2o(std::string_view text);
 [[nodiscard]] std::string write_g2o(std::vector<Pose2> const& poses, std::vector<Constraint> const& constraints);
 

@@ -34,7 +34,14 @@ TEST(G2o, SaysInWhichLineWhatIsWrong) {
   EXPECT_EQ(message("VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 0 1 0 0 1 0 0 1 0 1\n"), "line 2: an edge from a pose to itself");
   EXPECT_EQ(message("VERTEX_SE2 -1 0 0 0\n"), "line 1: a pose's number must be whole and not negative");
   EXPECT_EQ(message("VERTEX_SE2 0 nan 0 0\n"), "line 1: expected 4 numbers");
-  EXPECT_EQ(message(""), "no VERTEX_SE2");
+  EXPECT_EQ(message(""), "no VERTEX_SE2 or EDGE_SE2");
+}
+
+TEST(G2o, TakesThePosesOfItsEdgesWhereItNamesNone) {
+  auto const graph = read_g2o("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 2 0 0 1 0 0 1 0 1\n");
+  ASSERT_TRUE(graph) << graph.error().message;
+  ASSERT_EQ(graph->poses.size(), 3U);
+  EXPECT_EQ(graph->poses[2], (Pose2{3.0, 0.0, 0.0}));
 }
 
 }  // namespace

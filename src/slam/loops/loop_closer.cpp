@@ -116,9 +116,16 @@ bool LoopCloser::close(Graph& graph, Group const& group) {
     held = held_of(graph, held);
   }
   auto const passes = agreement_of_passes(graph, graph.poses, poses, options_.least_gap_m, for_each_);
-  for (auto const& closure : group) search_.record_of(closure).contradiction = passes.conflict();
+  auto const were = agreement_of_passes(graph, poses, graph.poses, options_.least_gap_m, for_each_);
+  for (auto const& closure : group) {
+    search_.record_of(closure).contradiction = passes.conflict();
+    search_.record_of(closure).was_contradiction = were.conflict();
+  }
   mark(group, Verdict::revoked);
-  if (is_believed(held) && passes.conflict() <= options_.most_contradiction) {
+  // What lay together before in good agreement was not in need of a correction.
+  constexpr double worse = 0.03;
+  auto const is_better = were.seen() < options_.least_matches || passes.conflict() <= were.conflict() + worse;
+  if (is_believed(held) && is_better && passes.conflict() <= options_.most_contradiction) {
     mark(held, Verdict::closed);
     return true;
   }

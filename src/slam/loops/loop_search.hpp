@@ -21,7 +21,8 @@ struct LoopRecord {
   double shift_m = 0.0;  ///< that it would move the query by
   double turn_rad = 0.0;
   int witnesses = 0;
-  double contradiction = 0.0;  ///< of the map that it would have made
+  double contradiction = 0.0;      ///< of the map that it would have made
+  double was_contradiction = 0.0;  ///< of the same passes before
   bool is_late = false;            ///< looked for after the last scan
   Verdict verdict = Verdict::not_found;
 };
