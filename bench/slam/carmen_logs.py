@@ -38,6 +38,7 @@ def folders(named=()) -> list:
 def read(folder: pathlib.Path) -> Log:
     path = next(path for pattern in ("*.clf", "*.log", "*.clf.xz", "*.log.xz") for path in sorted(folder.glob(pattern)))
     log = Log(path.name.split(".")[0], [], -math.pi / 2, math.pi / 180)
+    offsets = []
     for line in text_of(path).splitlines():
         words = line.split()
         if words[:2] == ["PARAM", "robot_frontlaser_offset"]:
@@ -46,8 +47,11 @@ def read(folder: pathlib.Path) -> Log:
             continue
         count = int(words[1])
         x, y, yaw, odo_x, odo_y, odo_yaw, time = (float(word) for word in words[2 + count:9 + count])
+        offsets.append(between((odo_x, odo_y, odo_yaw), (x, y, yaw))[0])
         log.step = math.pi / (count if count % 2 == 0 else count - 1)
         log.scans.append(Scan(time, [float(word) for word in words[2:2 + count]], (odo_x, odo_y, odo_yaw)))
+    if log.offset is None and offsets and max(offsets) - min(offsets) < 0.004 and abs(offsets[0]) < 1.0:
+        log.offset = offsets[0]
     log.scans.sort(key=lambda scan: scan.time)
     for line in text_of(next(folder.glob("*.relations"))).splitlines():
         if line.strip() and not line.startswith("#"):

@@ -88,6 +88,8 @@ def thinned(log, beams: int, most_m: float = 0.0):
 
 def every_other(log, step: int):
     log.scans = log.scans[::step]
+    kept = {round(scan.time, 2) for scan in log.scans}
+    log.relations = [r for r in log.relations if round(r[0], 2) in kept and round(r[1], 2) in kept]
 
 
 VARIANTS = {
