@@ -6,8 +6,7 @@
 #include "explore/known/known_map.hpp"
 #include "explore/known/road_map.hpp"
 #include "explore/path/grid_search.hpp"
-#include "explore/run/settings.hpp"
-#include "explore/simulated/carrier.hpp"
+#include "explore/path/motion.hpp"
 
 namespace lapwing::explore {
 

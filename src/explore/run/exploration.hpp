@@ -4,18 +4,14 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "explore/known/frontiers.hpp"
 #include "explore/known/known_map.hpp"
-#include "explore/known/road_map.hpp"
-#include "explore/path/navigator.hpp"
-#include "explore/run/giving_way.hpp"
+#include "explore/lead/explorer.hpp"
 #include "explore/run/report.hpp"
 #include "explore/run/settings.hpp"
 #include "explore/simulated/carrier.hpp"
 #include "explore/simulated/laser.hpp"
 #include "explore/simulated/walkers.hpp"
 #include "explore/simulated/world.hpp"
-#include "explore/strategy/strategy.hpp"
 
 namespace lapwing::explore {
 
@@ -45,59 +41,35 @@ class Exploration {
   struct Robot {
     Carrier carrier;
     Pose start;
-    Navigator navigator;
-    Order order = {};
-    bool is_out = false;
-    bool is_low = false;    ///< out because of its battery
-    Place scanned_at = {};  ///< and where it was then
+    Place scanned_at = {};  ///< where it last looked around
     bool has_scanned = false;
-    Place stood_at = {};         ///< where it was seen not to move on,
-    double stood_since_s = 0.0;  ///< and since when
-    bool is_blocked = false;
-    bool is_aside = false;  ///< makes room for another
     std::vector<Place> track = {};
   };
 
-  Exploration(std::shared_ptr<World const> world, Settings const& settings, std::vector<Pose> const& starts,
-              std::unique_ptr<Strategy> strategy);
+  Exploration(std::shared_ptr<World const> world, Settings const& settings, std::vector<Pose> const& starts);
 
   void look();
   void count_seen();
-  void give_orders();
-  void plan_ways();
-  void make_room();
-  void follow(Robot& robot, Order const& order);
-  void mind_energy();
-  void mind_standing();
+  void lead();
   void drive();
   void walk();
   void check_collisions();
-  [[nodiscard]] std::vector<RobotView> views() const;
   [[nodiscard]] SideDistances sides_of(std::size_t robot) const;
   [[nodiscard]] std::vector<Disc> robots_but(std::size_t robot, double more_m) const;
   /// People, too.
   [[nodiscard]] std::vector<Disc> others_than(std::size_t robot, double more_m) const;
-  [[nodiscard]] Motion steered(Robot const& robot) const;
-  [[nodiscard]] std::optional<Cell> home_of(Robot const& robot) const;
-  [[nodiscard]] bool is_home(Robot const& robot) const;
-  [[nodiscard]] bool is_over();
+  [[nodiscard]] bool is_over() const;
 
   std::shared_ptr<World const> world_;
   Settings settings_;
-  std::unique_ptr<Strategy> strategy_;
   Random random_;
   std::unique_ptr<KnownMap> map_;
-  std::unique_ptr<RoadMap> roads_;
-  std::unique_ptr<GridSearch> search_;
-  std::unique_ptr<Frontiers> frontiers_;
+  std::unique_ptr<Explorer> explorer_;
   std::vector<Robot> robots_;
   Walkers walkers_;
-  GivingWay giving_way_;
   DenseGrid<std::uint8_t> is_counted_;
   std::size_t counted_ = 0;
   std::int64_t steps_ = 0;
-  bool is_explored_ = false;  ///< says the strategy
-  bool is_stuck_ = false;
   int collisions_ = 0;
   std::optional<double> travel_to_99_m_;
   std::optional<double> time_to_99_s_;

@@ -133,9 +133,7 @@ TEST(Exploration, ThePictureHasWallsAndAPathARobot) {
 }
 
 TEST(Exploration, AStrategyThatThereIsNotIsRefused) {
-  Settings settings;
-  settings.strategy = "left-hand";
-  auto const made = make_strategy(settings);
+  auto const made = make_strategy("left-hand");
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().message, "there is no strategy `left-hand`");
 }

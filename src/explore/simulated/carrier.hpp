@@ -3,15 +3,9 @@
 #include <functional>
 
 #include "explore/floor/dense_grid.hpp"
-#include "explore/run/settings.hpp"
+#include "explore/path/motion.hpp"
 
 namespace lapwing::explore {
-
-/// What a carrier is asked to do.
-struct Motion {
-  double speed_m_s = 0.0;
-  double turn_rad_s = 0.0;
-};
 
 /// A differential drive within its limits: speeds change no faster than it can accelerate, and between two moments it
 /// drives an arc.

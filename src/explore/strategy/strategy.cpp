@@ -26,13 +26,13 @@ std::span<StrategyName const> strategy_names() {
   return names;
 }
 
-base::Result<std::unique_ptr<Strategy>> make_strategy(Settings const& settings) {
-  if (settings.strategy == "nearest" || settings.strategy == "frontier") return std::make_unique<NearestFrontier>();
-  if (settings.strategy == "right-hand") return std::make_unique<RightHand>();
-  if (settings.strategy == "tour") return std::make_unique<Tour>();
+base::Result<std::unique_ptr<Strategy>> make_strategy(std::string_view name) {
+  if (name == "nearest" || name == "frontier") return std::make_unique<NearestFrontier>();
+  if (name == "right-hand") return std::make_unique<RightHand>();
+  if (name == "tour") return std::make_unique<Tour>();
   std::vector<std::string_view> known;
-  for (auto const& name : names) known.push_back(name.name);
-  return base::fail(base::ErrorKind::invalid_input, fmt::format("there is no strategy `{}`", settings.strategy),
+  for (auto const& each : names) known.push_back(each.name);
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("there is no strategy `{}`", name),
                     fmt::format("there are {}", fmt::join(known, ", ")));
 }
 

@@ -12,8 +12,6 @@
 #include "explore/known/frontiers.hpp"
 #include "explore/known/known_map.hpp"
 #include "explore/known/road_map.hpp"
-#include "explore/run/settings.hpp"
-#include "explore/simulated/carrier.hpp"
 
 namespace lapwing::explore {
 
@@ -43,6 +41,7 @@ struct Situation {
   Frontiers& frontiers;
   std::span<RobotView const> robots;
   double time_s = 0.0;
+  double range_m = 10.0;  ///< how far the robots see
 };
 
 /// What a robot is to do next.
@@ -59,7 +58,8 @@ struct Order {
   double speed_m_s = 0.0;
 };
 
-/// How robots that share a map choose where to go.
+/// How robots that share a map choose where to go. What it knows is the map, the robots' poses and the time: it is the
+/// same on a simulated floor and in a building.
 class Strategy {
  public:
   virtual ~Strategy() = default;
@@ -79,6 +79,6 @@ struct StrategyName {
 };
 [[nodiscard]] std::span<StrategyName const> strategy_names();
 /// Error: invalid_input for a name that there is not.
-[[nodiscard]] base::Result<std::unique_ptr<Strategy>> make_strategy(Settings const& settings);
+[[nodiscard]] base::Result<std::unique_ptr<Strategy>> make_strategy(std::string_view name);
 
 }  // namespace lapwing::explore

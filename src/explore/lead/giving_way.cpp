@@ -1,4 +1,4 @@
-#include "explore/run/giving_way.hpp"
+#include "explore/lead/giving_way.hpp"
 
 #include <algorithm>
 #include <array>
