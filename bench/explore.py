@@ -10,8 +10,9 @@ import tempfile
 
 STARTS = int(os.environ.get("LAPWING_BENCH_STARTS", "20"))
 ROBOTS = [int(count) for count in os.environ.get("LAPWING_BENCH_ROBOTS", "1,2,4").split(",")]
-STRATEGIES = os.environ.get("LAPWING_BENCH_STRATEGIES", "right-hand,nearest,tour").split(",")
+STRATEGIES = os.environ.get("LAPWING_BENCH_STRATEGIES", "right-hand,nearest,regret,known-floor").split(",")
 BASELINE = "nearest"
+YARDSTICK = "known-floor"  # knows the plan; leads one robot
 
 
 def floors(named) -> list:
@@ -39,6 +40,29 @@ def row_of(found: list) -> dict:
             "wall_s": statistics.mean(run["wall_s"] for run in found), "runs": len(found)}
 
 
+def table(rows: list, say):
+    """The rows as a page of documentation has them: metres to 99 percent, seconds, and metres in all."""
+    say("| floor | robots | " + " | ".join(f"{name}: m to 99 %, s, m in all" for name in STRATEGIES) + " | ended home |")
+    say("|---" * (len(STRATEGIES) + 3) + "|")
+    for floor, robots in dict.fromkeys((row["floor"], row["robots"]) for row in rows):
+        here = {row["strategy"]: row for row in rows if row["floor"] == floor and row["robots"] == robots}
+        cells = [f"{here[name]['to_99_m']:.0f}, {here[name]['to_99_s']:.0f}, {here[name]['travel_m']:.0f}" if name in here else "" for name in STRATEGIES]
+        say(f"| {floor} | {robots} | " + " | ".join(cells) + f" | {sum(row['finished'] for row in here.values())} of {sum(row['runs'] for row in here.values())} |")
+
+
+def means(rows: list, say):
+    """Of the shares floor by floor, so that no large floor speaks for all."""
+    for robots in ROBOTS:
+        for name in STRATEGIES:
+            pairs = [(row, base) for row in rows if row["strategy"] == name and row["robots"] == robots
+                     for base in rows if base["strategy"] == BASELINE and base["robots"] == robots and base["floor"] == row["floor"]]
+            if name == BASELINE or not pairs:
+                continue
+            say(f"explore mean over {len(pairs)} floors, {robots} robots: {name} beside {BASELINE} " +
+                ", ".join(f"{100 * (statistics.mean(row[key] / base[key] for row, base in pairs) - 1):+.1f} % {what}"
+                          for key, what in (("to_99_m", "m to 99 %"), ("to_99_s", "s to 99 %"), ("travel_m", "m in all"))))
+
+
 def measure(program: pathlib.Path, say, named=()) -> list:
     chosen = floors(named)
     if not chosen:
@@ -49,17 +73,16 @@ def measure(program: pathlib.Path, say, named=()) -> list:
         for robots in ROBOTS:
             base = None
             for strategy in sorted(STRATEGIES, key=lambda name: name != BASELINE):
+                if strategy == YARDSTICK and robots > 1:
+                    continue
                 row = {"floor": floor.stem, "robots": robots, "strategy": strategy} | row_of(runs(program, floor, strategy, robots))
                 base = base or row["to_99_m"]
                 rows.append(row)
-                say(f"explore {floor.stem:18} {robots} x {strategy:10} {row['to_99_m']:8.0f} m {row['to_99_s']:8.0f} s to 99 % "
+                say(f"explore {floor.stem:18} {robots} x {strategy:11} {row['to_99_m']:8.0f} m {row['to_99_s']:8.0f} s to 99 % "
                     f"({100 * (row['to_99_m'] / base - 1):+4.0f} %), in all {row['travel_m']:6.0f} m, "
                     f"{row['reached_99']}/{row['runs']} saw 99 %, {row['finished']} home, {row['collisions']} collisions, {row['wall_s']:.1f} s a run")
-    for robots in ROBOTS:
-        shares = [row["to_99_m"] / base["to_99_m"] for row in rows if row["strategy"] == "tour" and row["robots"] == robots
-                  for base in rows if base["strategy"] == BASELINE and base["robots"] == robots and base["floor"] == row["floor"]]
-        if shares:
-            say(f"explore mean over floors, {robots} robots: tour beside {BASELINE} {100 * (statistics.mean(shares) - 1):+.1f} % travel to 99 %")
+    table(rows, say)
+    means(rows, say)
     return rows
 
 

@@ -191,7 +191,9 @@ void add_explore(CLI::App& program, int& exit_code) {
   for (auto const& strategy : explore::strategy_names())
     names += fmt::format("{}{}", names.empty() ? "" : ", ", strategy.name);
   verb->add_option("--map", options->map, "Floor plan: a ROS map's .yaml, beside its picture (PGM, PNG)")->required();
-  verb->add_option("--strategy", settings.strategy, "How the robots choose where to go: " + names)
+  verb->add_option("--strategy", settings.strategy,
+                   "How the robots choose where to go: " + names +
+                       fmt::format("; {} is told the plan, as a yardstick", Exploration::known_floor))
       ->capture_default_str();
   verb->add_option("--robots", settings.robots, "How many, 1 to 8")->check(CLI::Range(1, 8))->capture_default_str();
   verb->add_option("--seed", settings.seed, "Starts, noise and people; run i has seed + i")->capture_default_str();

@@ -5,35 +5,60 @@
 
 namespace lapwing::explore {
 
+namespace {
+
+std::size_t cells_in(double length_m, KnownMap const& map) {
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(length_m / map.cell_m())));
+}
+
+}  // namespace
+
 Frontiers::Frontiers(KnownMap const& map, FrontierSettings const& settings)
-    : settings_(settings), left_(map.width(), map.height(), 0), seen_by_(map.width(), map.height(), 0) {}
+    : settings_(settings), marks_(map.width(), map.height()), seen_by_(map.width(), map.height(), 0) {}
 
 std::vector<Frontier> Frontiers::find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
   auto found = find_open(map, roads, reach);
-  return found.empty() && take_up_again() ? find_open(map, roads, reach) : found;
+  if (found.empty() && take_up_again(map)) found = find_open(map, roads, reach);
+  if (found.empty() && map.has_seen_movement()) found = find_doubtful(map, roads, reach);
+  return found;
 }
 
 std::vector<Frontier> Frontiers::find_open(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
   // Their own order is that in which they came and went; that of the cells is the same for the same map.
   std::vector<std::uint32_t> cells(map.frontier_cells().begin(), map.frontier_cells().end());
   std::ranges::sort(cells);
-  auto const least = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(settings_.least_m / map.cell_m())));
-  auto const most = std::max(least, static_cast<std::size_t>(std::lround(settings_.most_m / map.cell_m())));
+  auto const least = cells_in(settings_.least_m, map);
+  auto const most = std::max(least, cells_in(settings_.most_m, map));
   auto const round = ++searches_;
   std::vector<Frontier> grown;
   for (auto const index : cells) {
-    if (seen_by_.at_index(index) == round || left_.at_index(index) != 0) continue;
-    auto frontier = grow(map, map.cell_of(index), most);
+    if (seen_by_.at_index(index) == round || marks_.at_index(index).is_left != 0) continue;
+    auto frontier = grow(map, map.cell_of(index), most, [&](Cell cell) { return map.is_frontier(cell); });
     if (frontier.cells.size() >= least) grown.push_back(std::move(frontier));
   }
-  std::vector<Frontier> found;
-  for (auto& frontier : grown) {
-    if (find_stand(map, roads, reach, frontier)) found.push_back(std::move(frontier));
-  }
-  return found;
+  std::erase_if(grown, [&](Frontier& frontier) { return !find_stand(map, roads, reach, frontier); });
+  return grown;
 }
 
-Frontier Frontiers::grow(KnownMap const& map, Cell from, std::size_t most_cells) {
+std::vector<Frontier> Frontiers::find_doubtful(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
+  auto const least = cells_in(settings_.least_person_m, map);
+  auto const most = cells_in(settings_.person_m, map);
+  auto const round = ++searches_;
+  std::vector<Frontier> grown;
+  for (std::size_t index = 0; index < marks_.size(); ++index) {
+    auto const cell = map.cell_of(index);
+    if (seen_by_.at_index(index) == round || !map.is_doubtful(cell)) continue;
+    if (marks_.at_index(index).looks != 0 || marks_.at_index(index).is_left != 0) continue;
+    // One cell more than a person shows that it is none.
+    auto piece = grow(map, cell, 2 * most, [&](Cell at) { return map.is_doubtful(at); });
+    if (piece.cells.size() >= least && piece.cells.size() <= most) grown.push_back(std::move(piece));
+  }
+  std::erase_if(grown, [&](Frontier& piece) { return !find_stand(map, roads, reach, piece); });
+  return grown;
+}
+
+template <class Belongs>
+Frontier Frontiers::grow(KnownMap const& map, Cell from, std::size_t most_cells, Belongs const& belongs) {
   auto const round = searches_;
   Frontier frontier;
   frontier.cells.push_back(static_cast<std::uint32_t>(map.index_of(from)));
@@ -46,8 +71,8 @@ Frontier Frontiers::grow(KnownMap const& map, Cell from, std::size_t most_cells)
     sum_y += cell.y;
     for (auto const away : neighbours) {
       auto const next = cell + away;
-      if (frontier.cells.size() >= most_cells || !map.is_frontier(next)) continue;
-      if (seen_by_[next] == round || left_[next] != 0) continue;
+      if (frontier.cells.size() >= most_cells || !map.contains(next) || !belongs(next)) continue;
+      if (seen_by_[next] == round || marks_[next].is_left != 0) continue;
       seen_by_[next] = round;
       frontier.cells.push_back(static_cast<std::uint32_t>(map.index_of(next)));
     }
@@ -83,18 +108,30 @@ bool Frontiers::find_stand(KnownMap const& map, RoadMap const& roads, RoadMap::T
   return false;
 }
 
-void Frontiers::mark(Frontier const& frontier, std::uint8_t as) {
-  for (auto const cell : frontier.cells) left_.at_index(cell) = as;
+void Frontiers::give_up(KnownMap const& map, Frontier const& frontier) {
+  for (auto const cell : frontier.cells) {
+    if (length_of(map.cell_of(cell) - frontier.middle) * map.cell_m() > settings_.looked_at_m) continue;
+    auto& mark = marks_.at_index(cell);
+    mark.is_left = 1;
+    ++mark.looks;
+  }
 }
 
-bool Frontiers::take_up_again() {
-  constexpr int most_times = 2;
-  if (times_taken_up_ == most_times) return false;
-  ++times_taken_up_;
+void Frontiers::put_off(Frontier const& frontier) {
+  for (auto const cell : frontier.cells) {
+    auto& mark = marks_.at_index(cell);
+    mark.is_left = 1;
+    ++mark.put_off;
+  }
+}
+
+bool Frontiers::take_up_again(KnownMap const& map) {
+  int const most_looks = map.has_seen_movement() ? settings_.most_looks : 1;
   bool has_some = false;
-  for (std::size_t i = 0; i < left_.size(); ++i) {
-    if (left_.at_index(i) != was_put_off) continue;
-    left_.at_index(i) = 0;
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    auto& mark = marks_.at_index(i);
+    if (mark.is_left == 0 || mark.looks >= most_looks || mark.put_off >= settings_.most_put_off) continue;
+    mark.is_left = 0;
     has_some = true;
   }
   return has_some;

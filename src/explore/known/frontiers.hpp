@@ -8,7 +8,7 @@
 namespace lapwing::explore {
 
 /// A piece of the border between what is known to be free and what is unknown, short enough to be looked at from one
-/// place, and where to stand for it.
+/// place, and where to stand for it. Or a piece of wall that may have been a person.
 struct Frontier {
   std::vector<std::uint32_t> cells;
   Cell middle = {};        ///< the cell of it nearest to the middle of all
@@ -20,35 +20,53 @@ struct FrontierSettings {
   double least_m = 0.3;  ///< shorter ones are gaps between beams
   double most_m = 2.5;   ///< longer ones are divided
   double stand_within_m = 12.0;
+  int most_looks = 3;        ///< at what remains, where things move; else one
+  int most_put_off = 12;     ///< times that there was no way
+  double looked_at_m = 0.6;  ///< of a frontier, around its middle, when it is given up
+  double least_person_m = 0.2;
+  double person_m = 1.5;  ///< a piece of wall that is longer was none
 };
 
 /// The frontiers of a map, without those that were looked at from where one can stand and remained.
+///
+/// When nothing else is open, those are tried again to which there was no way; and where things were seen to move, also
+/// those that remained, and walls that were seen at one moment only: somebody may have stood there.
 class Frontiers {
  public:
   explicit Frontiers(KnownMap const& map, FrontierSettings const& settings = {});
 
   /// Those to which there is a way in `reach`, in order of their cells.
   [[nodiscard]] std::vector<Frontier> find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
-  /// It was looked at from where one can stand, and remained.
-  void give_up(Frontier const& frontier) { mark(frontier, given_up); }
-  /// There was no way to it: it is tried again when nothing else is left, twice at most.
-  void put_off(Frontier const& frontier) { mark(frontier, was_put_off); }
+  /// It has not been seen yet what is there.
+  [[nodiscard]] static bool is_open(KnownMap const& map, Frontier const& frontier) {
+    return map.is_frontier(frontier.middle) || map.is_doubtful(frontier.middle);
+  }
+  /// It was looked at from where one can stand, and remained. Its ends are still open: the place was chosen for its
+  /// middle.
+  void give_up(KnownMap const& map, Frontier const& frontier);
+  /// There was no way to it.
+  void put_off(Frontier const& frontier);
 
  private:
-  enum : std::uint8_t { given_up = 1, was_put_off = 2 };
+  struct Mark {
+    std::uint8_t is_left = 0;  ///< alone, for now
+    std::uint8_t looks = 0;
+    std::uint8_t put_off = 0;
+  };
 
-  void mark(Frontier const& frontier, std::uint8_t as);
-  [[nodiscard]] bool take_up_again();
+  [[nodiscard]] bool take_up_again(KnownMap const& map);
   [[nodiscard]] std::vector<Frontier> find_open(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
-  [[nodiscard]] Frontier grow(KnownMap const& map, Cell from, std::size_t most_cells);
+  [[nodiscard]] std::vector<Frontier> find_doubtful(KnownMap const& map, RoadMap const& roads,
+                                                    RoadMap::Tree const& reach);
+  template <class Belongs>
+  [[nodiscard]] Frontier grow(KnownMap const& map, Cell from, std::size_t most_cells, Belongs const& belongs);
   [[nodiscard]] bool find_stand(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach,
                                 Frontier& frontier);
 
   FrontierSettings settings_;
-  DenseGrid<std::uint8_t> left_;      ///< of cells: why they are left alone, 0 for open ones
+  DenseGrid<Mark> marks_;
   DenseGrid<std::uint32_t> seen_by_;  ///< the number of the search
   std::uint32_t searches_ = 0;
-  int times_taken_up_ = 0;
 };
 
 }  // namespace lapwing::explore

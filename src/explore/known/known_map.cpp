@@ -15,6 +15,13 @@ constexpr int most_odds = 12;
 /// Surfaces of floor plans lie on the borders of cells: a beam's end is taken this share of a cell farther, so that
 /// noise does not draw it into the cell before.
 constexpr double into_the_wall = 0.4;
+/// Who walks stands still for less than this; what is there after it is a wall.
+constexpr double sure_after_s = 4.0;
+/// Where the floor was free before, it takes longer to believe in a wall.
+constexpr double sure_where_free_s = 60.0;
+constexpr int often_free = -4;
+/// So many ends of one scan where the floor had been free are no noise.
+constexpr int ends_of_movement = 2;
 
 }  // namespace
 
@@ -44,6 +51,9 @@ KnownMap::KnownMap(int width, int height, double cell_m, Distances distances)
       odds_(width, height, 0),
       walls_near_(width, height, 0),
       hit_by_(width, height, 0),
+      wall_since_s_(width, height, 0.0F),
+      is_sure_(width, height, 0),
+      was_free_(width, height, 0),
       frontier_place_(width, height, 0),
       keep_off_(cells_within(distances.keep_off_m, cell_m)),
       wary_(cells_within(distances.wary_m, cell_m)) {
@@ -66,6 +76,7 @@ bool KnownMap::has_room(Place const& middle, double radius_m) const {
 
 void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
   ++scans_;
+  time_s_ = scan.time_s;
   double const x = scan.from.position.x() / cell_m_;
   double const y = scan.from.position.y() / cell_m_;
   auto const ways = beam_ways(scan.from.yaw_rad, scan.ranges_m.size());
@@ -91,19 +102,38 @@ void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
       return true;
     });
   }
+  if (!has_seen_movement_) notice_movement(ends);
   for (auto const index : ends) hit(index);
+}
+
+void KnownMap::notice_movement(std::span<std::uint32_t const> ends) {
+  // Beside walls, noise makes ends in free cells, too.
+  auto const is_in_the_open = [&](std::uint32_t index) {
+    if (state_.at_index(index) != Knowledge::free || odds_.at_index(index) > least_odds / 2) return false;
+    auto const cell = state_.cell_of(index);
+    constexpr int reach = 2;
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) {
+        if (at(cell + Cell{x, y}) != Knowledge::free) return false;
+      }
+    }
+    return true;
+  };
+  has_seen_movement_ = std::ranges::count_if(ends, is_in_the_open) >= ends_of_movement;
 }
 
 void KnownMap::learn(Cell cell, Knowledge knowledge) {
   auto const index = state_.index_of(cell);
   odds_.at_index(index) = knowledge == Knowledge::wall ? most_odds : knowledge == Knowledge::free ? least_odds : 0;
   become(index, knowledge);
+  is_sure_.at_index(index) = 1;
 }
 
 void KnownMap::pass(std::size_t index) {
   auto& odds = odds_.at_index(index);
   if (odds <= least_odds) return;
   --odds;
+  if (odds <= often_free) was_free_.at_index(index) = 1;
   auto const state = state_.at_index(index);
   if (state == Knowledge::unknown || (state == Knowledge::wall && odds < 0)) become(index, Knowledge::free);
 }
@@ -112,14 +142,21 @@ void KnownMap::hit(std::size_t index) {
   auto& odds = odds_.at_index(index);
   bool const was_free_often = odds < least_odds / 2;
   odds = static_cast<std::int8_t>(std::min(most_odds, odds + (was_free_often ? 1 : 3)));
-  if (state_.at_index(index) != Knowledge::wall && odds > 0) become(index, Knowledge::wall);
+  if (state_.at_index(index) == Knowledge::wall) {
+    double const needed_s = was_free_.at_index(index) != 0 ? sure_where_free_s : sure_after_s;
+    if (time_s_ - static_cast<double>(wall_since_s_.at_index(index)) >= needed_s) is_sure_.at_index(index) = 1;
+  } else if (odds > 0) {
+    become(index, Knowledge::wall);
+    wall_since_s_.at_index(index) = static_cast<float>(time_s_);
+    is_sure_.at_index(index) = 0;
+  }
 }
 
 void KnownMap::become(std::size_t index, Knowledge knowledge) {
   auto const before = state_.at_index(index);
   if (before == knowledge) return;
   state_.at_index(index) = knowledge;
-  ++news_;
+  if (before == Knowledge::unknown) ++discovered_;
   fresh_.push_back(static_cast<std::uint32_t>(index));
   auto const cell = state_.cell_of(index);
   if ((before == Knowledge::free) != (knowledge == Knowledge::free)) {

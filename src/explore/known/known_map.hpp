@@ -20,6 +20,7 @@ struct Scan {
   Pose from;
   double range_m = 0.0;
   std::vector<float> ranges_m;
+  double time_s = 0.0;  ///< when; never less than that of the scan before
 };
 
 /// Where the beams of a scan look, each one long, from that straight ahead counterclockwise.
@@ -64,8 +65,14 @@ class KnownMap {
   [[nodiscard]] bool is_frontier(Cell cell) const {
     return frontier_place_.contains(cell) && frontier_place_[cell] != 0;
   }
-  /// How many cells have become known or have changed, ever: what was decided on the same number still holds.
-  [[nodiscard]] std::uint64_t news() const { return news_; }
+  /// How many cells became known for the first time.
+  [[nodiscard]] std::uint64_t discovered() const { return discovered_; }
+  /// Something was seen to stand where the floor had been free: people are about, or doors are moved.
+  [[nodiscard]] bool has_seen_movement() const { return has_seen_movement_; }
+  /// A wall that was seen at one moment only, where things move: it may have been a person.
+  [[nodiscard]] bool is_doubtful(Cell cell) const {
+    return has_seen_movement_ && at(cell) == Knowledge::wall && is_sure_[cell] == 0;
+  }
 
   /// Draws what the scan says (inverse sensor model: free along each beam, taken at its end). Ends on `moving` are left
   /// out, and what is at the end of a beam in a cell that was seen free often has to be seen there often as well.
@@ -81,6 +88,7 @@ class KnownMap {
  private:
   void pass(std::size_t index);
   void hit(std::size_t index);
+  void notice_movement(std::span<std::uint32_t const> ends);
   void become(std::size_t index, Knowledge knowledge);
   void look_for_frontier(Cell cell);
 
@@ -90,13 +98,18 @@ class KnownMap {
   DenseGrid<std::uint16_t> blockers_;
   DenseGrid<std::uint16_t> walls_near_;
   DenseGrid<std::uint32_t> hit_by_;          ///< the number of the scan
+  DenseGrid<float> wall_since_s_;            ///< when a wall was first seen
+  DenseGrid<std::uint8_t> is_sure_;          ///< of walls: seen at two moments apart
+  DenseGrid<std::uint8_t> was_free_;         ///< seen free often, once
   DenseGrid<std::uint32_t> frontier_place_;  ///< in `frontier_`, from 1
   std::vector<std::uint32_t> frontier_;
   std::vector<Cell> keep_off_;
   std::vector<Cell> wary_;
   std::vector<std::uint32_t> changed_;
   std::vector<std::uint32_t> fresh_;
-  std::uint64_t news_ = 0;
+  std::uint64_t discovered_ = 0;
+  bool has_seen_movement_ = false;
+  double time_s_ = 0.0;
   std::uint32_t scans_ = 0;
 };
 

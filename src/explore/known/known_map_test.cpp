@@ -133,7 +133,7 @@ TEST_F(KnownMapTest, FrontiersAreFoundWithAPlaceToStandUntilGivenUp) {
   EXPECT_EQ(found[0].cells.size(), 5U);
   EXPECT_EQ(found[0].middle, (Cell{29, 20}));
   EXPECT_TRUE(map.is_standable(found[0].stand));
-  frontiers.give_up(found[0]);
+  frontiers.give_up(map, found[0]);
   EXPECT_TRUE(frontiers.find(map, roads, reach).empty());
   Frontiers others(map);
   others.put_off(found[0]);

@@ -14,6 +14,8 @@ constexpr double home_m = 0.5;
 constexpr double home_among_others_m = 1.5;  ///< others may stand in the way
 constexpr double blocked_after_s = 20.0;
 constexpr double stuck_after_s = 600.0;
+constexpr double no_news_s = 3600.0;
+constexpr double no_news_m2 = 0.25;  ///< less than this is none
 
 }  // namespace
 
@@ -41,6 +43,7 @@ void Explorer::update(KnownMap& map, double time_s, std::span<RobotNow const> ro
   }
   roads_.update(map, map.take_changes());
   mind_standing();
+  mind_news(map);
   if (settings_.energy_m > 0.0) mind_energy(map);
   give_orders(map);
   make_room(map);
@@ -74,13 +77,40 @@ void Explorer::give_orders(KnownMap const& map) {
       members_, [](Member const& member) { return member.is_out || member.order.kind == Order::Kind::home; });
 }
 
-void Explorer::make_room(KnownMap const& map) {
-  if (members_.size() == 1) return;
-  std::vector<GivingWay::Member> standing;
-  for (auto const& member : members_) {
-    bool const wants_on = member.navigator.goal() && member.navigator.state() != Navigator::State::arrived;
-    standing.push_back({member.pose.position, wants_on, time_s_ - member.stood_since_s});
+std::vector<Place> Explorer::way_of(KnownMap const& map, Member const& member) const {
+  constexpr double looked_ahead_m = 8.0;
+  constexpr double steered_m = 1.5;
+  auto const& here = member.pose.position;
+  if (member.order.kind == Order::Kind::steer)
+    return {here, here + steered_m * Shift(std::cos(member.order.yaw_rad), std::sin(member.order.yaw_rad))};
+  auto const goal = member.order.kind == Order::Kind::home ? home_of(map, member) : std::optional(member.order.goal);
+  if (!goal || !member.navigator.goal()) return {};
+  if (!member.is_aside && member.navigator.state() == Navigator::State::arrived) return {};
+  auto const root = roads_.node_near(map.cell_at(here));
+  auto const end = roads_.node_near(*goal);
+  if (!root || !end) return {};
+  std::vector<Place> way = {here};
+  double so_far_m = 0.0;
+  for (auto const node : roads_.way(*root, *end, {})) {
+    so_far_m += distance_m(way.back(), map.middle(roads_.place_of(node)));
+    way.push_back(map.middle(roads_.place_of(node)));
+    if (so_far_m > looked_ahead_m) return way;
   }
+  way.push_back(map.middle(*goal));
+  return way;
+}
+
+void Explorer::make_room(KnownMap const& map) {
+  auto const stands_before_another = [&](Member const& member) {
+    if (time_s_ - member.stood_since_s < GivingWay::stands_s) return false;
+    return std::ranges::any_of(members_, [&](Member const& other) {
+      return &other != &member && distance_m(other.pose.position, member.pose.position) < GivingWay::before_m;
+    });
+  };
+  if (!giving_way_.is_busy() && std::ranges::none_of(members_, stands_before_another)) return;
+  std::vector<GivingWay::Member> standing;
+  for (auto const& member : members_)
+    standing.push_back({member.pose.position, time_s_ - member.stood_since_s, way_of(map, member)});
   auto const cells = giving_way_.decide(map, roads_, standing, settings_.carrier.radius_m, time_s_);
   for (std::size_t i = 0; i < members_.size(); ++i) {
     auto& member = members_[i];
@@ -116,19 +146,21 @@ void Explorer::plan_ways(KnownMap const& map, std::span<Disc const> moving) {
 }
 
 void Explorer::follow(KnownMap const& map, Member& member, Order const& order) {
+  if (order.kind != member.order.kind || order.goal != member.order.goal || member.is_blocked) {
+    member.ordered_s = time_s_;
+    member.is_blocked = false;
+  }
   member.order = order;
-  member.is_blocked = false;
   if (member.is_aside) return;
   switch (order.kind) {
     case Order::Kind::go: member.navigator.go_to(order.goal); break;
-    case Order::Kind::home: {
-      auto const which = static_cast<std::size_t>(&member - members_.data());
-      if (auto const home = home_of(map, member); home && settings_.does_return && !is_home(which))
+    case Order::Kind::home:
+      // To its very place: who stops somewhere near stands where another belongs.
+      if (auto const home = home_of(map, member); home && settings_.does_return)
         member.navigator.go_to(*home);
       else
         member.navigator.stop();
       break;
-    }
     case Order::Kind::steer: member.navigator.stop(); break;
     case Order::Kind::keep: break;
   }
@@ -165,6 +197,27 @@ bool Explorer::is_any_low() const {
   return std::ranges::any_of(members_, &Member::is_low);
 }
 
+void Explorer::mind_news(KnownMap const& map) {
+  double const new_m2 = static_cast<double>(map.discovered() - discovered_) * map.cell_m() * map.cell_m();
+  if (new_m2 >= no_news_m2) {
+    discovered_ = map.discovered();
+    news_at_s_ = time_s_;
+  }
+  if (time_s_ - news_at_s_ < no_news_s) return;
+  // The way home may be long, but not endless.
+  double longest_m = 0.0;
+  for (auto const& member : members_)
+    longest_m = std::max(longest_m, distance_m(member.pose.position, member.start.position));
+  constexpr double winding = 10.0;
+  constexpr double slow_m_s = 0.1;
+  if (time_s_ - news_at_s_ > 2.0 * no_news_s + winding * longest_m / slow_m_s) is_stuck_ = true;
+  if (is_explored_) return;
+  has_no_news_ = true;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (!members_[i].is_out) call_home(map, i);
+  }
+}
+
 void Explorer::mind_energy(KnownMap const& map) {
   for (auto& member : members_) {
     if (member.is_out) continue;
@@ -189,7 +242,7 @@ void Explorer::mind_standing() {
       member.stood_at = place;
       member.stood_since_s = time_s_;
     }
-    member.is_blocked = time_s_ - member.stood_since_s > blocked_after_s;
+    member.is_blocked = time_s_ - std::max(member.stood_since_s, member.ordered_s) > blocked_after_s;
   }
   is_stuck_ = std::ranges::all_of(members_,
                                   [&](Member const& member) { return time_s_ - member.stood_since_s > stuck_after_s; });

@@ -39,6 +39,9 @@ struct RobotNow {
 /// gets is the map, the poses and the time, what it gives are motions: the floor may be simulated or a real one.
 class Explorer {
  public:
+  /// With a strategy of one's own; the name in the settings does not matter then.
+  Explorer(KnownMap const& map, ExplorerSettings const& settings, std::span<Pose const> starts,
+           std::unique_ptr<Strategy> strategy);
   /// Error: invalid_input where there is no strategy of that name.
   [[nodiscard]] static base::Result<Explorer> begin(KnownMap const& map, ExplorerSettings const& settings,
                                                     std::span<Pose const> starts);
@@ -54,7 +57,9 @@ class Explorer {
   [[nodiscard]] bool is_home(std::size_t robot) const;
   /// Explored, and all are back.
   [[nodiscard]] bool is_over() const;
-  /// No robot has moved on for ten minutes.
+  /// Nothing was new for an hour, and so all were called home: whatever the strategy still wanted, it did not get.
+  [[nodiscard]] bool has_no_news() const { return has_no_news_; }
+  /// No robot has moved on for ten minutes, or not all have come home within an hour.
   [[nodiscard]] bool is_stuck() const { return is_stuck_; }
   /// A robot turned back because of its battery.
   [[nodiscard]] bool is_any_low() const;
@@ -77,20 +82,21 @@ class Explorer {
     bool is_low = false;         ///< out because of its battery
     Place stood_at = {};         ///< where it was seen not to move on,
     double stood_since_s = 0.0;  ///< and since when
+    double ordered_s = 0.0;      ///< when it was last told something new
     bool is_blocked = false;
     bool is_aside = false;  ///< makes room for another
   };
 
-  Explorer(KnownMap const& map, ExplorerSettings const& settings, std::span<Pose const> starts,
-           std::unique_ptr<Strategy> strategy);
-
   void mind_standing();
+  void mind_news(KnownMap const& map);
   void mind_energy(KnownMap const& map);
   void give_orders(KnownMap const& map);
   void make_room(KnownMap const& map);
   void plan_ways(KnownMap const& map, std::span<Disc const> moving);
   void follow(KnownMap const& map, Member& member, Order const& order);
   [[nodiscard]] std::vector<RobotView> views() const;
+  /// Where it wants to go on for the next metres, as if it were alone; empty when it does not.
+  [[nodiscard]] std::vector<Place> way_of(KnownMap const& map, Member const& member) const;
   [[nodiscard]] std::optional<Cell> home_of(KnownMap const& map, Member const& member) const;
 
   ExplorerSettings settings_;
@@ -101,6 +107,9 @@ class Explorer {
   std::vector<Member> members_;
   GivingWay giving_way_;
   double time_s_ = 0.0;
+  std::uint64_t discovered_ = 0;
+  double news_at_s_ = 0.0;
+  bool has_no_news_ = false;
   bool is_explored_ = false;
   bool is_stuck_ = false;
 };

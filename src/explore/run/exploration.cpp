@@ -15,12 +15,17 @@ constexpr double scan_again_m = 0.1;
 constexpr double sonar_side_m = 5.0;
 constexpr double sonar_front_m = 7.5;
 
+KnownMap::Distances distances_of(Settings const& settings) {
+  return {.keep_off_m = settings.carrier.radius_m + settings.carrier.safe_distance_m, .wary_m = settings.wary_m};
+}
+
 }  // namespace
 
 std::string_view to_string(Ending ending) {
   switch (ending) {
     case Ending::explored: return "explored";
     case Ending::energy: return "energy";
+    case Ending::no_news: return "no news";
     case Ending::stuck: return "stuck";
     case Ending::time: return "time";
   }
@@ -37,16 +42,33 @@ base::Result<Exploration> Exploration::begin(std::shared_ptr<World const> world,
       return base::fail(base::ErrorKind::invalid_input, "a robot would touch a wall where it starts");
   }
   Exploration exploration(std::move(world), settings, starts);
-  auto explorer = Explorer::begin(*exploration.map_,
-                                  {.strategy = settings.strategy,
-                                   .carrier = settings.carrier,
-                                   .range_m = settings.laser.range_m,
-                                   .energy_m = settings.energy_m,
-                                   .does_return = settings.does_return},
-                                  starts);
+  ExplorerSettings const leading{.strategy = settings.strategy,
+                                 .carrier = settings.carrier,
+                                 .range_m = settings.laser.range_m,
+                                 .energy_m = settings.energy_m,
+                                 .does_return = settings.does_return};
+  if (settings.strategy == known_floor) {
+    if (starts.size() > 1)
+      return base::fail(base::ErrorKind::invalid_input,
+                        fmt::format("`{}` leads one robot, not {}", known_floor, starts.size()));
+    auto strategy = std::make_unique<KnownFloor>(exploration.true_floor(), starts.front().position);
+    exploration.explorer_ = std::make_unique<Explorer>(*exploration.map_, leading, starts, std::move(strategy));
+    return exploration;
+  }
+  auto explorer = Explorer::begin(*exploration.map_, leading, starts);
   if (!explorer) return std::unexpected(explorer.error());
   exploration.explorer_ = std::make_unique<Explorer>(std::move(*explorer));
   return exploration;
+}
+
+TrueFloor Exploration::true_floor() const {
+  TrueFloor floor{KnownMap(world_->width(), world_->height(), world_->cell_m(), distances_of(settings_)),
+                  world_->is_wanted(), settings_.laser.range_m};
+  for (std::size_t i = 0; i < floor.is_wanted.size(); ++i) {
+    auto const cell = floor.map.cell_of(i);
+    floor.map.learn(cell, world_->is_free_at(cell) ? Knowledge::free : Knowledge::wall);
+  }
+  return floor;
 }
 
 Exploration::Exploration(std::shared_ptr<World const> world, Settings const& settings, std::vector<Pose> const& starts)
@@ -54,10 +76,7 @@ Exploration::Exploration(std::shared_ptr<World const> world, Settings const& set
       settings_(settings),
       random_(settings.seed),
       walkers_(*world_, settings.people, starts, random_) {
-  map_ = std::make_unique<KnownMap>(
-      world_->width(), world_->height(), world_->cell_m(),
-      KnownMap::Distances{.keep_off_m = settings.carrier.radius_m + settings.carrier.safe_distance_m,
-                          .wary_m = settings.wary_m});
+  map_ = std::make_unique<KnownMap>(world_->width(), world_->height(), world_->cell_m(), distances_of(settings));
   is_counted_ = DenseGrid<std::uint8_t>(world_->width(), world_->height(), 0);
   for (auto const& start : starts) robots_.push_back({.carrier = Carrier(start, settings.carrier), .start = start});
 }
@@ -86,7 +105,8 @@ void Exploration::look() {
     robot.has_scanned = true;
     robot.scanned_at = pose.position;
     auto const others = others_than(i, 0.0);
-    auto const own_scan = scan(*world_, pose, settings_.laser, others, random_);
+    auto own_scan = scan(*world_, pose, settings_.laser, others, random_);
+    own_scan.time_s = time_s();
     map_->add(own_scan, robots_but(i, 0.15));
     if (robot.track.empty() || distance_m(robot.track.back(), pose.position) > 0.05)
       robot.track.push_back(pose.position);
@@ -157,7 +177,14 @@ void Exploration::drive() {
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     auto& robot = robots_[i];
     auto const pose = robot.carrier.pose();
-    auto const others = others_than(i, settings_.carrier.radius_m + settings_.carrier.safe_distance_m);
+    double const apart_m = settings_.carrier.radius_m + settings_.carrier.safe_distance_m;
+    auto others = others_than(i, apart_m);
+    // Others may still come as far as their brakes let them: who counts on less meets them half way.
+    for (std::size_t j = 0; j < robots_.size(); ++j) {
+      if (j == i) continue;
+      for (auto const& place : robots_[j].carrier.braking_places(step_s))
+        others.push_back({place, settings_.carrier.radius_m + apart_m});
+    }
     double const wanted_m = settings_.carrier.radius_m + settings_.carrier.safe_distance_m;
     double const kept_m = map_->has_room(pose.position, wanted_m) ? wanted_m : settings_.carrier.radius_m + 0.01;
     auto const wanted = explorer_->motion(*map_, i, pose);
@@ -205,10 +232,11 @@ RunReport Exploration::report() const {
   report.coverage = coverage();
   bool const is_explored = explorer_->is_explored();
   bool const is_low = explorer_->is_any_low();
-  report.ending = is_explored             ? (is_low ? Ending::energy : Ending::explored)
-                  : explorer_->is_stuck() ? Ending::stuck
-                                          : Ending::time;
-  report.is_finished = is_explored && !is_low && are_home;
+  bool const has_no_news = explorer_->has_no_news();
+  report.is_finished = is_explored && !is_low && !has_no_news && are_home;
+  if (time_s() >= settings_.most_time_s) report.ending = Ending::time;
+  if (explorer_->is_stuck()) report.ending = Ending::stuck;
+  if (is_explored) report.ending = is_low ? Ending::energy : has_no_news ? Ending::no_news : Ending::explored;
   report.travel_to_99_m = travel_to_99_m_;
   report.time_to_99_s = time_to_99_s_;
   report.collisions = collisions_;

@@ -12,6 +12,7 @@
 #include "explore/simulated/laser.hpp"
 #include "explore/simulated/walkers.hpp"
 #include "explore/simulated/world.hpp"
+#include "explore/strategy/known_floor.hpp"
 
 namespace lapwing::explore {
 
@@ -36,6 +37,8 @@ class Exploration {
   [[nodiscard]] std::vector<Place> const& track(std::size_t robot) const { return robots_[robot].track; }
 
   static constexpr double step_s = 0.1;
+  /// The name of the one strategy that is told the floor: a yardstick for the others.
+  static constexpr std::string_view known_floor = "known-floor";
 
  private:
   struct Robot {
@@ -48,6 +51,7 @@ class Exploration {
 
   Exploration(std::shared_ptr<World const> world, Settings const& settings, std::vector<Pose> const& starts);
 
+  [[nodiscard]] TrueFloor true_floor() const;
   void look();
   void count_seen();
   void lead();

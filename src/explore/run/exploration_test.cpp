@@ -51,15 +51,22 @@ RunReport run(Lines const& floor, Settings const& settings) {
   return exploration.report();
 }
 
+/// Several starts of each: what goes well from one may not from the next.
+constexpr std::uint64_t seeds[] = {7, 8, 9};
+
 struct ExplorationTest : ::testing::TestWithParam<Case> {};
 
 TEST_P(ExplorationTest, EndsHomeWithEverythingSeenAndNothingTouched) {
-  auto const report = run(*GetParam().floor, settings_of(GetParam()));
-  EXPECT_EQ(report.ending, Ending::explored) << to_string(report.ending);
-  EXPECT_TRUE(report.is_finished);
-  EXPECT_GE(report.coverage, 0.99);
-  EXPECT_EQ(report.collisions, 0);
-  EXPECT_TRUE(report.travel_to_99_m);
+  for (auto const seed : seeds) {
+    auto settings = settings_of(GetParam());
+    settings.seed = seed;
+    auto const report = run(*GetParam().floor, settings);
+    EXPECT_EQ(report.ending, Ending::explored) << to_string(report.ending) << ", seed " << seed;
+    EXPECT_TRUE(report.is_finished) << "seed " << seed;
+    EXPECT_GE(report.coverage, 0.99) << "seed " << seed;
+    EXPECT_EQ(report.collisions, 0) << "seed " << seed;
+    EXPECT_TRUE(report.travel_to_99_m) << "seed " << seed;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OneRobot, ExplorationTest,
@@ -72,9 +79,31 @@ INSTANTIATE_TEST_SUITE_P(OneRobot, ExplorationTest,
                                            Case{"two_rooms", &testing::two_rooms, "right-hand", 1, 0},
                                            Case{"island", &testing::island, "right-hand", 1, 0},
                                            Case{"dead_ends", &testing::dead_ends, "right-hand", 1, 0}));
+INSTANTIATE_TEST_SUITE_P(WallsThatLeadRound, ExplorationTest,
+                         ::testing::Values(Case{"hall", &testing::hall, "right-hand", 1, 0},
+                                           Case{"narrow", &testing::narrow, "right-hand", 1, 0},
+                                           Case{"hall", &testing::hall, "right-hand", 2, 0},
+                                           Case{"dead_ends", &testing::dead_ends, "right-hand", 2, 0}));
 INSTANTIATE_TEST_SUITE_P(SeveralRobots, ExplorationTest,
-                         ::testing::Values(Case{"dead_ends", &testing::dead_ends, "tour", 2, 0}));
-INSTANTIATE_TEST_SUITE_P(People, ExplorationTest, ::testing::Values(Case{"island", &testing::island, "tour", 2, 3}));
+                         ::testing::Values(Case{"dead_ends", &testing::dead_ends, "tour", 2, 0},
+                                           Case{"dead_ends", &testing::dead_ends, "tour", 4, 0},
+                                           Case{"narrow", &testing::narrow, "tour", 2, 0},
+                                           Case{"narrow", &testing::narrow, "tour", 3, 0},
+                                           Case{"narrow", &testing::narrow, "tour", 8, 0},
+                                           Case{"narrow", &testing::narrow, "nearest", 8, 0}));
+INSTANTIATE_TEST_SUITE_P(People, ExplorationTest,
+                         ::testing::Values(Case{"island", &testing::island, "tour", 2, 3},
+                                           Case{"dead_ends", &testing::dead_ends, "tour", 1, 6},
+                                           Case{"dead_ends", &testing::dead_ends, "nearest", 1, 6},
+                                           Case{"dead_ends", &testing::dead_ends, "right-hand", 1, 4},
+                                           Case{"narrow", &testing::narrow, "nearest", 1, 4}));
+
+// Known limits: from some starts these end with a robot that is not home, or with a few percent unseen.
+INSTANTIATE_TEST_SUITE_P(DISABLED_NotFromEveryStart, ExplorationTest,
+                         ::testing::Values(Case{"narrow", &testing::narrow, "right-hand", 3, 0},
+                                           Case{"dead_ends", &testing::dead_ends, "nearest", 3, 0},
+                                           Case{"narrow", &testing::narrow, "nearest", 4, 0},
+                                           Case{"narrow", &testing::narrow, "tour", 2, 4}));
 
 TEST(Exploration, TheSameSeedGivesTheSameRun) {
   auto const settings = settings_of({"", nullptr, "tour", 2, 3});

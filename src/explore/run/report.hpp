@@ -12,6 +12,7 @@ namespace lapwing::explore {
 enum class Ending {
   explored,  ///< nothing open is left that can be reached
   energy,    ///< a robot's battery would not have taken it any farther and home again
+  no_news,   ///< nothing new was seen for an hour
   stuck,     ///< no robot could move on
   time,      ///< the most time that was given is over
 };

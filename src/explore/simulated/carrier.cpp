@@ -26,6 +26,15 @@ Carrier::State Carrier::after(State const& state, Motion wanted, double seconds)
   return next;
 }
 
+std::vector<Place> Carrier::braking_places(double seconds) const {
+  std::vector<Place> places;
+  for (State state{pose_, motion_}; state.motion.speed_m_s > 0.0;) {
+    state = after(state, {}, seconds);
+    places.push_back(state.pose.position);
+  }
+  return places;
+}
+
 void Carrier::drive(Motion wanted, double seconds, std::function<bool(Place const&)> const& is_safe) {
   State const now{pose_, motion_};
   auto const is_all_safe = [&](State state) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "explore/floor/dense_grid.hpp"
 #include "explore/path/motion.hpp"
@@ -17,6 +18,8 @@ class Carrier {
   [[nodiscard]] Motion const& motion() const { return motion_; }
   [[nodiscard]] double driven_m() const { return driven_m_; }
 
+  /// Where it comes if it brakes now, a place each `seconds`.
+  [[nodiscard]] std::vector<Place> braking_places(double seconds) const;
   /// Does for `seconds` what is wanted as far as it can. `is_safe(place)` is asked for everywhere it would come if it
   /// braked right after: where one is not, it brakes now. So it always can.
   void drive(Motion wanted, double seconds, std::function<bool(Place const&)> const& is_safe);

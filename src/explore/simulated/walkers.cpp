@@ -58,7 +58,9 @@ void Walkers::step(World const& world, double seconds, std::span<Disc const> rob
     }
     auto const next = walker.at + (step_m / left.length()) * left;
     bool const is_robot_near = std::ranges::any_of(robots, [&](Disc const& robot) {
-      return distance_m(robot.middle, next) < robot.radius_m + radius_m + apart_m;
+      // Whoever has come too near already, or was come near to, may step away.
+      double const far_m = distance_m(robot.middle, next);
+      return far_m < robot.radius_m + radius_m + apart_m && far_m < distance_m(robot.middle, walker.at);
     });
     if (is_robot_near)
       choose(world, walker, random);

@@ -8,11 +8,6 @@ namespace {
 
 constexpr double look_every_s = 3.0;
 
-/// Is any of it still unknown's border?
-bool is_open(KnownMap const& map, Frontier const& frontier) {
-  return map.is_frontier(frontier.middle);
-}
-
 }  // namespace
 
 std::vector<Order> NearestFrontier::decide(Situation const& situation) {
@@ -22,9 +17,9 @@ std::vector<Order> NearestFrontier::decide(Situation const& situation) {
   bool is_due = situation.time_s >= next_look_s_;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!chosen_[i] || robots[i].is_out) continue;
-    if ((robots[i].has_arrived || robots[i].is_blocked) && is_open(situation.map, *chosen_[i])) {
+    if ((robots[i].has_arrived || robots[i].is_blocked) && Frontiers::is_open(situation.map, *chosen_[i])) {
       if (robots[i].has_arrived)
-        situation.frontiers.give_up(*chosen_[i]);
+        situation.frontiers.give_up(situation.map, *chosen_[i]);
       else
         situation.frontiers.put_off(*chosen_[i]);
       chosen_[i].reset();
@@ -39,10 +34,11 @@ std::vector<Order> NearestFrontier::decide(Situation const& situation) {
   bool is_open_known = false;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (robots[i].is_out) continue;
+    auto const root = situation.roads.node_near(situation.map.cell_at(robots[i].pose.position));
+    // Somebody stands so near that there is no way anywhere: that is no reason to end.
+    if (!root) continue;
     orders[i].kind = Order::Kind::home;
     chosen_[i].reset();
-    auto const root = situation.roads.node_near(situation.map.cell_at(robots[i].pose.position));
-    if (!root) continue;
     auto const tree = situation.roads.from(*root);
     if (!is_open_known) {
       open = situation.frontiers.find(situation.map, situation.roads, tree);

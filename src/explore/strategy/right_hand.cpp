@@ -31,11 +31,13 @@ RightHand::Turn RightHand::turn_for(bool is_right_wall, bool is_front_wall, bool
 }
 
 void RightHand::push(Pose const& hall) {
-  bool const is_known = std::ranges::any_of(halls_, [&](Pose const& other) {
+  bool const is_known = std::ranges::any_of(pushed_, [&](Pose const& other) {
     return distance_m(hall.position, other.position) < settings_.same_hall_m &&
            off(hall.yaw_rad, other.yaw_rad) < settings_.same_hall_rad;
   });
-  if (!is_known) halls_.push_back(hall);
+  if (is_known) return;
+  pushed_.push_back(hall);
+  halls_.push_back(hall);
 }
 
 bool RightHand::is_open(KnownMap const& map, Pose const& hall) const {
@@ -45,13 +47,21 @@ bool RightHand::is_open(KnownMap const& map, Pose const& hall) const {
   });
 }
 
-bool RightHand::has_closed_loop(RobotView const& view, Robot const& robot) const {
-  double const driven_m = view.driven_m - robot.loop_start_m;
-  if (driven_m > 4.0 * settings_.loop_m &&
-      distance_m(view.pose.position, robot.loop_start.position) < settings_.loop_m &&
-      off(view.pose.yaw_rad, robot.loop_start.yaw_rad) < settings_.loop_rad)
-    return true;
-  return view.driven_m - robot.news_at_m > settings_.idle_m;
+bool RightHand::has_closed_loop(RobotView const& view, Robot& robot) const {
+  constexpr double trail_step_m = 0.5;
+  double const least_loop_m = 4.0 * settings_.loop_m;
+  auto const is_again = [&](Robot::Passed const& passed) {
+    return view.driven_m - passed.driven_m > least_loop_m &&
+           distance_m(view.pose.position, passed.pose.position) < settings_.loop_m &&
+           off(view.pose.yaw_rad, passed.pose.yaw_rad) < settings_.loop_rad;
+  };
+  if (robot.trail.empty() || view.driven_m - robot.trail.back().driven_m > trail_step_m)
+    robot.trail.push_back({view.pose, view.driven_m});
+  if (is_again(robot.trail.front())) return true;
+  // A loop need not come by where it began: the first wall may have been a way to another.
+  bool const is_round = std::ranges::any_of(
+      robot.trail, [&](Robot::Passed const& passed) { return passed.driven_m >= robot.news_at_m && is_again(passed); });
+  return is_round || view.driven_m - robot.news_at_m > settings_.idle_m;
 }
 
 void RightHand::begin_following(Situation const& situation, RobotView const& view, Robot& robot, double yaw_rad) const {
@@ -61,8 +71,7 @@ void RightHand::begin_following(Situation const& situation, RobotView const& vie
   robot.is_turning = true;
   robot.right_seen_at_m = view.driven_m;
   robot.news_at_m = view.driven_m;
-  robot.loop_start = {view.pose.position, yaw_rad};
-  robot.loop_start_m = view.driven_m;
+  robot.trail.assign(1, {{view.pose.position, yaw_rad}, view.driven_m});
   robot.moved_at_s = situation.time_s;
   robot.driven_m = view.driven_m;
 }
@@ -116,9 +125,10 @@ Order RightHand::follow(Situation const& situation, RobotView const& view, Robot
 
 Order RightHand::next_hall(Situation const& situation, RobotView const& view, Robot& robot) {
   std::erase_if(halls_, [&](Pose const& hall) { return !is_open(situation.map, hall); });
-  robot.mode = Robot::Mode::done;
   auto const root = situation.roads.node_near(situation.map.cell_at(view.pose.position));
-  if (!root) return {.kind = Order::Kind::home};
+  // Somebody stands so near that there is no way anywhere: that is no reason to end.
+  if (!root) return {};
+  robot.mode = Robot::Mode::done;
   auto const tree = situation.roads.from(*root);
   float nearest = RoadMap::unreachable;
   for (auto const& hall : halls_) {
@@ -155,6 +165,7 @@ Order RightHand::next_hall(Situation const& situation, RobotView const& view, Ro
 
 std::vector<Order> RightHand::decide(Situation const& situation) {
   robots_.resize(situation.robots.size());
+  double const cell_m = situation.map.cell_m();
   std::vector<Order> orders;
   for (std::size_t i = 0; i < situation.robots.size(); ++i) {
     auto const& view = situation.robots[i];
@@ -163,8 +174,10 @@ std::vector<Order> RightHand::decide(Situation const& situation) {
       begin_following(situation, view, robot, view.pose.yaw_rad);
       robot.has_begun = true;
     }
-    if (situation.map.news() > robot.news) {
-      robot.news = situation.map.news();
+    auto const discovered = situation.map.discovered();
+    double const new_m2 = static_cast<double>(discovered - robot.discovered) * cell_m * cell_m;
+    if (new_m2 >= settings_.news_m2) {
+      robot.discovered = discovered;
       robot.news_at_m = view.driven_m;
     }
     if (view.is_out) {
@@ -174,10 +187,10 @@ std::vector<Order> RightHand::decide(Situation const& situation) {
                                                                        : follow(situation, view, robot));
     } else if (robot.mode == Robot::Mode::to_hall) {
       bool const is_there = view.has_arrived || view.is_blocked;
-      bool const is_gone = robot.opening && !situation.map.is_frontier(robot.opening->middle);
+      bool const is_gone = robot.opening && !Frontiers::is_open(situation.map, *robot.opening);
       if (is_there && robot.opening && !is_gone) {
         if (view.has_arrived)
-          situation.frontiers.give_up(*robot.opening);
+          situation.frontiers.give_up(situation.map, *robot.opening);
         else
           situation.frontiers.put_off(*robot.opening);
       }

@@ -20,11 +20,13 @@ struct RightHandSettings {
   double loop_m = 1.0;       ///< a loop closes within this and
   double loop_rad = 0.3491;  ///< 20 degrees of its start
   double idle_m = 15.0;      ///< driven so far without news, a loop brings none
+  double news_m2 = 0.5;      ///< less than this, newly seen, is none
 };
 
 /// The right-hand rule of seed 001: eight cases of what is free to the right, ahead and to the left (P3.0), distances
 /// kept on the way (P1.0), side halls kept for later. It ends when none of them is open; what the map shows as open and
-/// the side sensors passed by unseen is a side hall, too.
+/// the side sensors passed by unseen is a side hall, too. It always ends: no hall is pushed twice, a wall is left where
+/// it was followed before and nothing was new since, and an opening that stays open is given up.
 class RightHand : public Strategy {
  public:
   explicit RightHand(RightHandSettings const& settings = {}) : settings_(settings) {}
@@ -48,9 +50,12 @@ class RightHand : public Strategy {
     bool is_turning = false;
     double right_seen_at_m = 0.0;  ///< driven when the right wall was last seen
     double news_at_m = 0.0;        ///< driven when the map last brought news
-    std::uint64_t news = 0;
-    Pose loop_start;
-    double loop_start_m = 0.0;
+    std::uint64_t discovered = 0;  ///< of the map, then
+    struct Passed {
+      Pose pose;
+      double driven_m = 0.0;
+    };
+    std::vector<Passed> trail;  ///< since the wall was taken up
     double moved_at_s = 0.0;
     double driven_m = 0.0;
     Pose hall;  ///< that is driven to
@@ -59,14 +64,15 @@ class RightHand : public Strategy {
 
   [[nodiscard]] Order follow(Situation const& situation, RobotView const& view, Robot& robot);
   [[nodiscard]] Order next_hall(Situation const& situation, RobotView const& view, Robot& robot);
-  [[nodiscard]] bool has_closed_loop(RobotView const& view, Robot const& robot) const;
+  [[nodiscard]] bool has_closed_loop(RobotView const& view, Robot& robot) const;
   [[nodiscard]] bool is_open(KnownMap const& map, Pose const& hall) const;
   void push(Pose const& hall);
   void begin_following(Situation const& situation, RobotView const& view, Robot& robot, double yaw_rad) const;
 
   RightHandSettings settings_;
   std::vector<Robot> robots_;
-  std::vector<Pose> halls_;  ///< Q
+  std::vector<Pose> halls_;   ///< Q
+  std::vector<Pose> pushed_;  ///< all that ever were in it: none is twice
 };
 
 }  // namespace lapwing::explore

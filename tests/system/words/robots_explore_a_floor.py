@@ -54,7 +54,7 @@ with tempfile.TemporaryDirectory() as name:
     plan = write_yaml(folder / "plan.yaml", "plan.pgm")
 
     # The contract, for each strategy.
-    for strategy in ("tour", "nearest", "frontier", "right-hand"):
+    for strategy in ("regret", "tour", "nearest", "frontier", "right-hand", "known-floor"):
         report = folder / f"{strategy}.json"
         explore("--map", plan, "--strategy", strategy, "--start", "1.25,2,0", "--report", report, "--picture", folder / "run.svg")
         told = json.loads(report.read_text())
