@@ -185,6 +185,52 @@ std::vector<Placed<std::int64_t>> ConfigReader::integers(std::string_view key, s
   return values;
 }
 
+std::optional<Placed<std::vector<double>>> ConfigReader::numbers_of(std::string_view key, ConfigValue const& value,
+                                                                    std::size_t count, double low, double high) {
+  auto const wrong = [&](DiagnosticKind const& kind, Span span, std::string message) {
+    diagnostics_.report(kind, span, std::move(message));
+    return std::nullopt;
+  };
+  auto const* elements = std::get_if<ConfigValue::Array>(&value.content);
+  if (!elements || elements->size() != count)
+    return wrong(config_kinds::wrong_type, value.span, fmt::format("{} must have {} numbers in brackets", key, count));
+  std::vector<double> numbers;
+  for (auto const& element : *elements) {
+    auto const* whole = std::get_if<std::int64_t>(&element.content);
+    auto const* real = std::get_if<double>(&element.content);
+    if (!whole && !real)
+      return wrong(config_kinds::wrong_type, element.span,
+                   fmt::format("{} must be numbers, not {}", key, type_names.at(element.content.index())));
+    numbers.push_back(real ? *real : static_cast<double>(*whole));
+    if (!(numbers.back() >= low && numbers.back() <= high))
+      return wrong(config_kinds::invalid_value, element.span,
+                   fmt::format("every number of {} must be from {} to {}", key, low, high));
+  }
+  return Placed{std::move(numbers), value.span};
+}
+
+std::optional<Placed<std::vector<double>>> ConfigReader::numbers(std::string_view key, std::size_t count, double low,
+                                                                 double high) {
+  auto const* entry = find(key);
+  return entry ? numbers_of(key, entry->value, count, low, high) : std::nullopt;
+}
+
+std::vector<Placed<std::vector<double>>> ConfigReader::number_lists(std::string_view key, std::size_t count, double low,
+                                                                    double high) {
+  auto const* entry = find(key);
+  if (!entry) return {};
+  auto const* elements = std::get_if<ConfigValue::Array>(&entry->value.content);
+  if (!elements) {
+    wrong_type(*entry, "an array of arrays of numbers");
+    return {};
+  }
+  std::vector<Placed<std::vector<double>>> lists;
+  for (auto const& element : *elements) {
+    if (auto list = numbers_of(key, element, count, low, high)) lists.push_back(*std::move(list));
+  }
+  return lists;
+}
+
 std::optional<ConfigReader> ConfigReader::table(std::string_view key) {
   auto const* entry = find(key);
   if (!entry) return std::nullopt;

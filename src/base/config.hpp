@@ -68,6 +68,12 @@ class ConfigReader {
   [[nodiscard]] std::optional<std::vector<Placed<std::string>>> texts(std::string_view key);
   /// Every whole number of an array; others are reported and left out.
   [[nodiscard]] std::vector<Placed<std::int64_t>> integers(std::string_view key, std::int64_t low, std::int64_t high);
+  /// An array of exactly `count` numbers, such as a place.
+  [[nodiscard]] std::optional<Placed<std::vector<double>>> numbers(std::string_view key, std::size_t count, double low,
+                                                                   double high);
+  /// Every such array of an array of them: [[1, 2], [3, 4]]; others are reported and left out.
+  [[nodiscard]] std::vector<Placed<std::vector<double>>> number_lists(std::string_view key, std::size_t count,
+                                                                      double low, double high);
   [[nodiscard]] std::optional<ConfigReader> table(std::string_view key);
   /// Every table of an array of them: [[key]] ... [[key]] ...
   [[nodiscard]] std::vector<Placed<ConfigReader>> tables(std::string_view key);
@@ -81,6 +87,8 @@ class ConfigReader {
  private:
   [[nodiscard]] ConfigEntry const* find(std::string_view key);
   void wrong_type(ConfigEntry const& entry, std::string_view wanted);
+  [[nodiscard]] std::optional<Placed<std::vector<double>>> numbers_of(std::string_view key, ConfigValue const& value,
+                                                                      std::size_t count, double low, double high);
 
   ConfigValue::Table const& table_;
   Diagnostics& diagnostics_;

@@ -33,6 +33,26 @@ TEST(Config, ReadsEveryKindOfValue) {
   EXPECT_EQ(render(diagnostics), "");
 }
 
+TEST(Config, ReadsPlacesAndListsOfThem) {
+  Config config("at = [1, 2.5]\nline = [[0, 0], [1], [-1, 'x'], [3, 200], [4, 5]]\nflat = [1, 2]\nshort = 7\n");
+  ConfigReader reader(config.root, config.diagnostics);
+  EXPECT_EQ(reader.numbers("at", 2, -100, 100)->value, (std::vector<double>{1.0, 2.5}));
+  EXPECT_FALSE(reader.numbers("nowhere", 2, -100, 100));
+  auto const line = reader.number_lists("line", 2, -100, 100);
+  ASSERT_EQ(line.size(), 2U);
+  EXPECT_EQ(line[1].value, (std::vector<double>{4.0, 5.0}));
+  EXPECT_TRUE(reader.number_lists("flat", 2, -100, 100).empty());
+  EXPECT_FALSE(reader.numbers("short", 2, -100, 100));
+  auto const records = to_records(config.diagnostics);
+  ASSERT_EQ(records.size(), 6U);
+  EXPECT_EQ(records[0].message, "line must have 2 numbers in brackets");
+  EXPECT_EQ(records[1].message, "line must be numbers, not text");
+  EXPECT_EQ(records[2].message, "every number of line must be from -100 to 100");
+  EXPECT_EQ(records[2].begin, (LineColumn{2, 37}));
+  EXPECT_EQ(records[3].message, "flat must have 2 numbers in brackets");
+  EXPECT_EQ(records[5].message, "short must have 2 numbers in brackets");
+}
+
 TEST(Config, GivesNothingForWhatIsNotThere) {
   Config config("");
   ConfigReader reader(config.root, config.diagnostics);
