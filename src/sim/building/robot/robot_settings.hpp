@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "firmware/frames/description.hpp"
+#include "sim/building/body/drive.hpp"
+#include "sim/building/picture/camera.hpp"
+#include "sim/building/sensors/imu.hpp"
+#include "sim/building/sensors/laser.hpp"
+#include "sim/building/sensors/sonar.hpp"
+
+namespace lapwing::sim::building {
+
+/// What a simulated robot is made of. The defaults are the robot of seed 001 with a scanner and a camera.
+struct RobotSettings {
+  DriveSettings drive;
+  std::vector<SonarSettings> sonars = seed_sonars();
+  double sonar_period_s = 0.02;  ///< they fire in turn, so that none hears another
+  LaserSettings laser;
+  ImuSettings imu;
+  CameraSettings camera;
+  double top_speed_m_s = 0.3;  ///< as the board's description has it
+  double braking_m_s2 = 1.0;   ///< likewise
+  double battery_full_v = 12.6;
+  double battery_empty_v = 10.5;
+  double battery_lasts_s = 7'200.0;
+
+  /// Ahead up to 7.5 m, 30 and 90 degrees to both sides up to 5 m; from the hull's rim.
+  [[nodiscard]] static std::vector<SonarSettings> seed_sonars();
+};
+
+/// What the board of such a robot says of it.
+[[nodiscard]] firmware::Description description_of(RobotSettings const& settings);
+
+}  // namespace lapwing::sim::building

@@ -1,0 +1,59 @@
+#include "sim/building/sensors/laser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lapwing::sim::building {
+
+LaserSettings tof_ring() {
+  return {.beams = 4,
+          .first_angle_rad = 0.0,
+          .step_rad = std::numbers::pi / 2.0,
+          .range_m = 4.0,
+          .shortest_m = 0.03,
+          .duration_s = 0.0,
+          .noise_m = 0.015,
+          .noise_per_m = 0.01,
+          .lost = 0.01};
+}
+
+Laser::Laser(LaserSettings const& settings, std::uint64_t seed, std::uint32_t robot)
+    : settings_(settings), noise_(seed, "laser", robot) {}
+
+std::uint16_t Laser::range_mm(Place const& from, double yaw_rad, Surroundings const& around) {
+  auto const hit = around.cast(from, {std::cos(yaw_rad), std::sin(yaw_rad)}, settings_.range_m);
+  // Chance is asked alike whatever was hit, so that one thing more in the building changes few beams.
+  double const luck = noise_.uniform();
+  double const error = noise_.gaussian();
+  if (!hit) return 0;
+  double const far = hit->range_m / settings_.range_m;
+  double const lost =
+      hit->material == Material::dark ? std::min(1.0, 2.0 * far * settings_.lost_on_dark) : settings_.lost;
+  if (luck < lost) return 0;
+  double const range_m = hit->range_m + (settings_.noise_m + settings_.noise_per_m * hit->range_m) * error;
+  if (range_m < settings_.shortest_m || range_m > settings_.range_m) return 0;
+  return static_cast<std::uint16_t>(std::lround(range_m * 1e3));
+}
+
+bool Laser::sense(double now_s, Pose const& body, Surroundings const& around) {
+  if (settings_.beams == 0) return false;
+  Shift const ahead(std::cos(body.yaw_rad), std::sin(body.yaw_rad));
+  Shift const aside(-ahead.y(), ahead.x());
+  auto const from = body.position + settings_.x_m * ahead + settings_.y_m * aside;
+  double const a_beam_s = settings_.duration_s / settings_.beams;
+  constexpr double tolerance_s = 1e-9;
+  while (begun_.ranges_mm.size() < settings_.beams &&
+         begun_.time_s + a_beam_s * static_cast<double>(begun_.ranges_mm.size()) <= now_s + tolerance_s) {
+    double const yaw =
+        body.yaw_rad + settings_.first_angle_rad + settings_.step_rad * static_cast<double>(begun_.ranges_mm.size());
+    begun_.ranges_mm.push_back(range_mm(from, yaw, around));
+  }
+  if (begun_.ranges_mm.size() < settings_.beams) return false;
+  std::swap(whole_, begun_);
+  begun_.time_s = whole_.time_s + std::max(settings_.period_s, settings_.duration_s);
+  begun_.ranges_mm.clear();
+  return true;
+}
+
+}  // namespace lapwing::sim::building
