@@ -5,7 +5,9 @@ Metres are east and north of the base of examples/survey.dolphin. What a thing i
 
 import json
 import math
+import pathlib
 import sys
+import tomllib
 
 BASE_LAT, BASE_LON = 41.1780, -8.5980
 # Metres a degree at that latitude, on the WGS 84 ellipsoid (Snyder, Map Projections: A Working Manual, section 4).
@@ -67,17 +69,17 @@ def car_park():
 
 
 def office():
-    west, south, east, north = -40, -38, 8, -14
-    box("building", west, south, east, north, name="Office")
-    corridor_south, corridor_north = -27.5, -24.5
-    rooms_north = [(-40, -34), (-34, -28), (-28, -20), (-20, -14), (-14, -6), (-6, 0), (0, 8)]
-    rooms_south = [(-40, -32), (-32, -26), (-26, -20), (-20, -10), (-10, -4), (-4, 8)]
-    for i, (left, right) in enumerate(rooms_north):
-        box("room", left, corridor_north, right, north, name=str(101 + 2 * i))
-        line("door", [((left + right) / 2 - 0.5, corridor_north), ((left + right) / 2 + 0.5, corridor_north)])
-    for i, (left, right) in enumerate(rooms_south):
-        box("room", left, south, right, corridor_south, name=str(102 + 2 * i))
-        line("door", [((left + right) / 2 - 0.5, corridor_south), ((left + right) / 2 + 0.5, corridor_south)])
+    """What the simulated building is made of, seen from above: its outer walls, the rooms with numbers, the doors with signs on a wall."""
+    plan = tomllib.loads((pathlib.Path(__file__).parent.parent / "buildings/office.toml").read_text())
+    west, south = plan["origin"]
+    ground = lambda points: [(west + x, south + y) for x, y in points]
+    polygon("building", ground(next(wall["line"] for wall in plan["wall"] if wall.get("closed"))), name=plan["name"])
+    for room in plan["room"]:
+        if room["name"].isdigit():
+            polygon("room", ground(room["corners"]), name=room["name"])
+            for door in plan["door"]:
+                if door["id"] == room["name"]:
+                    line("door", ground(sorted([door["hinge"], door["latch"]])))
     line("path", [(8, -26), (30, -26), (30, 0)], name="Footpath")
 
 
