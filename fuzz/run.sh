@@ -27,6 +27,10 @@ case $target in
     options=(-max_len=8192 "-dict=$root/fuzz/dictionaries/dolphin.dict")
     ;;
   decode | fleet | frame | tlog) "$bin/frame_seeds" "$target" "$seeds" ;;
+  building)
+    cp "$root"/examples/buildings/*.toml "$seeds"
+    printf '[[wall]]\nline=[[0,0],[4,0],[4,3],[0,3]]\nclosed=true\n[[door]]\nhinge=[1,0]\nlatch=[2,0]\nsign="7\\nWC"\nopen_s=1\nclosed_s=1\n[[person]]\nat=[3,1]\nwalks=true\n[[start]]\nat=[1,1]\n' | seed small
+    ;;
   floor_plan)
     printf 'P2\n# a room\n9 9 1\n%s' "$(for y in 0 1 1 1 1 1 1 1 0; do for x in 0 1 1 1 1 1 1 1 0; do printf '%d ' $((x * y)); done; done)" | seed plain
     printf 'P5\n3 2\n255\n\000\376\376\000\376\315' | seed binary
