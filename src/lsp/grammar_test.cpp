@@ -19,6 +19,7 @@
 #include "dolphin/services/vocabulary.hpp"
 #include "dolphin/syntax/lexer.hpp"
 #include "missions/vocabulary.hpp"
+#include "robot/words/vocabulary.hpp"
 
 namespace lapwing::lsp {
 namespace {
@@ -61,7 +62,8 @@ struct List {
 };
 
 std::vector<List> lists() {
-  tasks::Vocabulary const added = missions::vocabulary();
+  tasks::Vocabulary added = missions::vocabulary();
+  EXPECT_TRUE(tasks::join(added, robot::vocabulary()));
   dolphin::Vocabulary const vocabulary(added);
   auto const is_block = [](auto const& one) { return one.block != BlockKind::none && one.name != "move"; };
   auto const is_plain = [&](auto const& one) { return !is_block(one); };

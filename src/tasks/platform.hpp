@@ -36,6 +36,7 @@ struct VehicleInfo {
   bool battery_is_awaited = false;  ///< it has not reported on its battery yet, not even that it does not know
   std::string mode = {};            ///< the flight mode by the autopilot's own name; empty while unknown
   std::optional<double> relative_alt_m = {};  ///< above its home; nothing while unknown
+  std::optional<double> coverage = {};  ///< 0..1: what it has seen of the floor that it maps; nothing while unknown
   std::string conflict = {};  ///< which platforms each have a vehicle of this id; empty: it is one vehicle's alone
 };
 

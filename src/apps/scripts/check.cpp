@@ -11,7 +11,7 @@
 #include "host/files/files.hpp"
 #include "host/files/plans.hpp"
 #include "host/plausibility/options.hpp"
-#include "missions/vocabulary.hpp"
+#include "host/vocabulary.hpp"
 
 namespace lapwing::apps {
 
@@ -48,7 +48,7 @@ std::size_t check_plans(CheckOptions const& options, nlohmann::json& records) {
 int check(CheckOptions const& options) {
   auto plausibility = host::plausibility_of(options.plausibility);
   if (!plausibility) return host::refuse(plausibility.error());
-  auto const vocabulary = missions::vocabulary(*std::move(plausibility));
+  auto const vocabulary = host::vocabulary(*std::move(plausibility));
   auto all = nlohmann::json::array();
   std::size_t errors = check_plans(options, all);
   std::size_t warnings = 0;

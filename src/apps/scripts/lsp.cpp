@@ -13,9 +13,9 @@
 
 #include "apps/verb.hpp"
 #include "base/async/loop.hpp"
+#include "host/vocabulary.hpp"
 #include "lsp/message_reader.hpp"
 #include "lsp/server.hpp"
-#include "missions/vocabulary.hpp"
 
 namespace lapwing::apps {
 
@@ -60,7 +60,7 @@ bool write_all(std::vector<std::string> const& messages) {
 
 /// What has arrived is taken in before each step, so that a cancellation overtakes the request that it is about.
 int serve() {
-  auto const vocabulary = missions::vocabulary();
+  auto const vocabulary = host::vocabulary();
   lsp::Server server(vocabulary, LAPWING_VERSION);
   lsp::MessageReader reader;
   base::Loop const clock;

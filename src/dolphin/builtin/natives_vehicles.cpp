@@ -207,6 +207,13 @@ Checked<Value> relative_height(Runtime& runtime, Fiber& /*fiber*/, Arguments arg
   return Value::real(info->relative_alt_m.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
+/// What a robot has seen of its floor; of whoever maps none it is not known.
+Checked<Value> coverage(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "coverage");
+  if (!info) return std::unexpected(info.error());
+  return Value::real(info->coverage.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
 Checked<Value> mode(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const info = single_vehicle(runtime, arguments[0], "mode");
   if (!info) return std::unexpected(info.error());
@@ -334,6 +341,14 @@ std::vector<InstructionSpec> vehicle_words() {
        .doc = "Metres of the one vehicle of the set above its home. Unknown: NaN, and every comparison is false.",
        .dimension = Dimension::length,
        .call = relative_height},
+      {.name = "coverage",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = number,
+       .doc = "What the one vehicle of the set, a robot, has seen of the floor that it maps, 0 to 1: of what there "
+              "seems to be. Unknown: NaN, and every comparison is false.",
+       .dimension = Dimension::ratio,
+       .example = "v = pick {}\nexecute waitFor { coverage(v) >= 90.percent } then idle(1)",
+       .call = coverage},
       {.name = "mode",
        .signatures = {takes({plain("vehicle", vehicles)})},
        .result = text,

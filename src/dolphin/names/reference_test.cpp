@@ -25,6 +25,7 @@
 #include "dolphin/syntax/parser.hpp"
 #include "dolphin/testing/script_bench.hpp"
 #include "missions/vocabulary.hpp"
+#include "robot/words/vocabulary.hpp"
 
 namespace lapwing::dolphin {
 namespace {
@@ -283,12 +284,19 @@ std::string chains() {
   return out;
 }
 
-std::string mission_commands(Vocabulary const& vocabulary) {
-  auto const& block = *vocabulary.block("mission");
-  std::string out =
-      fmt::format("\n## Missions\n\n`mission {{ ... }}`. {}\n\n{}", block.builder->doc, by_hand("missions"));
+/// What every platform adds.
+tasks::Vocabulary all_words() {
+  auto words = missions::vocabulary();
+  EXPECT_TRUE(tasks::join(words, robot::vocabulary()));
+  return words;
+}
+
+std::string block_commands(Vocabulary const& vocabulary, std::string_view name, std::string_view heading) {
+  auto const& block = *vocabulary.block(name);
+  std::string out = fmt::format("\n## {}\n\n`{} {{ ... }}`. {}\n\n{}", heading, name, block.builder->doc,
+                                by_hand(std::string(name) + "s"));
   for (auto const& word : block.words) {
-    out += fmt::format("\n### {} (mission)\n\n{}. {}\n", word.name, calls_of(word, &block), word.doc);
+    out += fmt::format("\n### {} ({})\n\n{}. {}\n", word.name, name, calls_of(word, &block), word.doc);
     auto const parameters = parameters_of(word, &block, true);
     if (!parameters.empty()) out += fmt::format("\n{}", fmt::join(parameters, ""));
     auto const& types = block.builder->commands[static_cast<std::size_t>(&word - block.words.data())].vehicle_types;
@@ -389,12 +397,12 @@ std::string limits() {
 }
 
 std::string reference_text() {
-  auto const added = missions::vocabulary();
+  auto const added = all_words();
   Vocabulary const vocabulary(added);
   return by_hand("introduction") + "\n## Operators\n\n" + by_hand("precedence") + "\n" + precedence() + "\n" +
          by_hand("operators") + "\n" + operator_table() + unit_table() + all_instructions(vocabulary) + chains() +
-         mission_commands(vocabulary) + all_methods() + names("Constants", constants()) +
-         names("Types and exceptions", types()) + limits();
+         block_commands(vocabulary, "mission", "Missions") + block_commands(vocabulary, "drive", "Drives") +
+         all_methods() + names("Constants", constants()) + names("Types and exceptions", types()) + limits();
 }
 
 TEST(LanguageReference, HasTypesAmongComparisons) {
