@@ -1,0 +1,85 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "map/grid/occupancy_grid.hpp"
+#include "slam/grid/draw_grid.hpp"
+#include "slam/mapper.hpp"
+
+namespace lapwing::robot {
+
+struct MappingOptions {
+  slam::FrameOptions frame;
+  slam::FrontEndOptions front_end;
+  slam::LoopOptions loops;
+  slam::BeamModel beam;
+  /// Where the robot's map lies in its site. The map begins where the robot does, looking along x.
+  geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map = {};
+  /// When loops have moved a key frame by more than that since it was drawn, the whole grid is drawn anew, which takes
+  /// the longer the more there is of it: at once where it is far, else when the robot has got on by so much.
+  double redraw_m = 0.04;
+  double redraw_rad = 0.01;
+  double far_m = 0.15;
+  double far_rad = 0.04;
+  double redraw_every_m = 5.0;
+};
+
+/// Where the robot is by its map.
+struct Located {
+  slam::Pose2 pose;
+  /// Of x, y and yaw along the map's axes, in m^2 and rad^2: against the part of the map around it. What that part has
+  /// drifted against the start since the last loop is not in it.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+};
+
+/// The map of one floor while a robot drives over it: each scan with the wheels' odometry in, where the robot is and
+/// what is taken and free out. Nothing is known beforehand. Pure: the same scans give the same map.
+class FloorMap {
+ public:
+  FloorMap(slam::Sensor sensor, MappingOptions options);
+
+  /// Takes a scan in the order of time. Precondition: as many ranges as the sensor has beams.
+  void add(slam::Scan scan);
+
+  /// At the last scan; the origin before the first.
+  [[nodiscard]] Located const& here() const { return here_; }
+  /// Of the odometry of the last scan.
+  [[nodiscard]] slam::Pose2 const& odometry() const { return odometry_; }
+  [[nodiscard]] slam::Sensor const& sensor() const { return log_.sensors.front(); }
+  [[nodiscard]] map::OccupancyGrid const& grid() const { return grid_; }
+  /// The tiles that have changed since this was last asked.
+  [[nodiscard]] std::vector<map::TileKey> take_changes();
+
+  [[nodiscard]] slam::Graph const& graph() const { return graph_; }
+  /// When a key frame's scan was taken.
+  [[nodiscard]] slam::LogTime key_time(std::size_t frame) const { return log_.scans[frame].time; }
+  [[nodiscard]] slam::LoopCloser::Counts const& loops() const { return loops_.counts(); }
+  /// How often loops have made the grid be drawn anew.
+  [[nodiscard]] int redrawn() const { return redrawn_; }
+
+ private:
+  void add_key_frame(slam::Scan scan);
+  void draw_last();
+  void redraw();
+  [[nodiscard]] bool wants_redraw() const;
+
+  MappingOptions options_;
+  slam::ScanLog log_;  ///< of key frames alone: what the grid is drawn from
+  slam::FrontEnd front_end_;
+  slam::LoopCloser loops_;
+  slam::Graph graph_;
+  double path_m_ = 0.0;
+  double redrawn_at_m_ = 0.0;
+  Eigen::Matrix3d key_covariance_ = Eigen::Matrix3d::Zero();
+  std::vector<slam::Pose2> drawn_at_;
+  map::OccupancyGrid grid_;
+  std::set<map::TileKey> changed_;
+  Located here_;
+  slam::Pose2 odometry_;
+  int redrawn_ = 0;
+};
+
+}  // namespace lapwing::robot

@@ -1,0 +1,117 @@
+// A simulated drive through an office, scan by scan.
+#include "robot/mapping/floor_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "slam/testing/simulated_drive.hpp"
+
+namespace lapwing::robot {
+namespace {
+
+using slam::Pose2;
+
+slam::testing::Drive ring_drive() {
+  auto const building = slam::testing::office(16.0, 8.0, 4.0, 1.0, 3);
+  std::vector<Eigen::Vector2d> const way{{0, 0}, {16, 0}, {16, 8}, {0, 8}, {0, 0}, {6, 0}};
+  slam::testing::DriveOptions options;
+  options.most_range_m = 12.0;
+  return slam::testing::drive(building, way, options);
+}
+
+struct Mapped {
+  FloorMap map;
+  std::vector<Pose2> poses;
+};
+
+Mapped map_of(slam::testing::Drive const& drive, std::size_t scans, MappingOptions const& options = {}) {
+  Mapped mapped{FloorMap(drive.log.sensors.front(), options), {}};
+  for (std::size_t i = 0; i < scans; ++i) {
+    mapped.map.add(drive.log.scans[i]);
+    mapped.poses.push_back(mapped.map.here().pose);
+  }
+  return mapped;
+}
+
+TEST(FloorMap, KnowsWhereTheRobotIsBetterThanItsWheelsDo) {
+  auto const drive = ring_drive();
+  auto const mapped = map_of(drive, drive.log.scans.size());
+  std::vector<Pose2> wheels;
+  for (auto const& scan : drive.log.scans) wheels.push_back(scan.odometry);
+  double const by_map = slam::testing::greatest_error_m(mapped.map.graph().poses, [&] {
+    std::vector<Pose2> truth;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < drive.log.scans.size() && next < mapped.map.graph().frames.size(); ++i) {
+      if (mapped.map.key_time(next) != drive.log.scans[i].time) continue;
+      truth.push_back(drive.truth[i]);
+      ++next;
+    }
+    return truth;
+  }());
+  EXPECT_LT(by_map, 0.1);
+  EXPECT_GT(slam::testing::greatest_error_m(wheels, drive.truth), 3.0 * by_map);
+}
+
+TEST(FloorMap, BeginsWhereTheRobotDoes) {
+  auto drive = ring_drive();
+  for (auto& scan : drive.log.scans) scan.odometry = Pose2{100.0, 50.0, 2.0} * scan.odometry;
+  auto const mapped = map_of(drive, 30);
+  EXPECT_EQ(mapped.poses.front(), Pose2{});
+  EXPECT_NEAR(mapped.poses.back().x, drive.truth[29].x, 0.1);
+  EXPECT_NEAR(mapped.poses.back().y, drive.truth[29].y, 0.1);
+}
+
+TEST(FloorMap, DrawsWhatIsTakenAndWhatIsFree) {
+  auto const drive = ring_drive();
+  auto mapped = map_of(drive, 60);
+  auto const& grid = mapped.map.grid();
+  auto const at = [&](double x, double y) { return grid.at(grid.cell_at({x, y})); };
+  EXPECT_LT(at(1.0, 0.0).probability(), 0.2) << "the middle of the corridor";
+  EXPECT_FALSE(at(8.0, 20.0).is_seen()) << "beyond the building";
+  auto const changes = mapped.map.take_changes();
+  EXPECT_FALSE(changes.empty());
+  EXPECT_TRUE(mapped.map.take_changes().empty()) << "told once";
+  for (auto const key : changes) EXPECT_TRUE(grid.tiles().contains(key));
+}
+
+TEST(FloorMap, LiesWhereTheSiteHasIt) {
+  auto const drive = ring_drive();
+  MappingOptions options;
+  options.site_from_map = {geo::Point<geo::SiteFrame>(20.0, 30.0), 1.0};
+  auto const mapped = map_of(drive, 5, options);
+  EXPECT_EQ(mapped.map.grid().site_from_grid().origin(), geo::Point<geo::SiteFrame>(20.0, 30.0));
+}
+
+TEST(FloorMap, IsLessSureBetweenKeyFrames) {
+  auto const drive = ring_drive();
+  FloorMap map(drive.log.sensors.front(), {});
+  std::size_t i = 0;
+  for (; i < 40; ++i) map.add(drive.log.scans[i]);
+  int compared = 0;
+  double at_key_frame = 0.0;
+  for (; i < 60; ++i) {
+    auto const frames = map.graph().size();
+    map.add(drive.log.scans[i]);
+    auto const spread = map.here().covariance.trace();
+    EXPECT_GT(spread, 0.0);
+    EXPECT_LT(std::sqrt(map.here().covariance(0, 0)), 0.2);
+    if (map.graph().size() != frames) {
+      at_key_frame = spread;
+    } else if (at_key_frame > 0.0) {
+      EXPECT_GT(spread, at_key_frame);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0);
+}
+
+TEST(FloorMap, IsTheSameForTheSameScans) {
+  auto const drive = ring_drive();
+  auto const one = map_of(drive, 120);
+  auto const two = map_of(drive, 120);
+  EXPECT_EQ(one.poses, two.poses);
+  ASSERT_EQ(one.map.grid().tiles().size(), two.map.grid().tiles().size());
+  for (auto const& [key, tile] : one.map.grid().tiles()) EXPECT_EQ(tile->cells, two.map.grid().tiles().at(key)->cells);
+}
+
+}  // namespace
+}  // namespace lapwing::robot
