@@ -1,0 +1,153 @@
+// On drawn grids: what is known beforehand is learnt as a whole, so that no sensor stands between.
+#include "robot/planner/floor_planner.hpp"
+
+#include <gtest/gtest.h>
+
+namespace lapwing::robot {
+namespace {
+
+using State = Plan::State;
+
+/// Free where `is_free(x, y)` in metres, taken elsewhere, within 4 m; beyond `known_to_x` unknown.
+template <class IsFree>
+map::OccupancyGrid drawn(IsFree const& is_free, double known_to_x = 10.0) {
+  map::OccupancyGrid grid(0.05);
+  for (int y = -80; y < 80; ++y) {
+    for (int x = -80; x < 80; ++x) {
+      auto const at = grid.centre_of({x, y});
+      if (at.x() > known_to_x) continue;
+      grid.set({x, y}, map::Evidence::of_log_odds(is_free(at.x(), at.y()) ? -3.0 : 3.0));
+    }
+  }
+  return grid;
+}
+
+void learn_all(FloorPlanner& planner, map::OccupancyGrid const& grid) {
+  std::vector<map::TileKey> tiles;
+  for (auto const& [key, tile] : grid.tiles()) tiles.push_back(key);
+  planner.learn(grid, tiles);
+}
+
+bool in_room(double x, double y) {
+  return std::abs(x) < 3.0 && std::abs(y) < 2.0;
+}
+
+PlannerOptions small() {
+  return {.side_m = 20.0};
+}
+
+TEST(FloorPlanner, DrivesToAPlaceOnFreeCellsAlone) {
+  FloorPlanner planner(small());
+  // A wall across the room with a gap of 1 m at its upper end.
+  auto const is_free = [](double x, double y) { return in_room(x, y) && (std::abs(x - 1.0) > 0.1 || y > 1.0); };
+  learn_all(planner, drawn(is_free));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.0, 0.0)}));
+  auto const plan = planner.plan({});
+  ASSERT_EQ(plan.state, State::under_way);
+  ASSERT_FALSE(plan.way.points.empty());
+  EXPECT_TRUE(plan.way.is_to_the_end);
+  double highest = 0.0;
+  for (auto const& point : plan.way.points) {
+    highest = std::max(highest, point.y());
+    for (double a = 0.0; a < 6.3; a += 0.3)
+      EXPECT_TRUE(is_free(point.x() + 0.2 * std::cos(a), point.y() + 0.2 * std::sin(a)))
+          << point.x() << ", " << point.y();
+  }
+  EXPECT_GT(highest, 1.2);
+  EXPECT_EQ(planner.plan({.pose = {2.0, 0.0, 0.0}}).state, State::done);
+}
+
+TEST(FloorPlanner, GivesTheWayFromWhereTheRobotHasCome) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
+  (void)planner.plan({.pose = {-2.5, 0.0, 0.0}});
+  auto const later = planner.plan({.pose = {1.0, 0.0, 0.0}, .time_s = 12.0});
+  ASSERT_FALSE(later.way.points.empty());
+  EXPECT_NEAR(later.way.points.front().x(), 1.0, 0.1);
+}
+
+TEST(FloorPlanner, SaysWhyItCannotDriveThere) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(7.0, 0.0)}));
+  auto const plan = planner.plan({});
+  EXPECT_EQ(plan.state, State::failed);
+  EXPECT_EQ(plan.reason, "its map shows no free place there: is it explored, and no wall?");
+}
+
+TEST(FloorPlanner, GoesAsNearAsOneCanStand) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(3.0, 0.0), .within_m = 1.0}));
+  auto const plan = planner.plan({});
+  ASSERT_EQ(plan.state, State::under_way);
+  ASSERT_TRUE(plan.goal);
+  EXPECT_NEAR(plan.goal->x(), 2.75, 0.1);
+}
+
+TEST(FloorPlanner, ExploresTowardsWhatIsUnknownAndIsDoneWithoutIt) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room, 1.5));
+  ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
+  auto const plan = planner.plan({});
+  ASSERT_EQ(plan.state, State::under_way);
+  ASSERT_TRUE(plan.goal);
+  EXPECT_GT(plan.goal->x(), 0.5);
+  auto const before = planner.survey({});
+  ASSERT_FALSE(before.frontiers.empty());
+  EXPECT_NEAR(before.frontiers.front().x(), 1.5, 0.1);
+  EXPECT_LT(before.coverage, 0.9);
+
+  learn_all(planner, drawn(in_room));
+  auto const after = planner.survey({});
+  EXPECT_TRUE(after.frontiers.empty());
+  EXPECT_EQ(after.coverage, 1.0);
+  EXPECT_NEAR(after.free_m2, 24.0, 0.5);
+  State state = State::under_way;
+  for (int i = 1; i < 20 && state == State::under_way; ++i) state = planner.plan({.time_s = 1.0 * i}).state;
+  EXPECT_EQ(state, State::done);
+}
+
+TEST(FloorPlanner, DrivesAroundWhatStandsWhereItsMapIsFree) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
+  Place const somebody(1.2, 0.0);
+  auto const plan = planner.plan({.seen = {somebody}});
+  ASSERT_FALSE(plan.way.points.empty());
+  for (auto const& point : plan.way.points) EXPECT_GT(geo::distance_m(point, somebody), 0.25);
+  auto const straight = planner.plan({.seen = {}});
+  EXPECT_EQ(straight.state, State::under_way);
+}
+
+TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.0, 0.0)}));
+  EXPECT_EQ(planner.plan({.time_s = 100.0}).state, State::under_way);
+  EXPECT_EQ(planner.plan({.time_s = 150.0}).state, State::under_way);
+  auto const plan = planner.plan({.time_s = 161.0});
+  EXPECT_EQ(plan.state, State::failed);
+  EXPECT_EQ(plan.reason, "it has not got on for 61 s: something stands in its way");
+}
+
+TEST(FloorPlanner, ReturnsToWhereItsMapBegins) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(ReturnErrand{}));
+  auto const plan = planner.plan({.pose = {2.0, 1.0, 0.0}});
+  ASSERT_EQ(plan.state, State::under_way);
+  EXPECT_NEAR(plan.goal->x(), 0.0, 0.05);
+  EXPECT_NEAR(plan.goal->y(), 0.0, 0.05);
+}
+
+TEST(FloorPlanner, StandsWithoutAnErrandAndRefusesAStrategyThatThereIsNot) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  EXPECT_EQ(planner.plan({}).state, State::idle);
+  EXPECT_EQ(planner.begin(ExploreErrand{"left-hand"}).error().message, "there is no strategy `left-hand`");
+}
+
+}  // namespace
+}  // namespace lapwing::robot
