@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/time.hpp"
+#include "explore/strategy/strategy.hpp"
+#include "robot/planner/way.hpp"
+#include "slam/log/scan_log.hpp"
+
+namespace lapwing::robot {
+
+/// What wheels, inertial sensors and sonars say together, ten times a second.
+struct Reading {
+  base::TimePoint at{};
+  slam::Pose2 odometry = {};  ///< in a frame that drifts
+  double speed_m_s = 0.0;
+  std::optional<double> battery = {};  ///< 0..1
+  explore::SideDistances sides = {};
+  bool is_killed = false;    ///< it stands until it is released
+  bool is_too_near = false;  ///< something is nearer than its safe distance: it backs away from that
+  bool is_waiting = false;   ///< its watchdog stands it still: no command has come lately
+};
+
+/// A robot's hardware as the platform sees it, whatever link leads to it: readings and scans in, motions out.
+/// Thread-bound; calls its listeners on the loop, never from within one of its own functions.
+class Body {
+ public:
+  virtual ~Body() = default;
+  Body() = default;
+  Body(Body const&) = delete;
+  Body& operator=(Body const&) = delete;
+
+  struct Listener {
+    std::function<void(Reading const&)> on_reading = {};
+    std::function<void(slam::Scan const&)> on_scan = {};
+  };
+  virtual void listen(Listener listener) = 0;
+  /// How its laser looks; null until it has said so. Scans come only afterwards.
+  [[nodiscard]] virtual slam::Sensor const* laser() const = 0;
+  /// Over what it is reached, for people.
+  [[nodiscard]] virtual std::string link() const = 0;
+
+  /// Goes on like this until told otherwise; a body that hears nothing for half a second stands still by itself.
+  virtual void drive(Motion motion) = 0;
+  /// Stands at once, whatever it is told, until `release`.
+  virtual void kill() = 0;
+  virtual void release() = 0;
+};
+
+}  // namespace lapwing::robot

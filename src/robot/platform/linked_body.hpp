@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/log.hpp"
+#include "robot/carrier/carrier_client.hpp"
+#include "robot/platform/board_odometry.hpp"
+#include "robot/platform/body.hpp"
+
+namespace lapwing::robot {
+
+/// A body at the far end of a byte link: a microcontroller on a serial line, or a simulated one
+/// (docs/reference/robot-serial.md).
+class LinkedBody final : public Body {
+ public:
+  /// The loop outlives it.
+  LinkedBody(base::Loop& loop, std::unique_ptr<link::ByteLink> link, base::Logger log);
+
+  void listen(Listener listener) override { listener_ = std::move(listener); }
+  [[nodiscard]] slam::Sensor const* laser() const override { return sensor_ ? &*sensor_ : nullptr; }
+  [[nodiscard]] std::string link() const override { return link_->name(); }
+  void drive(Motion motion) override;
+  void kill() override { client_.kill(); }
+  void release() override { client_.release(); }
+
+ private:
+  void meet(firmware::Hello const& hello);
+  void take(firmware::Readings const& readings);
+  void take(LaserRanges const& scan);
+  void tell(firmware::Log const& log);
+
+  base::Loop& loop_;
+  base::Logger log_;
+  std::unique_ptr<link::ByteLink> link_;
+  Listener listener_;
+  std::optional<firmware::Description> description_;
+  std::optional<BoardOdometry> odometry_;
+  std::optional<slam::Sensor> sensor_;
+  std::optional<LaserRanges> scan_;  ///< that odometry has not caught up with
+  bool is_told_to_stand_ = false;
+  CarrierClient client_;
+};
+
+}  // namespace lapwing::robot

@@ -1,0 +1,321 @@
+#include "robot/platform/robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include "base/async/pool.hpp"
+#include "robot/platform/robot_display.hpp"
+
+namespace lapwing::robot {
+
+using namespace std::chrono_literals;
+using Outcome = DriveRecord::Outcome;
+
+namespace {
+
+constexpr std::size_t most_waiting_scans = 50;  ///< then the oldest go: seconds that it could not keep up
+constexpr base::Duration scan_is_old = 1s;      ///< nobody drives by what was seen before
+constexpr base::Duration survey_period = 1s;
+constexpr base::Duration write_period = 500ms;
+
+geo::Transform<geo::SiteFrame, map::GridFrame> place_of(RobotSpec const& spec) {
+  return {spec.start.position, spec.start.yaw_rad};
+}
+
+MappingOptions mapping_options(RobotSpec const& spec) {
+  auto options = spec.mapping;
+  options.site_from_map = place_of(spec);
+  return options;
+}
+
+std::string mode_for(Errand const& errand) {
+  if (std::holds_alternative<ExploreErrand>(errand)) return "EXPLORE";
+  if (std::holds_alternative<DriveErrand>(errand)) return "DRIVE";
+  if (std::holds_alternative<ReturnErrand>(errand)) return "RETURN";
+  return "HOLD";
+}
+
+}  // namespace
+
+std::string_view to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::running: return "running";
+    case Outcome::done: return "done";
+    case Outcome::failed: return "failed";
+    case Outcome::stopped: return "stopped";
+  }
+  return "";
+}
+
+Robot::Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundings)
+    : spec_(std::move(spec)),
+      body_(std::move(body)),
+      around_(std::move(surroundings)),
+      site_from_map_(place_of(spec_)),
+      map_from_site_(site_from_map_.inverse()),
+      follower_(spec_.planning.limits),
+      scanned_(around_.loop),
+      planned_(around_.loop),
+      changed_(around_.loop),
+      scope_(around_.loop) {
+  body_->listen({.on_reading = [this](Reading const& reading) { take(reading); },
+                 .on_scan = [this](slam::Scan const& scan) { take(scan); }});
+  scope_.spawn(keep_thinking());
+  scope_.spawn(watch_link());
+}
+
+// ---- what it hears
+
+bool Robot::is_connected() const {
+  return last_reading_ && around_.loop.now() - last_reading_->at <= connection_timeout;
+}
+
+bool Robot::stands() const {
+  constexpr double still_m_s = 0.01;
+  return asked_ == Motion{} && last_reading_ && std::abs(last_reading_->speed_m_s) < still_m_s;
+}
+
+void Robot::take(Reading const& reading) {
+  if (last_reading_) driven_m_ += slam::distance_m(last_reading_->odometry, reading.odometry);
+  bool const is_first = !last_reading_;
+  last_reading_ = reading;
+  show_reading(reading, is_first);
+  steer();
+  if (is_first || stands()) changed_.notify_all();
+}
+
+void Robot::take(slam::Scan const& scan) {
+  scanned_at_ = around_.loop.now();
+  room_ahead_m_ = room_ahead_m(scan, *body_->laser(), spec_.planning.limits);
+  room_measured_at_m_ = driven_m_;
+  if (scans_.size() == most_waiting_scans) scans_.pop_front();
+  scans_.push_back(scan);
+  scanned_.notify_all();
+}
+
+slam::Pose2 Robot::pose_now(slam::Pose2 const& odometry) const {
+  return here_->pose * slam::between(odometry_here_, odometry);
+}
+
+void Robot::steer() {
+  bool const sees = scanned_at_ && around_.loop.now() - *scanned_at_ < scan_is_old;
+  Motion motion;
+  if (sees && here_ && is_driving() && !last_reading_->is_killed)
+    motion = follower_.steer(pose_now(last_reading_->odometry), room_ahead_m_ - (driven_m_ - room_measured_at_m_));
+  asked_ = motion;
+  body_->drive(motion);
+}
+
+base::Task<> Robot::watch_link() {
+  bool was_connected = false;
+  for (;;) {
+    co_await around_.loop.sleep(1s);
+    bool const is_there = is_connected();
+    if (!last_reading_ || is_there == was_connected) continue;
+    was_connected = is_there;
+    auto& state = around_.registry.edit(id());
+    state.links.connection = is_there ? vehicle::Connection::ok : vehicle::Connection::lost;
+    around_.registry.touch_membership(id());
+    if (is_there || !is_driving()) continue;
+    record_->robot_failed = true;
+    end_drive(fmt::format("{} is lost", spec_.name), true);
+  }
+}
+
+// ---- what it thinks
+
+base::Task<> Robot::keep_thinking() {
+  for (;;) {
+    while (scans_.empty()) co_await scanned_.wait();
+    if (!has_thoughts_) {
+      thoughts_ = std::make_unique<Thoughts>(*body_->laser(), mapping_options(spec_), spec_.planning);
+      has_thoughts_ = true;
+    }
+    ThoughtInput input{.scans = {std::make_move_iterator(scans_.begin()), std::make_move_iterator(scans_.end())},
+                       .errand = std::exchange(next_errand_, std::nullopt),
+                       .sides = last_reading_ ? last_reading_->sides : explore::SideDistances{},
+                       .driven_m = driven_m_,
+                       .time_s = base::to_seconds(around_.loop.now().time_since_epoch())};
+    scans_.clear();
+    input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
+    auto result = co_await around_.loop.on_pool(&think, std::move(thoughts_), known_errand_, std::move(input));
+    thoughts_ = std::move(result.thoughts);
+    loops_ = thoughts_->map.loops();
+    use(std::move(result));
+  }
+}
+
+void Robot::use(ThoughtResult result) {
+  known_errand_ = result.errand;
+  here_ = result.here;
+  odometry_here_ = result.odometry;
+  if (result.survey) {
+    survey_ = std::move(result.survey);
+    surveyed_at_ = around_.loop.now();
+  }
+  if (result.errand == last_errand_) {
+    plan_ = std::move(result.plan);
+    follower_.take(plan_.way);
+    planned_.notify_all();
+  }
+  write_map(result);
+}
+
+void Robot::write_map(ThoughtResult& result) {
+  if (result.grid) {
+    grid_ = std::move(result.grid);
+    unwritten_.insert(result.changed.begin(), result.changed.end());
+  }
+  bool const is_due = !unwritten_.empty() && around_.loop.now() - written_at_ >= write_period;
+  if (!is_due || !around_.on_map) return;
+  around_.on_map(*grid_, {unwritten_.begin(), unwritten_.end()});
+  unwritten_.clear();
+  written_at_ = around_.loop.now();
+}
+
+void Robot::give(Errand errand) {
+  around_.registry.edit(id()).mode.set(mode_for(errand), around_.loop.now());
+  around_.registry.touch(id());
+  next_errand_ = NewErrand{.number = ++last_errand_, .errand = std::move(errand)};
+  plan_ = {.state = Plan::State::under_way};
+  follower_.stop();
+}
+
+// ---- what it does
+
+std::shared_ptr<DriveRecord const> Robot::start(std::string name, std::vector<Step> steps) {
+  if (is_driving()) conclude(*record_, Outcome::stopped, "another drive took its place");
+  record_ =
+      std::make_shared<DriveRecord>(DriveRecord{.name = std::move(name), .steps = static_cast<int>(steps.size())});
+  drives_.push_back(record_);
+  drive_ = carry_out(record_, std::move(steps));
+  drive_.start();
+  return record_;
+}
+
+base::Task<> Robot::carry_out(std::shared_ptr<DriveRecord> record, std::vector<Step> steps) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    auto const text = to_text(steps[i]);
+    record->progress = steps.size() == 1 ? text : fmt::format("{} ({}/{})", text, i + 1, steps.size());
+    auto step = carry_out(steps[i]);
+    auto const done = co_await std::move(step);
+    if (record->outcome != Outcome::running) co_return;
+    if (!done) {
+      give({});
+      conclude(*record, Outcome::failed, fmt::format("{}: {}", text, done.error().message));
+      co_return;
+    }
+  }
+  give({});
+  conclude(*record, Outcome::done, {});
+}
+
+base::Task<base::Result<>> Robot::carry_out(Step step) {
+  if (auto const* const wait = std::get_if<WaitStep>(&step)) {
+    give({});
+    co_await around_.loop.sleep(base::from_seconds(wait->seconds));
+    co_return base::Result<>{};
+  }
+  if (auto const* const exploring = std::get_if<ExploreStep>(&step)) {
+    give(ExploreErrand{exploring->strategy});
+  } else if (auto const* const by_name = std::get_if<DriveToNameStep>(&step)) {
+    auto const found = around_.find_place(by_name->name);
+    if (!found) co_return std::unexpected(found.error());
+    constexpr double before_a_door_m = 1.0;  // what has a name stands in a wall or before it
+    give(DriveErrand{on_map(*found), before_a_door_m});
+  } else if (auto const* const to_place = std::get_if<DriveToPlaceStep>(&step)) {
+    auto const point = around_.on_site(to_place->place);
+    if (!point) co_return base::fail(base::ErrorKind::not_found, fmt::format("the map has no site {}", spec_.site));
+    give(DriveErrand{.to = on_map(*point)});
+  } else {
+    give(ReturnErrand{});
+  }
+  while (plan_.state == Plan::State::under_way || plan_.state == Plan::State::idle) co_await planned_.wait();
+  if (plan_.state == Plan::State::failed) co_return base::fail(base::ErrorKind::refused, plan_.reason);
+  co_return base::Result<>{};
+}
+
+void Robot::conclude(DriveRecord& record, Outcome outcome, std::string error) {
+  if (record.outcome != Outcome::running) return;
+  record.outcome = outcome;
+  record.error = std::move(error);
+  around_.log.info(fmt::format("{}: {} {}{}{}", spec_.name, record.name, to_string(outcome),
+                               record.error.empty() ? "" : ": ", record.error));
+  asked_ = {};
+  body_->drive({});
+  changed_.notify_all();
+}
+
+void Robot::end_drive(std::string const& reason, bool is_failure) {
+  if (!is_driving()) return;
+  give({});
+  conclude(*record_, is_failure ? Outcome::failed : Outcome::stopped, reason);
+  drive_ = {};
+}
+
+void Robot::kill(std::string const& reason) {
+  body_->kill();
+  end_drive(reason, true);
+}
+
+void Robot::release() {
+  body_->release();
+}
+
+// ---- what it shows
+
+void Robot::show_reading(Reading const& reading, bool is_first) {
+  auto const now = around_.loop.now();
+  auto& state = around_.registry.edit(id());
+  if (is_first) {
+    state.name = spec_.name;
+    state.family = vehicle::Family::robot;
+    state.payload.names = spec_.payload;
+    state.links.used = body_->link();
+    state.mode.set("HOLD", now);
+  }
+  RobotMoment moment{.reading = reading, .asked = asked_, .stands = stands(), .driven_m = driven_m_};
+  if (here_) {
+    auto const pose = pose_now(reading.odometry);
+    auto const at = on_site({pose.x, pose.y});
+    moment.pose = vehicle::SitePose{.site = spec_.site,
+                                    .floor = spec_.floor,
+                                    .position = geo::Point3<geo::SiteFrame>(at.x(), at.y(), 0.0),
+                                    .yaw_rad = geo::wrap_pi(pose.yaw + site_from_map_.yaw_rad())};
+    moment.place = around_.on_globe(at);
+  }
+  show(moment, now, state);
+  if (is_first) {
+    around_.registry.touch_membership(id());
+  } else {
+    around_.registry.touch(id());
+  }
+}
+
+std::optional<PoseSpread> Robot::spread() const {
+  if (!here_) return std::nullopt;
+  Eigen::Matrix2d const turn = Eigen::Rotation2Dd(site_from_map_.yaw_rad()).toRotationMatrix();
+  Eigen::Matrix2d const covariance = turn * here_->covariance.topLeftCorner<2, 2>() * turn.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> const axes(covariance);
+  Eigen::Vector2d const deviations = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  Eigen::Vector2d const major = axes.eigenvectors().col(1);
+  return PoseSpread{.major_m = deviations(1),
+                    .minor_m = deviations(0),
+                    .axis_rad = std::atan2(major.y(), major.x()),
+                    .yaw_rad = std::sqrt(std::max(0.0, here_->covariance(2, 2)))};
+}
+
+std::vector<geo::Point<geo::SiteFrame>> Robot::way() const {
+  std::vector<geo::Point<geo::SiteFrame>> way;
+  constexpr std::size_t every = 5;  // a point a quarter of a metre is as much as anybody sees
+  auto const& points = plan_.way.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (i % every == 0 || i + 1 == points.size()) way.push_back(on_site(points[i]));
+  return way;
+}
+
+}  // namespace lapwing::robot

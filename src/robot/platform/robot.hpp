@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/async/loop.hpp"
+#include "base/async/scope.hpp"
+#include "base/log.hpp"
+#include "robot/planner/follower.hpp"
+#include "robot/platform/body.hpp"
+#include "robot/platform/thoughts.hpp"
+#include "robot/words/drive_task.hpp"
+#include "tasks/platform.hpp"
+#include "vehicle/connection_timeout.hpp"
+#include "vehicle/registry.hpp"
+
+namespace lapwing::robot {
+
+/// A robot as it is set up.
+struct RobotSpec {
+  std::string id = "robot1";
+  std::string name = "robot 1";
+  std::string site = {};
+  std::string floor = {};
+  /// Where it starts in its site, as somebody who has put it there says.
+  geo::Pose<geo::SiteFrame> start = {};
+  std::vector<std::string> payload = {"Laser"};
+  MappingOptions mapping = {};
+  PlannerOptions planning = {};
+};
+
+/// How sure a robot is of where it is, against the part of its map around it: standard deviations, of the place along
+/// the axes of its ellipse.
+struct PoseSpread {
+  double major_m = 0.0;
+  double minor_m = 0.0;
+  double axis_rad = 0.0;  ///< of the major axis, counterclockwise from the site's x axis
+  double yaw_rad = 0.0;
+};
+
+/// One drive, and what became of it.
+struct DriveRecord {
+  enum class Outcome { running, done, failed, stopped };
+  std::string name = {};
+  int steps = 0;
+  Outcome outcome = Outcome::running;
+  std::string error = {};
+  std::string progress = {};
+  bool robot_failed = false;
+};
+[[nodiscard]] std::string_view to_string(DriveRecord::Outcome outcome);
+
+/// One robot: keeps its map and its plans going from what its body says, steers it, and shows it in the registry.
+///
+/// It drives only for a drive; everything heavy is worked out beside the loop. It stands when its scans or readings
+/// cease to come. Thread-bound.
+class Robot {
+ public:
+  /// What `driveTo 'room 221'` asks for the place; in the site's frame.
+  using FindPlace = std::function<base::Result<geo::Point<geo::SiteFrame>>(std::string const& name)>;
+  /// Called when the grid has changed, twice a second at most.
+  using OnMap = std::function<void(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed)>;
+  struct Surroundings {
+    base::Loop& loop;
+    vehicle::Registry& registry;
+    FindPlace find_place;
+    std::function<std::optional<geo::Point<geo::SiteFrame>>(geo::Wgs84)> on_site;
+    std::function<std::optional<geo::Wgs84>(geo::Point<geo::SiteFrame>)> on_globe;
+    OnMap on_map;
+    base::Logger log;
+  };
+  Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundings);
+  Robot(Robot const&) = delete;
+  Robot& operator=(Robot const&) = delete;
+
+  [[nodiscard]] RobotSpec const& spec() const { return spec_; }
+  [[nodiscard]] vehicle::VehicleId id() const { return {spec_.id}; }
+  [[nodiscard]] vehicle::VehicleState const& state() const { return *around_.registry.find(id()); }
+  /// It has said how its laser looks, and is heard.
+  [[nodiscard]] bool is_connected() const;
+  [[nodiscard]] bool has_been_heard() const { return last_reading_.has_value(); }
+  base::Duration connection_timeout = vehicle::default_connection_timeout;
+
+  /// Carries the steps out one after the other; what it did before ends as stopped.
+  [[nodiscard]] std::shared_ptr<DriveRecord const> start(std::string name, std::vector<Step> steps);
+  /// Ends what it does; it stands. `is_failure`: somebody else took it, or it cannot go on.
+  void end_drive(std::string const& reason, bool is_failure);
+  void kill(std::string const& reason);
+  void release();
+
+  [[nodiscard]] bool is_driving() const { return record_ && record_->outcome == DriveRecord::Outcome::running; }
+  [[nodiscard]] bool stands() const;
+  [[nodiscard]] bool is_killed() const { return last_reading_ && last_reading_->is_killed; }
+  [[nodiscard]] std::vector<std::shared_ptr<DriveRecord const>> const& drives() const { return drives_; }
+  [[nodiscard]] std::optional<Survey> const& survey() const { return survey_; }
+  [[nodiscard]] std::optional<Located> const& here() const { return here_; }
+  /// Nothing before it has a place.
+  [[nodiscard]] std::optional<PoseSpread> spread() const;
+  /// The way that it follows now, in the site's frame; empty: none.
+  [[nodiscard]] std::vector<geo::Point<geo::SiteFrame>> way() const;
+  [[nodiscard]] slam::LoopCloser::Counts const& loops() const { return loops_; }
+  /// Notified when a drive ends, a reading comes in which it stands, or it is heard first.
+  [[nodiscard]] base::Notifier& changed() { return changed_; }
+  /// In the site's frame.
+  [[nodiscard]] geo::Point<geo::SiteFrame> on_site(Place const& place) const { return site_from_map_ * place; }
+  [[nodiscard]] Place on_map(geo::Point<geo::SiteFrame> const& point) const { return map_from_site_ * point; }
+
+ private:
+  void take(Reading const& reading);
+  void take(slam::Scan const& scan);
+  void steer();
+  void show_reading(Reading const& reading, bool is_first);
+  void write_map(ThoughtResult& result);
+  void use(ThoughtResult result);
+  void give(Errand errand);
+  base::Task<> keep_thinking();
+  base::Task<> watch_link();
+  base::Task<> carry_out(std::shared_ptr<DriveRecord> record, std::vector<Step> steps);
+  [[nodiscard]] base::Task<base::Result<>> carry_out(Step step);
+  void conclude(DriveRecord& record, DriveRecord::Outcome outcome, std::string error);
+  [[nodiscard]] slam::Pose2 pose_now(slam::Pose2 const& odometry) const;
+
+  RobotSpec spec_;
+  std::unique_ptr<Body> body_;
+  Surroundings around_;
+  geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map_;
+  geo::Transform<map::GridFrame, geo::SiteFrame> map_from_site_;
+  Follower follower_;
+
+  std::optional<Reading> last_reading_;
+  std::deque<slam::Scan> scans_;  ///< that have not been thought of
+  std::optional<base::TimePoint> scanned_at_;
+  double room_ahead_m_ = 0.0;
+  double room_measured_at_m_ = 0.0;  ///< driven then
+  double driven_m_ = 0.0;
+  Motion asked_;
+
+  std::unique_ptr<Thoughts> thoughts_;  ///< null until the first scan, and while they are worked on
+  bool has_thoughts_ = false;
+  std::optional<NewErrand> next_errand_;
+  std::uint64_t last_errand_ = 0;   ///< that was given
+  std::uint64_t known_errand_ = 0;  ///< that the planner has
+  Plan plan_;                       ///< of the last errand
+  std::optional<Located> here_;
+  slam::Pose2 odometry_here_;
+  std::optional<Survey> survey_;
+  base::TimePoint surveyed_at_{};
+  slam::LoopCloser::Counts loops_;
+  std::optional<map::OccupancyGrid> grid_;
+  std::set<map::TileKey> unwritten_;
+  base::TimePoint written_at_{};
+
+  std::shared_ptr<DriveRecord> record_;
+  std::vector<std::shared_ptr<DriveRecord const>> drives_;
+  base::Notifier scanned_;
+  base::Notifier planned_;
+  base::Notifier changed_;
+  base::Task<> drive_;  // behind what it waits for
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::robot

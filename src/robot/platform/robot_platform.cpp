@@ -1,0 +1,211 @@
+#include "robot/platform/robot_platform.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "robot/words/vocabulary.hpp"
+#include "tasks/failed_run.hpp"
+
+namespace lapwing::robot {
+
+using base::ErrorKind;
+using base::fail;
+using tasks::RunState;
+using tasks::VehicleInfo;
+using vehicle::VehicleId;
+
+namespace {
+
+/// A drive as scripts see it.
+class DriveRun final : public tasks::TaskRun {
+ public:
+  DriveRun(Robot& robot, std::shared_ptr<DriveRecord const> record) : robot_(robot), record_(std::move(record)) {}
+
+  [[nodiscard]] RunState state() const override {
+    switch (record_->outcome) {
+      case DriveRecord::Outcome::running: return RunState::in_progress;
+      case DriveRecord::Outcome::done: return RunState::done;
+      case DriveRecord::Outcome::failed:
+      case DriveRecord::Outcome::stopped: return RunState::failed;
+    }
+    return RunState::failed;
+  }
+  [[nodiscard]] std::string error() const override { return record_->error; }
+  [[nodiscard]] bool vehicle_failed() const override { return record_->robot_failed; }
+  [[nodiscard]] std::string progress() const override {
+    if (!robot_.survey()) return record_->progress;
+    return fmt::format("{}, {:.0f} % seen", record_->progress, 100.0 * robot_.survey()->coverage);
+  }
+  void stop() override {
+    // A later drive of the same robot is not this run's to stop.
+    if (record_->outcome == DriveRecord::Outcome::running) robot_.end_drive("the script has stopped it", false);
+  }
+
+ private:
+  Robot& robot_;
+  std::shared_ptr<DriveRecord const> record_;
+};
+
+/// "room 221" is what people say of a door that is called "221".
+bool is_called(map::PointOfInterest const& point, std::string_view name) {
+  constexpr std::string_view room = "room ";
+  if (point.name == name || point.text == name) return true;
+  return name.starts_with(room) && point.name == name.substr(room.size());
+}
+
+}  // namespace
+
+RobotPlatform::RobotPlatform(Surroundings around, base::Logger log)
+    : around_(around),
+      log_(std::move(log)),
+      vocabulary_(robot::vocabulary()),
+      vehicles_changed_(around_.loop),
+      settled_(around_.loop),
+      scope_(around_.loop) {
+  around_.authority.add_on_loss([this](VehicleId const& id, vehicle::Commander const& to) {
+    if (auto* const lost = robot(id)) lost->end_drive(fmt::format("{} took {} over", to, lost->spec().name), true);
+  });
+  scope_.spawn(pass_on_membership());
+}
+
+base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> body) {
+  if (robot({spec.id}))
+    return fail(ErrorKind::invalid_input, fmt::format("there are two robots called {}", spec.id),
+                "give one of them another id");
+  auto const* const site = around_.live_map.site(spec.site);
+  if (!site) return fail(ErrorKind::invalid_input, fmt::format("{}: the map has no site {}", spec.id, spec.site));
+  if (!spec.floor.empty() && !site->floor(spec.floor))
+    return fail(ErrorKind::invalid_input,
+                fmt::format("{}: the site {} has no floor {}", spec.id, spec.site, spec.floor));
+  Robot::Surroundings around{
+      .loop = around_.loop,
+      .registry = around_.registry,
+      .find_place = [this, spec](std::string const& name) { return find_place(spec, name); },
+      .on_site = [this, id = spec.site](geo::Wgs84 place) -> std::optional<geo::Point<geo::SiteFrame>> {
+        auto const* const at = around_.live_map.site(id);
+        if (!at) return std::nullopt;
+        auto const point = at->point_of(place);
+        return geo::Point<geo::SiteFrame>(point.x(), point.y());
+      },
+      .on_globe = [this, id = spec.site](geo::Point<geo::SiteFrame> point) -> std::optional<geo::Wgs84> {
+        auto const* const at = around_.live_map.site(id);
+        if (!at) return std::nullopt;
+        return at->place_of(geo::Point3<geo::SiteFrame>(point.x(), point.y(), 0.0));
+      },
+      .on_map = [this, spec](map::OccupancyGrid const& grid,
+                             std::vector<map::TileKey> const& changed) { write(spec, grid, changed); },
+      .log = log_};
+  robots_.push_back(std::make_unique<Robot>(std::move(spec), std::move(body), std::move(around)));
+  scope_.spawn(pass_on(*robots_.back()));
+  return robots_.back().get();
+}
+
+Robot* RobotPlatform::robot(VehicleId const& id) const {
+  auto const found = std::ranges::find(robots_, id, [](auto const& robot) { return robot->id(); });
+  return found == robots_.end() ? nullptr : found->get();
+}
+
+base::Task<> RobotPlatform::pass_on(Robot& robot) {
+  for (;;) {
+    co_await robot.changed().wait();
+    settled_.notify_all();
+  }
+}
+
+base::Task<> RobotPlatform::pass_on_membership() {
+  for (;;) {
+    co_await around_.registry.membership_changed().wait();
+    vehicles_changed_.notify_all();
+  }
+}
+
+base::Result<std::shared_ptr<tasks::PlatformTask const>> RobotPlatform::named_task(std::string_view name) const {
+  return fail(ErrorKind::not_found, fmt::format("there is no plan called '{}'", name));
+}
+
+VehicleInfo RobotPlatform::info_of(Robot const& robot) const {
+  auto const& state = robot.state();
+  VehicleInfo info;
+  info.id = state.id;
+  info.type = "UGV";
+  info.payload = state.payload.names;
+  info.connected = robot.is_connected();
+  info.position = state.motion.position.value;
+  if (state.power.battery.value) info.battery = state.power.battery.value->remaining;
+  info.connection_timeout = robot.connection_timeout;
+  info.mode = state.mode.value.value_or("");
+  if (robot.survey()) info.coverage = robot.survey()->coverage;
+  return info;
+}
+
+std::vector<VehicleInfo> RobotPlatform::vehicles() const {
+  std::vector<VehicleInfo> infos;
+  for (auto const& robot : robots_)
+    if (robot->has_been_heard()) infos.push_back(info_of(*robot));
+  return infos;
+}
+
+std::optional<VehicleInfo> RobotPlatform::find(VehicleId const& id) const {
+  auto const* const found = robot(id);
+  if (!found || !found->has_been_heard()) return std::nullopt;
+  return info_of(*found);
+}
+
+void RobotPlatform::set_connection_timeout(VehicleId const& id, base::Duration timeout) {
+  if (auto* const found = robot(id)) found->connection_timeout = timeout;
+}
+
+std::optional<std::string> RobotPlatform::unsuited(tasks::PlatformTask const& task, VehicleInfo const& vehicle) const {
+  if (!dynamic_cast<DriveTask const*>(&task)) return fmt::format("{} is no drive", task.name());
+  return task.unsuited(vehicle);
+}
+
+std::unique_ptr<tasks::TaskRun> RobotPlatform::start(std::shared_ptr<tasks::PlatformTask const> task,
+                                                     VehicleId const& id) {
+  auto* const found = robot(id);
+  if (!found) return std::make_unique<tasks::FailedRun>(fmt::format("no robot {}", id.text));
+  auto const* const drive = dynamic_cast<DriveTask const*>(task.get());
+  auto const& name = found->spec().name;
+  if (!drive)
+    return std::make_unique<tasks::FailedRun>(fmt::format("'{}' is no drive: {} cannot do it", task->name(), name));
+  if (!found->is_connected()) return std::make_unique<tasks::FailedRun>(fmt::format("{} is lost", name), true);
+  if (auto claimed = around_.authority.claim(id, vehicle::script_commander); !claimed)
+    return std::make_unique<tasks::FailedRun>(claimed.error().message);
+  if (found->is_killed())
+    return std::make_unique<tasks::FailedRun>(fmt::format("{} is stopped: let it go again first", name), true);
+  return std::make_unique<DriveRun>(*found, found->start(drive->name(), drive->steps()));
+}
+
+base::Task<void> RobotPlatform::settle() {
+  auto const is_settling = [](auto const& robot) {
+    return robot->is_connected() && !robot->is_driving() && !robot->stands();
+  };
+  while (std::ranges::any_of(robots_, is_settling)) co_await settled_.wait();
+  for (auto const& robot : robots_)
+    if (!robot->is_driving()) (void)around_.authority.yield(robot->id(), vehicle::script_commander);
+}
+
+void RobotPlatform::end_drives(std::string const& reason) {
+  for (auto const& robot : robots_) robot->end_drive(reason, false);
+}
+
+base::Result<geo::Point<geo::SiteFrame>> RobotPlatform::find_place(RobotSpec const& spec,
+                                                                   std::string const& name) const {
+  auto const layer = map::LayerKind::points_of_interest;
+  for (auto const* record : around_.live_map.within(layer, spec.site, std::nullopt, around_.live_map.size(layer))) {
+    auto const& point = std::get<map::PointOfInterest>(record->feature.content);
+    if (record->feature.floor == spec.floor && is_called(point, name)) return point.position;
+  }
+  return fail(ErrorKind::not_found, fmt::format("the map has no place called '{}' on its floor", name));
+}
+
+void RobotPlatform::write(RobotSpec const& spec, map::OccupancyGrid const& grid,
+                          std::vector<map::TileKey> const& changed) {
+  auto const written = around_.live_map.put_tiles({.site = spec.site, .floor = spec.floor, .name = spec.name}, grid,
+                                                  changed, {.writer = spec.id, .at = around_.loop.utc_now()});
+  if (!written) log_.warn(fmt::format("the map of {} is not shown: {}", spec.name, written.error().message));
+}
+
+}  // namespace lapwing::robot

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/async/scope.hpp"
+#include "base/log.hpp"
+#include "map/live/live_map.hpp"
+#include "robot/platform/robot.hpp"
+#include "tasks/platform.hpp"
+#include "vehicle/authority.hpp"
+
+namespace lapwing::robot {
+
+/// Robots as a platform of the mission language: `drive { ... }` blocks. Their maps go to the live map as grids, one a
+/// robot, and their poses to the registry.
+///
+/// Thread-bound; outlives the runs that it started.
+class RobotPlatform final : public tasks::Platform {
+ public:
+  struct Surroundings {
+    base::Loop& loop;
+    vehicle::Registry& registry;
+    vehicle::Authority& authority;
+    map::LiveMap& live_map;
+  };
+  /// All of `around` outlives the platform.
+  RobotPlatform(Surroundings around, base::Logger log);
+  RobotPlatform(RobotPlatform const&) = delete;
+  RobotPlatform& operator=(RobotPlatform const&) = delete;
+
+  /// Error: invalid_input for an id that another robot has, or a site or floor that the map does not have.
+  [[nodiscard]] base::Result<Robot*> add(RobotSpec spec, std::unique_ptr<Body> body);
+  [[nodiscard]] std::vector<std::unique_ptr<Robot>> const& robots() const { return robots_; }
+  /// Null for an id that is not one of theirs.
+  [[nodiscard]] Robot* robot(vehicle::VehicleId const& id) const;
+
+  [[nodiscard]] tasks::Vocabulary const& vocabulary() const override { return vocabulary_; }
+  /// It has no plans: error not_found.
+  [[nodiscard]] base::Result<std::shared_ptr<tasks::PlatformTask const>> named_task(
+      std::string_view name) const override;
+  [[nodiscard]] std::vector<tasks::VehicleInfo> vehicles() const override;
+  [[nodiscard]] std::optional<tasks::VehicleInfo> find(vehicle::VehicleId const& id) const override;
+  [[nodiscard]] base::Notifier& vehicles_changed() override { return vehicles_changed_; }
+  void set_connection_timeout(vehicle::VehicleId const& id, base::Duration timeout) override;
+  /// Drives are what it does.
+  [[nodiscard]] std::optional<std::string> unsuited(tasks::PlatformTask const& task,
+                                                    tasks::VehicleInfo const& vehicle) const override;
+  [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
+                                                      vehicle::VehicleId const& id) override;
+  [[nodiscard]] base::Task<void> settle() override;
+  /// Of all robots; `settle` waits until they stand.
+  void end_drives(std::string const& reason);
+
+ private:
+  [[nodiscard]] tasks::VehicleInfo info_of(Robot const& robot) const;
+  [[nodiscard]] base::Result<geo::Point<geo::SiteFrame>> find_place(RobotSpec const& spec,
+                                                                    std::string const& name) const;
+  void write(RobotSpec const& spec, map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed);
+  base::Task<> pass_on(Robot& robot);
+  base::Task<> pass_on_membership();
+
+  Surroundings around_;
+  base::Logger log_;
+  tasks::Vocabulary vocabulary_;
+  base::Notifier vehicles_changed_;
+  base::Notifier settled_;
+  std::vector<std::unique_ptr<Robot>> robots_;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::robot

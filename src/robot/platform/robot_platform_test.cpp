@@ -1,0 +1,192 @@
+// Robots in a simulated office, mapped from their laser and wheels alone.
+#include "robot/platform/robot_platform.hpp"
+
+#include <gtest/gtest.h>
+
+#include "robot/testing/platform_bench.hpp"
+
+namespace lapwing::robot {
+namespace {
+
+using namespace std::chrono_literals;
+using tasks::RunState;
+
+struct RobotPlatformTest : ::testing::Test, testing::PlatformBench {
+  void SetUp() override {
+    ASSERT_TRUE(run_until([this] { return robot->here().has_value(); }, 5s));
+  }
+  /// How far its own belief is from where it stands.
+  [[nodiscard]] double error_m() const { return slam::distance_m(robot->here()->pose, body->truth()); }
+};
+
+TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
+  auto const run = start({ExploreStep{"tour"}, ReturnStep{}});
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_EQ(body->collisions(), 0);
+  EXPECT_LT(std::hypot(body->truth().x, body->truth().y), 0.6) << "where it began";
+  EXPECT_LT(error_m(), 0.15);
+  EXPECT_GE(robot->survey()->coverage, 0.98);
+  EXPECT_NEAR(robot->survey()->free_m2, testing::small_office_m2, 0.06 * testing::small_office_m2);
+  EXPECT_EQ(state().mode.value, "HOLD");
+
+  ASSERT_EQ(live_map.grids().size(), 1u);
+  auto const& [key, record] = *live_map.grids().begin();
+  EXPECT_EQ(key.name, "robot 1");
+  EXPECT_EQ(record.account.writer, "robot1");
+  EXPECT_LT(record.grid.at(record.grid.cell_at({6.0, 0.0})).probability(), 0.2) << "the corridor";
+  EXPECT_TRUE(robot->survey()->frontiers.empty());
+}
+
+TEST_F(RobotPlatformTest, ShowsWhereItIsAndHowSureOfIt) {
+  auto const run = start({ExploreStep{"nearest"}});
+  run_for(20s);
+  EXPECT_EQ(state().family, vehicle::Family::robot);
+  EXPECT_EQ(state().mode.value, "EXPLORE");
+  auto const& pose = *state().motion.site_pose.value;
+  EXPECT_EQ(pose.site, "office");
+  EXPECT_NEAR(pose.position.x(), body->truth().x, 0.2);
+  EXPECT_GT(robot->spread()->minor_m, 0.0);
+  EXPECT_LT(robot->spread()->major_m, 0.2);
+  EXPECT_FALSE(robot->way().empty());
+  EXPECT_FALSE(robot->survey()->frontiers.empty());
+  auto const info = *platform.find({"robot1"});
+  EXPECT_EQ(info.type, "UGV");
+  EXPECT_NEAR(info.position->lat_deg(), 41.178, 0.001);
+  EXPECT_GT(*info.coverage, 0.0);
+  EXPECT_LT(*info.coverage, 1.0);
+  EXPECT_NE(run->progress().find("explore, "), std::string::npos) << run->progress();
+  EXPECT_EQ(state().control.commander, vehicle::script_commander);
+}
+
+TEST_F(RobotPlatformTest, DrivesToPlacesByPositionAndByName) {
+  auto exploring = start({ExploreStep{"tour"}});
+  ASSERT_TRUE(run_until([&] { return exploring->state() != RunState::in_progress; }, 30min));
+  auto const& site = *live_map.site("office");
+  ASSERT_TRUE(live_map.put({.id = "door 221",
+                            .site = "office",
+                            .account = {.writer = "test", .at = loop.utc_now()},
+                            .content = map::PointOfInterest{.position = {10.0, 2.5}, .kind = "door", .name = "221"}}));
+  auto const place = site.place_of(geo::Point3<geo::SiteFrame>(5.5, -2.5, 0.0));
+  auto const run = start({DriveToPlaceStep{place}, WaitStep{1.0}});
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 5min));
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_LT(std::hypot(body->truth().x - 5.5, body->truth().y + 2.5), 0.3);
+  auto const named = start({DriveToNameStep{"room 221"}});
+  ASSERT_TRUE(run_until([&] { return named->state() != RunState::in_progress; }, 5min));
+  EXPECT_LT(std::hypot(body->truth().x - 10.0, body->truth().y - 2.5), 0.3);
+  auto const nowhere = start({DriveToNameStep{"room 999"}});
+  run_for(1s);
+  EXPECT_EQ(nowhere->error(), "drive to room 999: the map has no place called 'room 999' on its floor");
+  EXPECT_EQ(body->collisions(), 0);
+}
+
+TEST_F(RobotPlatformTest, StandsWhenTheScriptStopsIt) {
+  auto const run = start({ExploreStep{"tour"}});
+  ASSERT_TRUE(run_until([this] { return body->driven_m() > 1.0; }, 1min));
+  run->stop();
+  loop.run_until_done(platform.settle());
+  EXPECT_TRUE(robot->stands());
+  EXPECT_EQ(state().control.commander, "");
+  auto const stood_at = body->truth();
+  run_for(5s);
+  EXPECT_EQ(body->truth(), stood_at);
+}
+
+TEST_F(RobotPlatformTest, GoesToAnotherTaskWithoutStanding) {
+  auto const first = start({ExploreStep{"tour"}});
+  ASSERT_TRUE(run_until([this] { return body->driven_m() > 2.0; }, 1min));
+  first->stop();
+  auto const second = start({ReturnStep{}});
+  ASSERT_TRUE(run_until([&] { return second->state() != RunState::in_progress; }, 2min));
+  EXPECT_EQ(second->state(), RunState::done) << second->error();
+  EXPECT_LT(std::hypot(body->truth().x, body->truth().y), 0.6);
+}
+
+TEST_F(RobotPlatformTest, StandsWhenItsLaserFallsSilent) {
+  auto const run = start({ExploreStep{"tour"}});
+  ASSERT_TRUE(run_until([this] { return body->driven_m() > 1.0; }, 1min));
+  body->is_blind = true;
+  run_for(3s);
+  auto const stood_at = body->truth();
+  run_for(5s);
+  EXPECT_EQ(body->truth(), stood_at) << "nobody drives by what was seen long ago";
+  body->is_blind = false;
+  run_for(10s);
+  EXPECT_NE(body->truth(), stood_at);
+}
+
+TEST_F(RobotPlatformTest, FailsTheTaskOfARobotThatIsLost) {
+  platform.set_connection_timeout({"robot1"}, 3s);
+  auto const run = start({ExploreStep{"tour"}});
+  run_for(5s);
+  body->is_silent = true;
+  run_for(6s);
+  EXPECT_EQ(run->state(), RunState::failed);
+  EXPECT_TRUE(run->vehicle_failed());
+  EXPECT_EQ(run->error(), "robot 1 is lost");
+  EXPECT_EQ(state().links.connection, vehicle::Connection::lost);
+  EXPECT_FALSE(platform.find({"robot1"})->connected);
+  EXPECT_TRUE(start({ReturnStep{}})->vehicle_failed());
+  body->is_silent = false;
+  run_for(3s);
+  EXPECT_EQ(state().links.connection, vehicle::Connection::ok);
+}
+
+TEST_F(RobotPlatformTest, StopsBeforeWhoStandsInItsWay) {
+  auto const run = start({ExploreStep{"tour"}});
+  // Right across the corridor, 1.5 m ahead of wherever it is going along it.
+  ASSERT_TRUE(run_until([this] { return body->truth().x > 1.0 && std::abs(body->truth().yaw) < 0.2; }, 3min));
+  double const x = body->truth().x + 1.0;
+  body->put_in_the_way = {{{x, -1.0}, {x, 1.0}}};
+  run_for(20s);
+  EXPECT_EQ(body->collisions(), 0);
+  EXPECT_EQ(run->state(), RunState::in_progress);
+}
+
+TEST_F(RobotPlatformTest, LeavesARobotToWhoeverCommandsIt) {
+  ASSERT_TRUE(authority.claim({"robot1"}, "anna"));
+  auto const refused = start({ReturnStep{}});
+  EXPECT_EQ(refused->error(), "robot 1 is commanded by anna");
+  (void)authority.yield({"robot1"}, "anna");
+  auto const run = start({ExploreStep{"tour"}});
+  run_for(5s);
+  authority.take({"robot1"}, "ben");
+  EXPECT_EQ(run->state(), RunState::failed);
+  EXPECT_EQ(run->error(), "ben took robot 1 over");
+}
+
+TEST_F(RobotPlatformTest, RefusesWhatIsNoDriveAndRobotsThatCannotBe) {
+  class Other final : public tasks::PlatformTask {
+    [[nodiscard]] std::string name() const override { return "survey"; }
+    [[nodiscard]] std::optional<std::string> unsuited(tasks::VehicleInfo const&) const override { return std::nullopt; }
+    [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override { return std::nullopt; }
+  };
+  auto const other = std::make_shared<Other const>();
+  EXPECT_EQ(platform.unsuited(*other, *platform.find({"robot1"})), "survey is no drive");
+  EXPECT_EQ(platform.start(other, {"robot1"})->error(), "'survey' is no drive: robot 1 cannot do it");
+  EXPECT_EQ(platform.start(other, {"nobody"})->error(), "no robot nobody");
+  auto body_again = [this] {
+    return std::make_unique<testing::SimpleBody>(loop, testing::small_office(), testing::SimpleBodyOptions{});
+  };
+  EXPECT_EQ(platform.add({.id = "robot1", .site = "office"}, body_again()).error().message,
+            "there are two robots called robot1");
+  EXPECT_EQ(platform.add({.id = "robot2", .site = "nowhere"}, body_again()).error().message,
+            "robot2: the map has no site nowhere");
+  EXPECT_EQ(platform.add({.id = "robot2", .site = "office", .floor = "9"}, body_again()).error().message,
+            "robot2: the site office has no floor 9");
+}
+
+TEST(RobotPlatform, GivesTheSameRunOnOneThreadAndOnMany) {
+  auto const truth_after = [](unsigned threads) {
+    testing::PlatformBench bench(threads);
+    bench.run_until([&] { return bench.robot->here().has_value(); }, 5s);
+    auto const run = bench.start({ExploreStep{"tour"}});
+    bench.run_for(60s);
+    return bench.body->truth();
+  };
+  EXPECT_EQ(truth_after(1), truth_after(4));
+}
+
+}  // namespace
+}  // namespace lapwing::robot

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "firmware/frames/description.hpp"
+#include "robot/carrier/scan.hpp"
+#include "robot/platform/board_odometry.hpp"
+#include "slam/log/scan_log.hpp"
+
+namespace lapwing::robot {
+
+/// How the laser looks, for the mapping: beams in ascending order.
+[[nodiscard]] slam::Sensor sensor_of(firmware::LaserPlace const& laser);
+
+/// When the last beam of a scan was taken. Before odometry knows of that time, nobody can say where it looked from.
+[[nodiscard]] firmware::Time end_of(LaserRanges const& scan, firmware::LaserPlace const& laser);
+
+/// Lays each beam where it looked: a scanner turns while the robot does, so that a beam's end is moved to where the
+/// middle of the scan would have seen it. Of two ends in one direction the nearer one counts. Precondition: as many
+/// ranges as the laser has beams.
+[[nodiscard]] slam::Scan lay(LaserRanges const& scan, firmware::LaserPlace const& laser, slam::Sensor const& sensor,
+                             BoardOdometry const& odometry);
+
+}  // namespace lapwing::robot

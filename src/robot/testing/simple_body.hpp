@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "base/async/loop.hpp"
+#include "base/async/task.hpp"
+#include "robot/platform/body.hpp"
+
+namespace lapwing::robot::testing {
+
+/// A straight piece of wall, in metres.
+struct Wall {
+  Eigen::Vector2d from;
+  Eigen::Vector2d to;
+};
+using Walls = std::vector<Wall>;
+
+/// A corridor of 14 by 2 m with three rooms of 4 by 3.5 m on each side, behind doors of 0.9 m. The origin is 1 m from
+/// the corridor's left end, in its middle.
+[[nodiscard]] Walls small_office();
+/// How much of it can be seen from inside, m^2.
+inline constexpr double small_office_m2 = 14.0 * 2.0 + 6 * 4.0 * 3.5;
+
+struct SimpleBodyOptions {
+  slam::Pose2 start = {};
+  int beams = 360;
+  double laser_m = 10.0;
+  double range_noise_m = 0.01;
+  double shift_noise = 0.03;  ///< of odometry: standard deviation of a step, per metre
+  double turn_noise = 0.02;   ///< per radian
+  double scale_bias = 0.02;   ///< every metre is told as so much more
+  double radius_m = 0.18;
+  std::uint64_t seed = 1;
+};
+
+/// A disc with wheels and a laser among walls, without firmware or link: what the platform is tested on. It does what
+/// it is told at once but for its acceleration, and goes through walls, which it counts.
+class SimpleBody final : public Body {
+ public:
+  SimpleBody(base::Loop& loop, Walls walls, SimpleBodyOptions const& options);
+
+  void listen(Listener listener) override { listener_ = std::move(listener); }
+  [[nodiscard]] slam::Sensor const* laser() const override { return &laser_; }
+  [[nodiscard]] std::string link() const override { return "test://"; }
+  void drive(Motion motion) override;
+  void kill() override { is_killed_ = true; }
+  void release() override { is_killed_ = false; }
+
+  [[nodiscard]] slam::Pose2 const& truth() const { return pose_; }
+  [[nodiscard]] int collisions() const { return collisions_; }
+  [[nodiscard]] double driven_m() const { return driven_m_; }
+
+  // ---- what tests do to it
+  bool is_silent = false;  ///< says nothing
+  bool is_blind = false;   ///< its laser says nothing
+  double battery = 0.9;
+  std::vector<Wall> put_in_the_way = {};  ///< seen and hit like walls
+
+ private:
+  base::Task<> live();
+  void move();
+  void look();
+  [[nodiscard]] double noise(double deviation) { return deviation * normal_(random_); }
+  [[nodiscard]] double range_m(Eigen::Vector2d const& from, double yaw) const;
+
+  base::Loop& loop_;
+  Walls walls_;
+  SimpleBodyOptions options_;
+  slam::Sensor laser_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  Listener listener_;
+  slam::Pose2 pose_;
+  slam::Pose2 odometry_;
+  Motion wanted_;
+  Motion motion_;
+  base::TimePoint told_at_{};
+  bool is_killed_ = false;
+  int collisions_ = 0;
+  double driven_m_ = 0.0;
+  base::Task<> life_;
+};
+
+}  // namespace lapwing::robot::testing
