@@ -20,6 +20,7 @@ struct DemoOptions {
   std::vector<std::string> forward;
   std::string record;
   std::string vehicles = "copter:2,rover:1";
+  std::vector<std::string> robots;
   std::string on_stop = "loiter";
   host::WebArguments web;
   std::optional<double> speedup;
@@ -49,7 +50,7 @@ base::Result<> open_map(host::Session& session, host::WebArguments const& web, g
 }
 
 int demo(DemoOptions const& options) {
-  constexpr auto example = "examples/survey.dolphin";
+  constexpr auto example = "examples/demo.dolphin";
   auto const script = options.script.empty() ? std::string(example) : options.script;
   auto const source = host::read_script(options.script.empty() ? (host::home_directory() / example).string() : script);
   if (!source) return host::refuse(source.error());
@@ -74,6 +75,11 @@ int demo(DemoOptions const& options) {
   auto programs = host::forward_to(options.forward);
   if (!programs) return host::refuse(programs.error());
   if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return host::refuse(forwarded.error());
+  // The usual script has a robot in it.
+  auto robots = options.robots;
+  if (robots.empty() && options.script.empty())
+    robots = {"sim:" + (host::home_directory() / "examples/buildings/office.toml").string()};
+  if (auto added = session.add_robots(robots, world.home); !added) return host::refuse(added.error());
   if (!options.headless)
     if (auto opened = open_map(session, options.web, world.home); !opened) return host::refuse(opened.error());
   if (auto simulated = session.simulate(std::move(world)); !simulated) return host::refuse(simulated.error());
@@ -96,8 +102,11 @@ void add_demo(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<DemoOptions>();
   auto* verb = begin_verb(program, "demo");
   verb->add_flag("--headless", options->headless, "No map: run to the end as fast as the machine computes, then exit");
-  verb->add_option("--script", options->script, "Another script than examples/survey.dolphin");
+  verb->add_option("--script", options->script, "Another script than examples/demo.dolphin");
   verb->add_option("--vehicles", options->vehicles, "What and how many")->capture_default_str();
+  verb->add_option("--robot", options->robots,
+                   std::string(host::robot_help) + "; default, without --script: the office beside the car park")
+      ->allow_extra_args(false);
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
   verb->add_option("--forward", options->forward, host::forward_help);
   verb->add_option("--record", options->record, host::record_help);

@@ -24,6 +24,18 @@ json to_json_value(tasks::TaskView const& view) {
   return value;
 }
 
+json to_json_value(RobotReport const& robot) {
+  auto drives = json::array();
+  for (auto const& drive : robot.drives)
+    drives.push_back({{"name", drive.name}, {"outcome", drive.outcome}, {"error", drive.error}});
+  json value{{"coverage", robot.coverage},
+             {"free_m2", robot.free_m2},
+             {"closures", robot.closures},
+             {"drives", std::move(drives)}};
+  if (robot.collisions) value["collisions"] = *robot.collisions;
+  return value;
+}
+
 json to_json_value(VehicleReport const& vehicle) {
   auto missions = json::array();
   for (auto const& mission : vehicle.missions) {
@@ -41,8 +53,10 @@ json to_json_value(VehicleReport const& vehicle) {
     }
     missions.push_back(std::move(value));
   }
-  return {{"id", vehicle.id},           {"system_id", vehicle.system_id}, {"type", vehicle.type},
-          {"track_m", vehicle.track_m}, {"pictures", vehicle.pictures},   {"missions", std::move(missions)}};
+  json value{{"id", vehicle.id},           {"system_id", vehicle.system_id}, {"type", vehicle.type},
+             {"track_m", vehicle.track_m}, {"pictures", vehicle.pictures},   {"missions", std::move(missions)}};
+  if (vehicle.robot) value["robot"] = to_json_value(*vehicle.robot);
+  return value;
 }
 
 }  // namespace

@@ -11,13 +11,28 @@
 
 namespace lapwing::host {
 
+/// What a robot has mapped and driven.
+struct RobotReport {
+  struct Drive {
+    std::string name = {};
+    std::string outcome = {};  ///< "done", "failed", "stopped", "running"
+    std::string error = {};
+  };
+  double coverage = 0.0;  ///< 0..1, of what there seems to be
+  double free_m2 = 0.0;
+  int closures = 0;                    ///< loops that its map has closed
+  std::optional<int> collisions = {};  ///< of a simulated one: how often it ran into something
+  std::vector<Drive> drives = {};
+};
+
 struct VehicleReport {
   std::string id;
   int system_id = 0;
   std::string type;  ///< family: copter, plane, rover ...
   double track_m = 0.0;
   int pictures = 0;  ///< that it was heard to take
-  std::vector<fleet::MissionReport> missions;
+  std::vector<fleet::MissionReport> missions = {};
+  std::optional<RobotReport> robot = {};  ///< of robots
 };
 
 struct ErrorReport {

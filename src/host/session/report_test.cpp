@@ -57,6 +57,19 @@ TEST(Report, HasEveryKeyOfTheContract) {
   EXPECT_EQ(report["errors"][0], (json{{"file", "a.dolphin"}, {"line", 9}, {"message", "no such thing"}}));
 }
 
+TEST(Report, TellsWhatRobotsHaveMappedAndOfThemAlone) {
+  auto told = example();
+  EXPECT_FALSE(json::parse(to_json(told))["vehicles"][0].contains("robot"));
+  RobotReport robot{.coverage = 0.5, .free_m2 = 120.5, .closures = 2};
+  robot.drives = {{"Office", "failed", "it is lost"}};
+  told.vehicles.front().robot = robot;
+  auto const report = json::parse(to_json(told));
+  EXPECT_EQ(report["vehicles"][0]["robot"], json::parse(R"({"coverage": 0.5, "free_m2": 120.5, "closures": 2,
+    "drives": [{"name": "Office", "outcome": "failed", "error": "it is lost"}]})"));
+  told.vehicles.front().robot->collisions = 3;
+  EXPECT_EQ(json::parse(to_json(told))["vehicles"][0]["robot"]["collisions"], 3);
+}
+
 TEST(Report, NestsTasks) {
   auto const report = json::parse(to_json(example()));
   auto const& root = report["tasks"][0];

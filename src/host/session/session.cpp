@@ -7,6 +7,7 @@
 
 #include "base/assert.hpp"
 #include "host/files/files.hpp"
+#include "host/robots/robots_feed.hpp"
 #include "host/session/console.hpp"
 #include "host/session/metrics.hpp"
 #include "host/session/signals.hpp"
@@ -39,6 +40,21 @@ base::Loop::Pace pace_of(Session::Options const& options) {
   return pace;
 }
 
+/// Nothing for what is no robot.
+std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehicle::VehicleId const& id) {
+  auto const* const robot = robots.robot(id);
+  if (!robot) return std::nullopt;
+  RobotReport report;
+  if (auto const& survey = robot->survey()) {
+    report.coverage = survey->coverage;
+    report.free_m2 = survey->free_m2;
+  }
+  report.closures = robot->loops().closures;
+  for (auto const& drive : robot->drives())
+    report.drives.push_back({drive->name, std::string(to_string(drive->outcome)), drive->error});
+  return report;
+}
+
 }  // namespace
 
 base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
@@ -64,18 +80,23 @@ Session::Session(Options const& options)
       control(ground.fleet, platform, {.stop_action = options.emergency_action, .plausibility = options.plausibility},
               log),
       parameters(ground.fleet, parameter_cache(), log),
+      live_map([this] { return loop.utc_now(); }),
+      robots({loop, ground.registry, ground.authority, live_map}, log.named("robots")),
+      robot_control(robots, {loop, ground.authority}, log),
       platforms(loop, log.named("platforms")),
       console(make_console(loop, log)),
       host(
           loop, platforms, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
-      live_map([this] { return loop.utc_now(); }),
       on_stop_(options.on_stop),
       interrupted_(loop),
-      events_(options.events) {
+      events_(options.events),
+      seed_(options.seed.value_or(1)) {
   hub.add_sink(terminal_sink(options.log_level));
   auto const fleet_fits = join("MAVLink", {platform, &control, &parameters});
-  LAPWING_ASSERT(fleet_fits);  // nothing is there before it
+  // Their words are there without robots, too: a script that waits for one checks.
+  auto const robots_fit = join("robots", {robots});
+  LAPWING_ASSERT(fleet_fits && robots_fit);  // no word of one is a word of the other
   control.set_on_latched([this](std::string const& reason) { host.halt_for_operator(reason); });
   host.set_bar([this] { return ground.authority.barred(); });
   bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
@@ -91,6 +112,23 @@ base::Result<> Session::join(std::string const& name, Joined const& joined) {
   if (auto fits = platforms.add(name, joined.platform); !fits) return fits;
   if (joined.control) all_control.add(name, *joined.control);
   if (joined.parameters) all_parameters.add(name, *joined.parameters);
+  return {};
+}
+
+base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor) {
+  if (requests.empty()) return {};
+  auto made = make_robots(loop, requests, "default", anchor, seed_, buildings, log);
+  if (!made) return std::unexpected(made.error());
+  all_control.add("robots", robot_control);
+  for (auto& robot : *made) {
+    if (!live_map.site(robot.spec.site)) {
+      auto site = geo::Site::make(robot.spec.site, robot.anchor);
+      if (!site) return std::unexpected(site.error());
+      live_map.put_site(*std::move(site));
+    }
+    if (auto added = robots.add(std::move(robot.spec), std::move(robot.body)); !added)
+      return std::unexpected(added.error());
+  }
   return {};
 }
 
@@ -176,6 +214,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
     options.exporter = map_exports.get();
   }
   options.map = &live_map;
+  if (!robots.robots().empty()) options.feeds.push_back(std::make_unique<RobotsFeed>(robots, live_map));
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
@@ -211,7 +250,9 @@ base::Task<> Session::finish(std::optional<base::Duration> timeout) {
   bool const is_alone = ground.registry.all().empty();
   bool const is_done = host.outcome() && host.outcome()->kind == dolphin::Outcome::Kind::done;
   if (is_alone && !is_done) log.error(fmt::format("no vehicle was heard on {}", links_text()));
+  robots.end_drives("the program ends");
   co_await platform.make_safe(on_stop_);
+  co_await robots.settle();
 }
 
 std::string Session::links_text() const {
@@ -268,7 +309,10 @@ RunReport Session::report() const {
                                .type = std::string(to_string(vehicle->family)),
                                .track_m = vehicle->motion.track_m,
                                .pictures = vehicle->payload.pictures.value ? vehicle->payload.pictures.value->taken : 0,
-                               .missions = platform.missions(vehicle->id)});
+                               .missions = platform.missions(vehicle->id),
+                               .robot = robot_report(robots, vehicle->id)});
+    auto& told = report.vehicles.back();
+    if (told.robot) told.robot->collisions = collisions_of(buildings, told.id);
   }
   report.tasks = host.task_trees();
   if (auto const& outcome = host.outcome(); outcome && outcome->kind != dolphin::Outcome::Kind::done) {

@@ -19,11 +19,14 @@
 #include "host/map/map_exports.hpp"
 #include "host/map/station_map.hpp"
 #include "host/map/track_writer.hpp"
+#include "host/robots/robots.hpp"
 #include "host/session/script_host.hpp"
 #include "host/station/station_config.hpp"
 #include "host/station/web_access.hpp"
 #include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
+#include "robot/platform/robot_control.hpp"
+#include "robot/platform/robot_platform.hpp"
 #include "route/router.hpp"
 #include "sim/world/world.hpp"
 #include "station/station.hpp"
@@ -66,6 +69,10 @@ class Session {
   };
   [[nodiscard]] base::Result<> join(std::string const& name, Joined const& joined);
 
+  /// Robots as `--robot` names them, in the site "default"; where that is not on the map yet, it is put there, at
+  /// `anchor`. Call it before anything is opened. Errors: those of `make_robots` and `RobotPlatform::add`.
+  [[nodiscard]] base::Result<> add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor);
+
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
   /// Joins other programs with the vehicles, for as long as the session lives; call after `open_links`. Errors:
@@ -92,9 +99,13 @@ class Session {
   base::Logger log;
   Ground ground;
   fleet::FleetPlatform platform;
-  fleet::Control control;              ///< what operators do with the fleet's vehicles
-  fleet::Parameters parameters;        ///< of those, asked for when an operator asks
-  tasks::Platforms platforms;          ///< the fleet and what has joined it, for scripts
+  fleet::Control control;                                     ///< what operators do with the fleet's vehicles
+  fleet::Parameters parameters;                               ///< of those, asked for when an operator asks
+  lapwing::map::LiveMap live_map;                             ///< what lies on the map
+  std::vector<std::unique_ptr<SimulatedBuilding>> buildings;  ///< in which simulated robots drive
+  robot::RobotPlatform robots;
+  robot::RobotControl robot_control;   ///< what operators do with the robots
+  tasks::Platforms platforms;          ///< the fleet, the robots and what has joined them, for scripts
   vehicle::JoinedControl all_control;  ///< the same for operators
   vehicle::JoinedParameters all_parameters;
   std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
@@ -103,7 +114,6 @@ class Session {
   std::unique_ptr<dolphin::Output> console;
   ScriptHost host;
   std::unique_ptr<sim::World> world;
-  lapwing::map::LiveMap live_map;           ///< what lies on the map
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
   std::unique_ptr<MapExports> map_exports;
   std::unique_ptr<TrackWriter> tracks;  ///< where there is a station to show them
@@ -122,6 +132,7 @@ class Session {
   base::Notifier interrupted_;  ///< by Ctrl-C
   EventFile const* events_;
   std::string record_folder_;
+  std::uint64_t seed_;
 };
 
 /// Values of --emergency-stop.

@@ -1,4 +1,5 @@
-"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP and the report says so."""
+"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP, a robot maps the office, and the report
+says so."""
 
 import json
 import pathlib
@@ -13,15 +14,24 @@ with tempfile.TemporaryDirectory() as folder:
 
 assert report["outcome"] == "done", report
 assert report["errors"] == [], report["errors"]
-assert report["script"].endswith("survey.dolphin"), report["script"]
-vehicles = {vehicle["system_id"]: vehicle for vehicle in report["vehicles"]}
-assert sorted(v["type"] for v in vehicles.values()) == ["copter", "copter", "rover"], vehicles
+assert report["script"].endswith("demo.dolphin"), report["script"]
+vehicles = {vehicle["id"]: vehicle for vehicle in report["vehicles"]}
+assert sorted(v["type"] for v in vehicles.values()) == ["copter", "copter", "robot", "rover"], vehicles
+robot = vehicles.pop("robot1")
 for vehicle in vehicles.values():
     assert vehicle["track_m"] > 100, f"vehicle {vehicle['id']} moved {vehicle['track_m']} m"
     assert vehicle["missions"], f"vehicle {vehicle['id']} flew nothing"
     for mission in vehicle["missions"]:
         assert mission["outcome"] == "done", mission
         assert mission["items"] > 3 and mission["upload_s"] >= 0, mission
+
+assert robot["missions"] == [], robot
+mapped = robot["robot"]
+assert mapped["drives"] == [{"name": "Office", "outcome": "done", "error": ""}], mapped
+assert 0 < mapped["coverage"] <= 1, mapped
+assert 50 < mapped["free_m2"] < 48 * 24, mapped
+assert mapped["collisions"] == 0, mapped
+assert robot["track_m"] > 20, robot
 
 
 def leaves(task):
@@ -30,4 +40,4 @@ def leaves(task):
 
 states = {leaf["state"] for root in report["tasks"] for leaf in leaves(root)}
 assert states == {"done"}, states
-print(f"{len(vehicles)} vehicles, {sum(v['track_m'] for v in vehicles.values()):.0f} m in all")
+print(f"{mapped['coverage']:.0%} of the office, {mapped['free_m2']:.0f} m2 in {robot['track_m']:.0f} m; {len(vehicles)} vehicles, {sum(v['track_m'] for v in vehicles.values()):.0f} m in all")

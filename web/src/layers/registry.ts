@@ -15,6 +15,7 @@ import { intents } from './intents';
 import { measure } from './measure';
 import { pictures } from './pictures';
 import { plans } from './plans';
+import { robots } from './robots';
 import { trails } from './trails';
 import { vehicles } from './vehicles';
 
@@ -33,6 +34,7 @@ const LAYERS: readonly MakeLayer[] = [
   destinations,
   intents,
   homes,
+  robots,
   pointsOfInterest,
   changes,
   vehicles,

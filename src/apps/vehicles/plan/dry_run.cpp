@@ -38,6 +38,21 @@ void add_running(tasks::TaskView const& view, base::SourceFile const& source, st
   lines.push_back(std::move(line));
 }
 
+/// Where it truly is.
+dryrun::Sample look_at(robot::Robot const& robot, sim::building::Robot const& truth,
+                       geo::Transform<geo::SiteFrame, geo::FloorFrame> const& site_from_floor) {
+  dryrun::Sample sample;
+  auto const at = site_from_floor * truth.body().pose().position;
+  constexpr double moving_m_s = 0.02;
+  sample.place_m = geo::Ned{at.y(), at.x(), 0.0};
+  sample.moves = std::abs(truth.body().speed_m_s()) > moving_m_s;
+  if (!robot.has_been_heard()) return sample;
+  auto const& state = robot.state();
+  if (state.mode.value) sample.mode = *state.mode.value;
+  if (state.power.battery.value) sample.remaining = state.power.battery.value->remaining;
+  return sample;
+}
+
 }  // namespace
 
 /// The script's words go into the record; its questions are answered from a list.
@@ -71,20 +86,46 @@ DryRun::DryRun(Options options)
       ground_(loop_, log_, {.payload = host::equipped(options_.world, options_.payload)}),
       platform_(ground_.fleet, {.run = {.plausibility = options_.plausibility}, .plan_library = options_.plans},
                 log_.named("fleet")),
+      live_map_([this] { return loop_.utc_now(); }),
+      robots_({loop_, ground_.registry, ground_.authority, live_map_}, log_.named("robots")),
+      platforms_(loop_, log_.named("platforms")),
       world_(
           loop_, options_.world, [this] { return base::Result<std::unique_ptr<link::ByteLink>>(air_.connect()); },
           log_.named("sim")),
       recorder_(crew(), {}),
       voice_(std::make_unique<Voice>(loop_, recorder_, options_.answers)),
-      host_(loop_, platform_, *voice_, log_, [this](tasks::TaskEvent const& event) { recorder_.note(event); }) {
+      host_(loop_, platforms_, *voice_, log_, [this](tasks::TaskEvent const& event) { recorder_.note(event); }) {
   hub_.add_sink([](base::LogRecord const& record) {
     bool const warns = record.source == "plausibility" && record.level != base::LogLevel::debug;
     if (warns) fmt::print(stderr, "warning: {}\n", record.text);
   });
   ground_.connection.add_link(air_.take_server());
+  bool const fit = platforms_.add("MAVLink", platform_) && platforms_.add("robots", robots_);
+  LAPWING_ASSERT(fit);  // no word of one is a word of the other
+}
+
+base::Result<> DryRun::add_robots(std::vector<std::string> const& requests) {
+  for (auto const& text : requests) {
+    auto const request = host::parse_robot(text);
+    if (!request) return std::unexpected(request.error());
+    if (!std::holds_alternative<host::SimulatedRobots>(*request))
+      return base::fail(base::ErrorKind::invalid_input, fmt::format("--robot {}: a dry run moves nothing real", text),
+                        "give the building that it is in: --robot sim:BUILDING.toml");
+  }
+  if (requests.empty()) return {};
+  auto made = host::make_robots(loop_, requests, "default", options_.world.home, options_.world.seed, buildings_, log_);
+  if (!made) return std::unexpected(made.error());
+  auto site = geo::Site::make("default", options_.world.home);
+  if (!site) return std::unexpected(site.error());
+  live_map_.put_site(*std::move(site));
+  for (auto& robot : *made)
+    if (auto added = robots_.add(std::move(robot.spec), std::move(robot.body)); !added)
+      return std::unexpected(added.error());
+  return {};
 }
 
 base::Result<> DryRun::power_on() {
+  recorder_ = dryrun::Recorder(crew(), {});
   return world_.start();
 }
 
@@ -124,6 +165,7 @@ base::Task<> DryRun::cut_off() {
 
 /// Why nothing moves any more, when nothing does: a script that waits for charged batteries waits for ever.
 void DryRun::add_standstill() {
+  if (std::ranges::any_of(robots_.robots(), [](auto const& robot) { return robot->is_driving(); })) return;
   std::string batteries;
   for (auto const& vehicle : world_.vehicles()) {
     if (!vehicle->running() || vehicle->autopilot().armed()) return;
@@ -148,6 +190,13 @@ std::vector<dryrun::VehicleRecord> DryRun::crew() const {
     record.family = options.kind.family;
     vehicles.push_back(std::move(record));
   }
+  for (auto const& robot : robots_.robots()) {
+    dryrun::VehicleRecord record;
+    record.id = robot->spec().id;
+    record.name = robot->spec().name;
+    record.family = vehicle::Family::robot;
+    vehicles.push_back(std::move(record));
+  }
   return vehicles;
 }
 
@@ -168,6 +217,11 @@ std::vector<dryrun::Sample> DryRun::look() const {
       sample.moves = !flies && autopilot.body().ground_speed_m_s() > moving_m_s;
     }
     samples.push_back(sample);
+  }
+  for (auto const& simulated : buildings_) {
+    for (std::size_t i = 0; i < simulated->building->robot_count(); ++i)
+      samples.push_back(
+          look_at(*robots_.robot({simulated->robots[i]}), simulated->building->robot(i), simulated->site_from_floor));
   }
   return samples;
 }

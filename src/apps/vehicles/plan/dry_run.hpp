@@ -9,10 +9,14 @@
 #include "dryrun/recorder.hpp"
 #include "fleet/mission/platform.hpp"
 #include "host/links/ground.hpp"
+#include "host/robots/robots.hpp"
 #include "host/session/script_host.hpp"
 #include "link/pipe_link.hpp"
+#include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
+#include "robot/platform/robot_platform.hpp"
 #include "sim/world/world.hpp"
+#include "tasks/platforms.hpp"
 
 namespace lapwing::apps {
 
@@ -30,6 +34,9 @@ class DryRun {
   };
   explicit DryRun(Options options);
 
+  /// Robots as `--robot` names them, in simulated buildings; call it first. Errors: those of `host::make_robots`;
+  /// invalid_input for a robot that is not simulated.
+  [[nodiscard]] base::Result<> add_robots(std::vector<std::string> const& requests);
   /// Powers the vehicles on. Errors: invalid_input when they are too many.
   [[nodiscard]] base::Result<> power_on();
   /// Checks the script and flies it to its end; nothing flies when it does not check. Ctrl-C ends it.
@@ -56,6 +63,10 @@ class DryRun {
   link::PipeHub air_;
   host::Ground ground_;
   fleet::FleetPlatform platform_;
+  map::LiveMap live_map_;
+  std::vector<std::unique_ptr<host::SimulatedBuilding>> buildings_;
+  robot::RobotPlatform robots_;
+  tasks::Platforms platforms_;
   sim::World world_;
   dryrun::Recorder recorder_;
   std::unique_ptr<dolphin::Output> voice_;

@@ -17,7 +17,7 @@
 #include "host/session/session.hpp"
 #include "host/simulation/simulated_fleet.hpp"
 #include "host/simulation/simulation.hpp"
-#include "missions/vocabulary.hpp"
+#include "host/vocabulary.hpp"
 #include "plan/files/plan_file.hpp"
 
 namespace lapwing::apps {
@@ -27,6 +27,7 @@ namespace {
 struct PlanOptions {
   std::string script;
   std::string vehicles;
+  std::vector<std::string> robots;
   std::string home;
   std::string wind;
   std::string fence;
@@ -45,7 +46,7 @@ base::Result<dolphin::Needs> read_needs(std::string const& name, std::string con
                                         plan::plausibility::Settings const& settings) {
   auto const source = std::make_shared<base::SourceFile const>(name, text);
   base::Diagnostics diagnostics(*source);
-  auto const vocabulary = missions::vocabulary(settings);
+  auto const vocabulary = host::vocabulary(settings);
   auto const program = dolphin::load(source, vocabulary, diagnostics);
   fmt::print(stderr, "{}", base::render(diagnostics));
   if (!program) return base::fail(base::ErrorKind::invalid_input, fmt::format("{} does not check", name));
@@ -112,6 +113,7 @@ int plan_script(PlanOptions const& options) {
   if (!fence) return host::refuse(fence.error());
 
   DryRun dry_run(*dry_run_with);
+  if (auto added = dry_run.add_robots(options.robots); !added) return host::refuse(added.error());
   if (auto on = dry_run.power_on(); !on) return host::refuse(on.error());
   if (auto const flown = dry_run.fly(options.script, *text); !flown) return host::refuse(flown.error().error);
   auto const record = dry_run.record();
@@ -132,6 +134,9 @@ void add_plan(CLI::App& program, int& exit_code) {
   verb->add_option("script", options->script, "Dolphin script")->required();
   verb->add_option("--vehicles", options->vehicles,
                    "What and how many, e.g. copter:2,rover:1; default: what the script picks");
+  verb->add_option("--robot", options->robots,
+                   "Robots in a simulated building: sim:BUILDING.toml[:COUNT] (may be repeated)")
+      ->allow_extra_args(false);
   verb->add_option("--home", options->home,
                    "Where they stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the script's first home");
   verb->add_option("--fence", options->fence,

@@ -14,7 +14,7 @@
 #include "host/session/session.hpp"
 #include "host/simulation/simulated_fleet.hpp"
 #include "host/simulation/simulation.hpp"
-#include "missions/vocabulary.hpp"
+#include "host/vocabulary.hpp"
 #include "sim/model/vehicle_spec.hpp"
 
 namespace lapwing::apps {
@@ -40,6 +40,7 @@ struct RunOptions {
   std::string signing_key;
   std::vector<std::string> payload;
   std::vector<std::string> forward;
+  std::vector<std::string> robots;
   std::optional<double> swap_batteries_s;
   host::PlausibilityArguments plausibility;
 
@@ -77,7 +78,9 @@ base::Result<host::Equipment> equipment_for(RunOptions const& options, std::opti
 base::Result<> connect(host::Session& session, RunOptions const& options, std::optional<sim::WorldOptions> world) {
   auto programs = host::forward_to(options.forward);
   if (!programs) return std::unexpected(programs.error());
-  auto const links = options.links.empty() && !world ? std::vector<std::string>{host::default_link} : options.links;
+  // Who names robots alone wants no vehicles on the default link.
+  bool const wants_default = options.links.empty() && !world && options.robots.empty();
+  auto const links = wants_default ? std::vector<std::string>{host::default_link} : options.links;
   if (auto opened = session.open_links(links); !opened) return opened;
   if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return forwarded;
   return world ? session.simulate(*std::move(world)) : base::Result<>{};
@@ -107,6 +110,13 @@ int run_script(host::Session& session, RunOptions const& options, host::ScriptTe
   return dolphin::exit_code(*session.host.outcome());
 }
 
+/// So that nothing real is outrun by its clock.
+bool is_all_simulated(RunOptions const& options) {
+  auto const is_simulated = [](std::string const& robot) { return robot.starts_with("sim:"); };
+  bool const is_linked = options.simulated.empty() && (options.robots.empty() || !options.links.empty());
+  return !is_linked && std::ranges::all_of(options.robots, is_simulated);
+}
+
 int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> const& scripts, host::LoadedPlans plans,
                     host::EventFile const& events) {
   auto const on_stop = host::parse_on_stop(options.on_stop);
@@ -126,7 +136,7 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
   auto const signing = host::read_signing(options.signing_key);
   if (!signing) return host::refuse(signing.error());
   if (world) world->keys = signing->ring;
-  host::Session session({.speedup = options.speedup.value_or(options.simulated.empty() ? 1.0 : 0.0),
+  host::Session session({.speedup = options.speedup.value_or(is_all_simulated(options) ? 0.0 : 1.0),
                          .on_stop = *on_stop,
                          .plans = std::move(plans),
                          .payload = *std::move(equipment),
@@ -137,6 +147,8 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return host::refuse(begun.error());
   }
+  auto const anchor = world ? world->home : needs.home.value_or(sim::WorldOptions{}.home);
+  if (auto added = session.add_robots(options.robots, anchor); !added) return host::refuse(added.error());
   if (auto connected = connect(session, options, std::move(world)); !connected) return host::refuse(connected.error());
   int code = host::exit_done;
   for (auto script = scripts.begin(); script != scripts.end() && code == host::exit_done; ++script)
@@ -147,7 +159,7 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
 
 /// Before the first script moves anything, those after it are looked at too. Prints what is wrong with them.
 bool rest_checks(std::vector<host::ScriptText> const& scripts) {
-  auto const vocabulary = missions::vocabulary();
+  auto const vocabulary = host::vocabulary();
   bool is_good = true;
   for (std::size_t i = 1; i < scripts.size(); ++i) {
     auto const source = std::make_shared<base::SourceFile const>(scripts[i].name, scripts[i].text);
@@ -162,7 +174,8 @@ bool rest_checks(std::vector<host::ScriptText> const& scripts) {
 /// What means nothing to the test platform, and so is a mistake beside it.
 base::Result<> check_combination(RunOptions const& options) {
   if (options.platform != "test") return {};
-  std::array<std::pair<std::string_view, bool>, 10> const given{{{"--link", !options.links.empty()},
+  std::array<std::pair<std::string_view, bool>, 11> const given{{{"--robot", !options.robots.empty()},
+                                                                 {"--link", !options.links.empty()},
                                                                  {"--sim", !options.simulated.empty()},
                                                                  {"--home", !options.home.empty()},
                                                                  {"--forward", !options.forward.empty()},
@@ -203,6 +216,7 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
       ->allow_extra_args(false);
   verb.add_option("--forward", options.forward, host::forward_help)->allow_extra_args(false);
   verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
+  verb.add_option("--robot", options.robots, host::robot_help)->allow_extra_args(false);
   verb.add_option("--home", options.home,
                   "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the "
                   "script's first home");

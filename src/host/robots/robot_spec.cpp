@@ -1,0 +1,72 @@
+#include "host/robots/robot_spec.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace lapwing::host {
+
+namespace {
+
+constexpr int most_robots = 8;
+
+std::unexpected<base::Error> refuse(std::string_view text, std::string_view why) {
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("--robot {}: {}", text, why),
+                    "write sim:examples/buildings/office.toml, or a link: serial:///dev/ttyUSB0:115200@12.5,-3,90");
+}
+
+/// Numbers between commas, as many as are wanted; nothing where something else stands.
+std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
+  std::array<double, 3> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), values[i]);
+    if (error != std::errc() || !std::isfinite(values[i])) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    bool const is_last = i + 1 == values.size();
+    if (is_last != text.empty() || (!is_last && text.front() != ',')) return std::nullopt;
+    if (!is_last) text.remove_prefix(1);
+  }
+  return values;
+}
+
+base::Result<RobotRequest> simulated(std::string_view text, std::string_view file) {
+  SimulatedRobots request;
+  auto const colon = file.rfind(':');
+  if (colon != std::string_view::npos) {
+    auto const digits = file.substr(colon + 1);
+    auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), request.count);
+    bool const is_count = error == std::errc() && end == digits.data() + digits.size();
+    if (!is_count || request.count < 1 || request.count > most_robots)
+      return refuse(text, fmt::format("'{}' is no number of robots from 1 to {}", digits, most_robots));
+    file = file.substr(0, colon);
+  }
+  if (file.empty()) return refuse(text, "it names no building");
+  request.file = file;
+  return request;
+}
+
+}  // namespace
+
+base::Result<RobotRequest> parse_robot(std::string_view text) {
+  constexpr std::string_view sim = "sim:";
+  if (text.starts_with(sim)) return simulated(text, text.substr(sim.size()));
+  LinkedRobot request;
+  auto address = text;
+  if (auto const at = text.rfind('@'); at != std::string_view::npos) {
+    auto const numbers = three_numbers(text.substr(at + 1));
+    if (!numbers) return refuse(text, fmt::format("'{}' is not EAST,NORTH,YAW", text.substr(at + 1)));
+    auto const [east_m, north_m, yaw_deg] = *numbers;
+    request.start = {{east_m, north_m}, yaw_deg * std::numbers::pi / 180.0};
+    address = text.substr(0, at);
+  }
+  auto const url = link::parse_url(address);
+  if (!url) return std::unexpected(url.error());
+  request.url = *url;
+  return request;
+}
+
+}  // namespace lapwing::host

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "base/error.hpp"
+#include "geo/site.hpp"
+#include "geo/transform.hpp"
+#include "link/url.hpp"
+
+namespace lapwing::host {
+
+/// Robots in a simulated building: `sim:examples/buildings/office.toml`, `sim:office.toml:2` for two.
+struct SimulatedRobots {
+  std::string file;
+  int count = 1;
+  friend bool operator==(SimulatedRobots const&, SimulatedRobots const&) = default;
+};
+
+/// A robot at the far end of a link: `serial:///dev/ttyUSB0:115200`, and where it stands when it is switched on:
+/// `@EAST,NORTH,YAW` in metres from the site's anchor and degrees counterclockwise from east; none: at the anchor,
+/// looking east.
+struct LinkedRobot {
+  link::Url url;
+  geo::Pose<geo::SiteFrame> start = {};
+  friend bool operator==(LinkedRobot const&, LinkedRobot const&) = default;
+};
+
+using RobotRequest = std::variant<SimulatedRobots, LinkedRobot>;
+
+/// What `--robot` says. Errors: invalid_input, with an example.
+[[nodiscard]] base::Result<RobotRequest> parse_robot(std::string_view text);
+inline constexpr auto robot_help =
+    "A robot (may be repeated): sim:BUILDING.toml[:COUNT] in a simulated building, or its link, "
+    "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site";
+
+}  // namespace lapwing::host

@@ -1,0 +1,40 @@
+#include "host/robots/robot_spec.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace lapwing::host {
+namespace {
+
+TEST(RobotSpec, NamesASimulatedBuilding) {
+  EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:a/office.toml")), (SimulatedRobots{"a/office.toml", 1}));
+  EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:office.toml:3")), (SimulatedRobots{"office.toml", 3}));
+}
+
+TEST(RobotSpec, NamesALinkAndWhereTheRobotStands) {
+  auto const plain = std::get<LinkedRobot>(*parse_robot("serial:///dev/ttyUSB0:115200"));
+  EXPECT_EQ(plain.url, (link::Url{link::Transport::serial, "/dev/ttyUSB0", 115200}));
+  EXPECT_EQ(plain.start, geo::Pose<geo::SiteFrame>{});
+  auto const placed = std::get<LinkedRobot>(*parse_robot("tcpout://127.0.0.1:5770@12.5,-3,90"));
+  EXPECT_EQ(placed.url.port_or_baud, 5770u);
+  EXPECT_EQ(placed.start.position, geo::Point<geo::SiteFrame>(12.5, -3.0));
+  EXPECT_NEAR(placed.start.yaw_rad, std::numbers::pi / 2.0, 1e-12);
+}
+
+TEST(RobotSpec, SaysWhatIsWrong) {
+  auto const wrong = [](std::string_view text) { return parse_robot(text).error().message; };
+  EXPECT_EQ(wrong("sim:"), "--robot sim:: it names no building");
+  EXPECT_EQ(wrong("sim:a.toml:0"), "--robot sim:a.toml:0: '0' is no number of robots from 1 to 8");
+  EXPECT_EQ(wrong("sim:a.toml:x"), "--robot sim:a.toml:x: 'x' is no number of robots from 1 to 8");
+  EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,2"),
+            "--robot serial:///dev/ttyUSB0:115200@1,2: '1,2' is not EAST,NORTH,YAW");
+  EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,2,3,4"),
+            "--robot serial:///dev/ttyUSB0:115200@1,2,3,4: '1,2,3,4' is not EAST,NORTH,YAW");
+  EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,nan,3"),
+            "--robot serial:///dev/ttyUSB0:115200@1,nan,3: '1,nan,3' is not EAST,NORTH,YAW");
+  EXPECT_FALSE(parse_robot("office"));
+}
+
+}  // namespace
+}  // namespace lapwing::host

@@ -1,0 +1,128 @@
+#include "host/robots/robots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host/files/files.hpp"
+#include "robot/platform/linked_body.hpp"
+#include "sim/building/plan/building_file.hpp"
+
+namespace lapwing::host {
+
+namespace building = sim::building;
+
+namespace {
+
+/// Everything that is to be explored lies in a square around a start; a little more, so that its walls do, too.
+double side_around(building::Pose const& start, building::BuildingPlan const& plan, double usual_m) {
+  auto const extent = building::extent_of(plan);
+  if (!extent) return usual_m;
+  double const far_m =
+      std::max({std::abs(extent->least.x() - start.position.x()), std::abs(extent->most.x() - start.position.x()),
+                std::abs(extent->least.y() - start.position.y()), std::abs(extent->most.y() - start.position.y())});
+  constexpr double margin_m = 2.0;
+  return 2.0 * (far_m + margin_m);
+}
+
+/// Makes robots one after the other, and counts them.
+class Maker {
+ public:
+  Maker(base::Loop& loop, std::string site, geo::Wgs84 const& anchor, std::uint64_t seed,
+        std::vector<std::unique_ptr<SimulatedBuilding>>& buildings, base::Logger const& log)
+      : loop_(loop), site_(std::move(site)), anchor_(anchor), seed_(seed), buildings_(buildings), log_(log) {}
+
+  base::Result<> operator()(SimulatedRobots const& request) {
+    auto text = read_script(request.file);
+    if (!text) return std::unexpected(text.error());
+    auto plan = building::building_of(request.file, *std::move(text));
+    if (!plan) return std::unexpected(plan.error());
+    auto made = building::Building::make(*plan, {.seed = seed_, .robots = request.count});
+    if (!made) return std::unexpected(made.error());
+    auto simulated = std::make_unique<SimulatedBuilding>();
+    simulated->building = *std::move(made);
+    simulated->run = std::make_unique<building::BuildingRun>(loop_, *simulated->building);
+    simulated->site_from_floor = site_from_floor(*plan);
+    for (std::size_t i = 0; i < simulated->building->robot_count(); ++i) {
+      auto const start = simulated->building->robot(i).body().pose();
+      auto spec = next_spec(simulated->site_from_floor * start);
+      spec.planning.side_m = side_around(start, *plan, spec.planning.side_m);
+      simulated->robots.push_back(spec.id);
+      add(std::move(spec), simulated->run->connect(i));
+    }
+    buildings_.push_back(std::move(simulated));
+    return {};
+  }
+
+  base::Result<> operator()(LinkedRobot const& request) {
+    auto link = link::open(loop_, request.url);
+    if (!link) return std::unexpected(link.error());
+    add(next_spec(request.start), *std::move(link));
+    return {};
+  }
+
+  [[nodiscard]] std::vector<RobotToAdd> take() { return std::move(robots_); }
+
+ private:
+  [[nodiscard]] robot::RobotSpec next_spec(geo::Pose<geo::SiteFrame> const& start) const {
+    robot::RobotSpec spec;
+    spec.id = fmt::format("robot{}", robots_.size() + 1);
+    spec.name = fmt::format("robot {}", robots_.size() + 1);
+    spec.site = site_;
+    spec.start = start;
+    return spec;
+  }
+  /// Where the building lies in our site: by its own anchor, if it says where on the globe that is.
+  [[nodiscard]] geo::Transform<geo::SiteFrame, geo::FloorFrame> site_from_floor(
+      building::BuildingPlan const& plan) const {
+    auto const ours = geo::Site::make("site", anchor_);
+    if (!plan.anchor || !ours) return plan.site_from_floor;
+    auto const there = ours->point_of(*plan.anchor);
+    auto const origin = plan.site_from_floor.origin() + geo::Vector<geo::SiteFrame>(there.x(), there.y());
+    return {origin, plan.site_from_floor.yaw_rad()};
+  }
+  void add(robot::RobotSpec spec, std::unique_ptr<link::ByteLink> link) {
+    auto log = log_.named(spec.id);
+    robots_.push_back({.spec = std::move(spec),
+                       .body = std::make_unique<robot::LinkedBody>(loop_, std::move(link), std::move(log)),
+                       .anchor = anchor_});
+  }
+
+  base::Loop& loop_;
+  std::string site_;
+  geo::Wgs84 anchor_;
+  std::uint64_t seed_;
+  std::vector<std::unique_ptr<SimulatedBuilding>>& buildings_;
+  base::Logger const& log_;
+  std::vector<RobotToAdd> robots_;
+};
+
+}  // namespace
+
+std::optional<int> collisions_of(std::vector<std::unique_ptr<SimulatedBuilding>> const& buildings,
+                                 std::string const& robot) {
+  for (auto const& simulated : buildings) {
+    auto const found = std::ranges::find(simulated->robots, robot);
+    if (found == simulated->robots.end()) continue;
+    auto const number = static_cast<std::uint32_t>(found - simulated->robots.begin());
+    return static_cast<int>(std::ranges::count(simulated->building->collisions(), number, &building::Collision::robot));
+  }
+  return std::nullopt;
+}
+
+base::Result<std::vector<RobotToAdd>> make_robots(base::Loop& loop, std::vector<std::string> const& requests,
+                                                  std::string const& site, geo::Wgs84 const& anchor, std::uint64_t seed,
+                                                  std::vector<std::unique_ptr<SimulatedBuilding>>& buildings,
+                                                  base::Logger const& log) {
+  Maker maker(loop, site, anchor, seed, buildings, log);
+  for (auto const& text : requests) {
+    auto const request = parse_robot(text);
+    if (!request) return std::unexpected(request.error());
+    if (auto made = std::visit(maker, *request); !made) return std::unexpected(made.error());
+  }
+  return maker.take();
+}
+
+}  // namespace lapwing::host

@@ -1,0 +1,125 @@
+// End to end in simulated time: a building with a robot whose board runs the firmware's program, its line, the map made
+// of its laser and wheels alone, a script that drives it, and what the report and the page are told.
+#include "host/robots/robots.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "host/files/testing/temporary_folder.hpp"
+#include "host/robots/robots_feed.hpp"
+#include "host/session/console.hpp"
+#include "host/session/session.hpp"
+
+namespace lapwing::host {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+/// Two rooms of 4 by 4 m with a doorway of 1 m between them.
+constexpr auto two_rooms = R"(
+name = "Two rooms"
+origin = [20.0, -10.0]
+wall_thickness_m = 0.1
+
+[[wall]]
+line = [[0, 0], [8, 0], [8, 4], [0, 4]]
+closed = true
+[[wall]]
+line = [[4, 0], [4, 1.5]]
+[[wall]]
+line = [[4, 2.5], [4, 4]]
+
+[[start]]
+at = [1.5, 2]
+)";
+constexpr double free_m2 = 7.9 * 3.9 - 0.3;  // between the walls
+
+struct RobotsInABuilding : ::testing::Test {
+  void SetUp() override {
+    auto const added = session.add_robots({"sim:" + folder.write("rooms.toml", two_rooms)},
+                                          geo::Wgs84::from_degrees(41.178, -8.598, 90.0));
+    ASSERT_TRUE(added) << added.error().message;
+  }
+  /// Runs the script to its end and gives the outcome's word.
+  std::string run(std::string const& script) {
+    auto const started = session.host.start("test.dolphin", script);
+    EXPECT_TRUE(started) << session.host.rendered_diagnostics();
+    if (!started) return "does not check";
+    session.run_to_end(30min);
+    return outcome_word(*session.host.outcome());
+  }
+  [[nodiscard]] sim::building::Building& building() { return *session.buildings.front()->building; }
+
+  testing::TemporaryFolder folder;
+  Session session{{.speedup = 0.0, .log_level = base::LogLevel::error, .seed = 1}};
+};
+
+TEST_F(RobotsInABuilding, MapTheFloorAndComeBack) {
+  auto const start = building().robot(0).body().pose();
+  EXPECT_EQ(run("robot = pick { type 'UGV'; payload 'Laser'; timeout 60 }\n"
+                "execute robot: drive { name 'Rooms'; explore(); returnToStart() }\n"
+                "message \"${coverage(robot) > 0.95}\""),
+            "done")
+      << session.host.outcome()->message;
+  EXPECT_TRUE(building().collisions().empty());
+  EXPECT_LT(geo::distance_m(building().robot(0).body().pose().position, start.position), 0.6);
+
+  auto const report = json::parse(to_json(session.report()));
+  auto const& robot = report["vehicles"][0];
+  EXPECT_EQ(robot["id"], "robot1");
+  EXPECT_EQ(robot["type"], "robot");
+  EXPECT_GE(robot["robot"]["coverage"].get<double>(), 0.95);
+  EXPECT_NEAR(robot["robot"]["free_m2"].get<double>(), free_m2, 0.08 * free_m2);
+  EXPECT_EQ(robot["robot"]["collisions"], 0);
+  EXPECT_EQ(robot["robot"]["drives"], json::parse(R"([{"name": "Rooms", "outcome": "done", "error": ""}])"));
+
+  // On the map where the building stands, and told to the page.
+  auto const& grid = session.live_map.grids().at({"default", "", "robot 1"}).grid;
+  geo::Point<geo::SiteFrame> const other_room(20.0 + 6.0, -10.0 + 2.0);
+  auto const cell = grid.cell_at(grid.site_from_grid().inverse() * other_room);
+  EXPECT_LT(grid.at(cell).probability(), 0.2);
+  RobotsFeed feed(session.robots, session.live_map);
+  auto const revision = feed.refresh(session.loop.now());
+  auto const told = json::parse(feed.since(0, session.loop.now(), 1 << 20).frames.front().content);
+  EXPECT_GT(revision, 0u);
+  EXPECT_EQ(told["robots"][0]["id"], "robot1");
+  EXPECT_TRUE(told["robots"][0]["frontiers"].empty());
+  EXPECT_GT(told["robots"][0]["spread"]["major_m"].get<double>(), 0.0);
+}
+
+TEST_F(RobotsInABuilding, AreGuardedByWhatTheyHaveSeen) {
+  EXPECT_EQ(run("robot = pick { id 'robot1'; timeout 60 }\n"
+                "execute robot: drive { explore() } / { coverage(robot) > 0.3 }"),
+            "done");
+  auto const& survey = session.robots.robots().front()->survey();
+  EXPECT_GT(survey->coverage, 0.3);
+  EXPECT_LT(survey->coverage, 0.95) << "it was stopped before the end";
+}
+
+TEST_F(RobotsInABuilding, AreStoppedByTheEmergencyStopOfAll) {
+  base::Scope scope(session.loop);
+  scope.spawn([](Session& here) -> base::Task<> {
+    auto const& robot = *here.robots.robots().front();
+    while (!robot.has_been_heard() || robot.state().motion.track_m < 1.0) co_await here.loop.sleep(100ms);
+    here.all_control.emergency_stop(std::nullopt, "anna");
+  }(session));
+  EXPECT_EQ(run("robot = pick { id 'robot1'; timeout 60 }\nexecute robot: drive { explore() }"), "halted");
+  session.loop.run_until_done([](Session& here) -> base::Task<> { co_await here.loop.sleep(2s); }(session));
+  EXPECT_TRUE(session.robots.robots().front()->is_killed());
+  EXPECT_LT(std::abs(building().robot(0).body().speed_m_s()), 0.01);
+}
+
+TEST(Robots, SayWhatIsWrongWithABuilding) {
+  testing::TemporaryFolder const folder;
+  auto const file = folder.write("broken.toml", "[[wall]]\nline = 7\n");
+  Session session{{.speedup = 0.0, .log_level = base::LogLevel::error}};
+  auto const anchor = geo::Wgs84::from_degrees(41.0, -8.0);
+  auto const broken = session.add_robots({"sim:" + file}, anchor);
+  ASSERT_FALSE(broken);
+  EXPECT_NE(broken.error().message.find("broken.toml"), std::string::npos) << broken.error().message;
+  EXPECT_FALSE(session.add_robots({"sim:" + (folder.path() / "none.toml").string()}, anchor));
+}
+
+}  // namespace
+}  // namespace lapwing::host
