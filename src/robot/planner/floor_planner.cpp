@@ -87,9 +87,7 @@ void FloorPlanner::learn(map::OccupancyGrid const& grid, std::vector<map::TileKe
 
 base::Result<> FloorPlanner::begin(Errand errand) {
   if (auto const* const exploring = std::get_if<ExploreErrand>(&errand)) {
-    explore::Settings settings;
-    settings.strategy = exploring->strategy;
-    auto made = explore::make_strategy(settings);
+    auto made = explore::make_strategy(exploring->strategy);
     if (!made) return std::unexpected(made.error());
     strategy_ = *std::move(made);
     frontiers_ = std::make_unique<explore::Frontiers>(*known_);

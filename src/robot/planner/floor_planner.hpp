@@ -17,7 +17,7 @@ namespace lapwing::robot {
 
 /// What a robot is to do on the floor that it maps.
 struct ExploreErrand {
-  std::string strategy = "tour";  ///< of explore::strategy_names
+  std::string strategy = "nearest";  ///< of explore::strategy_names
   friend bool operator==(ExploreErrand const&, ExploreErrand const&) = default;
 };
 struct DriveErrand {
