@@ -4,7 +4,10 @@ import type { Paper } from '../map/overlay';
 import type { MakeLayer } from './layer';
 import { paintLine } from './paths';
 
-const FRONTIER_PX = 4;
+/** As large as a step on the ground, within what can be seen and does not cover the floor. */
+const FRONTIER_M = 0.4;
+const FRONTIER_PX = { least: 1, most: 4 };
+const METRES_PER_DEGREE = 111_320;
 
 interface Shown {
   sketch: RobotSketch;
@@ -52,13 +55,17 @@ function paintSketch(paper: Paper, { sketch: { way, frontiers }, ellipse, colour
   const { on, colours, place } = paper;
   paintLine(paper, ellipse, { colour, width: 1.4 });
   paintLine(paper, way, { colour, width: 2, dashes: [5, 4] });
+  const [first] = frontiers;
+  if (!first) return;
+  const metre = place(first).y - place([first[0], first[1] + 1 / METRES_PER_DEGREE]).y;
+  const radius = Math.min(Math.max(FRONTIER_M * metre, FRONTIER_PX.least), FRONTIER_PX.most);
+  on.fillStyle = colours.levels.warning;
+  on.strokeStyle = colours.ground;
+  on.lineWidth = radius / 3;
   for (const at of frontiers) {
     const { x, y } = place(at);
     on.beginPath();
-    on.arc(x, y, FRONTIER_PX, 0, 2 * Math.PI);
-    on.fillStyle = colours.levels.warning;
-    on.strokeStyle = colours.ground;
-    on.lineWidth = 1.5;
+    on.arc(x, y, radius, 0, 2 * Math.PI);
     on.fill();
     on.stroke();
   }
