@@ -8,6 +8,7 @@ Words behind `dolphin` say what a block shows:
     continues   it goes on where the block before ended, and is read together with it
     events      the text has the events of its tasks too (`--events -`), but for who was chosen (ALLOC)
     flown=SPEC  it is flown on simulated vehicles (`run --sim SPEC`) instead of the test platform
+    driven=FILE it is carried out by a robot in that simulated building (`run --robot sim:FILE`)
     exit=N      how a run of it ends, 0 if left out
     input=A|B   the answers to its questions
     picture=P   docs/pictures/plan-P.svg is its dry run
@@ -33,7 +34,7 @@ import re
 import sys
 
 FENCE = re.compile(r"^```(\w*) ?(.*)$")
-SCRIPT_WORDS = ("mistake", "warns", "continues", "events", "flown", "exit", "input", "picture", "file")
+SCRIPT_WORDS = ("mistake", "warns", "continues", "events", "flown", "driven", "exit", "input", "picture", "file")
 COMMAND_WORDS = ("background", "until", "ends", "vehicles", "beside", "exit", "skipped")
 
 

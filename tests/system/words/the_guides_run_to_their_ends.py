@@ -17,7 +17,7 @@ import reader
 
 GUIDES = [harness.ROOT / "README.md", *sorted((harness.ROOT / "docs/guide").glob("*.md"))]
 # Settings of other programs; editors.md's are tried by those who use them.
-FOREIGN = ("lua", "toml", "elisp", "ini", "nginx")
+FOREIGN = ("cpp", "json", "lua", "toml", "elisp", "ini", "nginx")
 
 
 def is_as_estimated(mission: dict) -> bool:
@@ -40,6 +40,19 @@ def fly(block: documents.Block, folder: pathlib.Path):
         assert mission["outcome"] in ("done", "stopped") and is_as_estimated(mission), f"{block.place}: {mission}\n{out}{err}"
     still_flying = [word for word in ("still in the air",) if word in out + err]
     assert not still_flying, f"{block.place}: {out}{err}"
+
+
+def drive(block: documents.Block, folder: pathlib.Path):
+    """By a robot in a simulated building, to its end, every drive of it."""
+    script, report = folder / "driven.dolphin", folder / "driven.json"
+    script.write_text(block.script)
+    building = harness.ROOT / block.words["driven"]
+    code, out, err = harness.finish("run", str(script), "--robot", f"sim:{building}", "--report", str(report))
+    assert code == 0, f"{block.place}: run ends with {code}\n{out}{err}"
+    robots = [vehicle["robot"] for vehicle in json.loads(report.read_text())["vehicles"] if "robot" in vehicle]
+    outcomes = [one["outcome"] for robot in robots for one in robot["drives"]]
+    assert outcomes and set(outcomes) == {"done"}, f"{block.place}: {outcomes}\n{out}{err}"
+    assert all(robot["collisions"] == 0 for robot in robots), f"{block.place}: {robots}"
 
 
 def strays(page: pathlib.Path) -> list[str]:
@@ -66,6 +79,8 @@ def follow(page: pathlib.Path) -> str:
                 somebody.follow(step)
                 if "flown" in step.words:
                     fly(step, pathlib.Path(name))
+                if "driven" in step.words:
+                    drive(step, pathlib.Path(name))
                 count += 1
             somebody.end()
         finally:
