@@ -24,6 +24,20 @@ constexpr double gain_reach_m = 5.0;
 constexpr double home_within_m = 0.5;
 constexpr double mind_within_m = 2.5;  ///< what moves farther away may be gone when the robot gets there
 constexpr std::size_t most_obstacles = 200;
+/// Farther than the board's own safe distance, which would stop a robot that only just fits.
+constexpr double beyond_safe_m = 0.05;
+/// Held up on a free way, by its board or by what its laser does not see, it goes back the way it came, and for a while
+/// does not come by what is ahead of it there.
+constexpr double back_off_after_s = 5.0;
+constexpr double back_off_s = 3.0;
+constexpr double back_off_m_s = 0.08;
+constexpr double bump_ahead_m = 0.12;  ///< of the hull
+constexpr double bump_lasts_s = 90.0;
+constexpr std::size_t most_bumps = 8;
+constexpr int most_back_offs = 8;       ///< about one place, before an errand has failed
+constexpr int back_offs_of_a_goal = 3;  ///< before a strategy is told that it is cut off
+constexpr double elsewhere_m = 1.0;
+constexpr double into_the_open_m = 1.0;
 
 explore::CarrierLimits carrier_limits(Limits const& limits) {
   return {.radius_m = limits.radius_m,
@@ -47,8 +61,9 @@ FloorPlanner::FloorPlanner(PlannerOptions const& options)
   auto const cells = cells_a_side(options);
   known_ = std::make_unique<explore::KnownMap>(
       cells, cells, options.cell_m,
-      explore::KnownMap::Distances{.keep_off_m = options.limits.radius_m + options.limits.safe_distance_m,
-                                   .wary_m = options.wary_m});
+      explore::KnownMap::Distances{
+          .keep_off_m = options.limits.radius_m + options.limits.safe_distance_m + beyond_safe_m,
+          .wary_m = options.wary_m});
   roads_ = std::make_unique<explore::RoadMap>(*known_);
   search_ = std::make_unique<explore::GridSearch>(*known_);
   frontiers_ = std::make_unique<explore::Frontiers>(*known_);
@@ -96,6 +111,8 @@ base::Result<> FloorPlanner::begin(Errand errand) {
   order_ = {};
   navigator_.stop();
   is_new_ = true;
+  back_offs_ = 0;
+  back_offs_of_goal_ = 0;
   return {};
 }
 
@@ -106,9 +123,33 @@ void FloorPlanner::note_standing(Situation const& situation) {
   stood_since_s_ = situation.time_s;
 }
 
+bool FloorPlanner::is_held_up(Situation const& situation, Plan const& plan) const {
+  bool const has_way = plan.state == Plan::State::under_way && !plan.way.points.empty();
+  return has_way && situation.time_s - stood_since_s_ > back_off_after_s;
+}
+
+void FloorPlanner::begin_back_off(Situation const& situation) {
+  Place const here(situation.pose.x, situation.pose.y);
+  if (geo::distance_m(here, backed_off_at_) > elsewhere_m) {
+    backed_off_at_ = here;
+    back_offs_ = 0;
+  }
+  ++back_offs_;
+  ++back_offs_of_goal_;
+  backs_until_s_ = situation.time_s + back_off_s;
+  back_off_yaw_ = situation.pose.yaw;
+  double const ahead_m = options_.limits.radius_m + bump_ahead_m;
+  Place const bump(here.x() + ahead_m * std::cos(situation.pose.yaw),
+                   here.y() + ahead_m * std::sin(situation.pose.yaw));
+  bumps_.push_back({bump, situation.time_s + bump_lasts_s});
+  if (bumps_.size() > most_bumps) bumps_.erase(bumps_.begin());
+}
+
 std::vector<Disc> FloorPlanner::obstacles(Situation const& situation) const {
   std::vector<Disc> discs;
   double const radius_m = options_.limits.radius_m + options_.limits.safe_distance_m + options_.cell_m;
+  for (auto const& bump : bumps_)
+    if (situation.time_s < bump.until_s) discs.push_back({on_floor(bump.place), radius_m});
   auto const here = on_floor({situation.pose.x, situation.pose.y});
   for (auto const& end : situation.seen) {
     if (discs.size() == most_obstacles) break;
@@ -131,6 +172,8 @@ std::vector<Disc> FloorPlanner::obstacles(Situation const& situation) const {
 Plan FloorPlanner::plan(Situation const& situation) {
   if (std::holds_alternative<std::monostate>(errand_)) return {};
   note_standing(situation);
+  if (situation.time_s < backs_until_s_)
+    return {.state = Plan::State::under_way, .way = {.yaw_rad = back_off_yaw_, .speed_m_s = -back_off_m_s}};
   explore::Pose const pose{on_floor({situation.pose.x, situation.pose.y}), situation.pose.yaw};
   Plan plan;
   if (std::holds_alternative<ExploreErrand>(errand_)) {
@@ -141,6 +184,12 @@ Plan FloorPlanner::plan(Situation const& situation) {
     plan = drive(situation, pose, Place(0.0, 0.0), home_within_m);
   }
   is_new_ = false;
+  if (is_held_up(situation, plan)) begin_back_off(situation);
+  if (back_offs_ > most_back_offs && !std::holds_alternative<ExploreErrand>(errand_))
+    return {
+        .state = Plan::State::failed,
+        .reason = fmt::format("it was held up {} times there: something stands in its way that its map does not show",
+                              most_back_offs)};
   double const stood_s = situation.time_s - stood_since_s_;
   if (plan.state == Plan::State::under_way && stood_s > options_.give_up_s)
     return {.state = Plan::State::failed,
@@ -149,7 +198,8 @@ Plan FloorPlanner::plan(Situation const& situation) {
 }
 
 Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose) {
-  bool const has_stood = situation.time_s - stood_since_s_ > blocked_after_s;
+  bool const has_stood =
+      situation.time_s - stood_since_s_ > blocked_after_s || back_offs_of_goal_ >= back_offs_of_a_goal;
   explore::RobotView const view{.pose = pose,
                                 .start = {on_floor({0.0, 0.0}), 0.0},
                                 .sides = [&situation] { return situation.sides; },
@@ -162,7 +212,10 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   auto const& order = orders.front();
   if (order.kind != explore::Order::Kind::keep) order_ = order;
   switch (order.kind) {
-    case explore::Order::Kind::go: navigator_.go_to(order.goal); break;
+    case explore::Order::Kind::go:
+      navigator_.go_to(order.goal);
+      back_offs_of_goal_ = 0;
+      break;
     case explore::Order::Kind::steer: navigator_.stop(); break;
     case explore::Order::Kind::home: return {.state = Plan::State::done};
     case explore::Order::Kind::keep: break;
@@ -211,6 +264,29 @@ Plan FloorPlanner::drive(Situation const& situation, explore::Pose const& pose, 
   return follow(situation, pose);
 }
 
+/// Where a loop has moved the map, the robot finds itself nearer to a wall than ways keep, and none begins there: it
+/// goes to the nearest place from which there is one, if nothing stands between.
+Way FloorPlanner::way_into_the_open(explore::Pose const& pose) const {
+  auto const here = known_->cell_at(pose.position);
+  if (known_->is_standable(here)) return {};
+  auto const is_free = [&](Cell cell) { return known_->at(cell) == Knowledge::free; };
+  int const reach = static_cast<int>(into_the_open_m / options_.cell_m);
+  std::optional<Cell> best;
+  double least = reach + 0.5;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      auto const cell = here + Cell{x, y};
+      double const far = std::hypot(x, y);
+      if (far >= least || !known_->is_standable(cell) || !explore::is_line_clear(here, cell, is_free)) continue;
+      best = cell;
+      least = far;
+    }
+  }
+  if (!best) return {};
+  return {.points = {on_map(pose.position), on_map(known_->middle(*best))},
+          .speed_m_s = options_.limits.near_speed_m_s};
+}
+
 Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose) {
   using State = explore::Navigator::State;
   if (!navigator_.goal()) return {.state = Plan::State::under_way};
@@ -224,7 +300,10 @@ Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose)
     plan.state = Plan::State::done;
     return plan;
   }
-  if (navigator_.state() == State::blocked) return plan;
+  if (navigator_.state() == State::blocked) {
+    plan.way = way_into_the_open(pose);
+    return plan;
+  }
   bool const is_near = known_->is_near_wall(known_->cell_at(pose.position));
   plan.way.speed_m_s = is_near ? options_.limits.near_speed_m_s : options_.limits.speed_m_s;
   // It keeps count of what has been passed, and so sees when the way is at its end.

@@ -85,7 +85,16 @@ class FloorPlanner {
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
+  [[nodiscard]] Way way_into_the_open(explore::Pose const& pose) const;
   void note_standing(Situation const& situation);
+  [[nodiscard]] bool is_held_up(Situation const& situation, Plan const& plan) const;
+  void begin_back_off(Situation const& situation);
+
+  /// Where something held it up that the map does not show.
+  struct Bump {
+    Place place = {};
+    double until_s = 0.0;
+  };
 
   PlannerOptions options_;
   double half_m_;  ///< of the square's side: what lies between the map's origin and the floor's
@@ -103,6 +112,12 @@ class FloorPlanner {
   Place stood_at_ = {};
   double stood_since_s_ = 0.0;
   bool is_new_ = true;  ///< the errand has not been planned yet
+  std::vector<Bump> bumps_;
+  double backs_until_s_ = 0.0;
+  double back_off_yaw_ = 0.0;
+  Place backed_off_at_ = {};
+  int back_offs_ = 0;          ///< about that place
+  int back_offs_of_goal_ = 0;  ///< of an exploration
 };
 
 }  // namespace lapwing::robot

@@ -14,6 +14,7 @@ constexpr double look_ahead_m = 0.4;
 constexpr double arrived_m = 0.12;
 constexpr double turn_first_rad = 0.6;  ///< farther to the side than this, the robot turns where it stands
 constexpr double turn_gain = 2.0;
+constexpr double looks_back_rad = 2.8;  ///< a beam that far from ahead
 
 double distance_m(slam::Pose2 const& pose, Place const& place) {
   return std::hypot(place.x() - pose.x, place.y() - pose.y);
@@ -27,9 +28,11 @@ void Follower::take(Way way) {
   has_arrived_ = false;
 }
 
-Motion Follower::steer(slam::Pose2 const& pose, double room_m) {
-  double const brakes_m = std::max(0.0, room_m);
-  double const most_m_s = std::min(way_.speed_m_s, std::sqrt(2.0 * limits_.acceleration_m_s2 * brakes_m));
+Motion Follower::steer(slam::Pose2 const& pose, Room const& room) {
+  bool const goes_back = way_.speed_m_s < 0.0;
+  double const brakes_m = std::max(0.0, goes_back ? room.behind_m : room.ahead_m);
+  double const stops_m_s = std::sqrt(2.0 * limits_.acceleration_m_s2 * brakes_m);
+  double const most_m_s = goes_back ? std::max(way_.speed_m_s, -stops_m_s) : std::min(way_.speed_m_s, stops_m_s);
   Motion wanted;
   if (way_.yaw_rad) {
     double const off = geo::wrap_pi(*way_.yaw_rad - pose.yaw);
@@ -69,20 +72,23 @@ Motion Follower::along(slam::Pose2 const& pose, double most_m_s) {
   return {ahead, turn_gain * off};
 }
 
-double room_ahead_m(slam::Scan const& scan, slam::Sensor const& sensor, Limits const& limits, double most_m) {
+Room room_of(slam::Scan const& scan, slam::Sensor const& sensor, Limits const& limits, double most_m) {
   // Less than ways keep off: where those just fit, the noise of a range must not hold the robot up.
   double const keep_m = limits.radius_m + 0.4 * limits.safe_distance_m;
-  double room_m = most_m;
+  bool const looks_back =
+      std::ranges::any_of(sensor.bearings_rad, [](double bearing) { return std::abs(bearing) > looks_back_rad; });
+  Room room{.ahead_m = most_m, .behind_m = looks_back ? most_m : 0.0};
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     double const range_m = scan.ranges_m[i];
     if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
     double const bearing = sensor.bearings_rad[i];
     double const ahead = range_m * std::cos(bearing) + sensor.mount_m.x();
     double const aside = range_m * std::sin(bearing) + sensor.mount_m.y();
-    if (ahead <= 0.0 || std::abs(aside) >= keep_m) continue;
-    room_m = std::min(room_m, ahead - std::sqrt(keep_m * keep_m - aside * aside));
+    if (std::abs(aside) >= keep_m) continue;
+    double& way_m = ahead > 0.0 ? room.ahead_m : room.behind_m;
+    way_m = std::min(way_m, std::abs(ahead) - std::sqrt(keep_m * keep_m - aside * aside));
   }
-  return room_m;
+  return room;
 }
 
 }  // namespace lapwing::robot

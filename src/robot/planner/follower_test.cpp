@@ -10,13 +10,13 @@ namespace {
 
 using slam::Pose2;
 
-constexpr double plenty_m = 5.0;
+constexpr Room plenty{.ahead_m = 5.0, .behind_m = 5.0};
 
 /// Drives it for so many seconds as it steers.
-Pose2 follow(Follower& follower, Pose2 pose, double seconds, double room_m = plenty_m) {
+Pose2 follow(Follower& follower, Pose2 pose, double seconds, Room const& room = plenty) {
   constexpr double step_s = 0.1;
   for (double t = 0.0; t < seconds; t += step_s) {
-    auto const motion = follower.steer(pose, room_m);
+    auto const motion = follower.steer(pose, room);
     pose = pose * Pose2{motion.speed_m_s * step_s, 0.0, motion.turn_rad_s * step_s};
   }
   return pose;
@@ -36,7 +36,7 @@ TEST(Follower, ComesToTheEndOfAWayRoundACorner) {
   EXPECT_TRUE(follower.has_arrived());
   EXPECT_NEAR(end.x, 2.0, 0.15);
   EXPECT_NEAR(end.y, 2.0, 0.15);
-  EXPECT_EQ(follower.steer(end, plenty_m), Motion{});
+  EXPECT_EQ(follower.steer(end, plenty), Motion{});
 }
 
 TEST(Follower, KeepsNearItsWay) {
@@ -58,7 +58,7 @@ TEST(Follower, CutsNoCornerThatIsNotFree) {
   auto const heading_with = [&](std::size_t clear_to) {
     Follower follower({});
     follower.take({.points = points, .clear_to = clear_to, .is_to_the_end = true, .speed_m_s = 0.3});
-    return follower.steer({1.8, 0.0, 0.0}, plenty_m).turn_rad_s;
+    return follower.steer({1.8, 0.0, 0.0}, plenty).turn_rad_s;
   };
   EXPECT_GT(heading_with(points.size()), 0.5) << "towards the way behind the corner";
   EXPECT_NEAR(heading_with(10), 0.0, 0.01) << "to the corner first";
@@ -67,7 +67,7 @@ TEST(Follower, CutsNoCornerThatIsNotFree) {
 TEST(Follower, TurnsOnTheSpotTowardsWhatLiesBehind) {
   Follower follower({});
   follower.take({.points = {{0.0, 0.0}, {-1.0, 0.0}}, .is_to_the_end = true, .speed_m_s = 0.3});
-  auto const motion = follower.steer({}, plenty_m);
+  auto const motion = follower.steer({}, plenty);
   EXPECT_EQ(motion.speed_m_s, 0.0);
   EXPECT_EQ(std::abs(motion.turn_rad_s), Limits{}.turn_rad_s);
 }
@@ -75,9 +75,9 @@ TEST(Follower, TurnsOnTheSpotTowardsWhatLiesBehind) {
 TEST(Follower, StandsBeforeWhatIsInItsWayAndSlowsDownTowardsIt) {
   Follower follower({});
   follower.take({.points = corner(), .is_to_the_end = true, .speed_m_s = 0.3});
-  EXPECT_EQ(follower.steer({}, 0.0).speed_m_s, 0.0);
-  EXPECT_EQ(follower.steer({}, -0.1).speed_m_s, 0.0);
-  double const slow = follower.steer({}, 0.05).speed_m_s;
+  EXPECT_EQ(follower.steer({}, {0.0}).speed_m_s, 0.0);
+  EXPECT_EQ(follower.steer({}, {-0.1}).speed_m_s, 0.0);
+  double const slow = follower.steer({}, {0.05}).speed_m_s;
   EXPECT_GT(slow, 0.0);
   // It can brake within the room that there is.
   EXPECT_LE(slow * slow / (2.0 * Limits{}.acceleration_m_s2), 0.05 + 1e-9);
@@ -94,10 +94,18 @@ TEST(Follower, DrivesByAHeadingWithoutAWay) {
 
 TEST(Follower, StandsWithoutAWay) {
   Follower follower({});
-  EXPECT_EQ(follower.steer({}, plenty_m), Motion{});
+  EXPECT_EQ(follower.steer({}, plenty), Motion{});
   follower.take({.points = corner(), .speed_m_s = 0.3});
   follower.stop();
-  EXPECT_EQ(follower.steer({}, plenty_m), Motion{});
+  EXPECT_EQ(follower.steer({}, plenty), Motion{});
+}
+
+TEST(Follower, GoesBackNoFartherThanThereIsRoom) {
+  Follower follower(Limits{});
+  follower.take({.yaw_rad = 0.0, .speed_m_s = -0.08});
+  EXPECT_EQ(follower.steer({}, {.ahead_m = 0.0, .behind_m = 1.0}).speed_m_s, -0.08);
+  EXPECT_EQ(follower.steer({}, {.ahead_m = 5.0, .behind_m = 0.0}).speed_m_s, 0.0);
+  EXPECT_EQ(follower.steer({}, {.ahead_m = 5.0, .behind_m = -0.1}).speed_m_s, 0.0);
 }
 
 slam::Scan scan_of(slam::Sensor& sensor, double bearing, double range) {
@@ -108,19 +116,21 @@ slam::Scan scan_of(slam::Sensor& sensor, double bearing, double range) {
   return scan;
 }
 
-TEST(RoomAhead, CountsWhatTheRobotWouldTouch) {
+TEST(Room, CountsWhatTheRobotWouldTouch) {
   slam::Sensor sensor;
   Limits const limits{.radius_m = 0.2, .safe_distance_m = 0.05};
   auto const ahead = scan_of(sensor, 0.0, 1.0);
-  EXPECT_NEAR(room_ahead_m(ahead, sensor, limits), 1.0 - 0.22, 1e-6);
+  EXPECT_NEAR(room_of(ahead, sensor, limits).ahead_m, 1.0 - 0.22, 1e-6);
   auto const beside = scan_of(sensor, std::numbers::pi / 2.0, 0.3);
-  EXPECT_EQ(room_ahead_m(beside, sensor, limits), 2.0) << "it passes that";
+  EXPECT_EQ(room_of(beside, sensor, limits).ahead_m, 2.0) << "it passes that";
   auto const behind = scan_of(sensor, std::numbers::pi, 0.25);
-  EXPECT_EQ(room_ahead_m(behind, sensor, limits), 2.0);
+  EXPECT_EQ(room_of(behind, sensor, limits).ahead_m, 2.0);
+  EXPECT_NEAR(room_of(behind, sensor, limits).behind_m, 0.25 - 0.22, 1e-6);
   auto const nothing = scan_of(sensor, 0.0, 10.0);
-  EXPECT_EQ(room_ahead_m(nothing, sensor, limits), 2.0);
+  EXPECT_EQ(room_of(nothing, sensor, limits).behind_m, 0.0) << "nobody looks there";
+  EXPECT_EQ(room_of(nothing, sensor, limits).ahead_m, 2.0);
   auto const touching = scan_of(sensor, 0.0, 0.15);
-  EXPECT_LT(room_ahead_m(touching, sensor, limits), 0.0);
+  EXPECT_LT(room_of(touching, sensor, limits).ahead_m, 0.0);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ void Robot::take(Reading const& reading) {
 
 void Robot::take(slam::Scan const& scan) {
   scanned_at_ = around_.loop.now();
-  room_ahead_m_ = room_ahead_m(scan, *body_->laser(), spec_.planning.limits);
+  room_ = room_of(scan, *body_->laser(), spec_.planning.limits);
   room_measured_at_m_ = driven_m_;
   if (scans_.size() == most_waiting_scans) scans_.pop_front();
   scans_.push_back(scan);
@@ -104,8 +104,10 @@ slam::Pose2 Robot::pose_now(slam::Pose2 const& odometry) const {
 void Robot::steer() {
   bool const sees = scanned_at_ && around_.loop.now() - *scanned_at_ < scan_is_old;
   Motion motion;
-  if (sees && here_ && is_driving() && !last_reading_->is_killed)
-    motion = follower_.steer(pose_now(last_reading_->odometry), room_ahead_m_ - (driven_m_ - room_measured_at_m_));
+  if (sees && here_ && is_driving() && !last_reading_->is_killed) {
+    double const since_m = driven_m_ - room_measured_at_m_;
+    motion = follower_.steer(pose_now(last_reading_->odometry), {room_.ahead_m - since_m, room_.behind_m - since_m});
+  }
   asked_ = motion;
   body_->drive(motion);
 }

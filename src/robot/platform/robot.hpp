@@ -134,7 +134,7 @@ class Robot {
   std::optional<Reading> last_reading_;
   std::deque<slam::Scan> scans_;  ///< that have not been thought of
   std::optional<base::TimePoint> scanned_at_;
-  double room_ahead_m_ = 0.0;
+  Room room_;
   double room_measured_at_m_ = 0.0;  ///< driven then
   double driven_m_ = 0.0;
   Motion asked_;
