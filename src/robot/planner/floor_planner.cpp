@@ -231,21 +231,25 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   return plan;
 }
 
-std::optional<Cell> FloorPlanner::standable_near(Place const& place, double within_m) const {
-  auto const middle = cell_at(place);
-  if (known_->is_standable(middle)) return middle;
+template <class Fits>
+std::optional<Cell> FloorPlanner::standable_near(Cell middle, double within_m, Fits const& fits) const {
   int const reach = static_cast<int>(within_m / options_.cell_m);
   std::optional<Cell> best;
   double least = reach + 0.5;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
+      auto const cell = middle + Cell{x, y};
       double const far = std::hypot(x, y);
-      if (far >= least || !known_->is_standable(middle + Cell{x, y})) continue;
-      best = middle + Cell{x, y};
+      if (far >= least || !known_->is_standable(cell) || !fits(cell)) continue;
+      best = cell;
       least = far;
     }
   }
   return best;
+}
+
+std::optional<Cell> FloorPlanner::standable_near(Place const& place, double within_m) const {
+  return standable_near(cell_at(place), within_m, [](Cell) { return true; });
 }
 
 Plan FloorPlanner::drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m) {
@@ -270,20 +274,10 @@ Way FloorPlanner::way_into_the_open(explore::Pose const& pose) const {
   auto const here = known_->cell_at(pose.position);
   if (known_->is_standable(here)) return {};
   auto const is_free = [&](Cell cell) { return known_->at(cell) == Knowledge::free; };
-  int const reach = static_cast<int>(into_the_open_m / options_.cell_m);
-  std::optional<Cell> best;
-  double least = reach + 0.5;
-  for (int y = -reach; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) {
-      auto const cell = here + Cell{x, y};
-      double const far = std::hypot(x, y);
-      if (far >= least || !known_->is_standable(cell) || !explore::is_line_clear(here, cell, is_free)) continue;
-      best = cell;
-      least = far;
-    }
-  }
-  if (!best) return {};
-  return {.points = {on_map(pose.position), on_map(known_->middle(*best))},
+  auto const open =
+      standable_near(here, into_the_open_m, [&](Cell cell) { return explore::is_line_clear(here, cell, is_free); });
+  if (!open) return {};
+  return {.points = {on_map(pose.position), on_map(known_->middle(*open))},
           .speed_m_s = options_.limits.near_speed_m_s};
 }
 

@@ -53,7 +53,8 @@ struct Plan {
 };
 
 /// Plans on the map as it grows: where to go for an errand and how to get there. It keeps to cells that are known to be
-/// free, a robot's radius and the safe distance off everything else. Pure: the same calls give the same plans.
+/// free, a robot's radius and somewhat more than the safe distance off everything else. Pure: the same calls give the
+/// same plans.
 class FloorPlanner {
  public:
   explicit FloorPlanner(PlannerOptions const& options);
@@ -79,6 +80,10 @@ class FloorPlanner {
   [[nodiscard]] explore::Place on_floor(Place const& place) const;
   [[nodiscard]] Place on_map(explore::Place const& place) const;
   [[nodiscard]] explore::Cell cell_at(Place const& place) const { return known_->cell_at(on_floor(place)); }
+  /// The nearest of which `fits` is true, too.
+  template <class Fits>
+  [[nodiscard]] std::optional<explore::Cell> standable_near(explore::Cell middle, double within_m,
+                                                            Fits const& fits) const;
   [[nodiscard]] std::optional<explore::Cell> standable_near(Place const& place, double within_m) const;
   [[nodiscard]] std::vector<explore::Disc> obstacles(Situation const& situation) const;
   [[nodiscard]] Plan explore(Situation const& situation, explore::Pose const& pose);
@@ -108,7 +113,6 @@ class FloorPlanner {
   Errand errand_;
   explore::Order order_;
   std::size_t free_cells_ = 0;
-  bool is_arrived_told_ = false;
   Place stood_at_ = {};
   double stood_since_s_ = 0.0;
   bool is_new_ = true;  ///< the errand has not been planned yet

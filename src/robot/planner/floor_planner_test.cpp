@@ -121,6 +121,31 @@ TEST(FloorPlanner, DrivesAroundWhatStandsWhereItsMapIsFree) {
   EXPECT_EQ(straight.state, State::under_way);
 }
 
+TEST(FloorPlanner, GoesBackWhereItIsHeldUpAndThenAnotherWay) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
+  EXPECT_GT(planner.plan({.time_s = 1.0}).way.speed_m_s, 0.0);
+  (void)planner.plan({.time_s = 7.0});
+  auto const back = planner.plan({.time_s = 8.0});
+  EXPECT_LT(back.way.speed_m_s, 0.0);
+  EXPECT_EQ(back.way.yaw_rad, 0.0);
+  auto const again = planner.plan({.pose = {-0.25, 0.0, 0.0}, .time_s = 11.0});
+  ASSERT_FALSE(again.way.points.empty());
+  Place const bump(0.3, 0.0);
+  for (auto const& point : again.way.points) EXPECT_GT(geo::distance_m(point, bump), 0.2);
+}
+
+TEST(FloorPlanner, LeavesTheReachOfAWallToBeginAWay) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(0.0, 0.0)}));
+  auto const plan = planner.plan({.pose = {2.9, 0.0, 0.0}});
+  EXPECT_EQ(plan.state, State::under_way);
+  ASSERT_FALSE(plan.way.points.empty());
+  EXPECT_LT(plan.way.points.back().x(), 2.75);
+}
+
 TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
   FloorPlanner planner(small());
   learn_all(planner, drawn(in_room));
