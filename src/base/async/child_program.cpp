@@ -32,6 +32,7 @@ using Code = boost::system::error_code;
 
 constexpr std::size_t most_kept_bytes = 16 * 1024;
 constexpr int niceness = 10;
+constexpr char const* prlimit = "/usr/bin/prlimit";
 
 /// Both ends, closed with this unless they were given away.
 struct Pipe {
@@ -58,11 +59,26 @@ Error system_error(std::string_view what) {
   return {.kind = ErrorKind::io, .message = fmt::format("{}: {}", what, std::strerror(errno))};
 }
 
-/// Starts it with its output in the two pipes, no other file, no signal held back, and in a group of its own: a Ctrl+C
-/// for this program is none for it.
+/// The command line of util-linux's prlimit, which limits itself and then becomes the program. Limits that were set on
+/// the running program from here could come after it has written or asked for what they forbid.
+std::vector<std::string> limited(ChildProgram const& child) {
+  std::vector<std::string> words{prlimit,
+                                 fmt::format("--as={}", child.most_memory_bytes),
+                                 fmt::format("--fsize={}", child.most_file_bytes),
+                                 fmt::format("--cpu={}", child.longest.count() + 1),
+                                 "--core=0",
+                                 "--",
+                                 child.program.string()};
+  words.insert(words.end(), child.words.begin(), child.words.end());
+  return words;
+}
+
+/// Starts it within its limits, with its output in the two pipes, no other file, no signal held back, and in a group of
+/// its own: a Ctrl+C for this program is none for it.
 int spawn(ChildProgram const& child, Pipe const& out, Pipe const& errors, pid_t& pid) {
-  std::vector<char*> words{const_cast<char*>(child.program.c_str())};
-  for (auto const& word : child.words) words.push_back(const_cast<char*>(word.c_str()));
+  auto spelt = limited(child);
+  std::vector<char*> words;
+  for (auto& word : spelt) words.push_back(word.data());
   words.push_back(nullptr);
   posix_spawn_file_actions_t files;
   posix_spawnattr_t how;
@@ -80,22 +96,10 @@ int spawn(ChildProgram const& child, Pipe const& out, Pipe const& errors, pid_t&
   ::posix_spawnattr_setsigdefault(&how, &all);
   ::posix_spawnattr_setpgroup(&how, 0);
   ::posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  int const error = ::posix_spawn(&pid, child.program.c_str(), &files, &how, words.data(), environ);
+  int const error = ::posix_spawn(&pid, prlimit, &files, &how, words.data(), environ);
   ::posix_spawnattr_destroy(&how);
   ::posix_spawn_file_actions_destroy(&files);
   return error;
-}
-
-void limit(pid_t pid, ChildProgram const& child) {
-  auto const set = [pid](auto resource, std::uint64_t most) {
-    rlimit const bounds{most, most};
-    (void)::prlimit(pid, resource, &bounds, nullptr);
-  };
-  set(RLIMIT_AS, child.most_memory_bytes);
-  set(RLIMIT_FSIZE, child.most_file_bytes);
-  set(RLIMIT_CPU, static_cast<std::uint64_t>(child.longest.count()) + 1);
-  set(RLIMIT_CORE, 0);
-  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), niceness);
 }
 
 /// One that runs. Its end is waited for on a descriptor of the process, its output on two pipes.
@@ -218,7 +222,7 @@ Task<Result<ChildOutcome>> run_child(Loop& loop, ChildProgram child, std::functi
     if (!out.open() || !errors.open()) co_return std::unexpected(system_error("no pipe to another program"));
     if (int const error = spawn(child, out, errors, pid); error != 0)
       co_return fail(ErrorKind::io, fmt::format("{} does not start: {}", child.program.string(), std::strerror(error)));
-    limit(pid, child);
+    (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), niceness);
     auto const process = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
     if (process < 0) {
       auto const error = system_error("a program that was started cannot be waited for");
