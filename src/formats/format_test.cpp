@@ -1,6 +1,6 @@
 // The table of formats, and that the page about them is what it says.
 #include "formats/format.hpp"
-#include "map/store/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(Formats, AreKnownByNameAndByFile) {
 }
 
 struct ExportTest : ::testing::Test {
-  map::testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   files::path folder = temporary.path();
   MapContents contents;
   void SetUp() override {

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <random>
 
+#include "base/testing/temporary_folder.hpp"
 #include "formats/grid_geotiff.hpp"
 #include "formats/ros_map.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::formats {
 namespace {
@@ -17,7 +17,7 @@ using map::OccupancyGrid;
 namespace files = std::filesystem;
 
 struct GridFilesTest : ::testing::Test {
-  map::testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   files::path folder = temporary.path();
   geo::Site site = geo::Site::make("office", geo::Wgs84::from_degrees(41.1784, -8.5981, 120.0)).value();
 

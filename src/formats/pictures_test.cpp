@@ -5,11 +5,11 @@
 
 #include <fstream>
 
+#include "base/testing/temporary_folder.hpp"
 #include "formats/base_map.hpp"
 #include "formats/internal/gdal.hpp"
 #include "formats/picture_geotiff.hpp"
 #include "map/basemaps/tile_archive.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::formats {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 namespace files = std::filesystem;
 
 struct PicturesTest : ::testing::Test {
-  map::testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   files::path folder = temporary.path();
   geo::Site site = geo::Site::make("yard", geo::Wgs84::from_degrees(41.1784, -8.5981, 120.0)).value();
 

@@ -1,6 +1,6 @@
 // Prints have their true size on paper, and every layer on them.
 #include "formats/print.hpp"
-#include "map/store/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 namespace files = std::filesystem;
 
 struct PrintTest : ::testing::Test {
-  map::testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   files::path folder = temporary.path();
   MapContents contents;
 

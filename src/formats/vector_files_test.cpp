@@ -5,8 +5,8 @@
 
 #include <fstream>
 
+#include "base/testing/temporary_folder.hpp"
 #include "formats/testing/same_map.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 #include "map/testing/random_features.hpp"
 
 namespace lapwing::formats {
@@ -16,7 +16,7 @@ using map::LayerKind;
 namespace files = std::filesystem;
 
 struct VectorFilesTest : ::testing::Test {
-  map::testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   files::path folder = temporary.path();
 
   static geo::Site yard(double lon_deg = -8.5981) {
@@ -48,7 +48,7 @@ struct VectorFilesTest : ::testing::Test {
 struct Case {
   VectorFormat format;
   std::string file;
-  friend void PrintTo(Case const& one, std::ostream* out) { *out << one.file; }
+  friend std::ostream& operator<<(std::ostream& out, Case const& one) { return out << one.file; }
 };
 
 struct RoundTrip : VectorFilesTest, ::testing::WithParamInterface<Case> {};

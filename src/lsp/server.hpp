@@ -15,7 +15,7 @@
 #include "base/time.hpp"
 #include "dolphin/services/document.hpp"
 #include "lsp/edited_text.hpp"
-#include "lsp/json.hpp"
+#include "lsp/message_json.hpp"
 
 namespace lapwing::lsp {
 

@@ -12,7 +12,7 @@
 #include "dolphin/services/signature_help.hpp"
 #include "dolphin/services/view/folding.hpp"
 #include "dolphin/services/view/inlay_hints.hpp"
-#include "lsp/json.hpp"
+#include "lsp/message_json.hpp"
 
 /// What the language services say, in the words of LSP 3.17.
 namespace lapwing::lsp {

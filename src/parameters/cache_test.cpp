@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/testing/temporary_folder.hpp"
+
 namespace lapwing::parameters {
 namespace {
 
@@ -12,14 +14,8 @@ namespace fs = std::filesystem;
 using enum mavlink::MavParamType;
 
 struct CacheTest : ::testing::Test {
-  void SetUp() override {
-    auto name = (fs::temp_directory_path() / "lapwing-cache-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  fs::path folder;
+  base::testing::TemporaryFolder temporary;
+  fs::path const folder = temporary.path();
   Identity const identity{.uid = "0a0b", .firmware = 0x04060000, .custom_version = "cafe"};
   CachedParameters const some{.parameters = {{"A", 1, int8}, {"B", 0.5, real32}},
                               .taken = base::UtcTime{std::chrono::seconds(1'700'000'000)}};

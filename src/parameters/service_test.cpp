@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/testing/temporary_folder.hpp"
 #include "link/pipe_link.hpp"
 
 namespace lapwing::parameters {
@@ -92,9 +93,6 @@ class Owner {
 
 struct Service : ::testing::Test {
   void SetUp() override {
-    auto name = (std::filesystem::temp_directory_path() / "lapwing-service-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder = name;
     ground.add_link(hub.take_server());
     service.emplace(ground, Cache(folder), base::Logger());
     first.emplace(loop, hub.connect(), 1);
@@ -102,10 +100,7 @@ struct Service : ::testing::Test {
     loop.run_until_done(pass(loop, 2s));
     ASSERT_EQ(service->vehicles().size(), 2u);
   }
-  void TearDown() override {
-    service.reset();
-    std::filesystem::remove_all(folder);
-  }
+  void TearDown() override { service.reset(); }
   /// As a program that is started anew.
   void restart() {
     service.reset();
@@ -121,7 +116,8 @@ struct Service : ::testing::Test {
   base::Loop loop{base::Loop::Pace{.unpaced = true}};
   link::PipeHub hub{loop};
   Connection ground{loop, {}, {}};
-  std::filesystem::path folder;
+  base::testing::TemporaryFolder temporary;
+  std::filesystem::path const folder = temporary.path();
   std::optional<ParameterService> service;
   std::optional<Owner> first;
   std::optional<Owner> second;

@@ -12,14 +12,14 @@ CHECK = REPO / "tests/house/check_rooms.py"
 # file, what is written at its head, and what must be said of it
 PLANTED = [
     ("src/dolphin/machine/engine.hpp", '"mavlink/connection/connection.hpp"', "dolphin must not include mavlink/connection/connection.hpp"),
-    ("src/station/station.hpp", '"fleet/control/control.hpp"', "station must not include fleet/control/control.hpp"),
+    ("src/station/station.hpp", '"fleet/control/fleet_control.hpp"', "station must not include fleet/control/fleet_control.hpp"),
     ("src/station/station.hpp", '"dolphin/machine/engine.hpp"', "station must not include dolphin/machine/engine.hpp"),
     ("src/slam/pose2.hpp", '"link/byte_link.hpp"', "slam must not include link/byte_link.hpp"),
     ("src/slam/pose2.hpp", '"mavlink/wire/frame.hpp"', "slam must not include mavlink/wire/frame.hpp"),
     ("src/slam/pose2.hpp", '"vehicle/registry.hpp"', "slam must not include vehicle/registry.hpp"),
     ("src/slam/pose2.hpp", "<fstream>", "slam is pure and must not include <fstream>"),
     ("src/tasks/task.hpp", '"plan/mission.hpp"', "tasks must not include plan/mission.hpp"),
-    ("src/lsp/server_test.cpp", '"fleet/control/control.hpp"', "lsp must not include fleet/control/control.hpp"),
+    ("src/lsp/server_test.cpp", '"fleet/control/fleet_control.hpp"', "lsp must not include fleet/control/fleet_control.hpp"),
     ("src/station/messages/vehicle_fields.cpp", '"tasks/internal/executor.hpp"', "tasks/internal/executor.hpp is private to tasks"),
     ("src/fleet/network/fleet.cpp", '"mavlink/path/internal/path_merge.hpp"', "path_merge.hpp is private to mavlink/path"),
     ("src/mavlink/wire/frame.cpp", '"mavlink/path/internal/path_merge.hpp"', "path_merge.hpp is private to mavlink/path"),

@@ -18,7 +18,7 @@
 #include "explore/run/picture.hpp"
 #include "explore/run/starts.hpp"
 #include "formats/ros_map.hpp"
-#include "geo/json.hpp"
+#include "geo/position_json.hpp"
 
 namespace lapwing::apps {
 

@@ -25,7 +25,7 @@
 #include "slam/graph/g2o.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
-#include "slam/parameters.hpp"
+#include "slam/mapper_parameters.hpp"
 #include "slam/readers/any_log.hpp"
 #include "slam/relations.hpp"
 
@@ -225,6 +225,23 @@ Json loops_json(slam::ScanLog const& log, slam::Mapping const& mapping) {
   return list;
 }
 
+/// The report comes last: whoever sees it finds the others.
+base::Result<> write_results(MapOptions const& options, slam::ScanLog const& log, slam::Mapping const& mapping,
+                             map::OccupancyGrid const& grid, std::vector<slam::TimedPose> const& poses,
+                             Json const& report) {
+  auto const write = [&](char const* name, std::string const& text) {
+    return host::write_file(options.out / name, text);
+  };
+  if (options.wants_loops)
+    if (auto done = write("loops.json", base::to_text(loops_json(log, mapping), 1)); !done) return done;
+  if (!grid.tiles().empty())
+    if (auto done = write_map(picture_of(grid), options.out); !done) return done;
+  if (auto done = write("trajectory.tum", tum_text(poses)); !done) return done;
+  if (auto done = write("graph.g2o", slam::write_g2o(mapping.graph.poses, mapping.graph.constraints)); !done)
+    return done;
+  return write("report.json", base::to_text(report, 2) + "\n");
+}
+
 base::Result<> make_map(MapOptions const& options) {
   auto const started = std::chrono::steady_clock::now();
   auto const relations = read_relations(options.relations);
@@ -255,6 +272,7 @@ base::Result<> make_map(MapOptions const& options) {
     times(stage);
     line(stage, share);
   });
+  auto const grid = slam::draw_grid(*log, mapping.trajectory, {});
   auto const poses = timed(*log, mapping.trajectory);
   auto report = report_of(*log, mapping, poses, *relations);
   auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -264,18 +282,7 @@ base::Result<> make_map(MapOptions const& options) {
   report["threads"] = threads;
   report["scan_ms"] = {
       {"p50", times.percentile_ms(0.5)}, {"p99", times.percentile_ms(0.99)}, {"max", times.percentile_ms(1.0)}};
-  if (options.wants_loops)
-    if (auto done = host::write_file(options.out / "loops.json", base::to_text(loops_json(*log, mapping), 1)); !done)
-      return done;
-  auto const grid = slam::draw_grid(*log, mapping.trajectory, {});
-  if (!grid.tiles().empty())
-    if (auto done = write_map(picture_of(grid), options.out); !done) return done;
-  if (auto done = host::write_file(options.out / "trajectory.tum", tum_text(poses)); !done) return done;
-  if (auto done =
-          host::write_file(options.out / "graph.g2o", slam::write_g2o(mapping.graph.poses, mapping.graph.constraints));
-      !done)
-    return done;
-  if (auto done = host::write_file(options.out / "report.json", base::to_text(report, 2) + "\n"); !done) return done;
+  if (auto done = write_results(options, *log, mapping, grid, poses, report); !done) return done;
   print_summary(report);
   return {};
 }

@@ -49,6 +49,21 @@ base::Result<> open_map(host::Session& session, host::WebArguments const& web, g
                                    .scripts = host::home_directory() / "examples"});
 }
 
+/// What the session has beside its simulated vehicles: a recording, other programs that listen, robots and the map.
+base::Result<> furnish(host::Session& session, DemoOptions const& options, geo::Wgs84 const& home) {
+  if (!options.record.empty())
+    if (auto begun = session.record(options.record); !begun) return begun;
+  auto programs = host::forward_to(options.forward);
+  if (!programs) return std::unexpected(programs.error());
+  if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return forwarded;
+  // The usual script has a robot in it.
+  auto robots = options.robots;
+  if (robots.empty() && options.script.empty())
+    robots = {"sim:" + (host::home_directory() / "examples/buildings/office.toml").string()};
+  if (auto added = session.add_robots(robots, home); !added) return added;
+  return options.headless ? base::Result<>() : open_map(session, options.web, home);
+}
+
 int demo(DemoOptions const& options) {
   constexpr auto example = "examples/demo.dolphin";
   auto const script = options.script.empty() ? std::string(example) : options.script;
@@ -69,19 +84,7 @@ int demo(DemoOptions const& options) {
   host::Session session({.speedup = options.speedup.value_or(options.headless ? 0.0 : watchable),
                          .on_stop = *on_stop,
                          .payload = host::equipped(world, host::payload_for(needs))});
-  if (!options.record.empty()) {
-    if (auto begun = session.record(options.record); !begun) return host::refuse(begun.error());
-  }
-  auto programs = host::forward_to(options.forward);
-  if (!programs) return host::refuse(programs.error());
-  if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return host::refuse(forwarded.error());
-  // The usual script has a robot in it.
-  auto robots = options.robots;
-  if (robots.empty() && options.script.empty())
-    robots = {"sim:" + (host::home_directory() / "examples/buildings/office.toml").string()};
-  if (auto added = session.add_robots(robots, world.home); !added) return host::refuse(added.error());
-  if (!options.headless)
-    if (auto opened = open_map(session, options.web, world.home); !opened) return host::refuse(opened.error());
+  if (auto furnished = furnish(session, options, world.home); !furnished) return host::refuse(furnished.error());
   if (auto simulated = session.simulate(std::move(world)); !simulated) return host::refuse(simulated.error());
   auto const started = session.host.start(script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());

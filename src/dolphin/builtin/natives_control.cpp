@@ -6,7 +6,7 @@
 #include "dolphin/code/compiler.hpp"
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
-#include "dolphin/names/parameters.hpp"
+#include "dolphin/names/row_parameters.hpp"
 #include "dolphin/syntax/characters.hpp"
 #include "dolphin/value/text.hpp"
 

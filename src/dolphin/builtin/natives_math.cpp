@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "dolphin/builtin/internal/native_lists.hpp"
-#include "dolphin/names/parameters.hpp"
+#include "dolphin/names/row_parameters.hpp"
 #include "dolphin/value/equality.hpp"
 #include "dolphin/value/operators.hpp"
 #include "dolphin/value/text.hpp"

@@ -2,7 +2,7 @@
 
 #include "dolphin/builtin/internal/native_lists.hpp"
 #include "dolphin/machine/runtime.hpp"
-#include "dolphin/names/parameters.hpp"
+#include "dolphin/names/row_parameters.hpp"
 #include "dolphin/value/text.hpp"
 
 /// Signals (language spec, 3.5).

@@ -8,7 +8,7 @@
 #include "dolphin/builtin/internal/native_lists.hpp"
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
-#include "dolphin/names/parameters.hpp"
+#include "dolphin/names/row_parameters.hpp"
 #include "dolphin/value/operators.hpp"
 #include "dolphin/value/text.hpp"
 

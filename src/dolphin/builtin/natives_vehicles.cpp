@@ -10,7 +10,7 @@
 #include "dolphin/machine/fiber.hpp"
 #include "dolphin/machine/runtime.hpp"
 #include "dolphin/names/foreign_words.hpp"
-#include "dolphin/names/parameters.hpp"
+#include "dolphin/names/row_parameters.hpp"
 #include "dolphin/value/platform_arguments.hpp"
 #include "dolphin/value/text.hpp"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "dolphin/names/parameters.hpp"
+#include "dolphin/names/row_parameters.hpp"
 
 namespace lapwing::dolphin {
 

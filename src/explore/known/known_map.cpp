@@ -10,8 +10,8 @@ namespace lapwing::explore {
 
 namespace {
 
-constexpr int least_odds = -8;
-constexpr int most_odds = 12;
+constexpr std::int8_t least_odds = -8;
+constexpr std::int8_t most_odds = 12;
 /// Surfaces of floor plans lie on the borders of cells: a beam's end is taken this share of a cell farther, so that
 /// noise does not draw it into the cell before.
 constexpr double into_the_wall = 0.4;
@@ -74,12 +74,8 @@ bool KnownMap::has_room(Place const& middle, double radius_m) const {
   return true;
 }
 
-void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
-  ++scans_;
-  time_s_ = scan.time_s;
-  double const x = scan.from.position.x() / cell_m_;
-  double const y = scan.from.position.y() / cell_m_;
-  auto const ways = beam_ways(scan.from.yaw_rad, scan.ranges_m.size());
+std::vector<std::uint32_t> KnownMap::mark_ends(Scan const& scan, std::span<Shift const> ways,
+                                               std::span<Disc const> moving) {
   std::vector<std::uint32_t> ends;
   for (std::size_t beam = 0; beam < ways.size(); ++beam) {
     double const range_m = scan.ranges_m[beam];
@@ -93,6 +89,16 @@ void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
     hit_by_[cell] = scans_;
     ends.push_back(static_cast<std::uint32_t>(state_.index_of(cell)));
   }
+  return ends;
+}
+
+void KnownMap::add(Scan const& scan, std::span<Disc const> moving) {
+  ++scans_;
+  time_s_ = scan.time_s;
+  double const x = scan.from.position.x() / cell_m_;
+  double const y = scan.from.position.y() / cell_m_;
+  auto const ways = beam_ways(scan.from.yaw_rad, scan.ranges_m.size());
+  auto const ends = mark_ends(scan, ways, moving);
   for (std::size_t beam = 0; beam < ways.size(); ++beam) {
     double const length = scan.ranges_m[beam] / cell_m_ - 0.3;
     walk_line(x, y, ways[beam].x(), ways[beam].y(), length, [&](Cell cell, double) {
@@ -124,7 +130,10 @@ void KnownMap::notice_movement(std::span<std::uint32_t const> ends) {
 
 void KnownMap::learn(Cell cell, Knowledge knowledge) {
   auto const index = state_.index_of(cell);
-  odds_.at_index(index) = knowledge == Knowledge::wall ? most_odds : knowledge == Knowledge::free ? least_odds : 0;
+  auto& odds = odds_.at_index(index);
+  odds = 0;
+  if (knowledge == Knowledge::wall) odds = most_odds;
+  if (knowledge == Knowledge::free) odds = least_odds;
   become(index, knowledge);
   is_sure_.at_index(index) = 1;
 }
@@ -141,7 +150,7 @@ void KnownMap::pass(std::size_t index) {
 void KnownMap::hit(std::size_t index) {
   auto& odds = odds_.at_index(index);
   bool const was_free_often = odds < least_odds / 2;
-  odds = static_cast<std::int8_t>(std::min(most_odds, odds + (was_free_often ? 1 : 3)));
+  odds = static_cast<std::int8_t>(std::min<int>(most_odds, odds + (was_free_often ? 1 : 3)));
   if (state_.at_index(index) == Knowledge::wall) {
     double const needed_s = was_free_.at_index(index) != 0 ? sure_where_free_s : sure_after_s;
     if (time_s_ - static_cast<double>(wall_since_s_.at_index(index)) >= needed_s) is_sure_.at_index(index) = 1;
@@ -159,27 +168,31 @@ void KnownMap::become(std::size_t index, Knowledge knowledge) {
   if (before == Knowledge::unknown) ++discovered_;
   fresh_.push_back(static_cast<std::uint32_t>(index));
   auto const cell = state_.cell_of(index);
-  if ((before == Knowledge::free) != (knowledge == Knowledge::free)) {
-    int const step = knowledge == Knowledge::free ? -1 : 1;
-    auto const count = [&](Cell at) {
-      if (!blockers_.contains(at)) return;
-      auto& blockers = blockers_[at];
-      blockers = static_cast<std::uint16_t>(blockers + step);
-      if (blockers == 0 || (step == 1 && blockers == 1))
-        changed_.push_back(static_cast<std::uint32_t>(state_.index_of(at)));
-    };
-    count(cell);
-    for (auto const away : keep_off_) count(cell + away);
-  }
-  if ((before == Knowledge::wall) != (knowledge == Knowledge::wall)) {
-    int const step = knowledge == Knowledge::wall ? 1 : -1;
-    for (auto const away : wary_) {
-      if (walls_near_.contains(cell + away))
-        walls_near_[cell + away] = static_cast<std::uint16_t>(walls_near_[cell + away] + step);
-    }
-  }
+  if ((before == Knowledge::free) != (knowledge == Knowledge::free))
+    count_blocker(cell, knowledge == Knowledge::free ? -1 : 1);
+  if ((before == Knowledge::wall) != (knowledge == Knowledge::wall))
+    count_wall(cell, knowledge == Knowledge::wall ? 1 : -1);
   look_for_frontier(cell);
   for (std::size_t i = 0; i < 4; ++i) look_for_frontier(cell + neighbours[i]);
+}
+
+void KnownMap::count_blocker(Cell cell, int step) {
+  auto const count = [&](Cell at) {
+    if (!blockers_.contains(at)) return;
+    auto& blockers = blockers_[at];
+    blockers = static_cast<std::uint16_t>(blockers + step);
+    if (blockers == 0 || (step == 1 && blockers == 1))
+      changed_.push_back(static_cast<std::uint32_t>(state_.index_of(at)));
+  };
+  count(cell);
+  for (auto const away : keep_off_) count(cell + away);
+}
+
+void KnownMap::count_wall(Cell cell, int step) {
+  for (auto const away : wary_) {
+    if (walls_near_.contains(cell + away))
+      walls_near_[cell + away] = static_cast<std::uint16_t>(walls_near_[cell + away] + step);
+  }
 }
 
 void KnownMap::look_for_frontier(Cell cell) {

@@ -86,10 +86,15 @@ class KnownMap {
   [[nodiscard]] std::vector<std::uint32_t> take_fresh() { return std::exchange(fresh_, {}); }
 
  private:
+  /// The cells at whose ends beams were stopped, once each, by what does not move.
+  std::vector<std::uint32_t> mark_ends(Scan const& scan, std::span<Shift const> ways, std::span<Disc const> moving);
   void pass(std::size_t index);
   void hit(std::size_t index);
   void notice_movement(std::span<std::uint32_t const> ends);
   void become(std::size_t index, Knowledge knowledge);
+  /// `step`: 1 where something new is in the way, -1 where it no longer is.
+  void count_blocker(Cell cell, int step);
+  void count_wall(Cell cell, int step);
   void look_for_frontier(Cell cell);
 
   double cell_m_;

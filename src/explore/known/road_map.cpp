@@ -12,6 +12,19 @@ constexpr double block_m = 0.8;
 /// Ways near walls count longer, as drivers go slower there.
 constexpr float near_wall_factor = 1.2F;
 
+/// The one nearest to where they are on the mean.
+Cell middle_one(std::vector<Cell> const& cells) {
+  double sum_x = 0.0;
+  double sum_y = 0.0;
+  for (auto const cell : cells) {
+    sum_x += cell.x;
+    sum_y += cell.y;
+  }
+  double const middle_x = sum_x / static_cast<double>(cells.size());
+  double const middle_y = sum_y / static_cast<double>(cells.size());
+  return std::ranges::min(cells, {}, [&](Cell cell) { return std::hypot(cell.x - middle_x, cell.y - middle_y); });
+}
+
 }  // namespace
 
 RoadMap::RoadMap(KnownMap const& map)
@@ -51,9 +64,6 @@ void RoadMap::update(KnownMap const& map, std::vector<std::uint32_t> const& chan
 void RoadMap::divide(KnownMap const& map, Cell block) {
   Cell const least{block.x * side_, block.y * side_};
   Cell const most{std::min(least.x + side_, map.width()), std::min(least.y + side_, map.height())};
-  auto const is_inside = [&](Cell cell) {
-    return cell.x >= least.x && cell.y >= least.y && cell.x < most.x && cell.y < most.y;
-  };
   for (int y = least.y; y < most.y; ++y) {
     for (int x = least.x; x < most.x; ++x) label_[{x, y}] = 0;
   }
@@ -64,27 +74,24 @@ void RoadMap::divide(KnownMap const& map, Cell block) {
       if (label_[{x, y}] != 0 || !map.is_standable({x, y})) continue;
       ++parts;
       cells.assign(1, {x, y});
-      label_[{x, y}] = parts;
-      double sum_x = 0.0;
-      double sum_y = 0.0;
-      for (std::size_t i = 0; i < cells.size(); ++i) {
-        auto const cell = cells[i];
-        sum_x += cell.x;
-        sum_y += cell.y;
-        for (auto const away : neighbours) {
-          auto const next = cell + away;
-          if (!is_inside(next) || label_[next] != 0 || !map.is_standable(next)) continue;
-          label_[next] = parts;
-          cells.push_back(next);
-        }
-      }
-      double const middle_x = sum_x / static_cast<double>(cells.size());
-      double const middle_y = sum_y / static_cast<double>(cells.size());
-      nodes_[first_node(block) + parts - 1U].place =
-          std::ranges::min(cells, {}, [&](Cell cell) { return std::hypot(cell.x - middle_x, cell.y - middle_y); });
+      fill(map, block, parts, cells);
+      nodes_[first_node(block) + parts - 1U].place = middle_one(cells);
     }
   }
   parts_[block] = parts;
+}
+
+void RoadMap::fill(KnownMap const& map, Cell block, std::uint8_t part, std::vector<Cell>& cells) {
+  label_[cells.front()] = part;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    auto const cell = cells[i];
+    for (auto const away : neighbours) {
+      auto const next = cell + away;
+      if (!label_.contains(next) || block_of(next) != block || label_[next] != 0 || !map.is_standable(next)) continue;
+      label_[next] = part;
+      cells.push_back(next);
+    }
+  }
 }
 
 void RoadMap::join(KnownMap const& map, Cell block) {
@@ -92,28 +99,29 @@ void RoadMap::join(KnownMap const& map, Cell block) {
   Cell const most{std::min(least.x + side_, map.width()), std::min(least.y + side_, map.height())};
   for (int part = 0; part < most_parts; ++part) nodes_[first_node(block) + static_cast<Node>(part)].edges.clear();
   if (parts_[block] == 0) return;
-  auto const join_cells = [&](Cell cell, Cell next) {
-    if (!label_.contains(next) || label_[next] == 0) return;
-    auto const here = first_node(block) + label_[cell] - 1U;
-    auto const there = first_node(block_of(next)) + label_[next] - 1U;
-    auto& edges = nodes_[here].edges;
-    if (std::ranges::any_of(edges, [&](Edge const& edge) { return edge.to == there; })) return;
-    auto const from = nodes_[here].place;
-    auto const to = nodes_[there].place;
-    bool const is_near_wall = map.is_near_wall(from) || map.is_near_wall(to);
-    auto const length_m = static_cast<float>(length_of(to - from) * cell_m_);
-    edges.push_back({there, is_near_wall ? length_m * near_wall_factor : length_m});
-  };
   for (int y = least.y; y < most.y; ++y) {
     for (int x = least.x; x < most.x; ++x) {
       bool const is_border = x == least.x || y == least.y || x == most.x - 1 || y == most.y - 1;
       if (!is_border || label_[{x, y}] == 0) continue;
       for (auto const away : neighbours) {
         auto const next = Cell{x, y} + away;
-        if (block_of(next) != block || next.x < 0 || next.y < 0) join_cells({x, y}, next);
+        if (block_of(next) != block || next.x < 0 || next.y < 0) join_cells(map, {x, y}, next);
       }
     }
   }
+}
+
+void RoadMap::join_cells(KnownMap const& map, Cell cell, Cell next) {
+  if (!label_.contains(next) || label_[next] == 0) return;
+  auto const here = first_node(block_of(cell)) + label_[cell] - 1U;
+  auto const there = first_node(block_of(next)) + label_[next] - 1U;
+  auto& edges = nodes_[here].edges;
+  if (std::ranges::any_of(edges, [&](Edge const& edge) { return edge.to == there; })) return;
+  auto const from = nodes_[here].place;
+  auto const to = nodes_[there].place;
+  bool const is_near_wall = map.is_near_wall(from) || map.is_near_wall(to);
+  auto const length_m = static_cast<float>(length_of(to - from) * cell_m_);
+  edges.push_back({there, is_near_wall ? length_m * near_wall_factor : length_m});
 }
 
 std::optional<RoadMap::Node> RoadMap::node_at(Cell cell) const {

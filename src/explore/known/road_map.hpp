@@ -57,7 +57,11 @@ class RoadMap {
   [[nodiscard]] Cell block_of(Cell cell) const { return {cell.x / side_, cell.y / side_}; }
   [[nodiscard]] Tree grow(Node root, float most_m, std::optional<Node> goal, std::vector<Disc> const& closed) const;
   void divide(KnownMap const& map, Cell block);
+  /// All cells of the block that hang together with the one in `cells`; they are added to it.
+  void fill(KnownMap const& map, Cell block, std::uint8_t part, std::vector<Cell>& cells);
   void join(KnownMap const& map, Cell block);
+  /// An edge between the parts of two cells that touch.
+  void join_cells(KnownMap const& map, Cell cell, Cell next);
   [[nodiscard]] Node first_node(Cell block) const { return static_cast<Node>(parts_.index_of(block) * most_parts); }
 
   double cell_m_;

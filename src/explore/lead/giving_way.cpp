@@ -114,13 +114,7 @@ bool GivingWay::lead(Scene scene, std::size_t leader) {
     return is_new;
   }
   // Whoever stands nearest in its way leaves first, and the leader makes room for that one.
-  std::optional<std::size_t> nearest;
-  for (std::size_t i = 0; i < scene.members.size(); ++i) {
-    if (i == leader || aside_[i]) continue;
-    double const far_m = distance_m(scene.members[i].at, scene.members[leader].at);
-    if (far_m < before_m && (!nearest || far_m < distance_m(scene.members[*nearest].at, scene.members[leader].at)))
-      nearest = i;
-  }
+  auto const nearest = nearest_before(scene, leader);
   if (!nearest) return false;
   auto const& wanted = scene.members[leader].way;
   constexpr std::size_t most_tried = 40;
@@ -140,6 +134,18 @@ bool GivingWay::lead(Scene scene, std::size_t leader) {
     return true;
   }
   return false;
+}
+
+std::optional<std::size_t> GivingWay::nearest_before(Scene const& scene, std::size_t leader) const {
+  std::optional<std::size_t> nearest;
+  double least_m = before_m;
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    double const far_m = distance_m(scene.members[i].at, scene.members[leader].at);
+    if (i == leader || aside_[i] || far_m >= least_m) continue;
+    nearest = i;
+    least_m = far_m;
+  }
+  return nearest;
 }
 
 void GivingWay::end_those_passed(Scene const& scene) {

@@ -53,6 +53,8 @@ class GivingWay {
 
   void end_those_passed(Scene const& scene);
   [[nodiscard]] bool lead(Scene scene, std::size_t leader);
+  /// Whoever stands near the leader and makes no room yet.
+  [[nodiscard]] std::optional<std::size_t> nearest_before(Scene const& scene, std::size_t leader) const;
   /// Sends all away from `way`; false where somebody finds no place.
   [[nodiscard]] static bool clear(Scene& scene, std::vector<Place> const& way, std::size_t leader,
                                   std::vector<Place>& kept_clear, Moves& moves);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <queue>
 
 namespace lapwing::explore {
 
@@ -19,9 +18,8 @@ float octile(Cell a, Cell b) {
 
 /// May one drive over this cell? Where the robot stands too near to something already, what it fits on will do.
 bool is_open(KnownMap const& map, Cell cell, Cell came_from, GridSearch::Request const& request) {
-  if (!map.is_standable(cell)) {
-    if (map.is_standable(came_from) || !map.has_room(map.middle(cell), request.radius_m)) return false;
-  }
+  if (!map.is_standable(cell) && (map.is_standable(came_from) || !map.has_room(map.middle(cell), request.radius_m)))
+    return false;
   if (request.closed == nullptr) return true;
   auto const place = map.middle(cell);
   return std::ranges::none_of(*request.closed,
@@ -35,12 +33,7 @@ GridSearch::GridSearch(KnownMap const& map) : marks_(map.width(), map.height()) 
 std::vector<Cell> GridSearch::path(KnownMap const& map, Request const& request) {
   if (!map.contains(request.from) || !map.contains(request.to)) return {};
   ++searches_;
-  struct Open {
-    float estimate;
-    std::uint32_t index;
-    bool operator>(Open const& other) const { return estimate > other.estimate; }
-  };
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  Queue open;
   auto const from = static_cast<std::uint32_t>(map.index_of(request.from));
   auto const to = static_cast<std::uint32_t>(map.index_of(request.to));
   marks_.at_index(from) = {searches_, 0.0F, 0, false};
@@ -52,26 +45,29 @@ std::vector<Cell> GridSearch::path(KnownMap const& map, Request const& request) 
     if (marks_.at_index(index).is_closed) continue;
     marks_.at_index(index).is_closed = true;
     ++looked_at;
-    auto const cell = map.cell_of(index);
-    for (std::uint8_t i = 0; i < 8; ++i) {
-      auto const next = cell + neighbours[i];
-      if (!map.contains(next)) continue;
-      auto& mark = marks_[next];
-      if (mark.search == searches_ && mark.is_closed) continue;
-      float const length =
-          (i < 4 ? 1.0F : std::numbers::sqrt2_v<float>)*(map.is_near_wall(next) ? near_wall_factor : 1.0F);
-      float const so_far = marks_.at_index(index).so_far + length;
-      if (mark.search == searches_ && so_far >= mark.so_far) continue;
-      if (!is_open(map, next, cell, request)) continue;
-      mark = {searches_, so_far, i, false};
-      open.push({so_far + octile(next, request.to), static_cast<std::uint32_t>(map.index_of(next))});
-    }
+    look_around(map, request, index, open);
   }
   if (open.empty() || open.top().index != to) return {};
   std::vector<Cell> path = {request.to};
   while (path.back() != request.from) path.push_back(path.back() - neighbours[marks_[path.back()].came_by]);
   std::ranges::reverse(path);
   return path;
+}
+
+void GridSearch::look_around(KnownMap const& map, Request const& request, std::uint32_t index, Queue& open) {
+  auto const cell = map.cell_of(index);
+  for (std::uint8_t i = 0; i < 8; ++i) {
+    auto const next = cell + neighbours[i];
+    if (!map.contains(next)) continue;
+    auto& mark = marks_[next];
+    if (mark.search == searches_ && mark.is_closed) continue;
+    float const step = i < 4 ? 1.0F : std::numbers::sqrt2_v<float>;
+    float const so_far = marks_.at_index(index).so_far + step * (map.is_near_wall(next) ? near_wall_factor : 1.0F);
+    if (mark.search == searches_ && so_far >= mark.so_far) continue;
+    if (!is_open(map, next, cell, request)) continue;
+    mark = {searches_, so_far, i, false};
+    open.push({so_far + octile(next, request.to), static_cast<std::uint32_t>(map.index_of(next))});
+  }
 }
 
 }  // namespace lapwing::explore

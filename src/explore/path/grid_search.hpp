@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <queue>
 #include <vector>
 
 #include "explore/known/known_map.hpp"
@@ -30,6 +32,15 @@ class GridSearch {
     std::uint8_t came_by = 0;
     bool is_closed = false;
   };
+  struct Open {
+    float estimate = 0.0F;
+    std::uint32_t index = 0;
+    bool operator>(Open const& other) const { return estimate > other.estimate; }
+  };
+  using Queue = std::priority_queue<Open, std::vector<Open>, std::greater<>>;
+
+  void look_around(KnownMap const& map, Request const& request, std::uint32_t index, Queue& open);
+
   DenseGrid<Mark> marks_;
   std::uint32_t searches_ = 0;
 };

@@ -20,8 +20,8 @@ struct Case {
   int people;
 };
 
-void PrintTo(Case const& value, std::ostream* out) {
-  *out << value.name << '/' << value.strategy << '/' << value.robots << '/' << value.people;
+std::ostream& operator<<(std::ostream& out, Case const& value) {
+  return out << value.name << '/' << value.strategy << '/' << value.robots << '/' << value.people;
 }
 
 Settings settings_of(Case const& value) {

@@ -139,13 +139,14 @@ Order RightHand::next_hall(Situation const& situation, RobotView const& view, Ro
     robot.mode = Robot::Mode::to_hall;
   }
   robot.opening.reset();
-  if (robot.mode == Robot::Mode::to_hall) {
-    std::erase(halls_, robot.hall);
-    auto const cell = situation.map.cell_at(robot.hall.position);
-    auto const node = situation.roads.node_near(cell);
-    return {.kind = Order::Kind::go, .goal = situation.map.is_standable(cell) ? cell : situation.roads.place_of(*node)};
-  }
-  // What the sensors at the sides did not show, the map does.
+  if (robot.mode != Robot::Mode::to_hall) return next_opening(situation, tree, robot);
+  std::erase(halls_, robot.hall);
+  auto const cell = situation.map.cell_at(robot.hall.position);
+  auto const node = situation.roads.node_near(cell);
+  return {.kind = Order::Kind::go, .goal = situation.map.is_standable(cell) ? cell : situation.roads.place_of(*node)};
+}
+
+Order RightHand::next_opening(Situation const& situation, RoadMap::Tree const& tree, Robot& robot) const {
   auto open = situation.frontiers.find(situation.map, situation.roads, tree);
   std::erase_if(open, [&](Frontier const& frontier) {
     return std::ranges::any_of(robots_, [&](Robot const& other) {
@@ -163,9 +164,44 @@ Order RightHand::next_hall(Situation const& situation, RobotView const& view, Ro
   return {.kind = Order::Kind::go, .goal = robot.opening->stand};
 }
 
+void RightHand::note_news(KnownMap const& map, RobotView const& view, Robot& robot) const {
+  auto const discovered = map.discovered();
+  double const new_m2 = static_cast<double>(discovered - robot.discovered) * map.cell_m() * map.cell_m();
+  if (new_m2 < settings_.news_m2) return;
+  robot.discovered = discovered;
+  robot.news_at_m = view.driven_m;
+}
+
+Order RightHand::on_the_way(Situation const& situation, RobotView const& view, Robot& robot) {
+  bool const is_there = view.has_arrived || view.is_blocked;
+  bool const is_gone = robot.opening && !Frontiers::is_open(situation.map, *robot.opening);
+  if (is_there && robot.opening && !is_gone) {
+    if (view.has_arrived)
+      situation.frontiers.give_up(situation.map, *robot.opening);
+    else
+      situation.frontiers.put_off(*robot.opening);
+  }
+  if (is_gone || (is_there && robot.opening) || view.is_blocked) return next_hall(situation, view, robot);
+  if (!is_there) return {};
+  begin_following(situation, view, robot, robot.hall.yaw_rad);
+  return follow(situation, view, robot);
+}
+
+Order RightHand::order_for(Situation const& situation, RobotView const& view, Robot& robot) {
+  if (view.is_out) return {};
+  switch (robot.mode) {
+    case Robot::Mode::following:
+      return has_closed_loop(view, robot) || view.is_blocked ? next_hall(situation, view, robot)
+                                                             : follow(situation, view, robot);
+    case Robot::Mode::to_hall: return on_the_way(situation, view, robot);
+    case Robot::Mode::done: break;
+  }
+  // Others may have shown more since.
+  return robots_.size() > 1 ? next_hall(situation, view, robot) : Order{.kind = Order::Kind::home};
+}
+
 std::vector<Order> RightHand::decide(Situation const& situation) {
   robots_.resize(situation.robots.size());
-  double const cell_m = situation.map.cell_m();
   std::vector<Order> orders;
   for (std::size_t i = 0; i < situation.robots.size(); ++i) {
     auto const& view = situation.robots[i];
@@ -174,38 +210,8 @@ std::vector<Order> RightHand::decide(Situation const& situation) {
       begin_following(situation, view, robot, view.pose.yaw_rad);
       robot.has_begun = true;
     }
-    auto const discovered = situation.map.discovered();
-    double const new_m2 = static_cast<double>(discovered - robot.discovered) * cell_m * cell_m;
-    if (new_m2 >= settings_.news_m2) {
-      robot.discovered = discovered;
-      robot.news_at_m = view.driven_m;
-    }
-    if (view.is_out) {
-      orders.push_back({});
-    } else if (robot.mode == Robot::Mode::following) {
-      orders.push_back(has_closed_loop(view, robot) || view.is_blocked ? next_hall(situation, view, robot)
-                                                                       : follow(situation, view, robot));
-    } else if (robot.mode == Robot::Mode::to_hall) {
-      bool const is_there = view.has_arrived || view.is_blocked;
-      bool const is_gone = robot.opening && !Frontiers::is_open(situation.map, *robot.opening);
-      if (is_there && robot.opening && !is_gone) {
-        if (view.has_arrived)
-          situation.frontiers.give_up(situation.map, *robot.opening);
-        else
-          situation.frontiers.put_off(*robot.opening);
-      }
-      if (is_gone || (is_there && robot.opening) || view.is_blocked) {
-        orders.push_back(next_hall(situation, view, robot));
-      } else if (is_there) {
-        begin_following(situation, view, robot, robot.hall.yaw_rad);
-        orders.push_back(follow(situation, view, robot));
-      } else {
-        orders.push_back({});
-      }
-    } else {
-      // Others may have shown more since.
-      orders.push_back(robots_.size() > 1 ? next_hall(situation, view, robot) : Order{.kind = Order::Kind::home});
-    }
+    note_news(situation.map, view, robot);
+    orders.push_back(order_for(situation, view, robot));
   }
   return orders;
 }

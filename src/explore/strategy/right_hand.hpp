@@ -64,6 +64,11 @@ class RightHand : public Strategy {
 
   [[nodiscard]] Order follow(Situation const& situation, RobotView const& view, Robot& robot);
   [[nodiscard]] Order next_hall(Situation const& situation, RobotView const& view, Robot& robot);
+  /// Of what the map shows and the sensors at the sides did not.
+  [[nodiscard]] Order next_opening(Situation const& situation, RoadMap::Tree const& tree, Robot& robot) const;
+  [[nodiscard]] Order on_the_way(Situation const& situation, RobotView const& view, Robot& robot);
+  [[nodiscard]] Order order_for(Situation const& situation, RobotView const& view, Robot& robot);
+  void note_news(KnownMap const& map, RobotView const& view, Robot& robot) const;
   [[nodiscard]] bool has_closed_loop(RobotView const& view, Robot& robot) const;
   [[nodiscard]] bool is_open(KnownMap const& map, Pose const& hall) const;
   void push(Pose const& hall);

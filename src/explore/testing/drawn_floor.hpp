@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace lapwing::explore::testing {
 inline map::OccupancyGrid drawn_grid(std::vector<std::string_view> const& lines, double side_m = 0.5,
                                      double cell_m = 0.1) {
   map::OccupancyGrid grid(cell_m);
-  int const cells = static_cast<int>(side_m / cell_m + 0.5);
+  int const cells = static_cast<int>(std::lround(side_m / cell_m));
   int const rows = static_cast<int>(lines.size());
   for (int row = 0; row < rows; ++row) {
     auto const line = lines[static_cast<std::size_t>(row)];

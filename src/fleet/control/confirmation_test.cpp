@@ -1,8 +1,8 @@
-#include "fleet/control/control.hpp"
+#include "fleet/control/fleet_control.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 // What a command came to is told by what the vehicle has shown since, of it alone.
 namespace lapwing::fleet {

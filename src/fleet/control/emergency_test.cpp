@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 #include "mavlink/exchange/command.hpp"
 #include "mavlink/wire/raw_message.hpp"
 

@@ -1,8 +1,8 @@
-#include "fleet/control/control.hpp"
+#include "fleet/control/fleet_control.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 // What a link delivers late must not move a vehicle: it is not sent, or taken back.
 namespace lapwing::fleet {

@@ -1,8 +1,8 @@
-#include "fleet/control/control.hpp"
+#include "fleet/control/fleet_control.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 // An operator beside a script: who commands a vehicle, and what is left on it when that changes.
 namespace lapwing::fleet {

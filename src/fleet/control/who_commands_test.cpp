@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 namespace lapwing::fleet {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 // What makes no sense is refused before anything moves; what is not known, or allowed, passes.
 namespace lapwing::fleet {

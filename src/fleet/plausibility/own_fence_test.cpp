@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 // The vehicle's own fence is read before it moves: soon, once, and again when it changes.
 namespace lapwing::fleet {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 // Vehicles tell their home every ten seconds, and who has just been heard has not yet. What is measured from there is
 // known all the same.

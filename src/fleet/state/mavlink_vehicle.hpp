@@ -17,12 +17,12 @@ namespace lapwing::fleet {
 
 // Who writes. Each stands in the file of its name; an action is one of actions/.
 class Actions;
-class Control;
+class FleetControl;
 class FenceReading;
 class HomeQuestion;
 class MissionRun;
 class Network;
-class Parameters;
+class FleetParameters;
 class Pilot;
 class Questions;
 class TestHand;
@@ -60,8 +60,8 @@ struct MavlinkVehicle {
   base::Duration connection_timeout{};
 
   WrittenBy<Heard, Network, TelemetryTaking, PayloadTaking, FenceReading, TestHand> heard;
-  WrittenBy<Asked, Network, Questions, HomeQuestion, PayloadTaking, Actions, Control> asked;
-  WrittenBy<Running, Pilot, MissionRun, Control, Parameters> runs;
+  WrittenBy<Asked, Network, Questions, HomeQuestion, PayloadTaking, Actions, FleetControl> asked;
+  WrittenBy<Running, Pilot, MissionRun, FleetControl, FleetParameters> runs;
 
   base::Notifier changed;
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fleet/mission/platform.hpp"
+#include "fleet/mission/fleet_platform.hpp"
 #include "fleet/testing/autopilot.hpp"
 #include "link/impaired_link.hpp"
 #include "link/pipe_link.hpp"

@@ -6,13 +6,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "host/files/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::host {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::TemporaryFolder;
+using base::testing::TemporaryFolder;
 
 TEST(Files, ReadsAScriptAsItIs) {
   TemporaryFolder const folder;

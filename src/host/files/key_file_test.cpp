@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/files/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 #include "link/pipe_link.hpp"
 #include "mavlink/signing/key_store.hpp"
 
@@ -12,7 +12,7 @@ namespace lapwing::host {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::TemporaryFolder;
+using base::testing::TemporaryFolder;
 
 mavlink::KeyRing ring_in(std::string const& path) {
   return read_signing(path).value().ring.value();

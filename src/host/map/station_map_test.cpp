@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "map/store/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::host {
 namespace {
@@ -15,7 +15,7 @@ using ::lapwing::map::LiveMap;
 namespace fs = std::filesystem;
 
 struct StationMapTest : ::testing::Test {
-  ::lapwing::map::testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   fs::path folder = temporary.path() / "data";
   base::Loop loop{base::Loop::Pace{.unpaced = true, .begins_at = base::UtcTime(std::chrono::hours(500'000))}};
   base::LogHub hub;

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geo/json.hpp"
+#include "geo/position_json.hpp"
 
 namespace lapwing::host {
 

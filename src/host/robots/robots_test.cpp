@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "host/files/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 #include "host/robots/robots_feed.hpp"
 #include "host/session/console.hpp"
 #include "host/session/session.hpp"
@@ -51,7 +51,7 @@ struct RobotsInABuilding : ::testing::Test {
   }
   [[nodiscard]] sim::building::Building& building() { return *session.buildings.front()->building; }
 
-  testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   Session session{{.speedup = 0.0, .log_level = base::LogLevel::error, .seed = 1}};
 };
 
@@ -111,7 +111,7 @@ TEST_F(RobotsInABuilding, AreStoppedByTheEmergencyStopOfAll) {
 }
 
 TEST(Robots, SayWhatIsWrongWithABuilding) {
-  testing::TemporaryFolder const folder;
+  base::testing::TemporaryFolder const folder;
   auto const file = folder.write("broken.toml", "[[wall]]\nline = 7\n");
   Session session{{.speedup = 0.0, .log_level = base::LogLevel::error}};
   auto const anchor = geo::Wgs84::from_degrees(41.0, -8.0);

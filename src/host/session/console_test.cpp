@@ -7,14 +7,14 @@
 
 #include <gtest/gtest.h>
 
-#include "host/files/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::host {
 namespace {
 
 struct ConsoleTest : ::testing::Test {
   ConsoleTest() : standard_input_(::dup(STDIN_FILENO)) {
-    hub_.add_sink([this](base::LogRecord const& record) { logged.push_back(record.source + ": " + record.text); });
+    hub.add_sink([this](base::LogRecord const& record) { logged.push_back(record.source + ": " + record.text); });
   }
   ~ConsoleTest() override {
     ::dup2(standard_input_, STDIN_FILENO);
@@ -33,13 +33,11 @@ struct ConsoleTest : ::testing::Test {
 
   base::Loop loop;
   std::vector<std::string> logged;
+  base::LogHub hub;
+  std::unique_ptr<dolphin::Output> console = make_console(loop, base::Logger(hub, "lapwing"));
 
  private:
   int standard_input_;
-  base::LogHub hub_;
-
- protected:
-  std::unique_ptr<dolphin::Output> console = make_console(loop, base::Logger(hub_, "lapwing"));
 };
 
 TEST_F(ConsoleTest, WritesToStandardOutputAsItIs) {
@@ -75,7 +73,7 @@ TEST_F(ConsoleTest, FailsWhenTheInputHasEnded) {
 }
 
 TEST_F(ConsoleTest, ReadsAnswersFromAFile) {
-  testing::TemporaryFolder const folder;
+  base::testing::TemporaryFolder const folder;
   int const file = ::open(folder.write("answers", "yes\n").c_str(), O_RDONLY);
   ::dup2(file, STDIN_FILENO);
   ::close(file);

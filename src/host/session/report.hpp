@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/time.hpp"
-#include "fleet/mission/platform.hpp"
+#include "fleet/mission/fleet_platform.hpp"
 #include "tasks/task_view.hpp"
 
 namespace lapwing::host {

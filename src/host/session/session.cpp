@@ -117,7 +117,8 @@ base::Result<> Session::join(std::string const& name, Joined const& joined) {
 
 base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor) {
   if (requests.empty()) return {};
-  auto made = make_robots(loop, requests, "default", anchor, seed_, buildings, log);
+  auto const* known = live_map.site("default");
+  auto made = make_robots(loop, requests, "default", known ? known->anchor() : anchor, seed_, buildings, log);
   if (!made) return std::unexpected(made.error());
   all_control.add("robots", robot_control);
   for (auto& robot : *made) {
@@ -205,8 +206,8 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   if (content.past) {
     options.store = content.past->store;
     options.looks_back = content.past->session;
-  } else if (auto opened = open_store(content); !opened) {
-    return opened;
+  } else if (!station_map) {
+    if (auto opened = open_store(content); !opened) return opened;
   }
   if (station_map) {
     options.store = &station_map->store();

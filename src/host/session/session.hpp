@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/log.hpp"
-#include "fleet/control/control.hpp"
-#include "fleet/control/parameters.hpp"
-#include "fleet/mission/platform.hpp"
+#include "fleet/control/fleet_control.hpp"
+#include "fleet/control/fleet_parameters.hpp"
+#include "fleet/mission/fleet_platform.hpp"
 #include "host/files/event_file.hpp"
 #include "host/files/plans.hpp"
 #include "host/links/equipment.hpp"
@@ -69,8 +69,12 @@ class Session {
   };
   [[nodiscard]] base::Result<> join(std::string const& name, Joined const& joined);
 
+  /// Opens where the map is kept, so that robots that are added then stand in the site that is on it. Without this call
+  /// `open_map` does it. Errors: those of `StationMap::open`.
+  [[nodiscard]] base::Result<> open_store(MapContent const& content);
+
   /// Robots as `--robot` names them, in the site "default"; where that is not on the map yet, it is put there, at
-  /// `anchor`. Call it before anything is opened. Errors: those of `make_robots` and `RobotPlatform::add`.
+  /// `anchor`. Call it before links and the map are opened. Errors: those of `make_robots` and `RobotPlatform::add`.
   [[nodiscard]] base::Result<> add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor);
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
@@ -99,8 +103,8 @@ class Session {
   base::Logger log;
   Ground ground;
   fleet::FleetPlatform platform;
-  fleet::Control control;                                     ///< what operators do with the fleet's vehicles
-  fleet::Parameters parameters;                               ///< of those, asked for when an operator asks
+  fleet::FleetControl control;                                ///< what operators do with the fleet's vehicles
+  fleet::FleetParameters parameters;                          ///< of those, asked for when an operator asks
   lapwing::map::LiveMap live_map;                             ///< what lies on the map
   std::vector<std::unique_ptr<SimulatedBuilding>> buildings;  ///< in which simulated robots drive
   robot::RobotPlatform robots;
@@ -121,7 +125,6 @@ class Session {
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 
  private:
-  [[nodiscard]] base::Result<> open_store(MapContent const& content);
   base::Task<> finish(std::optional<base::Duration> timeout);
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();

@@ -46,7 +46,8 @@ StallWatch::StallWatch(base::Loop& loop, std::chrono::seconds patience, std::fun
 }
 
 StallWatch::~StallWatch() {
-  waiting_->timer.cancel();
+  boost::system::error_code ignored;  // of one that does not fail, which would throw without it
+  waiting_->timer.cancel(ignored);
 }
 
 }  // namespace lapwing::host

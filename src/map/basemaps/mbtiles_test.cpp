@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "map/store/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::map {
 namespace {
 
 struct MbTilesTest : ::testing::Test {
-  testing::TemporaryFolder temporary;
+  base::testing::TemporaryFolder temporary;
   std::filesystem::path file = temporary.path() / "archive.mbtiles";
 
   void write(std::string const& sql) const {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geo/json.hpp"
+#include "geo/position_json.hpp"
 #include "map/features/feature.hpp"
 #include "map/features/properties.hpp"
 

@@ -20,17 +20,20 @@ Shade computed_shade(Evidence evidence) {
 class ShadeTable {
  public:
   ShadeTable() {
-    for (int i = 0; i < entries; ++i)
-      shades_[static_cast<std::size_t>(i)] = computed_shade(Evidence::of_steps(i - middle));
+    for (int steps = -middle; steps <= middle; ++steps)
+      shades_[index_of(steps)] = computed_shade(Evidence::of_steps(steps));
   }
   [[nodiscard]] Shade of(Evidence evidence) const {
-    return evidence.is_seen() ? shades_[static_cast<std::size_t>(evidence.steps() + middle)] : Shade{0};
+    return evidence.is_seen() ? shades_[index_of(evidence.steps())] : Shade{0};
   }
 
  private:
   static constexpr int middle = Evidence::most_steps;
-  static constexpr int entries = 2 * middle + 1;
-  std::array<Shade, entries> shades_;
+  static constexpr std::size_t index_of(int steps) {
+    int const index = middle + steps;
+    return static_cast<std::size_t>(index);
+  }
+  std::array<Shade, 2 * middle + 1> shades_ = {};
 };
 
 ShadeTable const& shade_table() {

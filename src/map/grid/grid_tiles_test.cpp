@@ -49,8 +49,10 @@ TEST(Shade, TellsHowLikelyACellIsTaken) {
   EXPECT_EQ(shade_of(Evidence::of_probability(0.0)), 127);
   EXPECT_EQ(shade_of(Evidence::of_probability(1.0)), 255);
   EXPECT_EQ(shade_of(Evidence::of_probability(0.5)), 1) << "seen, and no more";
-  for (double p = 0.0; p <= 1.0; p += 0.01)
+  for (int percent = 0; percent <= 100; ++percent) {
+    double const p = percent / 100.0;
     EXPECT_NEAR(*probability_of(shade_of(Evidence::of_probability(p))), p, 0.004);
+  }
   EXPECT_GT(shade_of(taken), shade_of(Evidence::of_probability(0.6))) << "the surer one is shown";
   EXPECT_GT(shade_of(free_space), shade_of(Evidence::of_probability(0.4)));
   EXPECT_GT(shade_of(Evidence::of_probability(0.51)), shade_of(Evidence::of_probability(0.0)));
@@ -71,7 +73,8 @@ TEST(GridPyramid, ShowsTheGreatestShadeAtEachLevel) {
     std::vector<Shade> expected(tile->level(level).size());
     for (int y = 0; y < tile_cells; ++y) {
       for (int x = 0; x < tile_cells; ++x) {
-        auto& shade = expected[static_cast<std::size_t>((y >> level) * side + (x >> level))];
+        int const index = (y >> level) * side + (x >> level);
+        auto& shade = expected[static_cast<std::size_t>(index)];
         shade = std::max(shade, shade_of(grid.at({x, y})));
       }
     }
@@ -96,6 +99,24 @@ TEST(GridPyramid, TakesWhatHasNotChangedFromBefore) {
   EXPECT_EQ(GridPyramid().extent(), std::nullopt);
 }
 
+/// Pixels that show something else than the cell in their middle.
+int wrong_pixels(std::vector<Shade> const& picture, OccupancyGrid const& grid, geo::Site const& site, XyzTile tile,
+                 int zoom) {
+  int wrong = 0;
+  double const world_px = std::ldexp(tile_px, zoom);
+  for (int y = 0; y < tile_px; ++y) {
+    for (int x = 0; x < tile_px; ++x) {
+      double const east = (static_cast<double>(tile.x) * tile_px + x + 0.5) / world_px;
+      double const south = (static_cast<double>(tile.y) * tile_px + y + 0.5) / world_px;
+      double const lon = (2.0 * east - 1.0) * std::numbers::pi;
+      double const lat = std::atan(std::sinh(std::numbers::pi * (1.0 - 2.0 * south)));
+      auto const point = grid.site_from_grid().inverse() * point_of(site, lon, lat);
+      wrong += at(picture, x, y) != shade_of(grid.at(grid.cell_at(point)));
+    }
+  }
+  return wrong;
+}
+
 /// Zoomed in, each pixel shows the cell in its middle.
 TEST(GridTiles, ShowTheCellInTheMiddleOfAPixel) {
   std::mt19937 random(51);
@@ -109,18 +130,7 @@ TEST(GridTiles, ShowTheCellInTheMiddleOfAPixel) {
       auto const middle = pixel_at(place_of(site, grid.site_from_grid() * geo::Point<GridFrame>(10.0, 10.0)), zoom);
       auto const picture = render(pyramid, site, middle.tile);
       ASSERT_TRUE(picture);
-      int wrong = 0;
-      for (int y = 0; y < tile_px; ++y) {
-        for (int x = 0; x < tile_px; ++x) {
-          double const world_px = std::ldexp(tile_px, zoom);
-          double const lon =
-              (2.0 * (static_cast<double>(middle.tile.x) * tile_px + x + 0.5) / world_px - 1.0) * std::numbers::pi;
-          double const lat = std::atan(std::sinh(
-              std::numbers::pi * (1.0 - 2.0 * (static_cast<double>(middle.tile.y) * tile_px + y + 0.5) / world_px)));
-          auto const point = grid.site_from_grid().inverse() * point_of(site, lon, lat);
-          wrong += at(*picture, x, y) != shade_of(grid.at(grid.cell_at(point)));
-        }
-      }
+      int const wrong = wrong_pixels(*picture, grid, site, middle.tile, zoom);
       EXPECT_LT(wrong, 20) << "of 65536, by rounding at the edges of cells, at zoom " << zoom;
     }
   }

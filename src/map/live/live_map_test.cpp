@@ -37,7 +37,7 @@ constexpr auto layer = LayerKind::points_of_interest;
 struct LiveMapTest : ::testing::Test {
   LiveMapTest() { map.put_site(yard()); }
 
-  std::vector<std::string> ids_within(std::optional<SiteBox> const& box, std::size_t most = 100) {
+  std::vector<std::string> ids_within(std::optional<SiteBox> const& box, std::size_t most = 100) const {
     std::vector<std::string> ids;
     for (auto const* record : map.within(layer, "yard", box, most)) ids.push_back(record->feature.id);
     return ids;

@@ -42,7 +42,7 @@ struct Server : ::testing::Test {
   static geo::Site car_park() {
     return geo::Site::make("car park", geo::Wgs84::from_degrees(47.4, 8.5, 420.0)).value();
   }
-  std::int64_t number(std::string const& query) {
+  std::int64_t number(std::string const& query) const {
     auto const value = sql::value_of(*database, query);
     EXPECT_TRUE(value) << value.error().message;
     return sql::as_integer(*value).value_or(-1);

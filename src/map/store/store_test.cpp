@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/testing/temporary_folder.hpp"
 #include "map/store/place/address.hpp"
 #include "map/store/sql/sqlite.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 #include "map/testing/random_features.hpp"
 
 namespace lapwing::map {
@@ -57,7 +57,7 @@ struct Stores : ::testing::Test {
   }
 
   base::Loop loop;
-  map::testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   map::testing::RandomFeatures random{1};
   Store::Options options;
   std::string trouble_of_loading;

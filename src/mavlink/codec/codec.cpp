@@ -13,9 +13,9 @@ namespace {
 using internal::Intake;
 
 template <auto const& layout>
-using SiOf = typename std::remove_cvref_t<decltype(layout)>::Si;
+using SiOf = std::remove_cvref_t<decltype(layout)>::Si;
 template <auto const& layout>
-using WireOf = typename std::remove_cvref_t<decltype(layout)>::Wire;
+using WireOf = std::remove_cvref_t<decltype(layout)>::Wire;
 
 void constexpr each_layout(auto&& f) {
   internal::StateLayouts::each(f);

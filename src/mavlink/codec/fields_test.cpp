@@ -241,7 +241,7 @@ void for_each_layout(auto check) {
 
 template <class M>
 void expect_carried(auto const& layout, M const& sent) {
-  using Wire = typename std::remove_cvref_t<decltype(layout)>::Wire;
+  using Wire = std::remove_cvref_t<decltype(layout)>::Wire;
   SCOPED_TRACE(Wire::NAME);
   auto const frame = encode(sent, {1, 1}, 0);
   EXPECT_EQ(frame.message_id, Wire::MSG_ID);

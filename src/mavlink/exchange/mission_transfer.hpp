@@ -45,11 +45,17 @@ base::Task<base::Result<>> upload_mission(Connection& connection, Address target
                                           MissionType type = MissionType::mission, TransferOptions options = {},
                                           TransferProgress progress = {});
 
-/// Writes items `first` up to before `end` of `items` over those that the vehicle holds there; the others, and their
-/// number, have to be the same (MISSION_WRITE_PARTIAL_LIST). Not every autopilot can: PX4 stays silent. Errors as
-/// above.
+/// Some items of a mission, by their numbers: from `first` up to before `end`.
+struct ItemRange {
+  std::size_t first = 0;
+  std::size_t end = 0;
+  [[nodiscard]] std::size_t size() const { return end - first; }
+};
+
+/// Writes a part of `items` over those that the vehicle holds there; the others, and their number, have to be the same
+/// (MISSION_WRITE_PARTIAL_LIST). Not every autopilot can: PX4 stays silent. Errors as above.
 base::Task<base::Result<>> upload_part(Connection& connection, Address target, std::vector<MissionItem> items,
-                                       std::size_t first, std::size_t end, MissionType type = MissionType::mission,
+                                       ItemRange range, MissionType type = MissionType::mission,
                                        TransferOptions options = {}, TransferProgress progress = {});
 
 /// What the vehicle holds. Only its number is asked for where the vehicle still names it as it named `known`.

@@ -7,7 +7,6 @@
 namespace lapwing::mavlink {
 
 using base::ErrorKind;
-using base::fail;
 using base::TimePoint;
 using internal::Attention;
 using internal::meant_for;
@@ -38,13 +37,13 @@ class CancelNotice {
 /// The vehicle's side of an upload as it appears here.
 class Upload {
  public:
-  /// Of the items `first` up to before `end`; less than all are written over those that the vehicle holds there.
-  Upload(TransferTarget transfer, std::vector<MissionItem> const& items, std::size_t first, std::size_t end,
+  /// Less than all items are written over those that the vehicle holds there.
+  Upload(TransferTarget transfer, std::vector<MissionItem> const& items, ItemRange range,
          TransferOptions const& options, TransferProgress const& progress, Attention& attention)
       : target_(transfer),
         items_(items),
-        first_(first),
-        end_(end),
+        first_(range.first),
+        end_(range.end),
         options_(options),
         progress_(progress),
         attention_(attention),
@@ -57,6 +56,7 @@ class Upload {
 
   base::Result<> send_opening();
   base::Result<> send_item(std::size_t seq);
+  [[nodiscard]] Ended take(Message const& message);
   [[nodiscard]] Ended take_request(std::size_t seq);
   [[nodiscard]] Ended take_ack(MavMissionResult result);
   [[nodiscard]] Ended repeat();
@@ -206,6 +206,13 @@ Upload::Ended Upload::repeat() {
   return std::nullopt;
 }
 
+Upload::Ended Upload::take(Message const& message) {
+  attention_.answered();
+  if (auto const* ack = std::get_if<MissionAck>(&message)) return take_ack(ack->result);
+  if (auto const* request = std::get_if<MissionRequest>(&message)) return take_request(request->seq);
+  return take_request(std::get<MissionRequestInt>(message).seq);
+}
+
 base::Task<base::Result<>> Upload::run() {
   Inbox inbox(target_.connection, target_.target, meant_for<MissionRequest, MissionRequestInt, MissionAck>(target_));
   if (auto sent = send_opening(); !sent) co_return sent;
@@ -221,15 +228,9 @@ base::Task<base::Result<>> Upload::run() {
       }
       ended = repeat();
     } else {
-      attention_.answered();
       // Only its requests show that the vehicle is still at it: one that gave up refuses every item that comes late.
       if (!std::holds_alternative<MissionAck>(*got)) heard = target_.now();
-      if (auto const* ack = std::get_if<MissionAck>(&*got))
-        ended = take_ack(ack->result);
-      else if (auto const* request = std::get_if<MissionRequest>(&*got))
-        ended = take_request(request->seq);
-      else
-        ended = take_request(std::get<MissionRequestInt>(*got).seq);
+      ended = take(*got);
     }
     if (!ended) continue;
     if (*ended || ended->error().kind == ErrorKind::refused) notice.settled();
@@ -246,7 +247,7 @@ base::Task<base::Result<>> upload_mission(Connection& connection, Address target
   Attention attention(transfer);
   Outage outage(connection, target.system, options);
   for (int round = 0; round <= options.restarts; ++round) {
-    Upload upload(transfer, items, 0, items.size(), options, progress, attention);
+    Upload upload(transfer, items, {0, items.size()}, options, progress, attention);
     result = co_await upload.run();
     if (result && progress) progress(items.size(), items.size());
     if (result) break;
@@ -261,11 +262,11 @@ base::Task<base::Result<>> upload_mission(Connection& connection, Address target
 }
 
 base::Task<base::Result<>> upload_part(Connection& connection, Address target, std::vector<MissionItem> items,
-                                       std::size_t first, std::size_t end, MissionType type, TransferOptions options,
+                                       ItemRange range, MissionType type, TransferOptions options,
                                        TransferProgress progress) {
   TransferTarget const transfer{connection, target, type};
   Attention attention(transfer);
-  Upload upload(transfer, items, first, end, options, progress, attention);
+  Upload upload(transfer, items, range, options, progress, attention);
   auto const result = co_await upload.run();
   if (result && progress) progress(items.size(), items.size());
   co_return result;

@@ -48,7 +48,7 @@ Task<Result<>> write_all(Job const& job, std::vector<MissionItem> const& items, 
 }
 
 /// The items that differ, from the first to before the last; nothing where a part will not do.
-std::optional<std::pair<std::size_t, std::size_t>> changed_part(Job const& job, std::vector<MissionItem> const& items) {
+std::optional<ItemRange> changed_part(Job const& job, std::vector<MissionItem> const& items) {
   auto const& before = job.record.before;
   bool const can = job.type == MissionType::mission && job.options.autopilot == MavAutopilot::ardupilotmega;
   if (!can || !before || before->items.size() != items.size()) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<std::pair<std::size_t, std::size_t>> changed_part(Job const& job, 
   while (end > first && same(end - 1)) --end;
   constexpr std::size_t worth = 2;  // less than half of them
   if (first == end || (end - first) * worth > items.size() || end > 0x7FFF) return std::nullopt;
-  return std::pair(first, end);
+  return ItemRange{first, end};
 }
 
 /// Writes what changes; false where the whole has to be written.
@@ -71,9 +71,9 @@ Task<bool> write_part(Job const& job, std::vector<MissionItem> const& items) {
   auto copy = items;
   auto progress = noting(job, "uploading");
   TransferOptions const once{.reply_timeout = job.options.transfer.reply_timeout, .tries = 3, .restarts = 0};
-  auto const sent = co_await upload_part(job.connection, job.target, std::move(copy), part->first, part->second,
-                                         job.type, once, std::move(progress));
-  job.record.written = part->second - part->first;
+  auto const sent =
+      co_await upload_part(job.connection, job.target, std::move(copy), *part, job.type, once, std::move(progress));
+  job.record.written = part->size();
   if (sent) job.record.left = PlanLeft::unknown;
   co_return sent.has_value();
 }

@@ -43,6 +43,7 @@ class Reader {
   }
   void read_keys(ConfigValue::Table const& keys);
   void read_uses(ConfigValue::Table const& uses);
+  void read_vehicles(ConfigValue::Table const& vehicles);
   [[nodiscard]] KeyRing::Use use(ConfigValue const& value);
   void read_unsigned(ConfigValue::Table const& table);
   void read_systems(ConfigValue const& value);
@@ -96,22 +97,23 @@ void Reader::read_uses(ConfigValue::Table const& uses) {
   for (auto const& entry : uses) {
     if (entry.key == "everybody") {
       ring.everybody = use(entry.value);
-    } else if (entry.key == "links" || entry.key == "vehicles") {
-      auto const* content = table(entry);
-      if (!content) return;
-      for (auto const& item : *content) {
-        auto const name = parse_system_name(item.key);
-        if (entry.key == "links") {
-          ring.links[item.key] = use(item.value);
-        } else if (name) {
-          vehicles_of(ring, name->network)[name->system_id] = use(item.value);
-        } else {
-          wrong(item.key_span, "a vehicle is named by its system id, 1 to 255, or network/id");
-        }
-      }
+    } else if (entry.key == "links") {
+      if (auto const* links = table(entry))
+        for (auto const& link : *links) ring.links[link.key] = use(link.value);
+    } else if (entry.key == "vehicles") {
+      if (auto const* vehicles = table(entry)) read_vehicles(*vehicles);
     } else {
       wrong(entry.key_span, "expected everybody, links or vehicles");
     }
+  }
+}
+
+void Reader::read_vehicles(ConfigValue::Table const& vehicles) {
+  for (auto const& vehicle : vehicles) {
+    if (auto const name = parse_system_name(vehicle.key))
+      vehicles_of(ring, name->network)[name->system_id] = use(vehicle.value);
+    else
+      wrong(vehicle.key_span, "a vehicle is named by its system id, 1 to 255, or network/id");
   }
 }
 

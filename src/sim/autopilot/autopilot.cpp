@@ -14,7 +14,7 @@ using mavlink::MavSeverity;
 using mavlink::MavState;
 using vehicle::Family;
 
-Autopilot::Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, Plans const& plans)
+Autopilot::Autopilot(Setup const& setup, Site const& site, ParameterTable const& parameters, Plans const& plans)
     : kind_{airframe_of(setup.kind.family).family, setup.kind.firmware},
       words_(words_of(kind_)),
       airframe_(airframe_of(setup.kind.family)),

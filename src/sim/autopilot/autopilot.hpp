@@ -10,7 +10,7 @@
 #include "sim/guidance/guided.hpp"
 #include "sim/guidance/return_home.hpp"
 #include "sim/guidance/tuning.hpp"
-#include "sim/model/parameters.hpp"
+#include "sim/model/parameter_table.hpp"
 #include "sim/model/status_texts.hpp"
 #include "sim/safety/arming.hpp"
 #include "sim/safety/failsafe.hpp"
@@ -33,7 +33,7 @@ class Autopilot {
     BatteryPack battery{5000.0};
   };
   /// `parameters` and `plans` are the vehicle's and outlive this.
-  Autopilot(Setup const& setup, Site const& site, Parameters const& parameters, Plans const& plans);
+  Autopilot(Setup const& setup, Site const& site, ParameterTable const& parameters, Plans const& plans);
 
   /// One step of `dt_s` ending at `now`.
   void step(base::Duration now, geo::Ned wind_m_s, double utc_day_s, double dt_s);
@@ -158,7 +158,7 @@ class Autopilot {
   Words const& words_;
   Airframe airframe_;
   Site const& site_;
-  Parameters const& parameters_;
+  ParameterTable const& parameters_;
   Plans const& plans_;
   MissionRunner mission_;
   StartUp start_up_;

@@ -21,7 +21,7 @@ class ServoOutputs {
   using Say = std::function<void(mavlink::MavSeverity, std::string)>;
 
   /// `parameters` outlive this.
-  ServoOutputs(Parameters const& parameters, Say say) : parameters_(parameters), say_(std::move(say)) {}
+  ServoOutputs(ParameterTable const& parameters, Say say) : parameters_(parameters), say_(std::move(say)) {}
 
   /// The answer to a command about servos and relays; nothing for other commands.
   std::optional<mavlink::MavResult> perform(mavlink::MavCmd command, std::array<float, 4> const& params);
@@ -33,7 +33,7 @@ class ServoOutputs {
   mavlink::MavResult set_servo(int channel, int pulse_us);
   mavlink::MavResult set_relay(int number, int state);
 
-  Parameters const& parameters_;
+  ParameterTable const& parameters_;
   Say say_;
   std::map<std::size_t, std::uint16_t> commanded_;  ///< by the output's index
   bool relay_is_on_ = false;

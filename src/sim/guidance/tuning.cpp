@@ -7,7 +7,7 @@ namespace lapwing::sim {
 namespace {
 constexpr double m_per_cm = 0.01;
 
-Pace px4_pace(vehicle::Family family, Parameters const& parameters) {
+Pace px4_pace(vehicle::Family family, ParameterTable const& parameters) {
   Pace pace;
   pace.speed_m_s = parameters.value(family == vehicle::Family::plane   ? "FW_AIRSPD_TRIM"
                                     : family == vehicle::Family::rover ? "GND_SPEED_TRIM"
@@ -22,7 +22,7 @@ Pace px4_pace(vehicle::Family family, Parameters const& parameters) {
   return pace;
 }
 
-Tuning px4_tuning(vehicle::Family family, Parameters const& parameters) {
+Tuning px4_tuning(vehicle::Family family, ParameterTable const& parameters) {
   using base::from_seconds;
   Tuning tuning;
   // A rotorcraft goes through its waypoints as closely as NAV_ACC_RAD's least useful value; a wing needs all of it.
@@ -39,7 +39,7 @@ Tuning px4_tuning(vehicle::Family family, Parameters const& parameters) {
 
 }  // namespace
 
-Pace pace_from(Kind const& kind, Parameters const& parameters) {
+Pace pace_from(Kind const& kind, ParameterTable const& parameters) {
   using enum vehicle::Family;
   auto const family = kind.family;
   if (kind.is_px4()) return px4_pace(family, parameters);
@@ -65,7 +65,7 @@ Pace pace_from(Kind const& kind, Parameters const& parameters) {
   return pace;
 }
 
-Tuning tuning_from(Kind const& kind, Parameters const& parameters) {
+Tuning tuning_from(Kind const& kind, ParameterTable const& parameters) {
   using enum vehicle::Family;
   auto const family = kind.family;
   if (kind.is_px4()) return px4_tuning(family, parameters);

@@ -14,7 +14,7 @@ namespace lapwing::sim {
 class FileTransfer {
  public:
   /// `parameters` are those of the file; null: there is no file. They outlive this.
-  explicit FileTransfer(Parameters const* parameters) : parameters_(parameters) {}
+  explicit FileTransfer(ParameterTable const* parameters) : parameters_(parameters) {}
 
   /// What is sent back for a FILE_TRANSFER_PROTOCOL frame to `self`; nothing for other frames and for answers.
   [[nodiscard]] std::vector<mavlink::Frame> answer(mavlink::Frame const& request, mavlink::Address self,
@@ -33,7 +33,7 @@ class FileTransfer {
   void open(Packet const& asked, std::vector<Packet>& told, base::Duration now);
   void read(Packet const& asked, std::vector<Packet>& told, std::size_t most_parts);
 
-  Parameters const* parameters_;
+  ParameterTable const* parameters_;
   std::optional<Opened> file_;
 };
 

@@ -51,7 +51,7 @@ struct Vehicle {
   int result_of(Asked const& asked) { return result(ask(asked)); }
 
   base::Duration now{};
-  Parameters parameters{Kind{}, 7};
+  ParameterTable parameters{Kind{}, 7};
   FileTransfer transfer{&parameters};
 };
 struct WithoutFiles {

@@ -16,13 +16,13 @@
 #include "sim/mavlink/payload_node.hpp"
 #include "sim/mavlink/reports.hpp"
 #include "sim/mavlink/telemetry.hpp"
-#include "sim/model/parameters.hpp"
+#include "sim/model/parameter_table.hpp"
 
 namespace lapwing::sim {
 
 /// What a flight controller keeps while it is switched off.
 struct Memory {
-  Parameters parameters;
+  ParameterTable parameters;
   MissionStore::Plans plans;
   std::optional<mavlink::SigningKey> signing_key = std::nullopt;
 };

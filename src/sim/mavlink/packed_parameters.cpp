@@ -84,7 +84,8 @@ std::optional<PackedSelection> packed_parameters_named(std::string_view path) {
   return selection;
 }
 
-std::vector<std::uint8_t> pack(Parameters const& parameters, PackedSelection const& selection, std::size_t read_size) {
+std::vector<std::uint8_t> pack(ParameterTable const& parameters, PackedSelection const& selection,
+                               std::size_t read_size) {
   auto const all = std::span(parameters.all());
   if (selection.start >= all.size()) return {};
   auto const left = all.size() - selection.start;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/model/parameters.hpp"
+#include "sim/model/parameter_table.hpp"
 
 namespace lapwing::sim {
 
@@ -22,7 +22,7 @@ struct PackedSelection {
 
 /// The file's content. No value crosses a multiple of `read_size`, so that a part that is read again is never half of
 /// an old and half of a new value; zeros before an entry make room for that.
-[[nodiscard]] std::vector<std::uint8_t> pack(Parameters const& parameters, PackedSelection const& selection,
+[[nodiscard]] std::vector<std::uint8_t> pack(ParameterTable const& parameters, PackedSelection const& selection,
                                              std::size_t read_size);
 
 }  // namespace lapwing::sim

@@ -93,7 +93,7 @@ Reaction fence_action(Family family, int number) {
   }
 }
 
-FenceSettings fence_from(Family family, Parameters const& parameters) {
+FenceSettings fence_from(Family family, ParameterTable const& parameters) {
   constexpr unsigned circle_and_areas = 6;
   constexpr unsigned every_limit = 15;
   auto const options = static_cast<unsigned>(parameters.value("FENCE_OPTIONS"));
@@ -117,7 +117,7 @@ FenceSettings fence_from(Family family, Parameters const& parameters) {
   return fence;
 }
 
-void watch_ground(Safety& safety, Family family, Parameters const& parameters) {
+void watch_ground(Safety& safety, Family family, ParameterTable const& parameters) {
   auto const number = [&](std::string_view name) { return static_cast<int>(parameters.value(name)); };
   auto const enable = static_cast<int>(parameters.value("FS_GCS_ENABLE", parameters.value("FS_GCS_ENABL")));
   auto& ground = safety.ground;
@@ -141,7 +141,7 @@ void watch_ground(Safety& safety, Family family, Parameters const& parameters) {
 }
 
 /// An underwater vehicle has no radio.
-void watch_radio(Safety& safety, Family family, Parameters const& parameters) {
+void watch_radio(Safety& safety, Family family, ParameterTable const& parameters) {
   auto const number = [&](std::string_view name) { return static_cast<int>(parameters.value(name)); };
   int const failure = number("SIM_RC_FAIL");
   safety.signal = failure == 1 ? RadioSignal::none : failure == 2 ? RadioSignal::low_throttle : RadioSignal::good;
@@ -175,7 +175,7 @@ void watch_radio(Safety& safety, Family family, Parameters const& parameters) {
   }
 }
 
-void watch_estimate(Safety& safety, Family family, Parameters const& parameters) {
+void watch_estimate(Safety& safety, Family family, ParameterTable const& parameters) {
   auto const number = static_cast<int>(parameters.value("FS_EKF_ACTION"));
   if (family == Family::copter && number != 0) {
     safety.on_estimate_lost = {number == 2 ? sink : land};
@@ -193,7 +193,7 @@ Reaction px4_action(int number) {
   return {};
 }
 
-Safety px4_safety(Parameters const& parameters) {
+Safety px4_safety(ParameterTable const& parameters) {
   constexpr unsigned height_circle_and_areas = 7;
   auto const number = [&](std::string_view name) { return static_cast<int>(parameters.value(name)); };
   double const capacity_mah = parameters.value("BAT1_CAPACITY");
@@ -222,7 +222,7 @@ Safety px4_safety(Parameters const& parameters) {
 
 }  // namespace
 
-Safety safety_from(Kind const& kind, Parameters const& parameters) {
+Safety safety_from(Kind const& kind, ParameterTable const& parameters) {
   if (kind.is_px4()) return px4_safety(parameters);
   auto const family = kind.family;
   Safety safety{.battery = {.low_v = parameters.value("BATT_LOW_VOLT"),

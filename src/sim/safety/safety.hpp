@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sim/model/flight_modes.hpp"
-#include "sim/model/parameters.hpp"
+#include "sim/model/parameter_table.hpp"
 #include "sim/safety/failsafe.hpp"
 
 namespace lapwing::sim {
@@ -62,6 +62,6 @@ struct Safety {
   FenceSettings fence{};
   bool gps_is_cut_off = false;  ///< SIM_GPS_DISABLE, as in ArduPilot's simulator
 };
-[[nodiscard]] Safety safety_from(Kind const& kind, Parameters const& parameters);
+[[nodiscard]] Safety safety_from(Kind const& kind, ParameterTable const& parameters);
 
 }  // namespace lapwing::sim

@@ -23,7 +23,7 @@ Vehicle::Vehicle(base::Loop& loop, Options options, Site const& site, OpenLink o
       site_(site.raised(options.altitude_error_m)),
       open_link_(std::move(open_link)),
       log_(std::move(log)),
-      memory_{Parameters(options.kind, options.system_id), {}, options.signing_key},
+      memory_{ParameterTable(options.kind, options.system_id), {}, options.signing_key},
       gusts_(options.wind_m_s, options.gust_m_s, options.seed),
       battery_(options.battery_capacity_mah, options.battery_remaining),
       scope_(loop) {

@@ -69,7 +69,7 @@ class Vehicle {
     return controller_->autopilot();
   }
   [[nodiscard]] Gimbal const& gimbal() const { return controller_->gimbal(); }
-  [[nodiscard]] Parameters& parameters() { return memory_.parameters; }
+  [[nodiscard]] ParameterTable& parameters() { return memory_.parameters; }
   [[nodiscard]] MissionPlan const& mission() const { return memory_.plans.mission; }
   [[nodiscard]] Plans& plans() { return memory_.plans; }
   [[nodiscard]] geo::Wgs84 place() const { return site_.place_at(body_.position_m); }

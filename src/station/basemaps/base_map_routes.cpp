@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/async/pool.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/async/pool.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 #include "station/messages/request_reader.hpp"
 
 namespace lapwing::station {

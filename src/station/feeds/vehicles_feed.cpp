@@ -9,7 +9,7 @@
 #include "station/fields/field_changes.hpp"
 #include "station/fields/field_json.hpp"
 #include "station/fields/vehicle_fields.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

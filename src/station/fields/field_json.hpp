@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "station/fields/field_visitor.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station::internal {
 

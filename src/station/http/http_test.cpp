@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/testing/temporary_folder.hpp"
 #include "station/http/router.hpp"
 #include "station/http/static_files.hpp"
 
@@ -85,9 +86,6 @@ TEST(Router, FindsWhatPathsName) {
 
 struct StaticFiles : ::testing::Test {
   StaticFiles() {
-    std::string name = (fs::temp_directory_path() / "lapwing-static-XXXXXX").string();
-    base_ = ::mkdtemp(name.data());
-    root_ = base_ / "dist";
     fs::create_directories(root_ / "assets");
     write(root_ / "index.html", "<html>");
     write(root_ / "assets/app-1a2b.js", "script");
@@ -95,16 +93,15 @@ struct StaticFiles : ::testing::Test {
     write(base_ / "outside.txt", "secret");
     fs::create_symlink(base_ / "outside.txt", root_ / "link.txt");
   }
-  ~StaticFiles() override { fs::remove_all(base_); }
-
   static void write(fs::path const& file, std::string_view text) { std::ofstream(file) << text; }
   [[nodiscard]] HttpResponse get(std::string path, std::vector<HttpHeader> headers = {}) const {
     return static_file(
         root_, {.method = "GET", .path = std::move(path), .query = {}, .headers = std::move(headers), .body = {}});
   }
 
-  fs::path base_;
-  fs::path root_;
+  base::testing::TemporaryFolder temporary_;
+  fs::path const base_ = temporary_.path();
+  fs::path const root_ = base_ / "dist";
 };
 
 TEST_F(StaticFiles, ServesTheIndexToBeAskedForAnew) {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "map/features/text_fault.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -4,7 +4,7 @@
 
 #include "base/text/utc_text.hpp"
 #include "station/messages/client_request.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/text/utc_text.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -1,7 +1,7 @@
 #include "station/messages/messages.hpp"
 
 #include "base/text/utc_text.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/text/utc_text.hpp"
 #include "station/messages/client_request.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 #include "station/messages/request_reader.hpp"
 
 namespace lapwing::station {

@@ -4,24 +4,20 @@
 #include <unistd.h>
 #include <fstream>
 
+#include "base/testing/temporary_folder.hpp"
+
 namespace lapwing::station {
 namespace {
 
 namespace fs = std::filesystem;
 
 struct ScriptFolder : ::testing::Test {
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "lapwing-scripts-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    parent = name;
-    folder = parent / "scripts";
-    fs::create_directory(folder);
-  }
-  void TearDown() override { fs::remove_all(parent); }
+  void SetUp() override { fs::create_directory(folder); }
   static void write(fs::path const& file, std::string_view text) { std::ofstream(file) << text; }
 
-  fs::path parent;
-  fs::path folder;
+  base::testing::TemporaryFolder temporary;
+  fs::path const parent = temporary.path();
+  fs::path const folder = parent / "scripts";
 };
 
 TEST_F(ScriptFolder, ListsItsScriptsInOrder) {

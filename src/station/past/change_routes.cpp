@@ -11,7 +11,7 @@
 #include "station/map/grids/grid_json.hpp"
 #include "station/map/grids/grid_routes.hpp"
 #include "station/map/grids/web_mercator.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 #include "station/past/feature_changes.hpp"
 #include "station/past/moment_words.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/time.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 #include "station/past/moment_words.hpp"
 
 namespace lapwing::station {

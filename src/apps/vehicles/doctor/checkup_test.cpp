@@ -10,14 +10,14 @@
 #include <gtest/gtest.h>
 
 #include "base/async/loop.hpp"
-#include "host/files/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 #include "sim/model/vehicle_spec.hpp"
 #include "sim/world/world.hpp"
 
 namespace lapwing::apps {
 namespace {
 
-using host::testing::TemporaryFolder;
+using base::testing::TemporaryFolder;
 using namespace std::chrono_literals;
 
 constexpr auto a_moment = 50ms;

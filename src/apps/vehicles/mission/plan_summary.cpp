@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text/json.hpp"
-#include "geo/json.hpp"
+#include "geo/position_json.hpp"
 #include "plan/estimate.hpp"
 
 namespace lapwing::apps {

@@ -7,7 +7,7 @@
 
 #include "base/async/scope.hpp"
 #include "dryrun/recorder.hpp"
-#include "fleet/mission/platform.hpp"
+#include "fleet/mission/fleet_platform.hpp"
 #include "host/links/ground.hpp"
 #include "host/robots/robots.hpp"
 #include "host/session/script_host.hpp"

@@ -8,7 +8,7 @@
 #include "base/text/diagnostic.hpp"
 #include "dolphin/machine/engine.hpp"
 #include "dolphin/names/needs.hpp"
-#include "dryrun/json.hpp"
+#include "dryrun/flight_json.hpp"
 #include "dryrun/svg.hpp"
 #include "dryrun/text.hpp"
 #include "host/files/files.hpp"

@@ -11,6 +11,7 @@
 
 #include "base/assert.hpp"
 #include "base/async/notifier.hpp"
+#include "base/testing/temporary_folder.hpp"
 #include "link/operator_link/testing/memory_disk.hpp"
 
 namespace lapwing::link::operator_link {
@@ -234,8 +235,7 @@ TEST_F(JournalTest, SkipsNumbersThatTheFarEndHas) {
 
 /// A real folder and a real kill -9 of a process that appends as fast as it can.
 TEST(FolderDisk, KeepsWhatWasAcceptedWhenTheProcessIsKilled) {
-  char pattern[] = "/tmp/lapwing-journal-XXXXXX";
-  ASSERT_NE(::mkdtemp(pattern), nullptr);
+  base::testing::TemporaryFolder const folder;
   std::uint64_t accepted_before = 0;
   for (int round = 0; round < 5; ++round) {
     int pipe[2];
@@ -243,7 +243,7 @@ TEST(FolderDisk, KeepsWhatWasAcceptedWhenTheProcessIsKilled) {
     auto const child = ::fork();
     if (child == 0) {
       base::Loop loop;
-      auto disk = open_folder(loop, pattern);
+      auto disk = open_folder(loop, folder.path());
       auto journal = Journal::open(*std::move(disk), {.bytes = 50'000'000, .segment_bytes = 20'000}, 1);
       for (;;) {
         auto const number = (*journal)->append("key", std::string(100, 'x'));
@@ -262,7 +262,7 @@ TEST(FolderDisk, KeepsWhatWasAcceptedWhenTheProcessIsKilled) {
     accepted_before = accepted;
 
     base::Loop loop;
-    auto disk = open_folder(loop, pattern);
+    auto disk = open_folder(loop, folder.path());
     ASSERT_TRUE(disk) << disk.error().message;
     auto journal = Journal::open(*std::move(disk), {.bytes = 50'000'000, .segment_bytes = 20'000}, 1);
     ASSERT_TRUE(journal);
@@ -274,33 +274,28 @@ TEST(FolderDisk, KeepsWhatWasAcceptedWhenTheProcessIsKilled) {
     }
     EXPECT_EQ(expected, (*journal)->next());
   }
-  std::filesystem::remove_all(pattern);
 }
 
 TEST(FolderDisk, IsForOneProgramAlone) {
-  char pattern[] = "/tmp/lapwing-journal-XXXXXX";
-  ASSERT_NE(::mkdtemp(pattern), nullptr);
+  base::testing::TemporaryFolder const folder;
   base::Loop loop;
-  auto const first = open_folder(loop, pattern);
+  auto const first = open_folder(loop, folder.path());
   ASSERT_TRUE(first);
-  auto const second = open_folder(loop, pattern);
+  auto const second = open_folder(loop, folder.path());
   ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().message, fmt::format("another program uses {}", pattern));
-  std::filesystem::remove_all(pattern);
+  EXPECT_EQ(second.error().message, fmt::format("another program uses {}", folder.path().string()));
 }
 
 TEST(FolderDisk, WaitsForTheDiskBesideTheLoop) {
-  char pattern[] = "/tmp/lapwing-journal-XXXXXX";
-  ASSERT_NE(::mkdtemp(pattern), nullptr);
+  base::testing::TemporaryFolder const folder;
   base::Loop loop;
-  auto journal = Journal::open(*open_folder(loop, pattern), {}, 1);
+  auto journal = Journal::open(*open_folder(loop, folder.path()), {}, 1);
   base::Notifier became_ready(loop);
   (*journal)->listen({.ready = [&] { became_ready.notify_all(); }, .fault = {}});
   EXPECT_TRUE((*journal)->append("key", "text"));
   EXPECT_EQ((*journal)->ready(), 0u);
   EXPECT_TRUE(loop.run_until_done(became_ready.wait_for([&] { return (*journal)->ready() == 1; }, 10s)));
   journal = std::unexpected(base::Error{});
-  std::filesystem::remove_all(pattern);
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ struct MemberOf<Value Owner::*> {
 };
 
 /// The member of whatever the content is; the table of a layer is only used for that layer's contents.
-template <auto Member>
+template <auto field>
 auto& member(auto& content) {
-  return std::get<typename MemberOf<decltype(Member)>::Content>(content).*Member;
+  return std::get<typename MemberOf<decltype(field)>::Content>(content).*field;
 }
 
 [[nodiscard]] inline std::unexpected<base::Error> takes(std::string_view what) {
@@ -65,87 +65,95 @@ auto& member(auto& content) {
   return takes("a time");
 }
 
-template <auto Member>
+template <auto field>
 PropertyValue get_text(Content const& content) {
-  auto const& text = member<Member>(content);
+  auto const& text = member<field>(content);
   return text.empty() ? PropertyValue() : PropertyValue(text);
 }
-template <auto Member>
+template <auto field>
 base::Result<> set_text(Content& content, PropertyValue const& value) {
   auto const* text = std::get_if<std::string>(&value);
   if (!text && !std::holds_alternative<std::monostate>(value)) return takes("text");
-  member<Member>(content) = text ? *text : std::string();
+  member<field>(content) = text ? *text : std::string();
   return {};
 }
 
-template <auto Member, auto const& Words>
-PropertyValue get_word(Content const& content) {
-  return std::string(Words[static_cast<std::size_t>(member<Member>(content))]);
+using Words = std::span<std::string_view const>;
+
+[[nodiscard]] inline PropertyValue word_at(Words words, auto word) {
+  return std::string(words[static_cast<std::size_t>(word)]);
 }
-template <auto Member, auto const& Words>
-base::Result<> set_word(Content& content, PropertyValue const& value) {
-  auto& word = member<Member>(content);
-  using Word = std::remove_reference_t<decltype(word)>;
-  if (std::holds_alternative<std::monostate>(value)) {
-    word = Word();
-    return {};
-  }
+/// Which of the words it is; the first for nothing.
+[[nodiscard]] inline base::Result<std::size_t> word_in(Words words, PropertyValue const& value) {
+  if (std::holds_alternative<std::monostate>(value)) return 0U;
   auto const* text = std::get_if<std::string>(&value);
-  auto const found = text ? std::ranges::find(Words, *text) : Words.end();
-  if (found == Words.end()) return takes(fmt::format("one of the words {}", fmt::join(Words, ", ")));
-  word = static_cast<Word>(found - Words.begin());
+  auto const found = text ? std::ranges::find(words, *text) : words.end();
+  if (found == words.end()) return takes(fmt::format("one of the words {}", fmt::join(words, ", ")));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+template <auto field, auto const& words>
+PropertyValue get_word(Content const& content) {
+  return word_at(words, member<field>(content));
+}
+template <auto field, auto const& words>
+base::Result<> set_word(Content& content, PropertyValue const& value) {
+  auto const index = word_in(words, value);
+  if (!index) return std::unexpected(index.error());
+  auto& word = member<field>(content);
+  word = static_cast<std::remove_reference_t<decltype(word)>>(*index);
   return {};
 }
 
-template <auto Member>
+template <auto field>
 PropertyValue get_real(Content const& content) {
-  return member<Member>(content);
+  return member<field>(content);
 }
-template <auto Member>
+template <auto field>
 base::Result<> set_real(Content& content, PropertyValue const& value) {
   auto const number = real_of(value);
   if (!number) return std::unexpected(number.error());
-  member<Member>(content) = number->value_or(0.0);
+  member<field>(content) = number->value_or(0.0);
   return {};
 }
 
-template <auto Member>
+template <auto field>
 PropertyValue get_integer(Content const& content) {
-  return std::int64_t{member<Member>(content)};
+  return std::int64_t{member<field>(content)};
 }
-template <auto Member>
+template <auto field>
 base::Result<> set_integer(Content& content, PropertyValue const& value) {
   auto const number = integer_of(value);
   if (!number) return std::unexpected(number.error());
   auto const whole = number->value_or(0);
   if (whole < std::numeric_limits<int>::min() || whole > std::numeric_limits<int>::max())
     return takes("a smaller number");
-  member<Member>(content) = static_cast<int>(whole);
+  member<field>(content) = static_cast<int>(whole);
   return {};
 }
 
-template <auto Member>
+template <auto field>
 PropertyValue get_time(Content const& content) {
-  auto const time = member<Member>(content);
+  auto const time = member<field>(content);
   return time == base::UtcTime() ? PropertyValue() : PropertyValue(time);
 }
-template <auto Member>
+template <auto field>
 base::Result<> set_time(Content& content, PropertyValue const& value) {
   auto const time = time_of(value);
   if (!time) return std::unexpected(time.error());
-  member<Member>(content) = time->value_or(base::UtcTime());
+  member<field>(content) = time->value_or(base::UtcTime());
   return {};
 }
 
 /// A real number or a time that may be missing.
-template <auto Member>
+template <auto field>
 PropertyValue get_optional(Content const& content) {
-  auto const& value = member<Member>(content);
+  auto const& value = member<field>(content);
   return value ? PropertyValue(*value) : PropertyValue();
 }
-template <auto Member>
+template <auto field>
 base::Result<> set_optional(Content& content, PropertyValue const& value) {
-  auto& target = member<Member>(content);
+  auto& target = member<field>(content);
   auto const read = [&] {
     if constexpr (std::is_same_v<std::remove_reference_t<decltype(target)>, std::optional<double>>)
       return real_of(value);
@@ -161,47 +169,47 @@ base::Result<> set_optional(Content& content, PropertyValue const& value) {
 /// that are still missing are no numbers; `feature_fault` finds what remains so.
 inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-template <int Row, int Column>
+template <int row, int column>
 PropertyValue get_covariance(Content const& content) {
   auto const& covariance = std::get<PointOfInterest>(content).covariance_m2;
-  if (!covariance || std::isnan((*covariance)(Row, Column))) return {};
-  return (*covariance)(Row, Column);
+  if (!covariance || std::isnan((*covariance)(row, column))) return {};
+  return (*covariance)(row, column);
 }
-template <int Row, int Column>
+template <int row, int column>
 base::Result<> set_covariance(Content& content, PropertyValue const& value) {
   auto const number = real_of(value);
   if (!number) return std::unexpected(number.error());
   auto& covariance = std::get<PointOfInterest>(content).covariance_m2;
   if (!covariance) covariance = Eigen::Matrix2d::Constant(missing);
-  (*covariance)(Row, Column) = (*covariance)(Column, Row) = number->value_or(missing);
+  (*covariance)(row, column) = (*covariance)(column, row) = number->value_or(missing);
   if (covariance->array().isNaN().all()) covariance.reset();
   return {};
 }
 
-template <int Axis>
+template <int axis>
 PropertyValue get_quaternion(Content const& content) {
   auto const& rotation = std::get<Picture>(content).site_from_camera;
-  if (!rotation || std::isnan(rotation->coeffs()[Axis])) return {};
-  return rotation->coeffs()[Axis];
+  if (!rotation || std::isnan(rotation->coeffs()[axis])) return {};
+  return rotation->coeffs()[axis];
 }
-template <int Axis>
+template <int axis>
 base::Result<> set_quaternion(Content& content, PropertyValue const& value) {
   auto const number = real_of(value);
   if (!number) return std::unexpected(number.error());
   auto& rotation = std::get<Picture>(content).site_from_camera;
   if (!rotation) rotation = Eigen::Quaterniond(missing, missing, missing, missing);
-  rotation->coeffs()[Axis] = number->value_or(missing);
+  rotation->coeffs()[axis] = number->value_or(missing);
   if (rotation->coeffs().array().isNaN().all()) rotation.reset();
   return {};
 }
 
 /// Where the picture was taken from. A point tells that itself.
-template <int Axis>
+template <int axis>
 PropertyValue get_camera(Content const& content) {
   auto const& picture = std::get<Picture>(content);
-  return picture.footprint.empty() ? PropertyValue() : PropertyValue(picture.position.v[Axis]);
+  return picture.footprint.empty() ? PropertyValue() : PropertyValue(picture.position.v[axis]);
 }
-template <int Axis>
+template <int axis>
 base::Result<> set_camera(Content& content, PropertyValue const& value) {
   auto const number = real_of(value);
   if (!number) return std::unexpected(number.error());
@@ -209,7 +217,7 @@ base::Result<> set_camera(Content& content, PropertyValue const& value) {
   if (picture.footprint.empty())
     return *number ? base::Result<>(takes("nothing where the geometry is the place of the camera itself"))
                    : base::Result<>();
-  picture.position.v[Axis] = number->value_or(0.0);
+  picture.position.v[axis] = number->value_or(0.0);
   return {};
 }
 

@@ -56,7 +56,7 @@ base::Result<std::string> keep(sql::Database& database, Bytes& bytes, Store::Blo
   if (blob.bytes.size() > most_bytes)
     return base::fail(ErrorKind::invalid_input,
                       fmt::format("{} bytes in one piece; the store takes at most {}", blob.bytes.size(), most_bytes));
-  auto const hash = sha256(blob.bytes);
+  auto hash = sha256(blob.bytes);
   auto const known = sql::value_of(database, "SELECT count(*) FROM blobs WHERE hash = $1", {hash});
   if (!known) return std::unexpected(known.error());
   if (sql::as_integer(*known) != 0) return hash;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/testing/temporary_folder.hpp"
 #include "map/store/blobs/sha256.hpp"
 #include "map/store/schema/migrate.hpp"
 #include "map/store/sql/sqlite.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::map::blobs {
 namespace {
@@ -20,7 +20,7 @@ struct Blobs : ::testing::Test {
   Blobs() : database(sql::open_sqlite(folder.path() / "map.gpkg", sql::Access::write).value()) {
     EXPECT_TRUE(schema::prepare(*database, "map.gpkg"));
   }
-  map::testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   std::unique_ptr<sql::Database> database;
   std::unique_ptr<Bytes> bytes = in_folder(folder.path() / "blobs");
 };

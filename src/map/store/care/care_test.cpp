@@ -8,9 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "base/async/loop.hpp"
+#include "base/testing/temporary_folder.hpp"
 #include "map/store/sql/postgres.hpp"
 #include "map/store/sql/sqlite.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 #include "map/testing/random_features.hpp"
 
 namespace lapwing::map::care {
@@ -57,15 +57,19 @@ struct Care : ::testing::Test {
   [[nodiscard]] std::string picture() const { return "store/blobs/" + hash.substr(0, 2) + "/" + hash.substr(2); }
 
   base::Loop loop;
-  map::testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   std::string address;
   std::string hash;
 };
 
-void expect_whole(Summary const& summary) {
+void expect_all_features(Summary const& summary) {
   for (auto const layer : all_layers) EXPECT_EQ(summary.features.at(layer), layer == LayerKind::slots ? 149u : 150u);
   EXPECT_EQ(summary.removed, 1u);
   EXPECT_EQ(summary.sites, std::vector<std::string>{"car park"});
+}
+
+void expect_whole(Summary const& summary) {
+  expect_all_features(summary);
   ASSERT_EQ(summary.grid_tiles.size(), 1u);
   EXPECT_EQ(summary.grid_tiles.begin()->second, 1u);
   EXPECT_EQ(summary.pictures, 1u);

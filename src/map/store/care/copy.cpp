@@ -73,13 +73,14 @@ class Copy {
   base::Result<> table(Table const& table) {
     auto const columns = copied_columns(table);
     // By the key, behind the last one: what a server answers in one piece stands in memory.
+    auto const key = sql::comma_separated(table.key);
     auto const select = fmt::format("SELECT {} FROM {}", sql::comma_separated(names_of(columns)), table.name);
-    auto const order = fmt::format(" ORDER BY {} LIMIT {}", sql::comma_separated(table.key), page);
-    auto const behind =
-        fmt::format(" WHERE ({}) > ({})", sql::comma_separated(table.key), sql::placeholders(table.key.size()));
+    auto const order = fmt::format("ORDER BY {} LIMIT {}", key, page);
+    auto const first = fmt::format("{} {}", select, order);
+    auto const next = fmt::format("{} WHERE ({}) > ({}) {}", select, key, sql::placeholders(table.key.size()), order);
     Row last_key;
     for (;;) {
-      auto const found = sql::rows_of(*from_.database, select + (last_key.empty() ? "" : behind) + order, last_key);
+      auto const found = sql::rows_of(*from_.database, last_key.empty() ? first : next, last_key);
       if (!found) return std::unexpected(found.error());
       if (found->empty()) return {};
       auto rows = converted_rows(table, columns, *found);

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "base/testing/temporary_folder.hpp"
 #include "map/store/rows/shown_rows.hpp"
 #include "map/store/schema/migrate.hpp"
 #include "map/store/sql/sqlite.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::map::care {
 namespace {
@@ -31,7 +31,7 @@ struct Retention : ::testing::Test {
         *database,
         {{.at = at, .session = std::move(session), .feed = "f", .is_whole = true, .content = noise(10'000)}}));
   }
-  void retain_all(Limits const& limits) {
+  void retain_all(Limits const& limits) const {
     for (int turns = 0; turns < 1000; ++turns) {
       auto const more = retain(*database, *bytes, limits, now);
       ASSERT_TRUE(more) << more.error().message;
@@ -39,12 +39,12 @@ struct Retention : ::testing::Test {
     }
     FAIL() << "it does not end";
   }
-  std::int64_t count(std::string const& table) {
+  std::int64_t count(std::string const& table) const {
     return sql::as_integer(sql::value_of(*database, "SELECT count(*) FROM " + table).value()).value();
   }
 
   std::mt19937 random{1};
-  map::testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   std::unique_ptr<sql::Database> database = sql::open_sqlite(folder.path() / "map.gpkg", sql::Access::write).value();
   std::unique_ptr<blobs::Bytes> bytes = blobs::in_folder(folder.path() / "blobs");
 };

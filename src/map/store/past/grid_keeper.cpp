@@ -37,7 +37,39 @@ GridKeeper::Seen seen_now(GridKeeper::TileWork const& work, std::vector<PackedSh
   return now;
 }
 
+/// Changes of one grid's tiles become those that are kept of it; what is different is listed.
+void take_over(std::map<TileKey, GridKeeper::Seen> const& seen, std::map<TileKey, GridKeeper::Seen>& tiles,
+               GridList& list) {
+  for (auto const& [tile, now] : seen) {
+    auto const before = tiles.find(tile);
+    bool const is_same = before == tiles.end() ? now.name.empty() : before->second.name == now.name;
+    if (!is_same) list.tiles[tile] = now.name;
+    if (now.name.empty())
+      tiles.erase(tile);
+    else
+      tiles[tile] = now;
+  }
+}
+
 }  // namespace
+
+std::optional<GridKeeper::GridWork> GridKeeper::news_of(GridRecord const& record, Grid const* known,
+                                                        GridPlace const& place) {
+  bool const is_new = !known || known->revision < record.made;
+  bool const is_elsewhere = !is_new && !(has_same_cells(known->place, place) && known->place.anchor == place.anchor);
+  if (!is_new && !is_elsewhere && known->revision == record.revision) return std::nullopt;
+  GridWork news{.place = place, .revision = record.revision, .is_anew = is_new, .tiles = {}};
+  auto const since = is_new ? 0 : known->revision;
+  for (auto const& [tile, revision] : record.tile_revisions) {
+    if (revision <= since) continue;
+    auto const present = record.grid.tiles().find(tile);
+    auto& one = news.tiles[tile];
+    if (present != record.grid.tiles().end()) one.tile = present->second;
+    if (is_new) continue;
+    if (auto const seen = known->tiles.find(tile); seen != known->tiles.end()) one.seen = seen->second;
+  }
+  return news;
+}
 
 std::optional<GridKeeper::Work> GridKeeper::take(LiveMap const& map, std::string const& session, base::UtcTime now) {
   Work work;
@@ -51,21 +83,8 @@ std::optional<GridKeeper::Work> GridKeeper::take(LiveMap const& map, std::string
   for (auto const& [key, record] : map.grids()) {
     auto const known = grids_.find(key);
     GridPlace const place{record.grid.resolution_m(), record.grid.site_from_grid(), map.site(key.site)->anchor()};
-    bool const is_new = known == grids_.end() || known->second.revision < record.made;
-    bool const is_elsewhere =
-        !is_new && !(has_same_cells(known->second.place, place) && known->second.place.anchor == place.anchor);
-    if (!is_new && !is_elsewhere && known->second.revision == record.revision) continue;
-    GridWork grid{.place = place, .revision = record.revision, .is_anew = is_new, .tiles = {}};
-    auto const since = is_new ? 0 : known->second.revision;
-    for (auto const& [tile, revision] : record.tile_revisions) {
-      if (revision <= since) continue;
-      auto const present = record.grid.tiles().find(tile);
-      auto& one = grid.tiles[tile];
-      if (present != record.grid.tiles().end()) one.tile = present->second;
-      if (is_new) continue;
-      if (auto const seen = known->second.tiles.find(tile); seen != known->second.tiles.end()) one.seen = seen->second;
-    }
-    work.grids.emplace(key, std::move(grid));
+    if (auto news = news_of(record, known == grids_.end() ? nullptr : &known->second, place))
+      work.grids.emplace(key, *std::move(news));
   }
   bool const is_nothing_there = work.grids.empty() && grids_.empty();
   if (is_nothing_there || (work.grids.empty() && !work.is_whole)) return std::nullopt;
@@ -81,47 +100,36 @@ GridKeeper::Packed GridKeeper::pack(Work const& work) {
 }
 
 GridKeeper::Lists GridKeeper::done(Work const& work, Packed const& packed) {
-  Lists lists{.frames = {}, .is_whole = work.is_whole, .names = {}};
-  std::size_t bytes = 0;
-  auto const add = [&](GridList const& list) {
-    lists.frames.push_back(past::packed(list));
-    bytes += lists.frames.back().size();
-  };
+  Lists news{.frames = {}, .is_whole = false, .names = {}};
   for (auto const& [key, changed] : work.grids) {
     auto& grid = grids_[key];
     if (changed.is_anew) grid.tiles.clear();
     GridList list{.key = key, .place = changed.place, .is_anew = changed.is_anew, .tiles = {}};
-    if (auto const seen = packed.seen.find(key); seen != packed.seen.end()) {
-      for (auto const& [tile, now] : seen->second) {
-        auto const before = grid.tiles.find(tile);
-        bool const is_same = before == grid.tiles.end() ? now.name.empty() : before->second.name == now.name;
-        if (!is_same) list.tiles[tile] = now.name;
-        if (now.name.empty())
-          grid.tiles.erase(tile);
-        else
-          grid.tiles[tile] = now;
-      }
-    }
+    if (auto const seen = packed.seen.find(key); seen != packed.seen.end()) take_over(seen->second, grid.tiles, list);
     bool const has_moved = changed.is_anew || !(grid.place.anchor == changed.place.anchor);
     grid.place = changed.place;
     grid.revision = changed.revision;
-    if (!work.is_whole && (has_moved || !list.tiles.empty())) add(list);
+    if (work.is_whole || (!has_moved && list.tiles.empty())) continue;
+    news.frames.push_back(past::packed(list));
+    listed_.bytes_since += news.frames.back().size();
   }
-  if (!work.is_whole) {
-    listed_.bytes_since += bytes;
-    return lists;
-  }
+  return work.is_whole ? all_lists() : news;
+}
+
+GridKeeper::Lists GridKeeper::all_lists() {
+  Lists all{.frames = {}, .is_whole = true, .names = {}};
+  listed_.whole_bytes = 0;
+  listed_.bytes_since = 0;
   for (auto const& [key, grid] : grids_) {
     GridList list{.key = key, .place = grid.place, .is_anew = true, .tiles = {}};
     for (auto const& [tile, seen] : grid.tiles) {
       list.tiles[tile] = seen.name;
-      lists.names.push_back(seen.name);
+      all.names.push_back(seen.name);
     }
-    add(list);
+    all.frames.push_back(past::packed(list));
+    listed_.whole_bytes += all.frames.back().size();
   }
-  listed_.whole_bytes = bytes;
-  listed_.bytes_since = 0;
-  return lists;
+  return all;
 }
 
 }  // namespace lapwing::map::past

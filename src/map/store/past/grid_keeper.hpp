@@ -72,6 +72,10 @@ class GridKeeper {
     std::size_t bytes_since = 0;
   };
 
+  /// What is different from the grid that is known, null for none.
+  static std::optional<GridWork> news_of(GridRecord const& record, Grid const* known, GridPlace const& place);
+  Lists all_lists();
+
   std::map<GridKey, Grid> grids_;
   Listed listed_;
 };

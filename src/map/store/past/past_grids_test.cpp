@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "base/testing/temporary_folder.hpp"
 #include "base/wall_clock.hpp"
 #include "map/store/care/care.hpp"
 #include "map/store/past/grid_list.hpp"
 #include "map/store/store.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::map {
 namespace {
@@ -21,6 +21,25 @@ base::UtcTime const noon = std::chrono::floor<std::chrono::milliseconds>(base::w
 
 /// A grid as it is shown now; what is not there was never seen.
 using Look = std::map<TileKey, TileShades>;
+
+/// What a robot, or several, may do to a map, in any order.
+class Writers {
+ public:
+  explicit Writers(unsigned seed) : random_(seed) {}
+  int below(int limit) { return static_cast<int>(random_() % static_cast<unsigned>(limit)); }
+
+  void scribble(OccupancyGrid& grid, std::vector<TileKey>& changed) {
+    TileKey const key{below(3) - 1, below(2)};
+    int const cells = below(3) == 0 ? 20'000 : 40;
+    for (int i = 0; i < cells; ++i)
+      grid.set({key.x * tile_cells + below(tile_cells), key.y * tile_cells + below(tile_cells)},
+               Evidence::of_probability(below(100) / 99.0));
+    changed.push_back(key);
+  }
+
+ private:
+  std::mt19937 random_;
+};
 
 struct PastGridsTest : ::testing::Test {
   PastGridsTest() {
@@ -64,35 +83,35 @@ struct PastGridsTest : ::testing::Test {
     auto const put = map.put_tiles(key, grid, tiles, {"robot", now});
     ASSERT_TRUE(put) << put.error().message;
   }
-  std::int64_t rows(std::string const& what) {
+  /// Which tiles it was.
+  std::vector<TileKey> change_something(Writers& writers, OccupancyGrid& grid, int step) {
+    std::vector<TileKey> changed;
+    switch (writers.below(8)) {
+      case 0: break;  // nothing happens
+      case 1:
+        changed.push_back({writers.below(3) - 1, writers.below(2)});
+        grid.set_tile(changed.back(), nullptr);
+        break;
+      case 2:
+        if (step % 3 == 0) grid = OccupancyGrid(0.05 + 0.01 * writers.below(5));
+        writers.scribble(grid, changed);
+        break;
+      case 3: put_site(47.0 + writers.below(10) * 0.001); break;
+      default:
+        for (int i = 0; i <= writers.below(3); ++i) writers.scribble(grid, changed);
+    }
+    return changed;
+  }
+  std::int64_t rows(std::string const& what) const {
     auto const summary = care::summary(folder.path().string());
     return what == "shades" ? static_cast<std::int64_t>(summary->tile_shades) : 0;
   }
 
   base::Loop loop{{.unpaced = true, .begins_at = noon}};
-  testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   base::UtcTime now = noon;
   LiveMap map{[this] { return now + 1h; }};
   std::unique_ptr<Store> store;
-};
-
-/// What a robot, or several, may do to a map, in any order.
-class Writers {
- public:
-  explicit Writers(unsigned seed) : random_(seed) {}
-  int below(int limit) { return static_cast<int>(random_() % static_cast<unsigned>(limit)); }
-
-  void scribble(OccupancyGrid& grid, std::vector<TileKey>& changed) {
-    TileKey const key{below(3) - 1, below(2)};
-    int const cells = below(3) == 0 ? 20'000 : 40;
-    for (int i = 0; i < cells; ++i)
-      grid.set({key.x * tile_cells + below(tile_cells), key.y * tile_cells + below(tile_cells)},
-               Evidence::of_probability(below(100) / 99.0));
-    changed.push_back(key);
-  }
-
- private:
-  std::mt19937 random_;
 };
 
 TEST_F(PastGridsTest, LookAsTheyDidWhateverWasWritten) {
@@ -108,21 +127,7 @@ TEST_F(PastGridsTest, LookAsTheyDidWhateverWasWritten) {
       now += std::chrono::seconds(writers.below(20) == 0 ? 1000 : 1);
       auto const& key = keys[static_cast<std::size_t>(writers.below(2))];
       auto& grid = grids.at(key);
-      std::vector<TileKey> changed;
-      switch (writers.below(8)) {
-        case 0: break;  // nothing happens
-        case 1:
-          changed.push_back({writers.below(3) - 1, writers.below(2)});
-          grid.set_tile(changed.back(), nullptr);
-          break;
-        case 2:
-          if (step % 3 == 0) grid = OccupancyGrid(0.05 + 0.01 * writers.below(5));
-          writers.scribble(grid, changed);
-          break;
-        case 3: put_site(47.0 + writers.below(10) * 0.001); break;
-        default:
-          for (int i = 0; i <= writers.below(3); ++i) writers.scribble(grid, changed);
-      }
+      auto const changed = change_something(writers, grid, step);
       if (!changed.empty()) write(key, grid, changed);
       record(session);
       auto& look = shown.emplace_back(now, std::map<GridKey, Look>()).second;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/testing/temporary_folder.hpp"
 #include "map/features/properties.hpp"
 #include "map/store/rows/feature_rows.hpp"
 #include "map/store/rows/grid_rows.hpp"
@@ -9,7 +10,6 @@
 #include "map/store/rows/zlib.hpp"
 #include "map/store/schema/migrate.hpp"
 #include "map/store/sql/sqlite.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 #include "map/testing/random_features.hpp"
 
 namespace lapwing::map::rows {
@@ -30,10 +30,10 @@ struct Rows : ::testing::Test {
     sites.emplace("car park", car_park());
     EXPECT_TRUE(write_site(*database, car_park(), 1));
   }
-  std::int64_t count(std::string const& of) {
+  std::int64_t count(std::string const& of) const {
     return sql::as_integer(sql::value_of(*database, "SELECT count(*) FROM " + of).value()).value();
   }
-  map::testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   std::unique_ptr<sql::Database> database;
   Sites sites;
 };

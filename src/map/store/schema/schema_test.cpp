@@ -4,6 +4,7 @@
 #include <iterator>
 #include <set>
 
+#include "base/testing/temporary_folder.hpp"
 #include "map/features/properties.hpp"
 #include "map/store/blobs/blobs.hpp"
 #include "map/store/rows/feature_rows.hpp"
@@ -12,16 +13,15 @@
 #include "map/store/schema/tables.hpp"
 #include "map/store/sql/sqlite.hpp"
 #include "map/store/testing/first_version.hpp"
-#include "map/store/testing/temporary_folder.hpp"
 
 namespace lapwing::map::schema {
 namespace {
 
 struct Schema : ::testing::Test {
-  std::int64_t number(std::string const& query) {
+  std::int64_t number(std::string const& query) const {
     return sql::as_integer(sql::value_of(*database, query).value()).value();
   }
-  map::testing::TemporaryFolder folder;
+  base::testing::TemporaryFolder folder;
   std::unique_ptr<sql::Database> database = sql::open_sqlite(folder.path() / "map.gpkg", sql::Access::write).value();
 };
 

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "map/store/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::map::sql {
 namespace {
 
-using testing::TemporaryFolder;
+using base::testing::TemporaryFolder;
 
 Table const things = {.name = "things",
                       .about = "For tests",

@@ -170,7 +170,7 @@ struct MemberTraits<T Owner::*> {
   using Type = T;
 };
 template <auto member>
-using MemberType = typename MemberTraits<decltype(member)>::Type;
+using MemberType = MemberTraits<decltype(member)>::Type;
 
 /// As the dialect spells it. The compiler knows, and nothing has to be said twice.
 template <auto member>

@@ -9,7 +9,7 @@
 #include "map/live/live_map.hpp"
 #include "station/http/router.hpp"
 #include "station/map/features/feature_query.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 /// Features as GeoJSON (RFC 7946) documents, with links from one to the next. For .cpp files.
 namespace lapwing::station {

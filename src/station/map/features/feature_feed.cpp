@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "map/features/feature_json.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -8,7 +8,7 @@
 
 #include "base/text/utc_text.hpp"
 #include "map/features/placement.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -4,7 +4,7 @@
 
 #include "map/live/live_map.hpp"
 #include "station/map/geo_words.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 /// What is told of a grid beside its cells. For .cpp files.
 namespace lapwing::station {

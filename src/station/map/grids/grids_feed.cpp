@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "station/map/grids/grid_json.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 namespace lapwing::station {
 

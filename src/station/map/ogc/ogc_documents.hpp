@@ -5,7 +5,7 @@
 
 #include "map/live/live_map.hpp"
 #include "station/http/http.hpp"
-#include "station/messages/json.hpp"
+#include "station/messages/feed_json.hpp"
 
 /// What OGC API Features 1.0 and OGC API Tiles 1.0 want to know of a map before they ask for what lies on it. For .cpp
 /// files.

@@ -1,10 +1,10 @@
-#include "fleet/control/control.hpp"
+#include "fleet/control/fleet_control.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 namespace lapwing::fleet {
 namespace {
@@ -15,7 +15,7 @@ using vehicle::Action;
 using vehicle::CommandState;
 using vehicle::VehicleId;
 
-TEST(Control, ShowsACommandFromWaitingToConfirmed) {
+TEST(FleetControl, ShowsACommandFromWaitingToConfirmed) {
   ControlWorld world;
   auto& copter = world.add_ready();
   auto const number = world.give({.action = Action::arm});
@@ -26,7 +26,7 @@ TEST(Control, ShowsACommandFromWaitingToConfirmed) {
   EXPECT_EQ(world.control->commands().back().by, "operator 1");
 }
 
-TEST(Control, GivesEachVehicleItsOwnOutcome) {
+TEST(FleetControl, GivesEachVehicleItsOwnOutcome) {
   ControlWorld world;
   world.add({.address = {1, 1}});
   auto& refusing = world.add({.address = {2, 1}});
@@ -43,7 +43,7 @@ TEST(Control, GivesEachVehicleItsOwnOutcome) {
   EXPECT_EQ(world.outcome(number, 3).reason, "there is no vehicle 9");
 }
 
-TEST(Control, IsFastForManyVehicles) {
+TEST(FleetControl, IsFastForManyVehicles) {
   ControlWorld world;
   std::vector<std::string> ids;
   for (std::uint8_t id = 1; id <= 50; ++id) {
@@ -57,7 +57,7 @@ TEST(Control, IsFastForManyVehicles) {
   EXPECT_LT(world.loop.now() - begun, 3s);
 }
 
-TEST(Control, TakesOff) {
+TEST(FleetControl, TakesOff) {
   ControlWorld world;
   auto& copter = world.add_ready();
   auto const number = world.give({.action = Action::take_off, .height_m = 15.0});
@@ -70,7 +70,7 @@ TEST(Control, TakesOff) {
   EXPECT_EQ(copter.mode, copter_mode::guided);
 }
 
-TEST(Control, KeepsTheHeightWhenItGoesToAPlaceUnlessToldOtherwise) {
+TEST(FleetControl, KeepsTheHeightWhenItGoesToAPlaceUnlessToldOtherwise) {
   ControlWorld world;
   auto& copter = world.add_flying();
   copter.height_m = 100.0;
@@ -81,7 +81,7 @@ TEST(Control, KeepsTheHeightWhenItGoesToAPlaceUnlessToldOtherwise) {
   EXPECT_NEAR(copter.goal->alt_m, 100.0, 0.1);
 }
 
-TEST(Control, GivesPx4HeightsAboveTheSea) {
+TEST(FleetControl, GivesPx4HeightsAboveTheSea) {
   ControlWorld world;
   auto& copter = world.add_ready({.autopilot = mavlink::MavAutopilot::px4});
   copter.is_armed = copter.is_flying = true;  // 120 m above the sea
@@ -96,7 +96,7 @@ TEST(Control, GivesPx4HeightsAboveTheSea) {
   EXPECT_NEAR(copter.goal->alt_m, 150.0, 0.1);
 }
 
-TEST(Control, SendsAVehicleToAPlaceWithoutLosingPrecision) {
+TEST(FleetControl, SendsAVehicleToAPlaceWithoutLosingPrecision) {
   ControlWorld world;
   auto& copter = world.add_flying();
   auto const there = geo::Wgs84::from_degrees(40.0012345, -8.0012345, 0.0);
@@ -114,7 +114,7 @@ TEST(Control, SendsAVehicleToAPlaceWithoutLosingPrecision) {
   EXPECT_EQ(sent.frame, mavlink::MavFrame::global_relative_alt);
 }
 
-TEST(Control, RefusesWhatAVehicleCannotDo) {
+TEST(FleetControl, RefusesWhatAVehicleCannotDo) {
   ControlWorld world;
   world.add(a_rover(2));
   world.add_ready();
@@ -133,7 +133,7 @@ TEST(Control, RefusesWhatAVehicleCannotDo) {
   EXPECT_EQ(world.outcome(resumed).reason, "copter 1 is not armed: start the mission instead");
 }
 
-TEST(Control, RefusesCommandsWithoutWhatTheyNeed) {
+TEST(FleetControl, RefusesCommandsWithoutWhatTheyNeed) {
   ControlWorld world;
   world.add_ready();
   std::vector<VehicleId> const one{{"1"}};
@@ -144,7 +144,7 @@ TEST(Control, RefusesCommandsWithoutWhatTheyNeed) {
   EXPECT_TRUE(world.control->commands().empty());
 }
 
-TEST(Control, SetsModesByName) {
+TEST(FleetControl, SetsModesByName) {
   ControlWorld world;
   auto& copter = world.add_ready();
   auto const number = world.give({.action = Action::set_mode, .mode = "guided"});
@@ -153,7 +153,7 @@ TEST(Control, SetsModesByName) {
   EXPECT_EQ(world.outcome(number).reason, "GUIDED");
 }
 
-TEST(Control, StartsPausesAndResumesAMission) {
+TEST(FleetControl, StartsPausesAndResumesAMission) {
   ControlWorld world;
   auto& vehicle = world.add_ready(a_rover(1));
   vehicle.mission.resize(4);
@@ -165,7 +165,7 @@ TEST(Control, StartsPausesAndResumesAMission) {
   EXPECT_EQ(vehicle.mode, rover_mode::automatic);
 }
 
-TEST(Control, LetsALaterCommandReplaceAnEarlierOne) {
+TEST(FleetControl, LetsALaterCommandReplaceAnEarlierOne) {
   ControlWorld world;
   auto& copter = world.add_ready();
   copter.ignored_commands.insert(MavCmd::component_arm_disarm);

@@ -1,10 +1,10 @@
-#include "dryrun/json.hpp"
+#include "dryrun/flight_json.hpp"
 
 #include <cstdlib>
 
 #include "base/text/json.hpp"
 #include "dryrun/missions.hpp"
-#include "geo/json.hpp"
+#include "geo/position_json.hpp"
 
 namespace lapwing::dryrun {
 

@@ -5,19 +5,20 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/assert.hpp"
 
-namespace lapwing::map::testing {
+namespace lapwing::base::testing {
 
-/// Goes with its end.
+/// A folder of its own for one test, gone with it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    auto pattern = (std::filesystem::temp_directory_path() / "lapwing-store-XXXXXX").string();
-    LAPWING_ASSERT(::mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
+    auto name = (std::filesystem::temp_directory_path() / "lapwing-test-XXXXXX").string();
+    LAPWING_ASSERT(::mkdtemp(name.data()) != nullptr);
+    path_ = name;
   }
   TemporaryFolder(TemporaryFolder const&) = delete;
   TemporaryFolder& operator=(TemporaryFolder const&) = delete;
@@ -27,8 +28,14 @@ class TemporaryFolder {
   }
 
   [[nodiscard]] std::filesystem::path const& path() const { return path_; }
-  void write(std::string const& name, std::string const& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
+
+  /// Writes a file, private to its owner, and gives its path.
+  std::string write(std::string const& name, std::string_view text) const {
+    auto const file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+    std::filesystem::permissions(file, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    return file.string();
   }
   [[nodiscard]] std::string read(std::string const& name) const {
     std::ifstream file(path_ / name, std::ios::binary);
@@ -39,4 +46,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace lapwing::map::testing
+}  // namespace lapwing::base::testing

@@ -15,12 +15,12 @@ namespace lapwing::fleet {
 
 /// The parameters of a fleet's vehicles: each network has a `parameters::ParameterService`, who may change what is the
 /// `vehicle::Authority`'s say, as with commands. Thread-bound.
-class Parameters final : public vehicle::VehicleParameters {
+class FleetParameters final : public vehicle::VehicleParameters {
  public:
   /// `fleet` outlives this.
-  Parameters(Fleet& fleet, parameters::Cache cache, base::Logger log);
-  Parameters(Parameters const&) = delete;
-  Parameters& operator=(Parameters const&) = delete;
+  FleetParameters(Fleet& fleet, parameters::Cache cache, base::Logger log);
+  FleetParameters(FleetParameters const&) = delete;
+  FleetParameters& operator=(FleetParameters const&) = delete;
 
   [[nodiscard]] bool has(vehicle::VehicleId const& id) const override { return fleet_.find(id) != nullptr; }
   [[nodiscard]] base::Task<base::Result<vehicle::ParameterList>> all(vehicle::VehicleId id, bool old_ones_do) override;

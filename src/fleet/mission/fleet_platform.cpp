@@ -1,4 +1,4 @@
-#include "fleet/mission/platform.hpp"
+#include "fleet/mission/fleet_platform.hpp"
 
 #include <algorithm>
 #include <utility>

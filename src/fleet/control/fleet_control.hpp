@@ -10,7 +10,7 @@
 #include "base/log.hpp"
 #include "fleet/control/emergency.hpp"
 #include "fleet/control/goal.hpp"
-#include "fleet/mission/platform.hpp"
+#include "fleet/mission/fleet_platform.hpp"
 #include "fleet/network/other_stations.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "vehicle/control.hpp"
@@ -22,7 +22,7 @@ namespace lapwing::fleet {
 ///
 /// Each command runs as one task a vehicle, which sends it and then watches what comes of it; a later one, or a stop,
 /// destroys that first, so that nothing of it can follow. Thread-bound.
-class Control final : public vehicle::VehicleControl {
+class FleetControl final : public vehicle::VehicleControl {
  public:
   struct Options {
     vehicle::StopAction stop_action = vehicle::StopAction::hold;  ///< of an emergency stop that names none
@@ -31,9 +31,9 @@ class Control final : public vehicle::VehicleControl {
     base::Duration answer_timeout = std::chrono::seconds(10);  ///< of who is asked for a vehicle
   };
   /// `fleet` and `platform` outlive this.
-  Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log);
-  Control(Control const&) = delete;
-  Control& operator=(Control const&) = delete;
+  FleetControl(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log);
+  FleetControl(FleetControl const&) = delete;
+  FleetControl& operator=(FleetControl const&) = delete;
 
   /// Called with the reason when the emergency stop is latched: scripts are to be halted.
   void set_on_latched(std::function<void(std::string const& reason)> on_latched) {

@@ -1,4 +1,4 @@
-#include "lsp/json.hpp"
+#include "lsp/message_json.hpp"
 
 #include <algorithm>
 #include <limits>

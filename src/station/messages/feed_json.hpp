@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/text/json.hpp"
-#include "geo/json.hpp"
+#include "geo/position_json.hpp"
 
 /// For the .cpp files that write JSON; no header includes this one.
 namespace lapwing::station {

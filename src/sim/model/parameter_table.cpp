@@ -1,4 +1,4 @@
-#include "sim/model/parameters.hpp"
+#include "sim/model/parameter_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -271,7 +271,7 @@ std::span<Default const> own_defaults(Kind const& kind) {
 
 }  // namespace
 
-Parameters::Parameters(Kind const& kind, int system_id) {
+ParameterTable::ParameterTable(Kind const& kind, int system_id) {
   auto const shared = common_defaults(kind);
   auto const own = own_defaults(kind);
   table_.reserve(shared.size() + own.size());
@@ -289,18 +289,18 @@ Parameters::Parameters(Kind const& kind, int system_id) {
   set(kind.is_px4() ? "MAV_SYS_ID" : "SYSID_THISMAV", static_cast<float>(system_id));
 }
 
-std::optional<std::size_t> Parameters::index_of(std::string_view name) const {
+std::optional<std::size_t> ParameterTable::index_of(std::string_view name) const {
   auto const found = std::ranges::lower_bound(table_, name, {}, &Parameter::name);
   if (found == table_.end() || found->name != name) return std::nullopt;
   return static_cast<std::size_t>(found - table_.begin());
 }
 
-double Parameters::value(std::string_view name, double otherwise) const {
+double ParameterTable::value(std::string_view name, double otherwise) const {
   auto const index = index_of(name);
   return index ? static_cast<double>(table_[*index].value) : otherwise;
 }
 
-bool Parameters::set(std::string_view name, float value) {
+bool ParameterTable::set(std::string_view name, float value) {
   auto const index = index_of(name);
   if (!index) return false;
   table_[*index].value = value;
@@ -322,7 +322,7 @@ std::uint32_t crc_over(std::uint32_t crc, std::span<std::uint8_t const> bytes) {
 
 }  // namespace
 
-std::uint32_t Parameters::hash() const {
+std::uint32_t ParameterTable::hash() const {
   std::uint32_t crc = 0;
   for (auto const& parameter : table_) {
     crc = crc_over(crc, {reinterpret_cast<std::uint8_t const*>(parameter.name.data()), parameter.name.size()});

@@ -36,9 +36,9 @@ struct ParameterSetting {
 
 /// The autopilot's parameter table: those of ArduPilot's or PX4's that matter to a ground station or to this
 /// simulation.
-class Parameters {
+class ParameterTable {
  public:
-  Parameters(Kind const& kind, int system_id);
+  ParameterTable(Kind const& kind, int system_id);
 
   [[nodiscard]] std::vector<Parameter> const& all() const { return table_; }
   [[nodiscard]] std::optional<std::size_t> index_of(std::string_view name) const;

@@ -1,4 +1,4 @@
-#include "fleet/control/parameters.hpp"
+#include "fleet/control/fleet_parameters.hpp"
 
 #include <utility>
 
@@ -34,9 +34,9 @@ parameters::FileHeader header_of(MavlinkVehicle const& craft, parameters::Identi
 
 /// The command of a vehicle for as long as one change lasts: it is given back if nobody had it before, so that a value
 /// set in passing keeps no script from the vehicle.
-class Parameters::Loan {
+class FleetParameters::Loan {
  public:
-  Loan(Parameters& owner, MavlinkVehicle& craft, Commander by, bool is_lent)
+  Loan(FleetParameters& owner, MavlinkVehicle& craft, Commander by, bool is_lent)
       : owner_(owner), craft_(craft), by_(std::move(by)), is_lent_(is_lent) {
     if (is_lent_) ++loans();
   }
@@ -51,26 +51,26 @@ class Parameters::Loan {
   }
 
  private:
-  int& loans() { return craft_.runs.write(As<Parameters>()).loans; }
+  int& loans() { return craft_.runs.write(As<FleetParameters>()).loans; }
 
-  Parameters& owner_;
+  FleetParameters& owner_;
   MavlinkVehicle& craft_;
   Commander by_;
   bool is_lent_;
 };
 
-Parameters::Parameters(Fleet& fleet, parameters::Cache cache, base::Logger log)
+FleetParameters::FleetParameters(Fleet& fleet, parameters::Cache cache, base::Logger log)
     : fleet_(fleet), cache_(std::move(cache)), log_(log.named("parameters")), scope_(fleet.loop()) {
   // A service knows the vehicles that it has heard, so it begins with its network's first message.
   subscription_ = fleet.subscribe(
       [this](Network const& network, mavlink::Received const&) { (void)service_of(network.connection()); });
 }
 
-parameters::ParameterService& Parameters::service_of(mavlink::Connection& connection) {
+parameters::ParameterService& FleetParameters::service_of(mavlink::Connection& connection) {
   return services_.try_emplace(&connection, connection, cache_, log_).first->second;
 }
 
-Result<MavlinkVehicle*> Parameters::find(VehicleId const& id) const {
+Result<MavlinkVehicle*> FleetParameters::find(VehicleId const& id) const {
   auto* const craft = fleet_.find(id);
   if (!craft) return fail(ErrorKind::not_found, fmt::format("there is no vehicle {}", id.text));
   if (craft->state.links.connection == vehicle::Connection::lost)
@@ -80,7 +80,7 @@ Result<MavlinkVehicle*> Parameters::find(VehicleId const& id) const {
 
 // ---- all of them
 
-base::Task<Parameters::Snapshot> Parameters::snapshot(VehicleId id, bool old_ones_do) {
+base::Task<FleetParameters::Snapshot> FleetParameters::snapshot(VehicleId id, bool old_ones_do) {
   auto const craft = find(id);
   if (!craft) co_return std::unexpected(craft.error());
   // What may bring old values is no answer to who wants the vehicle's own: that comes after it.
@@ -105,7 +105,7 @@ base::Task<Parameters::Snapshot> Parameters::snapshot(VehicleId id, bool old_one
 }
 
 /// Goes on when who asked has gone: others may have joined, and the cache is the better for it.
-base::Task<> Parameters::fetch(MavlinkVehicle& craft, std::shared_ptr<Fetch> into) {
+base::Task<> FleetParameters::fetch(MavlinkVehicle& craft, std::shared_ptr<Fetch> into) {
   mavlink::ParamProgress const note = [into = into.get()](std::size_t done, std::size_t total) {
     into->progress = {done, total};
   };
@@ -115,7 +115,7 @@ base::Task<> Parameters::fetch(MavlinkVehicle& craft, std::shared_ptr<Fetch> int
   into->ended.notify_all();
 }
 
-base::Task<Result<vehicle::ParameterList>> Parameters::all(VehicleId id, bool old_ones_do) {
+base::Task<Result<vehicle::ParameterList>> FleetParameters::all(VehicleId id, bool old_ones_do) {
   auto const got = co_await snapshot(id, old_ones_do);
   if (!got) co_return std::unexpected(got.error());
   vehicle::ParameterList list{.parameters = {}, .taken = got->taken, .confirmed = got->confirmed};
@@ -123,12 +123,12 @@ base::Task<Result<vehicle::ParameterList>> Parameters::all(VehicleId id, bool ol
   co_return list;
 }
 
-std::optional<vehicle::ParameterProgress> Parameters::progress(VehicleId const& id) const {
+std::optional<vehicle::ParameterProgress> FleetParameters::progress(VehicleId const& id) const {
   auto const running = fetches_.find(id);
   return running == fetches_.end() ? std::nullopt : std::optional(running->second->progress);
 }
 
-base::Task<Result<std::string>> Parameters::file(VehicleId id, bool old_ones_do) {
+base::Task<Result<std::string>> FleetParameters::file(VehicleId id, bool old_ones_do) {
   auto const got = co_await snapshot(id, old_ones_do);
   if (!got) co_return std::unexpected(got.error());
   auto const header = header_of(*fleet_.find(id), got->identity);
@@ -137,7 +137,7 @@ base::Task<Result<std::string>> Parameters::file(VehicleId id, bool old_ones_do)
 
 // ---- one of them
 
-base::Task<Result<vehicle::Parameter>> Parameters::read(VehicleId id, std::string name) {
+base::Task<Result<vehicle::Parameter>> FleetParameters::read(VehicleId id, std::string name) {
   auto const craft = find(id);
   if (!craft) co_return std::unexpected(craft.error());
   auto const system_id = (*craft)->address.system;
@@ -146,8 +146,8 @@ base::Task<Result<vehicle::Parameter>> Parameters::read(VehicleId id, std::strin
   co_return shown(*value);
 }
 
-base::Task<Result<vehicle::ParameterChange>> Parameters::change(VehicleId id, std::string name, double value,
-                                                                Commander by) {
+base::Task<Result<vehicle::ParameterChange>> FleetParameters::change(VehicleId id, std::string name, double value,
+                                                                     Commander by) {
   auto const found = find(id);
   if (!found) co_return std::unexpected(found.error());
   auto& craft = **found;

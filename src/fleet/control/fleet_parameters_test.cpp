@@ -1,11 +1,11 @@
-#include "fleet/control/parameters.hpp"
+#include "fleet/control/fleet_parameters.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "fleet/testing/control.hpp"
+#include "fleet/testing/control_world.hpp"
 
 namespace lapwing::fleet {
 namespace {
@@ -82,7 +82,7 @@ struct ParametersTest : ::testing::Test {
 
   ControlWorld world;
   Copter copter{world.loop, world.hub.connect()};
-  Parameters parameters{*world.fleet, parameters::Cache(), base::Logger(world.log, "fleet")};
+  FleetParameters parameters{*world.fleet, parameters::Cache(), base::Logger(world.log, "fleet")};
 };
 
 TEST_F(ParametersTest, AskAVehicleForNothingUntilSomebodyAsks) {

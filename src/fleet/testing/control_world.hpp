@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fleet/control/control.hpp"
+#include "fleet/control/fleet_control.hpp"
 #include "fleet/testing/world.hpp"
 
 namespace lapwing::fleet {
@@ -18,8 +18,8 @@ namespace lapwing::fleet {
 
 /// A ground station with an operator's hand on it, in virtual time.
 struct ControlWorld : TestWorld {
-  explicit ControlWorld(Control::Options const& options = {}) {
-    control = std::make_unique<Control>(*fleet, *platform, options, base::Logger(log, "fleet"));
+  explicit ControlWorld(FleetControl::Options const& options = {}) {
+    control = std::make_unique<FleetControl>(*fleet, *platform, options, base::Logger(log, "fleet"));
     control->set_on_latched([this](std::string const& reason) { latched_with = reason; });
   }
 
@@ -81,7 +81,7 @@ struct ControlWorld : TestWorld {
   }
 
   std::string latched_with;
-  std::unique_ptr<Control> control;
+  std::unique_ptr<FleetControl> control;
 };
 
 }  // namespace lapwing::fleet

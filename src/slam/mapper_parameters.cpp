@@ -1,4 +1,4 @@
-#include "slam/parameters.hpp"
+#include "slam/mapper_parameters.hpp"
 
 #include <array>
 #include <type_traits>

@@ -1,4 +1,4 @@
-#include "fleet/control/control.hpp"
+#include "fleet/control/fleet_control.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -59,7 +59,7 @@ bool is_final(CommandState state) {
 
 }  // namespace
 
-Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log)
+FleetControl::FleetControl(Fleet& fleet, FleetPlatform& platform, Options options, base::Logger log)
     : fleet_(fleet),
       platform_(platform),
       options_(std::move(options)),
@@ -81,8 +81,8 @@ Control::Control(Fleet& fleet, FleetPlatform& platform, Options options, base::L
 
 // ---- commands
 
-Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::span<VehicleId const> vehicles,
-                                       Commander by, bool takes_over) {
+Result<std::uint64_t> FleetControl::command(vehicle::VehicleCommand command, std::span<VehicleId const> vehicles,
+                                            Commander by, bool takes_over) {
   if (vehicles.empty()) return fail(ErrorKind::invalid_input, "no vehicle was named to command");
   if (auto checked = check(command); !checked) return std::unexpected(checked.error());
   if (auto allowed = settings_for(command, options_.plausibility); !allowed) return std::unexpected(allowed.error());
@@ -99,7 +99,7 @@ Result<std::uint64_t> Control::command(vehicle::VehicleCommand command, std::spa
   return record.number;
 }
 
-void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) {
+void FleetControl::give(CommandRecord& record, VehicleId const& id, bool takes_over) {
   record.outcomes.push_back({.vehicle = id});
   auto* const craft = fleet_.find(id);
   if (!craft) return show(record.number, id, CommandState::refused, fmt::format("there is no vehicle {}", id.text));
@@ -107,20 +107,20 @@ void Control::give(CommandRecord& record, VehicleId const& id, bool takes_over) 
   if (auto through = let_through(*craft, record, takes_over); !through)
     return show(record.number, id, CommandState::refused, through.error().message);
   if (craft->state.control.commander == record.by)
-    craft->runs.write(As<Control>()).loans = 0;  // from now on he has it for more than a parameter
+    craft->runs.write(As<FleetControl>()).loans = 0;  // from now on he has it for more than a parameter
   supersede(id, fmt::format("{} by {} came after it", to_string(record.command.action), record.by));
   // A stop is not given up while there is a chance; what makes a vehicle move must not come late.
   auto const patience = is_stop(record.command.action) ? 3 * options_.expiry : options_.expiry;
   auto& running = running_[id];
   running.number = record.number;
   running.made_commander = was_nobodys;
-  craft->asked.write(As<Control>()).arming_begun.reset();
+  craft->asked.write(As<FleetControl>()).arming_begun.reset();
   running.task = carry(*craft, record.number, record.command, fleet_.loop().now() + patience);
   running.task.start();
 }
 
 /// Whether the giver may command the vehicle; takes it from who has it if he may do that.
-Result<> Control::let_through(MavlinkVehicle& craft, CommandRecord const& record, bool takes_over) {
+Result<> FleetControl::let_through(MavlinkVehicle& craft, CommandRecord const& record, bool takes_over) {
   auto& authority = fleet_.authority();
   bool const stops = is_stop(record.command.action);
   if (!craft.is_connected() && !stops)
@@ -138,8 +138,8 @@ Result<> Control::let_through(MavlinkVehicle& craft, CommandRecord const& record
   return stops ? Result<>{} : authority.claim(craft.id(), record.by);
 }
 
-base::Task<> Control::carry(MavlinkVehicle& craft, std::uint64_t number, vehicle::VehicleCommand command,
-                            base::TimePoint expires) {
+base::Task<> FleetControl::carry(MavlinkVehicle& craft, std::uint64_t number, vehicle::VehicleCommand command,
+                                 base::TimePoint expires) {
   auto const id = craft.id();
   Goal goal(craft, command, fleet_.loop().now());
   std::function<void()> const on_accepted = [this, number, id, &goal] {
@@ -164,7 +164,7 @@ base::Task<> Control::carry(MavlinkVehicle& craft, std::uint64_t number, vehicle
   if (outcome && !is_final(outcome->state)) co_await watch(craft, number, goal);
 }
 
-base::Task<> Control::watch(MavlinkVehicle& craft, std::uint64_t number, Goal& goal) {
+base::Task<> FleetControl::watch(MavlinkVehicle& craft, std::uint64_t number, Goal& goal) {
   using Kind = Standing::Kind;
   constexpr base::Duration look_at_least = std::chrono::seconds(1);
   constexpr base::Duration late = std::chrono::minutes(10);
@@ -203,8 +203,8 @@ base::Task<> Control::watch(MavlinkVehicle& craft, std::uint64_t number, Goal& g
   }
 }
 
-void Control::fail_command(MavlinkVehicle& craft, std::uint64_t number, base::Error const& error,
-                           base::TimePoint expires) {
+void FleetControl::fail_command(MavlinkVehicle& craft, std::uint64_t number, base::Error const& error,
+                                base::TimePoint expires) {
   auto const* const outcome = outcome_of(number, craft.id());
   if (!outcome) return;
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
@@ -216,7 +216,7 @@ void Control::fail_command(MavlinkVehicle& craft, std::uint64_t number, base::Er
   show(number, craft.id(), state_after(error, was_accepted, fleet_.loop().now() >= expires), error.message);
 }
 
-bool Control::supersede(VehicleId const& id, std::string const& reason) {
+bool FleetControl::supersede(VehicleId const& id, std::string const& reason) {
   auto const found = running_.find(id);
   if (found == running_.end()) return false;
   auto const number = found->second.number;
@@ -237,15 +237,15 @@ bool Control::supersede(VehicleId const& id, std::string const& reason) {
   return was_being_sent;
 }
 
-CommandOutcome* Control::outcome_of(std::uint64_t number, VehicleId const& id) {
+CommandOutcome* FleetControl::outcome_of(std::uint64_t number, VehicleId const& id) {
   auto const record = std::ranges::find(records_, number, &CommandRecord::number);
   if (record == records_.end()) return nullptr;
   auto const outcome = std::ranges::find(record->outcomes, id, &CommandOutcome::vehicle);
   return outcome == record->outcomes.end() ? nullptr : &*outcome;
 }
 
-void Control::show(std::uint64_t number, VehicleId const& id, CommandState state, std::string reason,
-                   std::optional<double> left_m) {
+void FleetControl::show(std::uint64_t number, VehicleId const& id, CommandState state, std::string reason,
+                        std::optional<double> left_m) {
   auto* const outcome = outcome_of(number, id);
   if (!outcome || is_final(outcome->state)) return;
   if (outcome->state == state && outcome->reason == reason && outcome->left_m == left_m) return;
@@ -261,16 +261,16 @@ void Control::show(std::uint64_t number, VehicleId const& id, CommandState state
 }
 
 /// The arming of a command that has ended may still be on its way, if it was sent at all.
-void Control::expect_late_arming(MavlinkVehicle& craft) {
+void FleetControl::expect_late_arming(MavlinkVehicle& craft) {
   constexpr base::Duration links_keep = std::chrono::seconds(60);
   auto& commands = craft.connection.commands();
   auto const sent = commands.last_sent(craft.address.system, mavlink::MavCmd::component_arm_disarm);
   if (craft.heard->is_armed || !craft.asked->arming_begun || !sent || *sent < *craft.asked->arming_begun) return;
-  craft.asked.write(As<Control>()).may_arm_late_until = fleet_.loop().now() + links_keep;
+  craft.asked.write(As<FleetControl>()).may_arm_late_until = fleet_.loop().now() + links_keep;
 }
 
 /// An acknowledgement to us of an arming that we have given up: the link had kept one or the other.
-void Control::take_late_arming(Network& network, mavlink::Received const& received) {
+void FleetControl::take_late_arming(Network& network, mavlink::Received const& received) {
   auto const* ack = std::get_if<mavlink::CommandAck>(&received.message);
   if (!ack || ack->command != mavlink::MavCmd::component_arm_disarm || ack->result != mavlink::MavResult::accepted)
     return;
@@ -283,13 +283,13 @@ void Control::take_late_arming(Network& network, mavlink::Received const& receiv
 }
 
 /// The acknowledgement does not tell an arming from a disarming; the next heartbeat does.
-base::Task<> Control::take_back(MavlinkVehicle& craft) {
+base::Task<> FleetControl::take_back(MavlinkVehicle& craft) {
   constexpr base::Duration heartbeats = std::chrono::seconds(3);
   auto const armings = craft.asked->armings;
   std::function<bool()> is_armed = [&craft] { return craft.heard->is_armed; };
   if (!co_await craft.changed.wait_for(std::move(is_armed), heartbeats)) co_return;
   if (craft.asked->armings != armings) co_return;  // somebody here wants it armed meanwhile
-  if (!std::exchange(craft.asked.write(As<Control>()).may_arm_late_until, std::nullopt)) co_return;
+  if (!std::exchange(craft.asked.write(As<FleetControl>()).may_arm_late_until, std::nullopt)) co_return;
   log_.error(fmt::format("{} has carried out an arming that came too late: it is disarmed again", craft.state.name));
   ActionOptions const how{.is_urgent = true};
   auto const disarmed = co_await disarm(craft.connection, craft, how);
@@ -298,7 +298,7 @@ base::Task<> Control::take_back(MavlinkVehicle& craft) {
 
 // ---- emergency stop
 
-void Control::emergency_stop(std::optional<vehicle::StopAction> action, Commander by) {
+void FleetControl::emergency_stop(std::optional<vehicle::StopAction> action, Commander by) {
   auto const reason = fmt::format("emergency stop by {}", by);
   fleet_.authority().bar(reason + ": release it first");
   while (!running_.empty()) {
@@ -312,28 +312,28 @@ void Control::emergency_stop(std::optional<vehicle::StopAction> action, Commande
   if (on_latched_) on_latched_(reason);
 }
 
-void Control::release_emergency_stop(Commander by) {
+void FleetControl::release_emergency_stop(Commander by) {
   fleet_.authority().bar(std::nullopt);
   emergency_.release(by);
 }
 
 // ---- who is in command
 
-Result<> Control::request_control(VehicleId const& id, Commander by) {
+Result<> FleetControl::request_control(VehicleId const& id, Commander by) {
   return fleet_.authority().request(id, std::move(by), options_.answer_timeout);
 }
 
-Result<> Control::yield_control(VehicleId const& id, Commander by) {
+Result<> FleetControl::yield_control(VehicleId const& id, Commander by) {
   if (fleet_.authority().yield(id, by)) return {};
   return fail(ErrorKind::refused, fmt::format("vehicle {} is not commanded by {}", id.text, by));
 }
 
-Result<> Control::keep_control(VehicleId const& id, Commander by) {
+Result<> FleetControl::keep_control(VehicleId const& id, Commander by) {
   if (fleet_.authority().keep(id, by)) return {};
   return fail(ErrorKind::refused, fmt::format("vehicle {} is not commanded by {}", id.text, by));
 }
 
-void Control::forget(Commander const& by) {
+void FleetControl::forget(Commander const& by) {
   for (auto* craft : fleet_.all()) fleet_.authority().forget(craft->id(), by);
 }
 
