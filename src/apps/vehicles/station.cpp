@@ -8,9 +8,11 @@
 #include "host/files/config_file.hpp"
 #include "host/files/key_file.hpp"
 #include "host/plausibility/options.hpp"
+#include "host/robots/robot_spec.hpp"
 #include "host/session/session.hpp"
 #include "host/session/signals.hpp"
 #include "host/station/station_config.hpp"
+#include "sim/world/world.hpp"
 
 namespace lapwing::apps {
 
@@ -20,6 +22,7 @@ namespace {
 struct StationArguments {
   std::string config;
   std::vector<std::string> links;
+  std::vector<std::string> robots;
   std::vector<std::string> payload;
   std::vector<std::string> forward;
   std::string plans;
@@ -41,6 +44,7 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
           : host::load_config(arguments.config, host::read_station_config, "docs/reference/station-config.md");
   if (!config) return config;
   if (!arguments.links.empty()) config->links = arguments.links;
+  if (!arguments.robots.empty()) config->robots = arguments.robots;
   if (config->links.empty()) config->links = {host::default_link};
   for (auto const& text : arguments.payload) {
     if (auto added = host::add_payload(text, config->payload); !added) return std::unexpected(added.error());
@@ -78,6 +82,20 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   return config;
 }
 
+/// They stand in the site that the map has from before, else at its home. A simulated one is nowhere else.
+base::Result<> add_robots(host::Session& session, host::StationConfig const& config) {
+  bool is_any_real = false;
+  for (auto const& text : config.robots) {
+    auto const request = host::parse_robot(text);
+    if (!request) return std::unexpected(request.error());
+    is_any_real = is_any_real || std::holds_alternative<host::LinkedRobot>(*request);
+  }
+  if (is_any_real && !config.map.home && !session.live_map.site("default"))
+    return base::fail(base::ErrorKind::invalid_input, "nothing says where on the globe the robot is",
+                      "in the station's file, --config: [map] home = \"LAT,LON,ALT\"");
+  return session.add_robots(config.robots, config.map.home.value_or(sim::WorldOptions{}.home));
+}
+
 int serve(StationArguments const& arguments) {
   auto const config = settings_of(arguments);
   if (!config) return host::refuse(config.error());
@@ -95,6 +113,8 @@ int serve(StationArguments const& arguments) {
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return host::refuse(begun.error());
   }
+  if (auto opened = session.open_store(config->map); !opened) return host::refuse(opened.error());
+  if (auto added = add_robots(session, *config); !added) return host::refuse(added.error());
   if (auto opened = session.open_links(config->links); !opened) return host::refuse(opened.error());
   if (auto opened = session.forward(config->forward); !opened) return host::refuse(opened.error());
   if (auto opened = session.open_map(config->web, config->map); !opened) return host::refuse(opened.error());
@@ -119,6 +139,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--config", arguments->config, "TOML file with the settings; options given here go before it");
   verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(host::default_link));
+  verb->add_option("--robot", arguments->robots, host::robot_help)->allow_extra_args(false);
   verb->add_option("--forward", arguments->forward, host::forward_help);
   verb->add_option("--payload", arguments->payload, host::payload_help);
   host::add_web_options(*verb, arguments->web);

@@ -9,6 +9,7 @@
 #include "base/text/spelling.hpp"
 #include "host/links/ground.hpp"
 #include "host/plausibility/reading.hpp"
+#include "host/robots/robot_spec.hpp"
 #include "host/session/session.hpp"
 #include "host/simulation/simulation.hpp"
 #include "link/url.hpp"
@@ -40,6 +41,14 @@ void read_links(ConfigReader& root, Diagnostics& diagnostics, StationConfig& con
   if (!links) return;
   for (auto const& [text, span] : *links) {
     if (valid(diagnostics, span, parse_network_link(text))) config.links.push_back(text);
+  }
+}
+
+void read_robots(ConfigReader& root, Diagnostics& diagnostics, StationConfig& config) {
+  auto const robots = root.texts("robots");
+  if (!robots) return;
+  for (auto const& [text, span] : *robots) {
+    if (valid(diagnostics, span, parse_robot(text))) config.robots.push_back(text);
   }
 }
 
@@ -162,6 +171,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   if (diagnostics.has_errors()) return config;
   ConfigReader root(entries, diagnostics);
   read_links(root, diagnostics, config);
+  read_robots(root, diagnostics, config);
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
   read_emergency_stop(root, diagnostics, config);

@@ -37,7 +37,8 @@ struct MapContent {
 
 /// A ground station as its file describes it: docs/reference/station-config.md.
 struct StationConfig {
-  std::vector<std::string> links;  ///< empty: the default link
+  std::vector<std::string> links;        ///< empty: the default link
+  std::vector<std::string> robots = {};  ///< as `--robot` names them
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   vehicle::StopAction emergency_action = vehicle::StopAction::hold;

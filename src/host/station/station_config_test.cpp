@@ -49,6 +49,14 @@ TEST(StationConfig, OfAnEmptyFileIsLoopbackAlone) {
   EXPECT_FALSE(read.config.map.home);
 }
 
+TEST(StationConfig, NamesRobotsAsTheCommandLineDoes) {
+  Read const read("robots = [\"sim:office.toml:2\", \"serial:///dev/ttyUSB0:115200@1,2,90\"]\n");
+  EXPECT_EQ(read.complaints(), "");
+  EXPECT_EQ(read.config.robots.size(), 2U);
+  EXPECT_TRUE(first_complaint("robots = [\"tractor\"]\n").starts_with("1:11 "))
+      << first_complaint("robots = [\"tractor\"]\n");
+}
+
 TEST(StationConfig, ReadsLimitsOfPlausibilityAndWhatIsAllowed) {
   Read const read("[plausibility]\nceiling = 300\n[plausibility.allow]\nshared_pad = \"one pad, in turn\"\n");
   EXPECT_EQ(read.complaints(), "");

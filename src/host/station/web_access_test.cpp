@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "host/files/testing/temporary_folder.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::host {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::TemporaryFolder;
+using base::testing::TemporaryFolder;
 
 constexpr auto token = "0123456789abcdef-._~";
 
