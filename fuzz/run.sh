@@ -117,6 +117,13 @@ case $target in
     eight='%b\0\0\0\0\0\0\0'
     printf "\3\51\1$eight$eight$eight$eight$eight\14\2$eight\1kt\11\3$eight" '\7' '\1' '\1' '\5' '\2' '\1' '\1' | seed segment
     ;;
+  drone_command)
+    printf '{"Type":"Configure","Min":7,"Des":10.5,"MaxHoverHeight":20}' | seed configure
+    printf '{"Type":"Autonomous Move","X":-3.5,"Y":4,"w":0.5}' | seed move
+    printf '{"Type":"CompulsiveMove","Lat":43.001,"Long":-79}' | seed globe
+    printf '{"Type":"Compulsive Move","X":1,"Y":2}{"Type":"Kill"}' | seed two
+    printf '# x\nmin_hover_height_m = 7\ndesired_hover_height_m = 10\nmax_hover_height_m = 20\n# crc32 = 00000000\n' | seed settings
+    ;;
   robot_frames)
     printf '\6\1\26\5\334\2\0' | seed alive
     printf '\21\1\0\240\0\0\0\0\0\0' | seed drive
