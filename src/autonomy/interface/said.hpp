@@ -49,7 +49,7 @@ struct Said {
   std::optional<request::LocalSetpoint> wanted_place = {};  ///< for the planner, as topic `des_pose`
   UserError user_error{};
   Health health = {};
-  bool sends_heartbeat = true;
+  bool sends_heartbeat = false;                 ///< now: at its period, and when the state has changed
   std::vector<std::string> error_log = {};      ///< for the operator, each an ErrorLog
   std::optional<HoverHeights> to_save = {};     ///< over the next boot
   std::optional<std::string> diagnostics = {};  ///< to be written to a file: why, and what was told in this frame

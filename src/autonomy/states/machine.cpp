@@ -118,6 +118,14 @@ void decide(Situation& s) {
   insist_on_disarming(s);
 }
 
+/// At its period; and at once when the state has changed, for that is what the operator waits for.
+bool is_heartbeat_due(Situation& s) {
+  bool const has_changed = s.memory.entered == s.now;
+  if (s.memory.state == State::communication_lost || (!has_changed && s.now < s.memory.next_heartbeat)) return false;
+  s.memory.next_heartbeat = s.now + s.options.heartbeat_period;
+  return true;
+}
+
 Health health_of(Situation const& s) {
   auto const state = s.memory.state;
   if (state == State::malfunction) return {false, s.memory.reason};
@@ -145,7 +153,7 @@ Said Machine::step(Told const& told, base::TimePoint now) {
   said.state = memory_.state;
   said.user_error = memory_.user_error;
   said.health = health_of(s);
-  said.sends_heartbeat = memory_.state != State::communication_lost;
+  said.sends_heartbeat = is_heartbeat_due(s);
   return said;
 }
 

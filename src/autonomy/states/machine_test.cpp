@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
@@ -25,6 +26,18 @@ TEST(Machine, BeginsIdleAndSaysWhetherTheOperatorIsHeard) {
   EXPECT_EQ(bench.said.health, Health{});
   bench.told.link = {.is_up = false, .silence = 4s};
   EXPECT_EQ(bench.step().health, (Health{false, "CommunicationLost"}));
+}
+
+TEST(Machine, SendsAHeartbeatTwiceASecondAndWhenTheStateChanges) {
+  Bench bench;
+  bench.step();
+  auto const sent = [&](auto const& all) { return std::ranges::count_if(all, &Said::sends_heartbeat); };
+  EXPECT_EQ(sent(bench.run_for(10s)), 20);
+  bench.give(command::Arm{});
+  EXPECT_TRUE(bench.said.sends_heartbeat);
+  EXPECT_FALSE(bench.step().sends_heartbeat);
+  auto lost = bench_in(State::communication_lost);
+  EXPECT_EQ(sent(lost.run_for(10s)), 0);
 }
 
 TEST(Machine, TakesAndSavesHeights) {

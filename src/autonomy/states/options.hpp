@@ -28,6 +28,7 @@ struct Options {
   base::Duration setpoint_period = std::chrono::milliseconds(100);
   base::Duration verdict_settles = std::chrono::milliseconds(500);  ///< before, it may be about the place before
   base::Duration verdict_patience = std::chrono::seconds(3);
+  base::Duration heartbeat_period = std::chrono::milliseconds(500);
 
   double height_reached_m = 0.5;
   double place_reached_m = 1.0;

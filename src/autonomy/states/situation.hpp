@@ -30,6 +30,7 @@ struct Target {
 struct Memory {
   State state = State::idle;
   base::TimePoint entered{};
+  base::TimePoint next_heartbeat{};
   HoverHeights heights = {};
   UserError user_error = UserError::none;
   WantedMode mode = {};
