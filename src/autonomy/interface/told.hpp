@@ -53,6 +53,13 @@ struct PlaceVerdict {
   base::TimePoint at{};  ///< when it came
 };
 
+/// Where the planner wants the drone while it explores.
+struct PlannerSetpoint {
+  geo::Point3<ArmingFrame> place;
+  std::optional<double> yaw_rad = {};
+  base::TimePoint at{};  ///< when it came
+};
+
 /// All that the machine is told in one frame.
 struct Told {
   OperatorLink link;
@@ -60,6 +67,7 @@ struct Told {
   std::vector<ProcessHealth> processes = {};    ///< those that it does not fly without
   std::optional<bool> sees_lot = {};            ///< nothing as long as vision has not said
   std::optional<PlaceVerdict> place = {};
+  std::optional<PlannerSetpoint> setpoint = {};   ///< nothing: the planner has none, or sends its own
   std::optional<geo::Box<ArmingFrame>> lot = {};  ///< how far the lot reaches, as far as it was seen
   std::vector<Command> commands = {};             ///< that came since the last frame, in order
 };

@@ -104,6 +104,7 @@ void begin_flight(Situation& s) {
   s.memory.next_setpoint = s.now;
   s.memory.target.reset();
   s.memory.is_agreed = false;
+  s.memory.has_refused_setpoint = false;
   if (s.memory.is_flown_by_hand) return;
   want_mode(s);
   ask_for_mode(s, guided);
@@ -131,8 +132,29 @@ void enter_no_lot(Situation& s) {
   tell(s, "no parking lot is seen any more: the drone waits here for another command");
 }
 
+/// What the planner wants, when it makes sense and is fresh. A refusal is told once.
+std::optional<request::LocalSetpoint> planner_setpoint(Situation& s) {
+  auto const& [place, yaw_rad, at] = *s.told.setpoint;
+  if (s.now - at > s.options.setpoint_lasts) return std::nullopt;
+  auto sound = check_place({place.x(), place.y()}, s.options.places, std::nullopt);
+  if (sound) sound = check_height(place.z(), s.memory.heights);
+  if (sound) return request::LocalSetpoint{place, yaw_rad};
+  if (!s.memory.has_refused_setpoint)
+    tell(s, fmt::format("the planner's setpoint is refused: {}: the drone waits here", sound.error().message));
+  s.memory.has_refused_setpoint = true;
+  return std::nullopt;
+}
+
 void process_explore(Situation& s) {
   ask_for_mode(s, guided);
+  if (!s.told.setpoint || !is_in_mode(s, guided) || !is_setpoint_due(s)) return;
+  auto const wanted = planner_setpoint(s);
+  if (!wanted) {
+    hold(s);
+    return;
+  }
+  s.memory.hold.reset();  // the next wait is where it will be then
+  s.said.requests.emplace_back(*wanted);
 }
 
 request::LocalSetpoint wanted_pose(Situation const& s) {
@@ -206,7 +228,8 @@ constexpr std::array<Behaviour, state_count> behaviours{{
     {takeoff, "take off to the desired hover height, unless above 5 m", enter_takeoff, "ask again as long as it stands",
      process_takeoff},
     {hover, hovers, begin_flight, "setpoint here; nothing while flown by hand", process_hover},
-    {autonomous_explore, "mode GUIDED", begin_flight, "setpoints come from the planner", process_explore},
+    {autonomous_explore, "mode GUIDED", begin_flight,
+     "the planner's setpoint, when it is fresh and makes sense, else here", process_explore},
     {autonomous_move, "mode GUIDED", enter_move,
      "wanted place to the planner; setpoint here until it agrees, then there at the desired height", process_move},
     {compulsive_move, "mode GUIDED", enter_compulsive, "setpoint there at the desired height", process_compulsive},

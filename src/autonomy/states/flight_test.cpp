@@ -35,12 +35,12 @@ struct Flight {
     told.commands.clear();
     drone.take(said);
     if (said.wanted_place) wanted = said.wanted_place->place;
-    if (state() == State::autonomous_explore) explore();
+    if (state() == State::autonomous_explore || told.setpoint) explore();
     highest_m = std::max(highest_m, drone.place().z());
   }
-  /// The planner flies, as long as the state says so.
+  /// The planner's, which goes on wanting whatever the state is.
   void explore() {
-    drone.take(Said{.requests = {request::LocalSetpoint{geo::Point3<ArmingFrame>(120, 50, 10)}}});
+    told.setpoint = {.place = geo::Point3<ArmingFrame>(120, 50, 10), .at = now};
     told.sees_lot = lot.contains({drone.place().x(), drone.place().y()}) || drone.place().x() < lot.least.x();
   }
   void give(Command command) {

@@ -344,6 +344,40 @@ TEST(Machine, FliesToAPlaceOnTheGlobeWhateverTheMapSays) {
   EXPECT_EQ(setpoints.back().height_m, 10.0);
 }
 
+TEST(Machine, PassesOnWhatThePlannerWantsAsLongAsItMakesSense) {
+  auto bench = bench_in(State::autonomous_explore);
+  EXPECT_TRUE(requests<request::LocalSetpoint>(bench.run_for(1s)).empty()) << "it sends its own, or none";
+  geo::Point3<ArmingFrame> const here(0, 0, 10);
+  geo::Point3<ArmingFrame> const there(20, 30, 12);
+  bench.told.setpoint = {.place = there, .at = bench.now};
+  auto setpoints = requests<request::LocalSetpoint>(bench.run_for(1s));
+  EXPECT_EQ(setpoints.size(), 10u);
+  for (auto const& one : setpoints) EXPECT_EQ(one.place, there);
+  setpoints = requests<request::LocalSetpoint>(bench.run_for(1s));
+  EXPECT_EQ(setpoints.size(), 10u) << "it is old";
+  for (auto const& one : setpoints) EXPECT_EQ(one.place, here);
+}
+
+TEST(Machine, RefusesSetpointsOfThePlannerThatMakeNoSenseAndTellsItOnce) {
+  double constexpr nan = std::numeric_limits<double>::quiet_NaN();
+  for (auto const& [place, words] : std::initializer_list<std::pair<geo::Point3<ArmingFrame>, std::string>>{
+           {{nan, 0, 10}, "a coordinate that is no number"},
+           {{0, 2000, 10}, "2000 m from where the drone was armed"},
+           {{0, 0, 5}, "the wanted height (5.0 m) is below the lowest hover height"},
+           {{0, 0, 21}, "the wanted height (21.0 m) is above the highest hover height"}}) {
+    auto bench = bench_in(State::autonomous_explore);
+    int told = 0;
+    for (int i = 0; i < 20; ++i) {
+      bench.told.setpoint = {.place = place, .at = bench.now};
+      bench.step();
+      told += tells(bench.said, words) ? 1 : 0;
+      for (auto const& one : requests<request::LocalSetpoint>(bench.said))
+        EXPECT_EQ(one.place, geo::Point3<ArmingFrame>(0, 0, 10));
+    }
+    EXPECT_EQ(told, 1) << words;
+  }
+}
+
 TEST(Machine, ClearsTheUserErrorWhenTheStateEnds) {
   auto bench = bench_in(State::no_parking_lot_detected);
   EXPECT_EQ(bench.said.user_error, UserError::no_lot_detected);

@@ -28,6 +28,7 @@ struct Options {
   base::Duration setpoint_period = std::chrono::milliseconds(100);
   base::Duration verdict_settles = std::chrono::milliseconds(500);  ///< before, it may be about the place before
   base::Duration verdict_patience = std::chrono::seconds(3);
+  base::Duration setpoint_lasts = std::chrono::seconds(1);  ///< of the planner
   base::Duration heartbeat_period = std::chrono::milliseconds(500);
 
   double height_reached_m = 0.5;

@@ -48,7 +48,8 @@ struct Memory {
 
   base::TimePoint next_takeoff{};
   std::optional<Target> target = {};
-  bool is_agreed = false;  ///< the planner has said that the target lies in the lot
+  bool has_refused_setpoint = false;  ///< of the planner, in this state
+  bool is_agreed = false;             ///< the planner has said that the target lies in the lot
   bool is_flown_by_hand = false;
   std::optional<geo::Point3<ArmingFrame>> hold = {};
   base::TimePoint next_setpoint{};
