@@ -1,0 +1,41 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bus/cdr/cdr.hpp"
+#include "bus/messages/navigation.hpp"
+#include "bus/messages/sensors.hpp"
+#include "require.hpp"
+
+namespace {
+
+using lapwing::fuzz::require;
+
+/// What is read is written and read again as it was.
+template <class M>
+void read(std::string_view bytes) {
+  auto const message = lapwing::bus::decode<M>(bytes);
+  if (!message) return;
+  auto const written = lapwing::bus::encode(*message);
+  auto const again = lapwing::bus::decode<M>(written);
+  require(again.has_value());
+  require(lapwing::bus::encode(*again) == written);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
+  using namespace lapwing::bus;
+  if (size == 0) return 0;
+  std::string_view const bytes(reinterpret_cast<char const*>(data + 1), size - 1);
+  switch (data[0] % 6) {
+    case 0: read<LaserScan>(bytes); break;
+    case 1: read<Odometry>(bytes); break;
+    case 2: read<OccupancyGrid>(bytes); break;
+    case 3: read<TFMessage>(bytes); break;
+    case 4: read<BatteryState>(bytes); break;
+    default: read<Path>(bytes); break;
+  }
+  return 0;
+}

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/async/loop.hpp"
+#include "base/error.hpp"
+
+namespace lapwing::bus {
+
+/// How sure and how new, as ROS 2 has it (rmw's profiles). A reader that wants more than a writer gives hears nothing.
+enum class Profile {
+  standard,     ///< nothing is lost: reliable, the last ten
+  sensor_data,  ///< only what is new counts: best effort, the last five
+  latched,      ///< who comes late gets the last one: reliable, transient local (maps, static transforms)
+};
+
+struct BusOptions {
+  std::uint32_t domain = 0;  ///< ROS_DOMAIN_ID, 0 to 101
+  /// Programs of this machine alone (ROS_LOCALHOST_ONLY=1); otherwise whoever is in the network.
+  bool is_local = true;
+  std::string name = "lapwing";  ///< of the participant, for tools
+};
+
+/// The topics of ROS 2: a participant of a DDS domain, without ROS. Others see it with `ros2 topic`, RViz and Foxglove
+/// whatever middleware they use, since type and topic names are those that ROS 2 makes (rt/scan,
+/// sensor_msgs::msg::dds_::LaserScan_).
+///
+/// Messages come on the loop, however many threads the middleware has. Thread-bound. Writers and readers do not outlive
+/// it, nor does it outlive the loop.
+class Bus {
+ public:
+  /// Errors: invalid_input for a domain that there is not; io when the middleware does not start.
+  [[nodiscard]] static base::Result<std::unique_ptr<Bus>> open(base::Loop& loop, BusOptions const& options);
+  Bus(Bus const&) = delete;
+  Bus& operator=(Bus const&) = delete;
+  ~Bus();
+
+  /// Bytes out. `Publisher` in topics.hpp has a type.
+  class Writer {
+   public:
+    virtual ~Writer() = default;
+    virtual void write(std::string bytes) = 0;
+    /// How many readers it has found.
+    [[nodiscard]] virtual int readers() const = 0;
+  };
+  /// Bytes in. `Subscription` in topics.hpp has a type.
+  class Reader {
+   public:
+    virtual ~Reader() = default;
+    /// How many writers it has found.
+    [[nodiscard]] virtual int writers() const = 0;
+    /// Messages that came faster than they were taken.
+    [[nodiscard]] virtual std::uint64_t dropped() const = 0;
+  };
+  using Heard = std::function<void(std::string const& bytes)>;
+
+  /// `topic` as ROS names it, "/robot1/scan"; `type` likewise, "sensor_msgs/msg/LaserScan". Errors: invalid_input for a
+  /// name that is none, and for a topic that has another type already; io.
+  [[nodiscard]] base::Result<std::unique_ptr<Writer>> write_to(std::string_view topic, std::string_view type,
+                                                               Profile profile);
+  /// `heard` must not destroy the reader.
+  [[nodiscard]] base::Result<std::unique_ptr<Reader>> read_from(std::string_view topic, std::string_view type,
+                                                                Profile profile, Heard heard);
+
+ private:
+  struct Parts;
+  Bus(base::Loop& loop, std::unique_ptr<Parts> parts);
+
+  base::Loop& loop_;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// "rt/robot1/scan" of "/robot1/scan". Error: invalid_input, with what a name is made of.
+[[nodiscard]] base::Result<std::string> dds_topic(std::string_view topic);
+/// "sensor_msgs::msg::dds_::LaserScan_" of "sensor_msgs/msg/LaserScan".
+[[nodiscard]] std::string dds_type(std::string_view type);
+
+}  // namespace lapwing::bus
