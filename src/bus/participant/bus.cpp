@@ -145,7 +145,13 @@ class TopicWriter final : public Bus::Writer {
   TopicWriter(dds::Publisher& publisher, dds::DataWriter& writer) : publisher_(publisher), writer_(writer) {}
   TopicWriter(TopicWriter const&) = delete;
   TopicWriter& operator=(TopicWriter const&) = delete;
-  ~TopicWriter() override { publisher_.delete_datawriter(&writer_); }
+  /// What was written last is on its way still, on a thread of the middleware.
+  ~TopicWriter() override {
+    constexpr std::int32_t no_seconds = 0;
+    constexpr std::uint32_t most_ns = 200'000'000;
+    writer_.wait_for_acknowledgments({no_seconds, most_ns});
+    publisher_.delete_datawriter(&writer_);
+  }
 
   void write(std::string bytes) override { writer_.write(&bytes); }
   [[nodiscard]] int readers() const override {

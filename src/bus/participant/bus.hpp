@@ -39,7 +39,8 @@ class Bus {
   Bus& operator=(Bus const&) = delete;
   ~Bus();
 
-  /// Bytes out. `Publisher` in topics.hpp has a type.
+  /// Bytes out. `Publisher` in topics.hpp has a type. Its end waits, for a fifth of a second at most, until readers
+  /// have what was written.
   class Writer {
    public:
     virtual ~Writer() = default;

@@ -1,0 +1,186 @@
+#include "robot/ros/ros_body.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace lapwing::robot::ros {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Readings and commands go ten times a second, whatever the rate of the odometry.
+constexpr base::Duration reading_period = 95ms;
+/// So long a scan waits for the frame of its laser to be told.
+constexpr base::Duration frames_come_within = 3s;
+/// A command may get lost on its way; what makes it stand is said a few times.
+constexpr int zeros = 3;
+constexpr base::Duration kill_period = 50ms;
+
+std::chrono::nanoseconds since_epoch(bus::Time const& time) {
+  return std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nanosec);
+}
+
+bool is_finite(slam::Pose2 const& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<RosBody>> RosBody::open(base::Loop& loop, RosBodyOptions const& options,
+                                                     base::Logger log) {
+  auto bus = bus::Bus::open(loop, {.domain = options.domain, .is_local = options.is_local});
+  if (!bus) return std::unexpected(bus.error());
+  auto body = std::unique_ptr<RosBody>(new RosBody(loop, options, *std::move(bus), std::move(log)));
+  if (auto opened = body->open_topics(); !opened) return std::unexpected(opened.error());
+  return body;
+}
+
+RosBody::RosBody(base::Loop& loop, RosBodyOptions const& options, std::unique_ptr<bus::Bus> bus, base::Logger log)
+    : loop_(loop), options_(options), log_(std::move(log)), bus_(std::move(bus)), scope_(loop) {
+  scope_.spawn(keep_killed());
+}
+
+RosBody::~RosBody() {
+  if (commands_ && stood_ < zeros) send({});
+}
+
+base::Result<> RosBody::open_topics() {
+  auto const open = [&]<bus::Message M>(std::optional<bus::Subscription<M>>& into, std::string_view topic,
+                                        bus::Profile profile, std::function<void(M const&)> heard) -> base::Result<> {
+    auto opened = bus::Subscription<M>::open(*bus_, topic, profile, std::move(heard));
+    if (!opened) return std::unexpected(opened.error());
+    into.emplace(*std::move(opened));
+    return {};
+  };
+  auto const named = [&](std::string_view topic) { return fmt::format("{}/{}", options_.name_space, topic); };
+  using enum bus::Profile;
+  auto commands = bus::Publisher<bus::Twist>::open(*bus_, named("cmd_vel"), standard);
+  if (!commands) return std::unexpected(commands.error());
+  commands_.emplace(*std::move(commands));
+  // Frames are told before what is measured in them.
+  if (auto done = open.operator()<bus::TFMessage>(frames_heard_, "/tf_static", latched,
+                                                  [this](auto const& frames) { frames_.take(frames); });
+      !done)
+    return done;
+  if (auto done = open.operator()<bus::Odometry>(odometry_, named("odom"), sensor_data,
+                                                 [this](auto const& odometry) { take(odometry); });
+      !done)
+    return done;
+  if (auto done = open.operator()<bus::BatteryState>(batteries_, named("battery_state"), sensor_data,
+                                                     [this](auto const& battery) { take(battery); });
+      !done)
+    return done;
+  return open.operator()<bus::LaserScan>(laser_, named("scan"), sensor_data, [this](auto const& scan) { take(scan); });
+}
+
+std::string RosBody::link() const {
+  return fmt::format("ros2://{}{}", options_.domain, options_.name_space);
+}
+
+// ---- in
+
+void RosBody::take(bus::Odometry const& odometry) {
+  auto const& pose = odometry.pose.pose;
+  Moment const moment{.stamp = since_epoch(odometry.header.stamp),
+                      .pose = {pose.position.x, pose.position.y, yaw_of(pose.orientation)},
+                      .speed_m_s = odometry.twist.twist.linear.x};
+  if (!is_finite(moment.pose) || !std::isfinite(moment.speed_m_s)) return;
+  base_frame_ = odometry.child_frame_id;
+  // A driver that was started anew begins a new clock, maybe.
+  before_ = now_ && now_->stamp < moment.stamp ? now_ : std::nullopt;
+  now_ = moment;
+  tell_scan();
+  if (loop_.now() - told_at_ >= reading_period) tell_reading();
+}
+
+void RosBody::take(bus::BatteryState const& battery) {
+  if (battery.percentage >= 0.0F && battery.percentage <= 1.0F) battery_ = battery.percentage;
+}
+
+void RosBody::take(bus::LaserScan const& scan) {
+  if (!now_) return;
+  if (!scans_) {
+    auto const mount = mount_of(scan);
+    if (!mount) return;
+    scans_ = ScanReader::make(scan, *mount);
+    if (!scans_) return;
+    log_.info(fmt::format("a laser of {} beams, {:.2f} m ahead and {:.2f} m to the left of {}", scan.ranges.size(),
+                          mount->pose.x, mount->pose.y, base_frame_));
+  }
+  waiting_ = scan;
+  tell_scan();
+}
+
+std::optional<PlanarFrame> RosBody::mount_of(bus::LaserScan const& scan) {
+  if (!laser_since_) laser_since_ = loop_.now();
+  if (auto const mount = frames_.find(scan.header.frame_id, base_frame_)) return mount;
+  if (loop_.now() - *laser_since_ < frames_come_within) return std::nullopt;
+  log_.warn(fmt::format("/tf_static does not say where {} is on {}: it is taken for its middle, looking ahead",
+                        scan.header.frame_id, base_frame_));
+  return PlanarFrame{};
+}
+
+// ---- on to the robot
+
+void RosBody::tell_scan() {
+  if (!waiting_ || !now_) return;
+  auto const stamp = since_epoch(waiting_->header.stamp);
+  if (stamp > now_->stamp) return;
+  auto pose = now_->pose;
+  if (before_ && stamp > before_->stamp) {
+    // Between two moments it goes on evenly.
+    double const share = std::chrono::duration<double>(stamp - before_->stamp) / (now_->stamp - before_->stamp);
+    auto step = slam::between(before_->pose, now_->pose);
+    pose = before_->pose * slam::Pose2{share * step.x, share * step.y, share * step.yaw};
+  }
+  auto ranges = scans_->ranges(*std::exchange(waiting_, std::nullopt));
+  if (!ranges) return;  // of another laser on the same topic
+  sides_ = scans_->sides(*ranges);
+  if (listener_.on_scan)
+    listener_.on_scan({.time = slam::LogTime(stamp), .odometry = pose, .ranges_m = *std::move(ranges)});
+}
+
+void RosBody::tell_reading() {
+  told_at_ = loop_.now();
+  if (listener_.on_reading)
+    listener_.on_reading({.at = told_at_,
+                          .odometry = now_->pose,
+                          .speed_m_s = now_->speed_m_s,
+                          .battery = battery_,
+                          .sides = sides_,
+                          .is_killed = is_killed_});
+}
+
+// ---- out
+
+void RosBody::send(Motion motion) {
+  commands_->publish({.linear = {.x = motion.speed_m_s}, .angular = {.z = motion.turn_rad_s}});
+}
+
+void RosBody::drive(Motion motion) {
+  if (is_killed_) return;
+  if (motion != Motion{}) {
+    stood_ = 0;
+    send(motion);
+  } else if (stood_ < zeros) {
+    ++stood_;
+    send({});
+  }
+}
+
+void RosBody::kill() {
+  is_killed_ = true;
+  send({});
+}
+
+base::Task<> RosBody::keep_killed() {
+  for (;;) {
+    co_await loop_.sleep(kill_period);
+    if (is_killed_) send({});
+  }
+}
+
+}  // namespace lapwing::robot::ros

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/async/loop.hpp"
+#include "base/async/scope.hpp"
+#include "base/log.hpp"
+#include "bus/messages/navigation.hpp"
+#include "bus/participant/topics.hpp"
+#include "robot/platform/body.hpp"
+#include "robot/ros/planar.hpp"
+#include "robot/ros/scan_reader.hpp"
+
+namespace lapwing::robot::ros {
+
+struct RosBodyOptions {
+  std::uint32_t domain = 0;
+  std::string name_space = "";  ///< "/robot1", before the names of its topics; empty: none
+  bool is_local = true;         ///< its ROS is on this machine
+};
+
+/// A body that ROS 2 drives (docs/reference/ros.md): a base with wheels and a laser that publish `odom`
+/// (nav_msgs/Odometry), `scan` (sensor_msgs/LaserScan) and, if it has one, `battery_state`, and listen to `cmd_vel`
+/// (geometry_msgs/Twist), as a TurtleBot does. Where the laser sits is read from /tf_static.
+///
+/// A command is sent for each reading, ten times a second. While it stands nothing is sent, so that somebody else may
+/// drive it; while it is killed, zero is, again and again. A base that stands by itself when no command comes is up to
+/// its driver.
+class RosBody final : public Body {
+ public:
+  /// Errors: those of `bus::Bus::open` and of its topics.
+  [[nodiscard]] static base::Result<std::unique_ptr<RosBody>> open(base::Loop& loop, RosBodyOptions const& options,
+                                                                   base::Logger log);
+  RosBody(RosBody const&) = delete;
+  RosBody& operator=(RosBody const&) = delete;
+  /// It stands.
+  ~RosBody() override;
+
+  void listen(Listener listener) override { listener_ = std::move(listener); }
+  [[nodiscard]] slam::Sensor const* laser() const override { return scans_ ? &scans_->sensor() : nullptr; }
+  [[nodiscard]] std::string link() const override;
+  void drive(Motion motion) override;
+  void kill() override;
+  void release() override { is_killed_ = false; }
+
+ private:
+  RosBody(base::Loop& loop, RosBodyOptions const& options, std::unique_ptr<bus::Bus> bus, base::Logger log);
+  base::Result<> open_topics();
+  void take(bus::Odometry const& odometry);
+  void take(bus::LaserScan const& scan);
+  void take(bus::BatteryState const& battery);
+  [[nodiscard]] std::optional<PlanarFrame> mount_of(bus::LaserScan const& scan);
+  void tell_reading();
+  void tell_scan();
+  void send(Motion motion);
+  base::Task<> keep_killed();
+
+  struct Moment {
+    std::chrono::nanoseconds stamp{};  ///< by the robot's clock
+    slam::Pose2 pose = {};
+    double speed_m_s = 0.0;
+  };
+
+  base::Loop& loop_;
+  RosBodyOptions options_;
+  base::Logger log_;
+  std::unique_ptr<bus::Bus> bus_;
+  std::optional<bus::Publisher<bus::Twist>> commands_;
+  std::optional<bus::Subscription<bus::Odometry>> odometry_;
+  std::optional<bus::Subscription<bus::LaserScan>> laser_;
+  std::optional<bus::Subscription<bus::BatteryState>> batteries_;
+  std::optional<bus::Subscription<bus::TFMessage>> frames_heard_;
+  Listener listener_;
+
+  StaticFrames frames_;
+  std::string base_frame_;
+  std::optional<Moment> before_;  ///< the newest
+  std::optional<Moment> now_;
+  std::optional<double> battery_;
+  std::optional<ScanReader> scans_;
+  std::optional<base::TimePoint> laser_since_;
+  std::optional<bus::LaserScan> waiting_;  ///< that odometry has not caught up with
+  explore::SideDistances sides_{.left_m = 5.0, .front_m = 7.5, .right_m = 5.0};
+  base::TimePoint told_at_{};
+  int stood_ = 0;  ///< zeros that were sent since it drove
+  bool is_killed_ = false;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::robot::ros

@@ -1,0 +1,144 @@
+#include "robot/ros/ros_body.hpp"
+
+#include <chrono>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace lapwing::robot::ros {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::uint32_t a_domain_of_its_own() {
+  return 1U + static_cast<std::uint32_t>(::getpid()) % 100U;
+}
+
+/// A robot on ROS 2: the other end of the topics.
+struct RosBodyTest : ::testing::Test {
+  RosBodyTest() {
+    body->listen({.on_reading = [this](Reading const& reading) { readings.push_back(reading); },
+                  .on_scan = [this](slam::Scan const& scan) { scans.push_back(scan); }});
+    // Each end finds the other in its own time; what is said before both have is lost.
+    say_where_the_laser_is();
+    EXPECT_TRUE(comes_true([&] {
+      be_at(1, 0.0);
+      see(0, 0, 1.0F);
+      body->drive({.speed_m_s = 0.3});
+      return !readings.empty() && body->laser() && !scans.empty() && !driven.empty();
+    }));
+    EXPECT_TRUE(comes_true([&] { return is_quiet(); }));
+    readings.clear();
+    scans.clear();
+    driven.clear();
+  }
+  bool comes_true(std::function<bool()> const& holds) {
+    return loop.run_until_done([](base::Loop& on, std::function<bool()> wanted) -> base::Task<bool> {
+      auto const deadline = on.now() + 10s;
+      while (!wanted() && on.now() < deadline) co_await on.sleep(5ms);
+      co_return wanted();
+    }(loop, holds));
+  }
+  /// What was under way has come: nothing did for a while.
+  bool is_quiet() {
+    auto const before = std::tuple(readings.size(), scans.size(), driven.size());
+    if (heard_then_ != before) quiet_since_ = loop.now();
+    heard_then_ = before;
+    return loop.now() - quiet_since_ > 200ms;
+  }
+  void be_at(std::int32_t second, double x) {
+    bus::Odometry message{.header = {.stamp = {.sec = second}, .frame_id = "odom"}, .child_frame_id = "base_link"};
+    message.pose.pose.position.x = x;
+    message.twist.twist.linear.x = 0.2;
+    odometry.publish(message);
+  }
+  void see(std::int32_t second, std::uint32_t nanosecond, float range_m) {
+    laser.publish({.header = {.stamp = {.sec = second, .nanosec = nanosecond}, .frame_id = "laser"},
+                   .angle_min = -1.0F,
+                   .angle_increment = 1.0F,
+                   .range_min = 0.1F,
+                   .range_max = 10.0F,
+                   .ranges = {range_m, range_m, range_m}});
+  }
+  void say_where_the_laser_is() {
+    frames.publish({.transforms = {{.header = {.frame_id = "base_link"},
+                                    .child_frame_id = "laser",
+                                    .transform = {.translation = {.x = 0.3}}}}});
+  }
+
+  base::Loop loop;
+  base::LogHub hub;
+  std::unique_ptr<bus::Bus> ros = bus::Bus::open(loop, {.domain = a_domain_of_its_own()}).value();
+  bus::Publisher<bus::Odometry> odometry =
+      bus::Publisher<bus::Odometry>::open(*ros, "/r1/odom", bus::Profile::standard).value();
+  bus::Publisher<bus::LaserScan> laser =
+      bus::Publisher<bus::LaserScan>::open(*ros, "/r1/scan", bus::Profile::sensor_data).value();
+  bus::Publisher<bus::TFMessage> frames =
+      bus::Publisher<bus::TFMessage>::open(*ros, "/tf_static", bus::Profile::latched).value();
+  std::vector<bus::Twist> driven;
+  bus::Subscription<bus::Twist> commands =
+      bus::Subscription<bus::Twist>::open(*ros, "/r1/cmd_vel", bus::Profile::standard, [this](bus::Twist const& twist) {
+        driven.push_back(twist);
+      }).value();
+  std::vector<Reading> readings;
+  std::vector<slam::Scan> scans;
+  std::unique_ptr<RosBody> body =
+      RosBody::open(loop, {.domain = a_domain_of_its_own(), .name_space = "/r1"}, base::Logger(hub, "robot")).value();
+
+ private:
+  std::tuple<std::size_t, std::size_t, std::size_t> heard_then_;
+  base::TimePoint quiet_since_{};
+};
+
+TEST_F(RosBodyTest, LaysScansWhereTheRobotWasThen) {
+  EXPECT_NEAR(body->laser()->mount_m.x(), 0.3, 1e-6);
+  be_at(10, 1.0);
+  ASSERT_TRUE(comes_true([&] { return !readings.empty(); }));
+  EXPECT_DOUBLE_EQ(readings.back().odometry.x, 1.0);
+  EXPECT_DOUBLE_EQ(readings.back().speed_m_s, 0.2);
+  see(10, 500'000'000, 3.0F);
+  ASSERT_TRUE(comes_true([&] { return is_quiet(); }));
+  EXPECT_TRUE(scans.empty()) << "nobody knows yet where it was";
+  be_at(11, 2.0);
+  ASSERT_TRUE(comes_true([&] { return !scans.empty(); }));
+  EXPECT_DOUBLE_EQ(scans.back().odometry.x, 1.5) << "halfway between the two moments";
+  EXPECT_EQ(scans.back().ranges_m, (std::vector<float>{3.0F, 3.0F, 3.0F}));
+  EXPECT_DOUBLE_EQ(scans.back().time.count(), 10.5);
+}
+
+TEST_F(RosBodyTest, DrivesAndLeavesARobotAloneThatStands) {
+  body->drive({.speed_m_s = 0.3, .turn_rad_s = -0.5});
+  ASSERT_TRUE(comes_true([&] { return driven.size() == 1; }));
+  EXPECT_DOUBLE_EQ(driven[0].linear.x, 0.3);
+  EXPECT_DOUBLE_EQ(driven[0].angular.z, -0.5);
+  for (int i = 0; i < 10; ++i) body->drive({});
+  body->drive({.speed_m_s = 0.1});
+  ASSERT_TRUE(comes_true([&] { return driven.size() == 5 && driven.back().linear.x == 0.1; })) << driven.size();
+  EXPECT_EQ(driven[1], bus::Twist{});
+}
+
+TEST_F(RosBodyTest, StandsWhileItIsKilledWhateverItIsTold) {
+  body->kill();
+  body->drive({.speed_m_s = 0.3});
+  ASSERT_TRUE(comes_true([&] { return driven.size() >= 5; })) << "zero again and again";
+  for (auto const& twist : driven) EXPECT_EQ(twist, bus::Twist{});
+  be_at(1, 0.0);
+  ASSERT_TRUE(comes_true([&] { return !readings.empty(); }));
+  EXPECT_TRUE(readings.back().is_killed);
+  body->release();
+  body->drive({.speed_m_s = 0.3});
+  ASSERT_TRUE(comes_true([&] { return driven.back().linear.x == 0.3; }));
+}
+
+TEST_F(RosBodyTest, StandsWhenItGoes) {
+  body->drive({.speed_m_s = 0.3});
+  ASSERT_TRUE(comes_true([&] { return driven.size() == 1; }));
+  body.reset();
+  ASSERT_TRUE(comes_true([&] { return driven.size() == 2; }));
+  EXPECT_EQ(driven.back(), bus::Twist{});
+}
+
+}  // namespace
+}  // namespace lapwing::robot::ros

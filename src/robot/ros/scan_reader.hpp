@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bus/messages/sensors.hpp"
+#include "explore/strategy/strategy.hpp"
+#include "robot/ros/planar.hpp"
+#include "slam/log/scan_log.hpp"
+
+namespace lapwing::robot::ros {
+
+/// Reads sensor_msgs/LaserScan of one laser, as the first of them describes it.
+class ScanReader {
+ public:
+  /// `mount`: where the laser is on the robot. Nothing for a scan that no laser sends: no beams, no step between them.
+  [[nodiscard]] static std::optional<ScanReader> make(bus::LaserScan const& first, PlanarFrame const& mount);
+
+  [[nodiscard]] slam::Sensor const& sensor() const { return sensor_; }
+  /// The ranges in the sensor's order; nothing when they are not as many.
+  [[nodiscard]] std::optional<std::vector<float>> ranges(bus::LaserScan const& scan) const;
+  /// The nearest in fifteen degrees to either side of left, ahead and right, from the laser; as far as a sonar hears
+  /// where nothing is nearer.
+  [[nodiscard]] explore::SideDistances sides(std::vector<float> const& ranges) const;
+
+ private:
+  ScanReader() = default;
+  slam::Sensor sensor_;
+  bool is_reversed_ = false;
+};
+
+}  // namespace lapwing::robot::ros
