@@ -13,6 +13,8 @@ namespace lapwing::host {
 namespace {
 
 constexpr int most_robots = 8;
+constexpr std::string_view ros_here = "ros2://";
+constexpr std::string_view ros_in_the_network = "ros2-lan://";
 
 std::unexpected<base::Error> refuse(std::string_view text, std::string_view why) {
   return base::fail(base::ErrorKind::invalid_input, fmt::format("--robot {}: {}", text, why),
@@ -49,6 +51,17 @@ base::Result<RobotRequest> simulated(std::string_view text, std::string_view fil
   return request;
 }
 
+base::Result<RobotRequest> on_ros(std::string_view text, std::string_view address, RosRobot request) {
+  auto const slash = address.find('/');
+  auto const digits = address.substr(0, slash);
+  constexpr std::uint32_t most_domain = 101;
+  auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), request.domain);
+  if (error != std::errc() || end != digits.data() + digits.size() || request.domain > most_domain)
+    return refuse(text, fmt::format("'{}' is no domain of ROS 2 from 0 to {}", digits, most_domain));
+  if (slash != std::string_view::npos && slash + 1 < address.size()) request.name_space = address.substr(slash);
+  return request;
+}
+
 }  // namespace
 
 base::Result<RobotRequest> parse_robot(std::string_view text) {
@@ -63,6 +76,10 @@ base::Result<RobotRequest> parse_robot(std::string_view text) {
     request.start = {{east_m, north_m}, yaw_deg * std::numbers::pi / 180.0};
     address = text.substr(0, at);
   }
+  if (address.starts_with(ros_here))
+    return on_ros(text, address.substr(ros_here.size()), {.is_local = true, .start = request.start});
+  if (address.starts_with(ros_in_the_network))
+    return on_ros(text, address.substr(ros_in_the_network.size()), {.is_local = false, .start = request.start});
   auto const url = link::parse_url(address);
   if (!url) return std::unexpected(url.error());
   request.url = *url;

@@ -27,12 +27,24 @@ struct LinkedRobot {
   friend bool operator==(LinkedRobot const&, LinkedRobot const&) = default;
 };
 
-using RobotRequest = std::variant<SimulatedRobots, LinkedRobot>;
+/// A robot that ROS 2 drives: `ros2://0/robot1`, domain and namespace, and where it stands as above; `ros2-lan://...`
+/// when its ROS is not on this machine.
+struct RosRobot {
+  std::uint32_t domain = 0;
+  std::string name_space = {};  ///< "/robot1"; empty: none
+  bool is_local = true;
+  geo::Pose<geo::SiteFrame> start = {};
+  friend bool operator==(RosRobot const&, RosRobot const&) = default;
+};
+
+using RobotRequest = std::variant<SimulatedRobots, LinkedRobot, RosRobot>;
 
 /// What `--robot` says. Errors: invalid_input, with an example.
 [[nodiscard]] base::Result<RobotRequest> parse_robot(std::string_view text);
 inline constexpr auto robot_help =
-    "A robot (may be repeated): sim:BUILDING.toml[:COUNT] in a simulated building, or its link, "
-    "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site";
+    "A robot (may be repeated): sim:BUILDING.toml[:COUNT] in a simulated building, its link, "
+    "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, or "
+    "ros2://DOMAIN[/NAMESPACE][@...], "
+    "ros2-lan:// beyond this machine";
 
 }  // namespace lapwing::host

@@ -22,6 +22,16 @@ TEST(RobotSpec, NamesALinkAndWhereTheRobotStands) {
   EXPECT_NEAR(placed.start.yaw_rad, std::numbers::pi / 2.0, 1e-12);
 }
 
+TEST(RobotSpec, NamesARobotOnRos) {
+  EXPECT_EQ(std::get<RosRobot>(*parse_robot("ros2://0")), (RosRobot{.domain = 0, .name_space = ""}));
+  EXPECT_EQ(std::get<RosRobot>(*parse_robot("ros2://7/")), (RosRobot{.domain = 7, .name_space = ""}));
+  auto const placed = std::get<RosRobot>(*parse_robot("ros2://42/floor/robot1@1,2,0"));
+  EXPECT_EQ(placed.name_space, "/floor/robot1");
+  EXPECT_EQ(placed.start.position, geo::Point<geo::SiteFrame>(1.0, 2.0));
+  EXPECT_TRUE(placed.is_local);
+  EXPECT_FALSE(std::get<RosRobot>(*parse_robot("ros2-lan://0/robot1")).is_local);
+}
+
 TEST(RobotSpec, SaysWhatIsWrong) {
   auto const wrong = [](std::string_view text) { return parse_robot(text).error().message; };
   EXPECT_EQ(wrong("sim:"), "--robot sim:: it names no building");
@@ -33,6 +43,8 @@ TEST(RobotSpec, SaysWhatIsWrong) {
             "--robot serial:///dev/ttyUSB0:115200@1,2,3,4: '1,2,3,4' is not EAST,NORTH,YAW");
   EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,nan,3"),
             "--robot serial:///dev/ttyUSB0:115200@1,nan,3: '1,nan,3' is not EAST,NORTH,YAW");
+  EXPECT_EQ(wrong("ros2://"), "--robot ros2://: '' is no domain of ROS 2 from 0 to 101");
+  EXPECT_EQ(wrong("ros2://102/r"), "--robot ros2://102/r: '102' is no domain of ROS 2 from 0 to 101");
   EXPECT_FALSE(parse_robot("office"));
 }
 

@@ -8,6 +8,7 @@
 
 #include "host/files/files.hpp"
 #include "robot/platform/linked_body.hpp"
+#include "robot/ros/ros_body.hpp"
 #include "sim/building/plan/building_file.hpp"
 
 namespace lapwing::host {
@@ -60,6 +61,16 @@ class Maker {
     auto link = link::open(loop_, request.url);
     if (!link) return std::unexpected(link.error());
     add(next_spec(request.start), *std::move(link));
+    return {};
+  }
+
+  base::Result<> operator()(RosRobot const& request) {
+    auto spec = next_spec(request.start);
+    auto body = robot::ros::RosBody::open(
+        loop_, {.domain = request.domain, .name_space = request.name_space, .is_local = request.is_local},
+        log_.named(spec.id));
+    if (!body) return std::unexpected(body.error());
+    robots_.push_back({.spec = std::move(spec), .body = *std::move(body), .anchor = anchor_});
     return {};
   }
 

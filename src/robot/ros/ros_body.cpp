@@ -77,7 +77,7 @@ base::Result<> RosBody::open_topics() {
 }
 
 std::string RosBody::link() const {
-  return fmt::format("ros2://{}{}", options_.domain, options_.name_space);
+  return fmt::format("{}://{}{}", options_.is_local ? "ros2" : "ros2-lan", options_.domain, options_.name_space);
 }
 
 // ---- in
