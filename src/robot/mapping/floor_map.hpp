@@ -13,7 +13,9 @@ namespace lapwing::robot {
 
 struct MappingOptions {
   slam::FrameOptions frame;
-  slam::FrontEndOptions front_end;
+  /// Of logs nobody knows what their wheels are worth; a robot's own odometry is good to a few percent of the way. Held
+  /// to less, somebody who walks along a corridor beside the robot takes its place on the map with them.
+  slam::FrontEndOptions front_end = {.odometry_spread = 0.25};
   slam::LoopOptions loops;
   slam::BeamModel beam;
   /// Where the robot's map lies in its site. The map begins where the robot does, looking along x.

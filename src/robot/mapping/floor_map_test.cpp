@@ -60,6 +60,37 @@ TEST(FloorMap, BeginsWhereTheRobotDoes) {
   EXPECT_NEAR(mapped.poses.back().y, drive.truth[29].y, 0.1);
 }
 
+/// What a scan sees when somebody stands in it, in the robot's frame.
+void put_before(slam::Scan& scan, slam::Sensor const& sensor, Eigen::Vector2d const& person) {
+  constexpr double radius_m = 0.25;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    double const bearing = sensor.bearings_rad[i];
+    Eigen::Vector2d const way(std::cos(bearing), std::sin(bearing));
+    double const along_m = way.dot(person);
+    double const aside_m = std::abs(way.x() * person.y() - way.y() * person.x());
+    if (along_m <= 0.0 || aside_m >= radius_m) continue;
+    auto const range_m = static_cast<float>(along_m - std::sqrt(radius_m * radius_m - aside_m * aside_m));
+    scan.ranges_m[i] = std::min(scan.ranges_m[i], range_m);
+  }
+}
+
+TEST(FloorMap, IsNotTakenAlongByWhoWalksBeforeTheRobot) {
+  slam::testing::DriveOptions options;
+  options.most_range_m = 8.0;
+  auto drive = slam::testing::drive(slam::testing::comb(5, 6.0, 3.0), {{0, 0}, {24, 0}}, options);
+  for (std::size_t i = 30; i < drive.log.scans.size(); ++i) {
+    double const sway_m = 0.02 * std::sin(0.7 * static_cast<double>(i));
+    put_before(drive.log.scans[i], drive.log.sensors.front(), {0.8 + sway_m, 0.1});
+    put_before(drive.log.scans[i], drive.log.sensors.front(), {0.9 - sway_m, -0.5});
+  }
+  auto const mapped = map_of(drive, drive.log.scans.size());
+  EXPECT_NEAR(mapped.poses.back().x, drive.truth.back().x, 0.4);
+  MappingOptions wary;
+  wary.front_end.odometry_spread = 1.0;
+  auto const dragged = map_of(drive, drive.log.scans.size(), wary);
+  EXPECT_LT(dragged.poses.back().x, drive.truth.back().x - 1.0) << "or this test shows nothing";
+}
+
 TEST(FloorMap, DrawsWhatIsTakenAndWhatIsFree) {
   auto const drive = ring_drive();
   auto mapped = map_of(drive, 60);
