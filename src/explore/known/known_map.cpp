@@ -50,6 +50,7 @@ KnownMap::KnownMap(int width, int height, double cell_m, Distances distances)
       state_(width, height, Knowledge::unknown),
       odds_(width, height, 0),
       walls_near_(width, height, 0),
+      driven_(width, height, 0),
       hit_by_(width, height, 0),
       wall_since_s_(width, height, 0.0F),
       is_sure_(width, height, 0),
@@ -136,6 +137,16 @@ void KnownMap::learn(Cell cell, Knowledge knowledge) {
   if (knowledge == Knowledge::free) odds = least_odds;
   become(index, knowledge);
   is_sure_.at_index(index) = 1;
+}
+
+void KnownMap::add_driven(Cell cell) {
+  if (driven_.contains(cell) && driven_[cell]++ == 0 && blockers_[cell] != 0)
+    changed_.push_back(static_cast<std::uint32_t>(state_.index_of(cell)));
+}
+
+void KnownMap::take_back_driven(Cell cell) {
+  if (driven_.contains(cell) && --driven_[cell] == 0 && blockers_[cell] != 0)
+    changed_.push_back(static_cast<std::uint32_t>(state_.index_of(cell)));
 }
 
 void KnownMap::pass(std::size_t index) {

@@ -35,8 +35,9 @@ struct Disc {
 /// What the robots know of the floor, and what follows from it for driving and exploring, kept up with every change.
 ///
 /// A cell is *standable* when it and all cells within the keep-off distance are known to be free: what was not seen
-/// blocks as walls do, so that whoever stands on such cells alone touches nothing. It is a *frontier* when it is
-/// free and one of its four neighbours is unknown (Yamauchi 1997).
+/// blocks as walls do, so that whoever stands on such cells alone touches nothing. Cells that a robot has driven over
+/// are standable whatever the map shows around them: it has been there. It is a *frontier* when it is free and one of
+/// its four neighbours is unknown (Yamauchi 1997).
 class KnownMap {
  public:
   struct Distances {
@@ -55,7 +56,9 @@ class KnownMap {
   [[nodiscard]] Place middle(Cell cell) const { return middle_of(cell, cell_m_); }
 
   [[nodiscard]] Knowledge at(Cell cell) const { return state_.or_else(cell, Knowledge::wall); }
-  [[nodiscard]] bool is_standable(Cell cell) const { return blockers_.or_else(cell, 1) == 0; }
+  [[nodiscard]] bool is_standable(Cell cell) const { return blockers_.or_else(cell, 1) == 0 || is_driven(cell); }
+  /// Standable for the one reason that a robot has driven there.
+  [[nodiscard]] bool is_tight(Cell cell) const { return blockers_.or_else(cell, 1) != 0 && is_driven(cell); }
   /// A wall is within the wary distance.
   [[nodiscard]] bool is_near_wall(Cell cell) const { return walls_near_.or_else(cell, 1) != 0; }
   /// A disc there lies on cells that are known to be free.
@@ -79,6 +82,9 @@ class KnownMap {
   void add(Scan const& scan, std::span<Disc const> moving);
   /// One cell, for sure.
   void learn(Cell cell, Knowledge knowledge);
+  /// A robot has driven over it; to be taken back as often as it was said, when it turns out to have been elsewhere.
+  void add_driven(Cell cell);
+  void take_back_driven(Cell cell);
 
   /// The cells that became standable or ceased to be since this was last asked.
   [[nodiscard]] std::vector<std::uint32_t> take_changes() { return std::exchange(changed_, {}); }
@@ -88,6 +94,7 @@ class KnownMap {
  private:
   /// The cells at whose ends beams were stopped, once each, by what does not move.
   std::vector<std::uint32_t> mark_ends(Scan const& scan, std::span<Shift const> ways, std::span<Disc const> moving);
+  [[nodiscard]] bool is_driven(Cell cell) const { return driven_.or_else(cell, 0) != 0; }
   void pass(std::size_t index);
   void hit(std::size_t index);
   void notice_movement(std::span<std::uint32_t const> ends);
@@ -102,6 +109,7 @@ class KnownMap {
   DenseGrid<std::int8_t> odds_;  ///< in steps: -1 for a beam that passes, 3 for one that ends
   DenseGrid<std::uint16_t> blockers_;
   DenseGrid<std::uint16_t> walls_near_;
+  DenseGrid<std::uint16_t> driven_;          ///< how often
   DenseGrid<std::uint32_t> hit_by_;          ///< the number of the scan
   DenseGrid<float> wall_since_s_;            ///< when a wall was first seen
   DenseGrid<std::uint8_t> is_sure_;          ///< of walls: seen at two moments apart

@@ -9,6 +9,12 @@ namespace lapwing::explore {
 namespace {
 
 constexpr float near_wall_factor = 1.5F;
+constexpr float tight_factor = 4.0F;
+
+float factor_of(KnownMap const& map, Cell cell) {
+  if (map.is_tight(cell)) return tight_factor;
+  return map.is_near_wall(cell) ? near_wall_factor : 1.0F;
+}
 
 float octile(Cell a, Cell b) {
   auto const x = static_cast<float>(std::abs(a.x - b.x));
@@ -18,8 +24,8 @@ float octile(Cell a, Cell b) {
 
 /// May one drive over this cell? Where the robot stands too near to something already, what it fits on will do.
 bool is_open(KnownMap const& map, Cell cell, Cell came_from, GridSearch::Request const& request) {
-  if (!map.is_standable(cell) && (map.is_standable(came_from) || !map.has_room(map.middle(cell), request.radius_m)))
-    return false;
+  bool const is_near_already = !map.is_standable(came_from) || map.is_tight(came_from);
+  if (!map.is_standable(cell) && (!is_near_already || !map.has_room(map.middle(cell), request.radius_m))) return false;
   if (request.closed == nullptr) return true;
   auto const place = map.middle(cell);
   return std::ranges::none_of(*request.closed,
@@ -62,7 +68,7 @@ void GridSearch::look_around(KnownMap const& map, Request const& request, std::u
     auto& mark = marks_[next];
     if (mark.search == searches_ && mark.is_closed) continue;
     float const step = i < 4 ? 1.0F : std::numbers::sqrt2_v<float>;
-    float const so_far = marks_.at_index(index).so_far + step * (map.is_near_wall(next) ? near_wall_factor : 1.0F);
+    float const so_far = marks_.at_index(index).so_far + step * factor_of(map, next);
     if (mark.search == searches_ && so_far >= mark.so_far) continue;
     if (!is_open(map, next, cell, request)) continue;
     mark = {searches_, so_far, i, false};

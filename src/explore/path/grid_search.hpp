@@ -10,7 +10,8 @@
 namespace lapwing::explore {
 
 /// Paths over standable cells (A*, Hart, Nilsson & Raphael 1968; eight directions, octile distance). Cells near walls
-/// count half as long again, so that paths keep off them where there is room. Its memory is kept between searches.
+/// count half as long again, so that paths keep off them where there is room, and those that can be stood on for the
+/// one reason that a robot has driven there four times. Its memory is kept between searches.
 class GridSearch {
  public:
   explicit GridSearch(KnownMap const& map);

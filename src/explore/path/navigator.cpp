@@ -59,7 +59,8 @@ bool Navigator::is_path_good(KnownMap const& map, Pose const& pose, std::vector<
   return true;
 }
 
-std::vector<Cell> Navigator::next_path(Roads roads, Cell from, std::vector<Disc> const& closed) const {
+std::vector<Cell> Navigator::next_path(Roads roads, Cell from, std::vector<Disc> const& closed,
+                                       std::vector<Disc> const& closed_far) const {
   auto const draw = [&](Cell to) {
     return roads.search.path(roads.map, {.from = from, .to = to, .radius_m = limits_.radius_m, .closed = &closed});
   };
@@ -70,7 +71,7 @@ std::vector<Cell> Navigator::next_path(Roads roads, Cell from, std::vector<Disc>
   auto const root = roads.graph.node_near(from);
   auto const end = roads.graph.node_near(*goal_);
   if (!root || !end) return {};
-  auto const way = roads.graph.way(*root, *end, closed);
+  auto const way = roads.graph.way(*root, *end, closed_far);
   if (way.empty()) return {};
   double so_far_m = 0.0;
   std::size_t next = 0;
@@ -81,7 +82,8 @@ std::vector<Cell> Navigator::next_path(Roads roads, Cell from, std::vector<Disc>
   return draw(next + 1 == way.size() ? *goal_ : roads.graph.place_of(way[next]));
 }
 
-void Navigator::plan(Roads roads, Pose const& pose, std::vector<Disc> const& closed) {
+void Navigator::plan(Roads roads, Pose const& pose, std::vector<Disc> const& closed,
+                     std::vector<Disc> const& closed_far) {
   if (!goal_ || state_ == State::arrived) return;
   if (distance_m(roads.map.middle(*goal_), pose.position) < arrived_m) {
     state_ = State::arrived;
@@ -89,7 +91,7 @@ void Navigator::plan(Roads roads, Pose const& pose, std::vector<Disc> const& clo
     return;
   }
   if (is_path_good(roads.map, pose, closed)) return;
-  path_ = next_path(roads, roads.map.cell_at(pose.position), closed);
+  path_ = next_path(roads, roads.map.cell_at(pose.position), closed, closed_far);
   at_ = 0;
   state_ = path_.empty() ? State::blocked : State::driving;
 }

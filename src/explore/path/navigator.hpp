@@ -31,7 +31,12 @@ class Navigator {
   [[nodiscard]] State state() const { return state_; }
 
   /// Where not to go through: other robots, people. To be told whenever they moved; looked at when a path is made.
-  void plan(Roads roads, Pose const& pose, std::vector<Disc> const& closed);
+  void plan(Roads roads, Pose const& pose, std::vector<Disc> const& closed) { plan(roads, pose, closed, closed); }
+  /// `closed_far`: where not to lead the way over the road map. A disc that leaves a gap beside it closes a whole part
+  /// of that; what is drawn exactly goes through.
+  void plan(Roads roads, Pose const& pose, std::vector<Disc> const& closed, std::vector<Disc> const& closed_far);
+  /// Another path to the same goal, though the one that there is still seems good.
+  void replan() { path_.clear(); }
   /// What to do now. To be asked at each step; plans only in `plan`.
   [[nodiscard]] Motion steer(KnownMap const& map, Pose const& pose, double speed_m_s);
   /// The next metres.
@@ -39,7 +44,8 @@ class Navigator {
 
  private:
   [[nodiscard]] bool is_path_good(KnownMap const& map, Pose const& pose, std::vector<Disc> const& closed) const;
-  [[nodiscard]] std::vector<Cell> next_path(Roads roads, Cell from, std::vector<Disc> const& closed) const;
+  [[nodiscard]] std::vector<Cell> next_path(Roads roads, Cell from, std::vector<Disc> const& closed,
+                                            std::vector<Disc> const& closed_far) const;
 
   CarrierLimits limits_;
   std::optional<Cell> goal_;

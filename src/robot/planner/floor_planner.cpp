@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "explore/floor/ray.hpp"
-#include "explore/strategy/gain.hpp"
 
 namespace lapwing::robot {
 
@@ -18,26 +17,18 @@ using explore::operator+;
 
 namespace {
 
-constexpr double blocked_after_s = 15.0;  ///< the strategy is told then
-constexpr double least_move_m = 0.1;
-constexpr double gain_reach_m = 5.0;
+constexpr double blocked_after_s = 25.0;  ///< the strategy is told then
 constexpr double home_within_m = 0.5;
 constexpr double mind_within_m = 2.5;  ///< what moves farther away may be gone when the robot gets there
 constexpr std::size_t most_obstacles = 200;
 /// Farther than the board's own safe distance, which would stop a robot that only just fits.
 constexpr double beyond_safe_m = 0.05;
-/// Held up on a free way, by its board or by what its laser does not see, it goes back the way it came, and for a while
-/// does not come by what is ahead of it there.
-constexpr double back_off_after_s = 5.0;
-constexpr double back_off_s = 3.0;
-constexpr double back_off_m_s = 0.08;
-constexpr double bump_ahead_m = 0.12;  ///< of the hull
-constexpr double bump_lasts_s = 90.0;
-constexpr std::size_t most_bumps = 8;
-constexpr int most_back_offs = 8;       ///< about one place, before an errand has failed
-constexpr int back_offs_of_a_goal = 3;  ///< before a strategy is told that it is cut off
-constexpr double elsewhere_m = 1.0;
-constexpr double into_the_open_m = 1.0;
+/// So long it does not get on before it does something about it, and from one such try to the next.
+constexpr double help_after_s = 4.0;
+constexpr double measure_every_s = 0.5;
+/// What refuses the robot stands within that of its hull, and no farther to the side of where it looks.
+constexpr double refuses_within_m = 0.12;
+constexpr double refuses_aside_rad = 1.2;
 
 explore::CarrierLimits carrier_limits(Limits const& limits) {
   return {.radius_m = limits.radius_m,
@@ -111,45 +102,110 @@ base::Result<> FloorPlanner::begin(Errand errand) {
   order_ = {};
   navigator_.stop();
   is_new_ = true;
-  back_offs_ = 0;
-  back_offs_of_goal_ = 0;
+  recovery_.rest();
+  is_recovering_ = false;
   return {};
 }
 
-void FloorPlanner::note_standing(Situation const& situation) {
-  Place const here(situation.pose.x, situation.pose.y);
-  if (!is_new_ && geo::distance_m(here, stood_at_) < least_move_m) return;
-  stood_at_ = here;
-  stood_since_s_ = situation.time_s;
+/// Where it has driven it can drive again, and where it is it can be.
+void FloorPlanner::learn_way(Situation const& situation, explore::Pose const& pose) {
+  std::vector<explore::Place> places;
+  places.reserve(situation.driven.size() + 1);
+  for (auto const& at : situation.driven) places.push_back(on_floor({at.x, at.y}));
+  places.push_back(pose.position);
+  track_.lay(*known_, places);
+  roads_->update(*known_, known_->take_changes());
 }
 
-bool FloorPlanner::is_held_up(Situation const& situation, Plan const& plan) const {
-  bool const has_way = plan.state == Plan::State::under_way && !plan.way.points.empty();
-  return has_way && situation.time_s - stood_since_s_ > back_off_after_s;
-}
-
-void FloorPlanner::begin_back_off(Situation const& situation) {
-  Place const here(situation.pose.x, situation.pose.y);
-  if (geo::distance_m(here, backed_off_at_) > elsewhere_m) {
-    backed_off_at_ = here;
-    back_offs_ = 0;
+/// Along the roads: the navigator draws the next metres alone.
+std::optional<double> FloorPlanner::left_m(explore::Pose const& pose) const {
+  if (!navigator_.goal()) return std::nullopt;
+  auto const from = roads_->node_near(known_->cell_at(pose.position));
+  auto const to = roads_->node_near(*navigator_.goal());
+  if (!from || !to) return std::nullopt;
+  auto const& path = navigator_.path();
+  // Where the path ends at the goal it is finer than the roads are.
+  if (!path.empty() && path.back() == *navigator_.goal()) {
+    auto const here = std::ranges::min_element(
+        path, {}, [&](Cell cell) { return geo::distance_m(known_->middle(cell), pose.position); });
+    return static_cast<double>(path.end() - here) * options_.cell_m;
   }
-  ++back_offs_;
-  ++back_offs_of_goal_;
-  backs_until_s_ = situation.time_s + back_off_s;
-  back_off_yaw_ = situation.pose.yaw;
-  double const ahead_m = options_.limits.radius_m + bump_ahead_m;
-  Place const bump(here.x() + ahead_m * std::cos(situation.pose.yaw),
-                   here.y() + ahead_m * std::sin(situation.pose.yaw));
-  bumps_.push_back({bump, situation.time_s + bump_lasts_s});
-  if (bumps_.size() > most_bumps) bumps_.erase(bumps_.begin());
+  auto const nodes = roads_->way(*from, *to, {});
+  if (nodes.empty()) return std::nullopt;
+  double length_m = 0.0;
+  auto at = pose.position;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    auto const next = known_->middle(roads_->place_of(nodes[i]));
+    length_m += geo::distance_m(at, next);
+    at = next;
+  }
+  return length_m;
+}
+
+void FloorPlanner::note_progress(Situation const& situation, explore::Pose const& pose, Plan const& plan) {
+  if (is_new_) progress_.begin(situation.time_s);
+  if (!is_new_ && situation.time_s < measured_s_ + measure_every_s) return;
+  measured_s_ = situation.time_s;
+  progress_.note({.time_s = situation.time_s,
+                  .goal = plan.goal,
+                  .left_m = left_m(pose),
+                  .free_m2 = static_cast<double>(free_cells_) * options_.cell_m * options_.cell_m});
+  if (progress_.stalled_s(situation.time_s) == 0.0) recovery_.rest();
+}
+
+/// The nearest end of the scan before the robot, or where its hull would go next: a sonar may hear what no laser sees.
+Place FloorPlanner::what_refuses(Situation const& situation) const {
+  auto const& pose = situation.pose;
+  Place const here(pose.x, pose.y);
+  double nearest_m = options_.limits.radius_m + refuses_within_m;
+  Place found(pose.x + nearest_m * std::cos(pose.yaw), pose.y + nearest_m * std::sin(pose.yaw));
+  for (auto const& end : situation.seen) {
+    double const far_m = geo::distance_m(here, end);
+    double const off = geo::wrap_pi(std::atan2(end.y() - pose.y, end.x() - pose.x) - pose.yaw);
+    if (far_m >= nearest_m || std::abs(off) > refuses_aside_rad) continue;
+    nearest_m = far_m;
+    found = end;
+  }
+  return found;
+}
+
+Recovery::Now FloorPlanner::recovery_now(Situation const& situation) const {
+  return {.time_s = situation.time_s,
+          .pose = situation.pose,
+          .room = situation.room,
+          .driven = situation.driven,
+          .radius_m = options_.limits.radius_m};
+}
+
+std::optional<Way> FloorPlanner::recover(Situation const& situation, Plan const& plan) {
+  auto const now = recovery_now(situation);
+  if (is_recovering_) {
+    if (auto way = recovery_.way(now)) return way;
+    is_recovering_ = false;
+    recovered_s_ = situation.time_s;
+    navigator_.replan();
+  }
+  bool const has_way = plan.state == Plan::State::under_way && !plan.way.points.empty();
+  bool const is_due = situation.time_s - recovered_s_ > help_after_s;
+  if (!has_way || !is_due || progress_.stalled_s(situation.time_s) < help_after_s) return std::nullopt;
+  refusals_.note(what_refuses(situation), situation.time_s);
+  progress_.allow_detour();
+  recovery_.begin(now);
+  is_recovering_ = true;
+  return recovery_.way(now);
+}
+
+Plan FloorPlanner::given_up(Situation const& situation) const {
+  double const stalled_s = progress_.stalled_s(situation.time_s);
+  if (std::holds_alternative<ExploreErrand>(errand_)) return {.state = Plan::State::done, .reason = what_is_left(situation.pose)};
+  return {.state = Plan::State::failed,
+          .reason = fmt::format("it has not got on for {:.0f} s: something stands in its way", stalled_s)};
 }
 
 std::vector<Disc> FloorPlanner::obstacles(Situation const& situation) const {
   std::vector<Disc> discs;
   double const radius_m = options_.limits.radius_m + options_.limits.safe_distance_m + options_.cell_m;
-  for (auto const& bump : bumps_)
-    if (situation.time_s < bump.until_s) discs.push_back({on_floor(bump.place), radius_m});
+  for (auto const& place : refusals_.at(situation.time_s)) discs.push_back({on_floor(place), radius_m});
   auto const here = on_floor({situation.pose.x, situation.pose.y});
   for (auto const& end : situation.seen) {
     if (discs.size() == most_obstacles) break;
@@ -170,11 +226,9 @@ std::vector<Disc> FloorPlanner::obstacles(Situation const& situation) const {
 }
 
 Plan FloorPlanner::plan(Situation const& situation) {
-  if (std::holds_alternative<std::monostate>(errand_)) return {};
-  note_standing(situation);
-  if (situation.time_s < backs_until_s_)
-    return {.state = Plan::State::under_way, .way = {.yaw_rad = back_off_yaw_, .speed_m_s = -back_off_m_s}};
   explore::Pose const pose{on_floor({situation.pose.x, situation.pose.y}), situation.pose.yaw};
+  learn_way(situation, pose);
+  if (std::holds_alternative<std::monostate>(errand_)) return {};
   Plan plan;
   if (std::holds_alternative<ExploreErrand>(errand_)) {
     plan = explore(situation, pose);
@@ -183,23 +237,18 @@ Plan FloorPlanner::plan(Situation const& situation) {
   } else {
     plan = drive(situation, pose, Place(0.0, 0.0), home_within_m);
   }
+  note_progress(situation, pose, plan);
   is_new_ = false;
-  if (is_held_up(situation, plan)) begin_back_off(situation);
-  if (back_offs_ > most_back_offs && !std::holds_alternative<ExploreErrand>(errand_))
-    return {
-        .state = Plan::State::failed,
-        .reason = fmt::format("it was held up {} times there: something stands in its way that its map does not show",
-                              most_back_offs)};
-  double const stood_s = situation.time_s - stood_since_s_;
-  if (plan.state == Plan::State::under_way && stood_s > options_.give_up_s)
-    return {.state = Plan::State::failed,
-            .reason = fmt::format("it has not got on for {:.0f} s: something stands in its way", stood_s)};
+  if (plan.state != Plan::State::under_way) return plan;
+  if (progress_.stalled_s(situation.time_s) > options_.give_up_s) return given_up(situation);
+  if (auto way = recover(situation, plan)) plan.way = *std::move(way);
   return plan;
 }
 
 Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose) {
-  bool const has_stood =
-      situation.time_s - stood_since_s_ > blocked_after_s || back_offs_of_goal_ >= back_offs_of_a_goal;
+  double const stalled_s =
+      is_new_ ? 0.0 : std::min(progress_.stalled_s(situation.time_s), situation.time_s - goal_since_s_);
+  bool const has_stood = stalled_s > blocked_after_s;
   explore::RobotView const view{.pose = pose,
                                 .start = {on_floor({0.0, 0.0}), 0.0},
                                 .sides = [&situation] { return situation.sides; },
@@ -213,11 +262,11 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   if (order.kind != explore::Order::Kind::keep) order_ = order;
   switch (order.kind) {
     case explore::Order::Kind::go:
+      if (navigator_.goal() != order.goal) goal_since_s_ = situation.time_s;
       navigator_.go_to(order.goal);
-      back_offs_of_goal_ = 0;
       break;
     case explore::Order::Kind::steer: navigator_.stop(); break;
-    case explore::Order::Kind::home: return {.state = Plan::State::done};
+    case explore::Order::Kind::home: return {.state = Plan::State::done, .reason = what_is_left(situation.pose)};
     case explore::Order::Kind::keep: break;
   }
   if (order_.kind == explore::Order::Kind::steer) {
@@ -231,8 +280,8 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   return plan;
 }
 
-template <class Fits>
-std::optional<Cell> FloorPlanner::standable_near(Cell middle, double within_m, Fits const& fits) const {
+std::optional<Cell> FloorPlanner::standable_near(Place const& place, double within_m) const {
+  auto const middle = cell_at(place);
   int const reach = static_cast<int>(within_m / options_.cell_m);
   std::optional<Cell> best;
   double least = reach + 0.5;
@@ -240,16 +289,12 @@ std::optional<Cell> FloorPlanner::standable_near(Cell middle, double within_m, F
     for (int x = -reach; x <= reach; ++x) {
       auto const cell = middle + Cell{x, y};
       double const far = std::hypot(x, y);
-      if (far >= least || !known_->is_standable(cell) || !fits(cell)) continue;
+      if (far >= least || !known_->is_standable(cell)) continue;
       best = cell;
       least = far;
     }
   }
   return best;
-}
-
-std::optional<Cell> FloorPlanner::standable_near(Place const& place, double within_m) const {
-  return standable_near(cell_at(place), within_m, [](Cell) { return true; });
 }
 
 Plan FloorPlanner::drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m) {
@@ -268,36 +313,21 @@ Plan FloorPlanner::drive(Situation const& situation, explore::Pose const& pose, 
   return follow(situation, pose);
 }
 
-/// Where a loop has moved the map, the robot finds itself nearer to a wall than ways keep, and none begins there: it
-/// goes to the nearest place from which there is one, if nothing stands between.
-Way FloorPlanner::way_into_the_open(explore::Pose const& pose) const {
-  auto const here = known_->cell_at(pose.position);
-  if (known_->is_standable(here)) return {};
-  auto const is_free = [&](Cell cell) { return known_->at(cell) == Knowledge::free; };
-  auto const open =
-      standable_near(here, into_the_open_m, [&](Cell cell) { return explore::is_line_clear(here, cell, is_free); });
-  if (!open) return {};
-  return {.points = {on_map(pose.position), on_map(known_->middle(*open))},
-          .speed_m_s = options_.limits.near_speed_m_s};
-}
-
 Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose) {
   using State = explore::Navigator::State;
   if (!navigator_.goal()) return {.state = Plan::State::under_way};
   explore::Roads const roads{*known_, *roads_, *search_};
   auto const closed = obstacles(situation);
-  navigator_.plan(roads, pose, closed);
-  // Where others leave no way, it goes up to them and waits.
+  navigator_.plan(roads, pose, closed, {});
+  // By another way where the nearest one is closed; where all are, it goes up to what stands there and waits.
+  if (navigator_.state() == State::blocked && !closed.empty()) navigator_.plan(roads, pose, closed);
   if (navigator_.state() == State::blocked && !closed.empty()) navigator_.plan(roads, pose, {});
   Plan plan{.state = Plan::State::under_way, .goal = on_map(known_->middle(*navigator_.goal()))};
   if (navigator_.state() == State::arrived) {
     plan.state = Plan::State::done;
     return plan;
   }
-  if (navigator_.state() == State::blocked) {
-    plan.way = way_into_the_open(pose);
-    return plan;
-  }
+  if (navigator_.state() == State::blocked) return plan;
   bool const is_near = known_->is_near_wall(known_->cell_at(pose.position));
   plan.way.speed_m_s = is_near ? options_.limits.near_speed_m_s : options_.limits.speed_m_s;
   // It keeps count of what has been passed, and so sees when the way is at its end.
@@ -319,21 +349,6 @@ Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose)
     plan.way.clear_to = static_cast<std::size_t>(to - here);
   plan.way.is_to_the_end = !path.empty() && path.back() == *navigator_.goal();
   return plan;
-}
-
-Survey FloorPlanner::survey(slam::Pose2 const& pose) const {
-  Survey survey{.free_m2 = static_cast<double>(free_cells_) * options_.cell_m * options_.cell_m};
-  auto const root = roads_->node_near(cell_at({pose.x, pose.y}));
-  if (!root) return survey;
-  // With a memory of its own: what was given up is open all the same.
-  explore::Frontiers frontiers(*known_);
-  double unknown_m2 = 0.0;
-  for (auto const& frontier : frontiers.find(*known_, *roads_, roads_->from(*root))) {
-    survey.frontiers.push_back(on_map(known_->middle(frontier.middle)));
-    unknown_m2 += explore::unknown_beyond_m2(*known_, frontier, gain_reach_m);
-  }
-  survey.coverage = survey.free_m2 > 0.0 ? survey.free_m2 / (survey.free_m2 + unknown_m2) : 0.0;
-  return survey;
 }
 
 }  // namespace lapwing::robot

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,11 @@
 #include "base/error.hpp"
 #include "explore/path/navigator.hpp"
 #include "explore/strategy/strategy.hpp"
+#include "robot/planner/driven_track.hpp"
+#include "robot/planner/progress.hpp"
+#include "robot/planner/recovery.hpp"
+#include "robot/planner/refusals.hpp"
+#include "robot/planner/room.hpp"
 #include "robot/planner/way.hpp"
 #include "slam/log/scan_log.hpp"
 
@@ -29,10 +35,11 @@ using Errand = std::variant<std::monostate, ExploreErrand, DriveErrand, ReturnEr
 
 struct PlannerOptions {
   Limits limits = {};
-  double cell_m = 0.05;     ///< of the map
-  double side_m = 60.0;     ///< of the square around the start that the robot plans in
-  double wary_m = 0.5;      ///< ways keep so far from walls where there is room
-  double give_up_s = 60.0;  ///< without getting on, an errand has failed
+  double cell_m = 0.05;  ///< of the map
+  double side_m = 60.0;  ///< of the square around the start that the robot plans in
+  double wary_m = 0.5;   ///< ways keep so far from walls where there is room
+  double give_up_s =
+      180.0;  ///< without getting on, an errand is over: an exploration with what it has, others have failed
 };
 
 /// What is known of the floor as a whole.
@@ -47,7 +54,7 @@ struct Survey {
 struct Plan {
   enum class State { idle, under_way, done, failed };
   State state = State::idle;
-  std::string reason = {};  ///< why it failed
+  std::string reason = {};  ///< why it failed, or what it is done without
   Way way = {};
   std::optional<Place> goal = {};
 };
@@ -71,6 +78,9 @@ class FloorPlanner {
     explore::SideDistances sides = {};
     /// Ends of the last scan, in the map: what stands where the map says that it is free is driven around.
     std::vector<Place> seen = {};
+    Room room = {};  ///< by the same scan, from the pose
+    /// The way that it came, as its map has it by now.
+    std::span<slam::Pose2 const> driven = {};
   };
   [[nodiscard]] Plan plan(Situation const& situation);
   /// Costs more than a plan: to be asked once a second or less.
@@ -80,26 +90,21 @@ class FloorPlanner {
   [[nodiscard]] explore::Place on_floor(Place const& place) const;
   [[nodiscard]] Place on_map(explore::Place const& place) const;
   [[nodiscard]] explore::Cell cell_at(Place const& place) const { return known_->cell_at(on_floor(place)); }
-  /// The nearest of which `fits` is true, too.
-  template <class Fits>
-  [[nodiscard]] std::optional<explore::Cell> standable_near(explore::Cell middle, double within_m,
-                                                            Fits const& fits) const;
   [[nodiscard]] std::optional<explore::Cell> standable_near(Place const& place, double within_m) const;
   [[nodiscard]] std::vector<explore::Disc> obstacles(Situation const& situation) const;
   [[nodiscard]] Plan explore(Situation const& situation, explore::Pose const& pose);
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
-  [[nodiscard]] Way way_into_the_open(explore::Pose const& pose) const;
-  void note_standing(Situation const& situation);
-  [[nodiscard]] bool is_held_up(Situation const& situation, Plan const& plan) const;
-  void begin_back_off(Situation const& situation);
-
-  /// Where something held it up that the map does not show.
-  struct Bump {
-    Place place = {};
-    double until_s = 0.0;
-  };
+  void learn_way(Situation const& situation, explore::Pose const& pose);
+  void note_progress(Situation const& situation, explore::Pose const& pose, Plan const& plan);
+  [[nodiscard]] std::optional<double> left_m(explore::Pose const& pose) const;
+  [[nodiscard]] Place what_refuses(Situation const& situation) const;
+  [[nodiscard]] Recovery::Now recovery_now(Situation const& situation) const;
+  /// Nothing, or a way to get on again.
+  [[nodiscard]] std::optional<Way> recover(Situation const& situation, Plan const& plan);
+  [[nodiscard]] Plan given_up(Situation const& situation) const;
+  [[nodiscard]] std::string what_is_left(slam::Pose2 const& pose) const;
 
   PlannerOptions options_;
   double half_m_;  ///< of the square's side: what lies between the map's origin and the floor's
@@ -113,15 +118,15 @@ class FloorPlanner {
   Errand errand_;
   explore::Order order_;
   std::size_t free_cells_ = 0;
-  Place stood_at_ = {};
-  double stood_since_s_ = 0.0;
+  DrivenTrack track_;
+  Progress progress_;
+  double measured_s_ = 0.0;    ///< when progress was
+  double goal_since_s_ = 0.0;  ///< of an exploration
+  Refusals refusals_;
+  Recovery recovery_;
+  double recovered_s_ = 0.0;  ///< when it last began or ended
+  bool is_recovering_ = false;
   bool is_new_ = true;  ///< the errand has not been planned yet
-  std::vector<Bump> bumps_;
-  double backs_until_s_ = 0.0;
-  double back_off_yaw_ = 0.0;
-  Place backed_off_at_ = {};
-  int back_offs_ = 0;          ///< about that place
-  int back_offs_of_goal_ = 0;  ///< of an exploration
 };
 
 }  // namespace lapwing::robot

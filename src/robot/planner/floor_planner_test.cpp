@@ -1,6 +1,8 @@
 // On drawn grids: what is known beforehand is learnt as a whole, so that no sensor stands between.
 #include "robot/planner/floor_planner.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 namespace lapwing::robot {
@@ -121,26 +123,71 @@ TEST(FloorPlanner, DrivesAroundWhatStandsWhereItsMapIsFree) {
   EXPECT_EQ(straight.state, State::under_way);
 }
 
+/// Nothing near, all around.
+Room wide_room() {
+  slam::Sensor sensor;
+  sensor.bearings_rad = {-3.1F, 3.1F};
+  sensor.no_return_m = 10.0F;
+  slam::Scan scan;
+  scan.ranges_m = {10.0F, 10.0F};
+  return {scan, sensor};
+}
+
 TEST(FloorPlanner, GoesBackWhereItIsHeldUpAndThenAnotherWay) {
   FloorPlanner planner(small());
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
   EXPECT_GT(planner.plan({.time_s = 1.0}).way.speed_m_s, 0.0);
-  (void)planner.plan({.time_s = 7.0});
-  auto const back = planner.plan({.time_s = 8.0});
+  EXPECT_FALSE(planner.plan({.time_s = 4.0, .room = wide_room()}).way.yaw_rad);
+  auto const back = planner.plan({.time_s = 6.0, .room = wide_room()});
   EXPECT_LT(back.way.speed_m_s, 0.0);
   EXPECT_EQ(back.way.yaw_rad, 0.0);
-  auto const again = planner.plan({.pose = {-0.25, 0.0, 0.0}, .time_s = 11.0});
+  auto const again = planner.plan({.pose = {-0.25, 0.0, 0.0}, .time_s = 8.0, .room = wide_room()});
   ASSERT_FALSE(again.way.points.empty());
   Place const bump(0.3, 0.0);
   for (auto const& point : again.way.points) EXPECT_GT(geo::distance_m(point, bump), 0.2);
+}
+
+TEST(FloorPlanner, KeepsOffWhatItsLaserShowsWhereItIsHeldUp) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
+  Place const jamb(0.15, 0.2);  // beside where it looks, and so near that no disc around it would let a way begin
+  for (double const time_s : {0.0, 3.0, 6.0})
+    (void)planner.plan({.time_s = time_s, .seen = {jamb}, .room = wide_room()});
+  auto const again = planner.plan({.pose = {-0.25, 0.0, 0.0}, .time_s = 8.0, .room = wide_room()});
+  ASSERT_FALSE(again.way.points.empty());
+  double lowest = 0.0;
+  for (auto const& point : again.way.points) lowest = std::min(lowest, point.y());
+  EXPECT_LT(lowest, -0.05) << "on the other side of it";
+}
+
+TEST(FloorPlanner, GoesHomeAsItCameWhereItsMapHasClosedTheWay) {
+  FloorPlanner planner(small());
+  // A doorway that is drawn 30 cm wide.
+  auto const is_free = [](double x, double y) {
+    return in_room(x, y) && (std::abs(x - 1.0) > 0.1 || std::abs(y) < 0.15);
+  };
+  learn_all(planner, drawn(is_free));
+  ASSERT_TRUE(planner.begin(ReturnErrand{}));
+  EXPECT_TRUE(planner.plan({.pose = {2.0, 0.0, 0.0}}).way.points.empty());
+  std::vector<slam::Pose2> driven;
+  for (int i = 0; i <= 10; ++i) driven.push_back({0.2 * i, 0.0, 0.0});
+  auto const plan = planner.plan({.pose = {2.0, 0.0, 0.0}, .time_s = 1.0, .driven = driven});
+  ASSERT_FALSE(plan.way.points.empty());
+  EXPECT_LT(plan.way.points.back().x(), 0.2);
+  for (auto const& point : plan.way.points) {
+    if (std::abs(point.x() - 1.0) > 0.3) continue;
+    EXPECT_NEAR(point.y(), 0.0, 0.1);
+  }
 }
 
 TEST(FloorPlanner, LeavesTheReachOfAWallToBeginAWay) {
   FloorPlanner planner(small());
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(0.0, 0.0)}));
-  auto const plan = planner.plan({.pose = {2.9, 0.0, 0.0}});
+  std::array constexpr driven{slam::Pose2{2.0, 0.0, 0.0}, slam::Pose2{2.5, 0.0, 0.0}};
+  auto const plan = planner.plan({.pose = {2.9, 0.0, 0.0}, .driven = driven});
   EXPECT_EQ(plan.state, State::under_way);
   ASSERT_FALSE(plan.way.points.empty());
   EXPECT_LT(plan.way.points.back().x(), 2.75);
@@ -151,10 +198,27 @@ TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.0, 0.0)}));
   EXPECT_EQ(planner.plan({.time_s = 100.0}).state, State::under_way);
-  EXPECT_EQ(planner.plan({.time_s = 150.0}).state, State::under_way);
-  auto const plan = planner.plan({.time_s = 161.0});
+  // To and fro is not on.
+  for (double time_s = 101.0; time_s < 280.0; time_s += 1.0)
+    ASSERT_EQ(planner.plan({.pose = {time_s < 190.0 ? -0.1 : 0.0, 0.0, 0.0}, .time_s = time_s}).state, State::under_way)
+        << time_s;
+  auto const plan = planner.plan({.time_s = 281.0});
   EXPECT_EQ(plan.state, State::failed);
-  EXPECT_EQ(plan.reason, "it has not got on for 61 s: something stands in its way");
+  EXPECT_EQ(plan.reason, "it has not got on for 181 s: something stands in its way");
+}
+
+TEST(FloorPlanner, EndsAnExplorationThatDoesNotGetOnAndSaysWhatIsLeft) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room, 1.5));
+  ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
+  Plan plan;
+  double time_s = 0.0;
+  for (; time_s < 600.0 && plan.state != State::done && plan.state != State::failed; time_s += 1.0)
+    plan = planner.plan({.time_s = time_s});
+  EXPECT_EQ(plan.state, State::done);
+  EXPECT_LT(time_s, 200.0);
+  EXPECT_EQ(plan.reason, "2 places are left unseen: it could not get to see them");
+  EXPECT_LT(planner.survey({}).coverage, 0.9);
 }
 
 TEST(FloorPlanner, ReturnsToWhereItsMapBegins) {

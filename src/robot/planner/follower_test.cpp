@@ -1,7 +1,7 @@
 #include "robot/planner/follower.hpp"
 
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,28 @@ namespace {
 
 using slam::Pose2;
 
-constexpr Room plenty{.ahead_m = 5.0, .behind_m = 5.0};
+/// Of ends in the robot's frame.
+Room room_with(std::vector<Eigen::Vector2d> const& ends) {
+  slam::Sensor sensor;
+  sensor.bearings_rad = {3.1F};
+  sensor.no_return_m = 10.0F;
+  slam::Scan scan;
+  scan.ranges_m = {10.0F};
+  for (auto const& end : ends) {
+    sensor.bearings_rad.push_back(static_cast<float>(std::atan2(end.y(), end.x())));
+    scan.ranges_m.push_back(static_cast<float>(end.norm()));
+  }
+  return {scan, sensor};
+}
+
+Room const plenty = room_with({});
+
+/// A wall across its way, so far before its hull.
+Room wall_before(double far_m) {
+  std::vector<Eigen::Vector2d> ends;
+  for (int i = -40; i <= 40; ++i) ends.emplace_back(Limits{}.radius_m + 0.02 + far_m, 0.05 * i);
+  return room_with(ends);
+}
 
 /// Drives it for so many seconds as it steers.
 Pose2 follow(Follower& follower, Pose2 pose, double seconds, Room const& room = plenty) {
@@ -75,12 +96,42 @@ TEST(Follower, TurnsOnTheSpotTowardsWhatLiesBehind) {
 TEST(Follower, StandsBeforeWhatIsInItsWayAndSlowsDownTowardsIt) {
   Follower follower({});
   follower.take({.points = corner(), .is_to_the_end = true, .speed_m_s = 0.3});
-  EXPECT_EQ(follower.steer({}, {0.0}).speed_m_s, 0.0);
-  EXPECT_EQ(follower.steer({}, {-0.1}).speed_m_s, 0.0);
-  double const slow = follower.steer({}, {0.05}).speed_m_s;
+  EXPECT_NEAR(follower.steer({}, wall_before(0.0)).speed_m_s, 0.0, 1e-3);
+  EXPECT_EQ(follower.steer({}, wall_before(-0.1)).speed_m_s, 0.0);
+  double const slow = follower.steer({}, wall_before(0.05)).speed_m_s;
   EXPECT_GT(slow, 0.0);
   // It can brake within the room that there is.
-  EXPECT_LE(slow * slow / (2.0 * Limits{}.acceleration_m_s2), 0.05 + 1e-9);
+  EXPECT_LE(slow * slow / (2.0 * Limits{}.acceleration_m_s2), 0.05 + 1e-6);
+}
+
+TEST(Follower, GoesByWhatStandsNearerToItsWayThanItsMapHasIt) {
+  Follower follower({});
+  std::vector<Place> points;
+  for (int i = 0; i <= 40; ++i) points.emplace_back(0.05 * i, 0.0);
+  // Door posts whose middle is 6 cm beside the way, and the walls on both sides of them.
+  std::vector<Eigen::Vector2d> posts;
+  for (int i = 0; i <= 20; ++i) {
+    posts.emplace_back(1.0, 0.30 + 0.05 * i);
+    posts.emplace_back(1.0, -0.18 - 0.05 * i);
+  }
+  auto const room_at = [&](Pose2 const& pose) {
+    std::vector<Eigen::Vector2d> ends;
+    for (auto const& post : posts) {
+      auto const end = slam::Turn(pose.yaw).back(post - slam::place(pose));
+      ends.push_back(end);
+    }
+    return room_with(ends);
+  };
+  follower.take({.points = points, .is_to_the_end = true, .speed_m_s = 0.16});
+  Pose2 pose;
+  double nearest_m = 1.0;
+  for (int i = 0; i < 400; ++i) {
+    auto const motion = follower.steer(pose, room_at(pose));
+    pose = pose * Pose2{0.1 * motion.speed_m_s, 0.0, 0.1 * motion.turn_rad_s};
+    for (auto const& post : posts) nearest_m = std::min(nearest_m, (post - slam::place(pose)).norm());
+  }
+  EXPECT_TRUE(follower.has_arrived()) << pose.x << ", " << pose.y;
+  EXPECT_GT(nearest_m, Limits{}.radius_m + 0.02);
 }
 
 TEST(Follower, DrivesByAHeadingWithoutAWay) {
@@ -103,34 +154,9 @@ TEST(Follower, StandsWithoutAWay) {
 TEST(Follower, GoesBackNoFartherThanThereIsRoom) {
   Follower follower(Limits{});
   follower.take({.yaw_rad = 0.0, .speed_m_s = -0.08});
-  EXPECT_EQ(follower.steer({}, {.ahead_m = 0.0, .behind_m = 1.0}).speed_m_s, -0.08);
-  EXPECT_EQ(follower.steer({}, {.ahead_m = 5.0, .behind_m = 0.0}).speed_m_s, 0.0);
-  EXPECT_EQ(follower.steer({}, {.ahead_m = 5.0, .behind_m = -0.1}).speed_m_s, 0.0);
-}
-
-slam::Scan scan_of(slam::Sensor& sensor, double bearing, double range) {
-  sensor.bearings_rad = {static_cast<float>(bearing)};
-  sensor.no_return_m = 10.0F;
-  slam::Scan scan;
-  scan.ranges_m = {static_cast<float>(range)};
-  return scan;
-}
-
-TEST(Room, CountsWhatTheRobotWouldTouch) {
-  slam::Sensor sensor;
-  Limits const limits{.radius_m = 0.2, .safe_distance_m = 0.05};
-  auto const ahead = scan_of(sensor, 0.0, 1.0);
-  EXPECT_NEAR(room_of(ahead, sensor, limits).ahead_m, 1.0 - 0.22, 1e-6);
-  auto const beside = scan_of(sensor, std::numbers::pi / 2.0, 0.3);
-  EXPECT_EQ(room_of(beside, sensor, limits).ahead_m, 2.0) << "it passes that";
-  auto const behind = scan_of(sensor, std::numbers::pi, 0.25);
-  EXPECT_EQ(room_of(behind, sensor, limits).ahead_m, 2.0);
-  EXPECT_NEAR(room_of(behind, sensor, limits).behind_m, 0.25 - 0.22, 1e-6);
-  auto const nothing = scan_of(sensor, 0.0, 10.0);
-  EXPECT_EQ(room_of(nothing, sensor, limits).behind_m, 0.0) << "nobody looks there";
-  EXPECT_EQ(room_of(nothing, sensor, limits).ahead_m, 2.0);
-  auto const touching = scan_of(sensor, 0.0, 0.15);
-  EXPECT_LT(room_of(touching, sensor, limits).ahead_m, 0.0);
+  EXPECT_EQ(follower.steer({}, wall_before(0.0)).speed_m_s, -0.08);
+  EXPECT_NEAR(follower.steer({}, room_with({{-0.2, 0.0}})).speed_m_s, 0.0, 1e-3);
+  EXPECT_EQ(follower.steer({}, room_with({{-0.1, 0.0}})).speed_m_s, 0.0);
 }
 
 }  // namespace

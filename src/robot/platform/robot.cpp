@@ -90,8 +90,7 @@ void Robot::take(Reading const& reading) {
 
 void Robot::take(slam::Scan const& scan) {
   scanned_at_ = around_.loop.now();
-  room_ = room_of(scan, *body_->laser(), spec_.planning.limits);
-  room_measured_at_m_ = driven_m_;
+  room_ = Room(scan, *body_->laser());
   if (scans_.size() == most_waiting_scans) scans_.pop_front();
   scans_.push_back(scan);
   scanned_.notify_all();
@@ -105,8 +104,8 @@ void Robot::steer() {
   bool const sees = scanned_at_ && around_.loop.now() - *scanned_at_ < scan_is_old;
   Motion motion;
   if (sees && here_ && is_driving() && !last_reading_->is_killed) {
-    double const since_m = driven_m_ - room_measured_at_m_;
-    motion = follower_.steer(pose_now(last_reading_->odometry), {room_.ahead_m - since_m, room_.behind_m - since_m});
+    auto const& odometry = last_reading_->odometry;
+    motion = follower_.steer(pose_now(odometry), room_.seen_from(odometry));
   }
   asked_ = motion;
   body_->drive(motion);
@@ -211,16 +210,18 @@ base::Task<> Robot::carry_out(std::shared_ptr<DriveRecord> record, std::vector<S
       conclude(*record, Outcome::failed, fmt::format("{}: {}", text, done.error().message));
       co_return;
     }
+    if (done->empty()) continue;
+    record->remark += fmt::format("{}{}: {}", record->remark.empty() ? "" : "; ", text, *done);
   }
   give({});
   conclude(*record, Outcome::done, {});
 }
 
-base::Task<base::Result<>> Robot::carry_out(Step step) {
+base::Task<base::Result<std::string>> Robot::carry_out(Step step) {
   if (auto const* const wait = std::get_if<WaitStep>(&step)) {
     give({});
     co_await around_.loop.sleep(base::from_seconds(wait->seconds));
-    co_return base::Result<>{};
+    co_return std::string();
   }
   if (auto const* const exploring = std::get_if<ExploreStep>(&step)) {
     give(ExploreErrand{exploring->strategy});
@@ -238,15 +239,16 @@ base::Task<base::Result<>> Robot::carry_out(Step step) {
   }
   while (plan_.state == Plan::State::under_way || plan_.state == Plan::State::idle) co_await planned_.wait();
   if (plan_.state == Plan::State::failed) co_return base::fail(base::ErrorKind::refused, plan_.reason);
-  co_return base::Result<>{};
+  co_return plan_.reason;
 }
 
 void Robot::conclude(DriveRecord& record, Outcome outcome, std::string error) {
   if (record.outcome != Outcome::running) return;
   record.outcome = outcome;
   record.error = std::move(error);
-  around_.log.info(fmt::format("{}: {} {}{}{}", spec_.name, record.name, to_string(outcome),
-                               record.error.empty() ? "" : ": ", record.error));
+  auto const& said = record.error.empty() ? record.remark : record.error;
+  around_.log.info(
+      fmt::format("{}: {} {}{}{}", spec_.name, record.name, to_string(outcome), said.empty() ? "" : ": ", said));
   asked_ = {};
   body_->drive({});
   changed_.notify_all();

@@ -49,6 +49,7 @@ struct DriveRecord {
   int steps = 0;
   Outcome outcome = Outcome::running;
   std::string error = {};
+  std::string remark = {};  ///< what it is done without
   std::string progress = {};
   bool robot_failed = false;
 };
@@ -120,7 +121,8 @@ class Robot {
   base::Task<> keep_thinking();
   base::Task<> watch_link();
   base::Task<> carry_out(std::shared_ptr<DriveRecord> record, std::vector<Step> steps);
-  [[nodiscard]] base::Task<base::Result<>> carry_out(Step step);
+  /// Gives what is to be said of a step that is done.
+  [[nodiscard]] base::Task<base::Result<std::string>> carry_out(Step step);
   void conclude(DriveRecord& record, DriveRecord::Outcome outcome, std::string error);
   [[nodiscard]] slam::Pose2 pose_now(slam::Pose2 const& odometry) const;
 
@@ -135,7 +137,6 @@ class Robot {
   std::deque<slam::Scan> scans_;  ///< that have not been thought of
   std::optional<base::TimePoint> scanned_at_;
   Room room_;
-  double room_measured_at_m_ = 0.0;  ///< driven then
   double driven_m_ = 0.0;
   Motion asked_;
 

@@ -36,6 +36,7 @@ ThoughtResult think(std::unique_ptr<Thoughts> thoughts, std::uint64_t errand, Th
   result.here = map.here();
   result.odometry = map.odometry();
   result.errand = errand;
+  auto const& driven = map.graph().poses;
   std::optional<base::Error> refused;
   if (input.errand) {
     result.errand = input.errand->number;
@@ -48,7 +49,9 @@ ThoughtResult think(std::unique_ptr<Thoughts> thoughts, std::uint64_t errand, Th
                                 .driven_m = input.driven_m,
                                 .time_s = input.time_s,
                                 .sides = input.sides,
-                                .seen = ends_of(last, map.sensor(), result.here.pose)});
+                                .seen = ends_of(last, map.sensor(), result.here.pose),
+                                .room = Room(last, map.sensor()),
+                                .driven = driven});
   }
   if (input.wants_survey) result.survey = planner.survey(result.here.pose);
   result.thoughts = std::move(thoughts);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "explore/known/known_map.hpp"
+
+namespace lapwing::robot {
+
+/// Keeps a map told where the robot has driven, while loops move what is known of that.
+class DrivenTrack {
+ public:
+  /// All places from the start to where it is now, in the order in which it came by them.
+  void lay(explore::KnownMap& map, std::span<explore::Place const> places);
+
+ private:
+  struct Leg {
+    explore::Cell from = {};
+    explore::Cell to = {};
+    friend bool operator==(Leg const&, Leg const&) = default;
+  };
+  std::vector<Leg> laid_;
+};
+
+}  // namespace lapwing::robot

@@ -1,0 +1,38 @@
+// What a planner knows of its floor as a whole.
+#include <fmt/format.h>
+
+#include "explore/strategy/gain.hpp"
+#include "robot/planner/floor_planner.hpp"
+
+namespace lapwing::robot {
+
+namespace {
+
+constexpr double gain_reach_m = 5.0;
+
+}  // namespace
+
+Survey FloorPlanner::survey(slam::Pose2 const& pose) const {
+  Survey survey{.free_m2 = static_cast<double>(free_cells_) * options_.cell_m * options_.cell_m};
+  auto const root = roads_->node_near(cell_at({pose.x, pose.y}));
+  if (!root) return survey;
+  // With a memory of its own: what was given up is open all the same.
+  explore::Frontiers frontiers(*known_);
+  double unknown_m2 = 0.0;
+  for (auto const& frontier : frontiers.find(*known_, *roads_, roads_->from(*root))) {
+    survey.frontiers.push_back(on_map(known_->middle(frontier.middle)));
+    unknown_m2 += explore::unknown_beyond_m2(*known_, frontier, gain_reach_m);
+  }
+  survey.coverage = survey.free_m2 > 0.0 ? survey.free_m2 / (survey.free_m2 + unknown_m2) : 0.0;
+  return survey;
+}
+
+std::string FloorPlanner::what_is_left(slam::Pose2 const& pose) const {
+  auto const left = survey(pose);
+  if (left.frontiers.empty()) return {};
+  return fmt::format("{} {} left unseen: it could not get to see {}", left.frontiers.size(),
+                     left.frontiers.size() == 1 ? "place is" : "places are",
+                     left.frontiers.size() == 1 ? "it" : "them");
+}
+
+}  // namespace lapwing::robot

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "robot/planner/way.hpp"
+#include "slam/log/scan_log.hpp"
+
+namespace lapwing::robot {
+
+/// How far the robot could go straight on, in any direction, before it touched something that its laser saw. It knows
+/// nothing of the map: what a loop has shifted there stands here where it stands.
+class Room {
+ public:
+  /// Nobody has looked: there is none.
+  Room() = default;
+  Room(slam::Scan const& scan, slam::Sensor const& sensor);
+
+  /// The same, as it is from where the robot has come by now.
+  [[nodiscard]] Room seen_from(slam::Pose2 const& odometry) const;
+  /// Towards `bearing`, for a disc of that radius, at most `most_m`. Negative: something is nearer than that already.
+  [[nodiscard]] double towards(double bearing, double radius_m, double most_m = 2.0) const;
+
+ private:
+  slam::Pose2 from_;                   ///< by odometry
+  std::vector<Eigen::Vector2d> ends_;  ///< in the frame of a robot there
+  double looks_rad_ = -1.0;            ///< to both sides of where it looked; none before it has
+  double looked_to_ = 0.0;             ///< the direction that was ahead then
+};
+
+}  // namespace lapwing::robot
