@@ -24,6 +24,12 @@ std::vector<Frontier> Frontiers::find(KnownMap const& map, RoadMap const& roads,
 }
 
 std::vector<Frontier> Frontiers::find_open(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
+  auto found = find_all(map);
+  std::erase_if(found, [&](Frontier& frontier) { return !find_stand(map, roads, reach, frontier); });
+  return found;
+}
+
+std::vector<Frontier> Frontiers::find_all(KnownMap const& map) {
   // Their own order is that in which they came and went; that of the cells is the same for the same map.
   std::vector<std::uint32_t> cells(map.frontier_cells().begin(), map.frontier_cells().end());
   std::ranges::sort(cells);
@@ -36,7 +42,6 @@ std::vector<Frontier> Frontiers::find_open(KnownMap const& map, RoadMap const& r
     auto frontier = grow(map, map.cell_of(index), most, [&](Cell cell) { return map.is_frontier(cell); });
     if (frontier.cells.size() >= least) grown.push_back(std::move(frontier));
   }
-  std::erase_if(grown, [&](Frontier& frontier) { return !find_stand(map, roads, reach, frontier); });
   return grown;
 }
 

@@ -37,6 +37,8 @@ class Frontiers {
 
   /// Those to which there is a way in `reach`, in order of their cells.
   [[nodiscard]] std::vector<Frontier> find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
+  /// All that are open and were not given up, also those to which there is no way; without where to stand.
+  [[nodiscard]] std::vector<Frontier> find_all(KnownMap const& map);
   /// It has not been seen yet what is there.
   [[nodiscard]] static bool is_open(KnownMap const& map, Frontier const& frontier) {
     return map.is_frontier(frontier.middle) || map.is_doubtful(frontier.middle);

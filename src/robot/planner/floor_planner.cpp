@@ -197,7 +197,7 @@ std::optional<Way> FloorPlanner::recover(Situation const& situation, Plan const&
 
 Plan FloorPlanner::given_up(Situation const& situation) const {
   double const stalled_s = progress_.stalled_s(situation.time_s);
-  if (std::holds_alternative<ExploreErrand>(errand_)) return {.state = Plan::State::done, .reason = what_is_left(situation.pose)};
+  if (std::holds_alternative<ExploreErrand>(errand_)) return {.state = Plan::State::done, .reason = what_is_left()};
   return {.state = Plan::State::failed,
           .reason = fmt::format("it has not got on for {:.0f} s: something stands in its way", stalled_s)};
 }
@@ -266,7 +266,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
       navigator_.go_to(order.goal);
       break;
     case explore::Order::Kind::steer: navigator_.stop(); break;
-    case explore::Order::Kind::home: return {.state = Plan::State::done, .reason = what_is_left(situation.pose)};
+    case explore::Order::Kind::home: return {.state = Plan::State::done, .reason = what_is_left()};
     case explore::Order::Kind::keep: break;
   }
   if (order_.kind == explore::Order::Kind::steer) {

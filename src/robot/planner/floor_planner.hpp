@@ -84,7 +84,7 @@ class FloorPlanner {
   };
   [[nodiscard]] Plan plan(Situation const& situation);
   /// Costs more than a plan: to be asked once a second or less.
-  [[nodiscard]] Survey survey(slam::Pose2 const& pose) const;
+  [[nodiscard]] Survey survey() const;
 
  private:
   [[nodiscard]] explore::Place on_floor(Place const& place) const;
@@ -104,7 +104,7 @@ class FloorPlanner {
   /// Nothing, or a way to get on again.
   [[nodiscard]] std::optional<Way> recover(Situation const& situation, Plan const& plan);
   [[nodiscard]] Plan given_up(Situation const& situation) const;
-  [[nodiscard]] std::string what_is_left(slam::Pose2 const& pose) const;
+  [[nodiscard]] std::string what_is_left() const;
 
   PlannerOptions options_;
   double half_m_;  ///< of the square's side: what lies between the map's origin and the floor's

@@ -96,13 +96,13 @@ TEST(FloorPlanner, ExploresTowardsWhatIsUnknownAndIsDoneWithoutIt) {
   ASSERT_EQ(plan.state, State::under_way);
   ASSERT_TRUE(plan.goal);
   EXPECT_GT(plan.goal->x(), 0.5);
-  auto const before = planner.survey({});
+  auto const before = planner.survey();
   ASSERT_FALSE(before.frontiers.empty());
   EXPECT_NEAR(before.frontiers.front().x(), 1.5, 0.1);
   EXPECT_LT(before.coverage, 0.9);
 
   learn_all(planner, drawn(in_room));
-  auto const after = planner.survey({});
+  auto const after = planner.survey();
   EXPECT_TRUE(after.frontiers.empty());
   EXPECT_EQ(after.coverage, 1.0);
   EXPECT_NEAR(after.free_m2, 24.0, 0.5);
@@ -218,7 +218,24 @@ TEST(FloorPlanner, EndsAnExplorationThatDoesNotGetOnAndSaysWhatIsLeft) {
   EXPECT_EQ(plan.state, State::done);
   EXPECT_LT(time_s, 200.0);
   EXPECT_EQ(plan.reason, "2 places are left unseen: it could not get to see them");
-  EXPECT_LT(planner.survey({}).coverage, 0.9);
+  EXPECT_LT(planner.survey().coverage, 0.9);
+}
+
+TEST(FloorPlanner, CountsAsUnseenWhatItCannotReach) {
+  FloorPlanner planner(small());
+  // A large room that is seen through a gap of 30 cm.
+  auto const is_free = [](double x, double y) {
+    return std::abs(x) < 3.9 && std::abs(y) < 3.9 && (std::abs(x + 3.0) > 0.1 || std::abs(y) < 0.15);
+  };
+  learn_all(planner, drawn(is_free, 3.5));
+  ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
+  Plan plan;
+  for (int i = 0; i < 20 && plan.state != State::done; ++i)
+    plan = planner.plan({.pose = {-3.5, 0.0, 0.0}, .time_s = 1.0 * i});
+  EXPECT_EQ(plan.state, State::done);
+  EXPECT_NE(plan.reason.find("left unseen"), std::string::npos) << plan.reason;
+  EXPECT_LT(planner.survey().coverage, 0.97);
+  EXPECT_FALSE(planner.survey().frontiers.empty());
 }
 
 TEST(FloorPlanner, ReturnsToWhereItsMapBegins) {

@@ -12,14 +12,12 @@ constexpr double gain_reach_m = 5.0;
 
 }  // namespace
 
-Survey FloorPlanner::survey(slam::Pose2 const& pose) const {
+Survey FloorPlanner::survey() const {
   Survey survey{.free_m2 = static_cast<double>(free_cells_) * options_.cell_m * options_.cell_m};
-  auto const root = roads_->node_near(cell_at({pose.x, pose.y}));
-  if (!root) return survey;
-  // With a memory of its own: what was given up is open all the same.
+  // With a memory of its own: what was given up is open all the same, and so is what cannot be reached.
   explore::Frontiers frontiers(*known_);
   double unknown_m2 = 0.0;
-  for (auto const& frontier : frontiers.find(*known_, *roads_, roads_->from(*root))) {
+  for (auto const& frontier : frontiers.find_all(*known_)) {
     survey.frontiers.push_back(on_map(known_->middle(frontier.middle)));
     unknown_m2 += explore::unknown_beyond_m2(*known_, frontier, gain_reach_m);
   }
@@ -27,8 +25,8 @@ Survey FloorPlanner::survey(slam::Pose2 const& pose) const {
   return survey;
 }
 
-std::string FloorPlanner::what_is_left(slam::Pose2 const& pose) const {
-  auto const left = survey(pose);
+std::string FloorPlanner::what_is_left() const {
+  auto const left = survey();
   if (left.frontiers.empty()) return {};
   return fmt::format("{} {} left unseen: it could not get to see {}", left.frontiers.size(),
                      left.frontiers.size() == 1 ? "place is" : "places are",

@@ -53,7 +53,7 @@ ThoughtResult think(std::unique_ptr<Thoughts> thoughts, std::uint64_t errand, Th
                                 .room = Room(last, map.sensor()),
                                 .driven = driven});
   }
-  if (input.wants_survey) result.survey = planner.survey(result.here.pose);
+  if (input.wants_survey) result.survey = planner.survey();
   result.thoughts = std::move(thoughts);
   return result;
 }
