@@ -26,8 +26,10 @@ json to_json_value(tasks::TaskView const& view) {
 
 json to_json_value(RobotReport const& robot) {
   auto drives = json::array();
-  for (auto const& drive : robot.drives)
+  for (auto const& drive : robot.drives) {
     drives.push_back({{"name", drive.name}, {"outcome", drive.outcome}, {"error", drive.error}});
+    if (!drive.remark.empty()) drives.back()["remark"] = drive.remark;
+  }
   json value{{"coverage", robot.coverage},
              {"free_m2", robot.free_m2},
              {"closures", robot.closures},

@@ -17,6 +17,7 @@ struct RobotReport {
     std::string name = {};
     std::string outcome = {};  ///< "done", "failed", "stopped", "running"
     std::string error = {};
+    std::string remark = {};  ///< what it is done without
   };
   double coverage = 0.0;  ///< 0..1, of what there seems to be
   double free_m2 = 0.0;

@@ -66,6 +66,8 @@ TEST(Report, TellsWhatRobotsHaveMappedAndOfThemAlone) {
   auto const report = json::parse(to_json(told));
   EXPECT_EQ(report["vehicles"][0]["robot"], json::parse(R"({"coverage": 0.5, "free_m2": 120.5, "closures": 2,
     "drives": [{"name": "Office", "outcome": "failed", "error": "it is lost"}]})"));
+  told.vehicles.front().robot->drives.front().remark = "2 places are left unseen";
+  EXPECT_EQ(json::parse(to_json(told))["vehicles"][0]["robot"]["drives"][0]["remark"], "2 places are left unseen");
   told.vehicles.front().robot->collisions = 3;
   EXPECT_EQ(json::parse(to_json(told))["vehicles"][0]["robot"]["collisions"], 3);
 }

@@ -51,7 +51,7 @@ std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehi
   }
   report.closures = robot->loops().closures;
   for (auto const& drive : robot->drives())
-    report.drives.push_back({drive->name, std::string(to_string(drive->outcome)), drive->error});
+    report.drives.push_back({drive->name, std::string(to_string(drive->outcome)), drive->error, drive->remark});
   return report;
 }
 
