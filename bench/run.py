@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store] [explore] [slam]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store] [explore] [robots] [slam]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -376,6 +376,12 @@ def explore() -> list:
     return strategies.measure(LAPWING, say)
 
 
+def robots() -> list:
+    import robots as buildings
+
+    return buildings.measure(LAPWING, say)
+
+
 def slam() -> list:
     sys.path.insert(0, str(ROOT / "bench/slam"))
     import speed
@@ -406,7 +412,7 @@ def main():
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "shown": map_feeds, "upload": upload, "start": start,
                          "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "load": load, "store": store,
-                         "explore": explore, "slam": slam}[name]()
+                         "explore": explore, "robots": robots, "slam": slam}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
