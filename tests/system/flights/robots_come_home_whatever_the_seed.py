@@ -1,0 +1,24 @@
+"""`lapwing run --robot sim:...`: other noise, other slip, other echoes, and the robot maps the flat and comes home all the same. The office, seed by seed, is `./lapwing bench robots`."""
+
+import json
+import pathlib
+import tempfile
+
+import harness
+
+FLAT = harness.ROOT / "examples/buildings/flat.toml"
+
+with tempfile.TemporaryDirectory() as folder:
+    script = pathlib.Path(folder, "flat.dolphin")
+    script.write_text("robot = pick { id 'robot1'; timeout 60.seconds }\nexecute robot: drive { name 'Flat'; explore(); returnToStart() }\n")
+    ways = set()
+    for seed in range(1, 5):
+        path = pathlib.Path(folder, f"{seed}.json")
+        harness.expect_exit(0, "run", str(script), "--robot", f"sim:{FLAT}", "--seed", str(seed), "--report", str(path), seconds=100)
+        vehicle = json.loads(path.read_text())["vehicles"][0]
+        robot = vehicle["robot"]
+        assert robot["drives"] == [{"name": "Flat", "outcome": "done", "error": ""}], (seed, robot)
+        assert robot["collisions"] == 0 and robot["coverage"] > 0.98, (seed, robot)
+        ways.add(vehicle["track_m"])
+    assert len(ways) == 4, f"the seeds changed nothing: {ways}"
+print(f"home four times, {min(ways):.0f} to {max(ways):.0f} m")
