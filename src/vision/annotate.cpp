@@ -1,6 +1,7 @@
 #include "vision/annotate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,9 +11,17 @@ namespace lapwing::vision {
 
 namespace {
 
-/// Orange and blue are told apart by those who do not tell red from green.
+/// Told apart also by those who do not tell red from green: orange, blue, yellow and grey.
 cv::Scalar colour_of(Detection const& detection) {
-  return detection.category == "door" ? cv::Scalar(0, 140, 255) : cv::Scalar(220, 120, 20);
+  constexpr double is_taken = 0.5;
+  cv::Scalar const orange(0, 140, 255);
+  cv::Scalar const blue(220, 120, 20);
+  if (detection.category == "slot") {
+    if (!detection.occupied_chance) return {150, 150, 150};
+    return *detection.occupied_chance >= is_taken ? orange : blue;
+  }
+  if (detection.category == "car") return {0, 220, 255};
+  return detection.category == "door" ? orange : blue;
 }
 
 std::string label_of(Detection const& detection) {
@@ -24,6 +33,21 @@ std::string label_of(Detection const& detection) {
   return label;
 }
 
+/// Cars and slots are many and small: each is its outline and, for slots, the chance in percent.
+void draw_on_ground(cv::Mat& drawn, Detection const& detection, double unit) {
+  std::vector<cv::Point> corners;
+  for (auto const& corner : *detection.corners)
+    corners.emplace_back(static_cast<int>(std::lround(corner.x)), static_cast<int>(std::lround(corner.y)));
+  constexpr bool is_closed = true;
+  cv::polylines(drawn, corners, is_closed, colour_of(detection), std::max(1, static_cast<int>(1.5 * unit)),
+                cv::LINE_AA);
+  if (!detection.occupied_chance) return;
+  auto const label = fmt::format("{:.0f}", 100.0 * *detection.occupied_chance);
+  cv::Point const at(static_cast<int>(detection.box.x + 0.4 * detection.box.width),
+                     static_cast<int>(detection.box.y + 0.6 * detection.box.height));
+  cv::putText(drawn, label, at, cv::FONT_HERSHEY_SIMPLEX, 0.35 * unit, colour_of(detection), 1, cv::LINE_AA);
+}
+
 }  // namespace
 
 cv::Mat annotated(cv::Mat const& pixels, std::span<Detection const> detections) {
@@ -32,6 +56,10 @@ cv::Mat annotated(cv::Mat const& pixels, std::span<Detection const> detections) 
   double const unit = std::max(1.0, std::max(pixels.cols, pixels.rows) / 800.0);
   int const line = static_cast<int>(2.0 * unit);
   for (auto const& detection : detections) {
+    if (detection.corners && (detection.category == "car" || detection.category == "slot")) {
+      draw_on_ground(drawn, detection, unit);
+      continue;
+    }
     auto const& box = detection.box;
     cv::Rect const frame(cv::Point(static_cast<int>(box.x), static_cast<int>(box.y)),
                          cv::Size(static_cast<int>(box.width), static_cast<int>(box.height)));

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "geo/position.hpp"
+
 namespace lapwing::vision {
 
 /// In pixels, as a box.
@@ -30,13 +32,15 @@ struct Box {
 
 /// Something that was found in a picture.
 struct Detection {
-  std::string category;  ///< "door", "sign", ...
+  std::string category;  ///< "door", "sign", "car", "slot"
   Box box;
   double score = 0.0;                 ///< 0 to 1, more is surer
   std::optional<std::string> text{};  ///< what is written there: the room's number, if there is one
   std::optional<std::string> kind{};  ///< what kind of room it says: "office", "stairs", ...
-  /// Of a door: upper left, upper right, lower right, lower left, as it is seen.
+  /// Of a door: upper left, upper right, lower right, lower left, as it is seen. Of a car or a slot: in order round it.
   std::optional<std::array<Point, 4>> corners{};
+  std::optional<double> occupied_chance{};  ///< of a slot: that a vehicle stands there; none where that is not seen
+  std::optional<geo::Wgs84> place{};        ///< of its middle, on the ground
 };
 
 }  // namespace lapwing::vision

@@ -13,6 +13,7 @@
 
 #include "apps/verb.hpp"
 #include "base/text/printable.hpp"
+#include "geo/position_json.hpp"
 #include "host/files/files.hpp"
 #include "vision/annotate.hpp"
 
@@ -39,10 +40,18 @@ base::Result<std::string> read_picture(std::string const& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-base::Result<vision::Image> image_of(std::string const& path) {
-  auto const bytes = read_picture(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  return vision::decode_image(std::as_bytes(std::span(*bytes)));
+struct Photograph {
+  vision::Image image;
+  vision::FlightRecord flight;
+};
+
+base::Result<Photograph> photograph_of(std::string const& path) {
+  auto const file = read_picture(path);
+  if (!file) return std::unexpected(file.error());
+  auto const bytes = std::as_bytes(std::span(*file));
+  auto image = vision::decode_image(bytes);
+  if (!image) return std::unexpected(image.error());
+  return Photograph{*std::move(image), vision::read_flight(bytes)};
 }
 
 /// Named as the picture; pictures of one name from several folders are numbered.
@@ -57,26 +66,57 @@ double rounded(double value, double steps) {
   return std::round(value * steps) / steps;
 }
 
+nlohmann::json json_of(Found const& found, vision::Detection const& detection) {
+  constexpr double tenths = 10.0;
+  constexpr double thousandths = 1000.0;
+  auto const& box = detection.box;
+  nlohmann::json entry{
+      {"image", found.picture},
+      {"category", detection.category},
+      {"bbox",
+       {rounded(box.x, tenths), rounded(box.y, tenths), rounded(box.width, tenths), rounded(box.height, tenths)}},
+      {"score", rounded(detection.score, thousandths)}};
+  if (detection.text) entry["text"] = *detection.text;
+  if (detection.kind) entry["kind"] = *detection.kind;
+  if (detection.corners) {
+    for (auto const& corner : *detection.corners)
+      entry["corners"].push_back({rounded(corner.x, tenths), rounded(corner.y, tenths)});
+  }
+  if (detection.category == "slot") {
+    entry["occupied"] = nullptr;
+    if (detection.occupied_chance) {
+      entry["occupied"] = *detection.occupied_chance >= 0.5;
+      entry["occupied_chance"] = rounded(*detection.occupied_chance, thousandths);
+    }
+  }
+  if (found.metres_a_pixel) entry["gsd_m"] = rounded(*found.metres_a_pixel, 1e5);
+  if (detection.place) entry.update(geo::position_json(*detection.place));
+  return entry;
+}
+
 nlohmann::json json_of(std::vector<Found> const& found) {
   auto all = nlohmann::json::array();
   for (auto const& one : found) {
+    for (auto const& detection : one.detections) all.push_back(json_of(one, detection));
+  }
+  return all;
+}
+
+/// RFC 7946, of what has a place on Earth.
+nlohmann::json geojson_of(std::vector<Found> const& found) {
+  nlohmann::json all{{"type", "FeatureCollection"}, {"features", nlohmann::json::array()}};
+  for (auto const& one : found) {
     for (auto const& detection : one.detections) {
-      auto const& box = detection.box;
-      constexpr double tenths = 10.0;
-      constexpr double thousandths = 1000.0;
-      nlohmann::json entry{
-          {"image", one.picture},
-          {"category", detection.category},
-          {"bbox",
-           {rounded(box.x, tenths), rounded(box.y, tenths), rounded(box.width, tenths), rounded(box.height, tenths)}},
-          {"score", rounded(detection.score, thousandths)}};
-      if (detection.text) entry["text"] = *detection.text;
-      if (detection.kind) entry["kind"] = *detection.kind;
-      if (detection.corners) {
-        for (auto const& corner : *detection.corners)
-          entry["corners"].push_back({rounded(corner.x, tenths), rounded(corner.y, tenths)});
-      }
-      all.push_back(std::move(entry));
+      if (!detection.place) continue;
+      auto properties = json_of(one, detection);
+      for (auto const* const key : {"lat_deg", "lon_deg", "alt_m"}) properties.erase(key);
+      all["features"].push_back(
+          {{"type", "Feature"},
+           {"geometry",
+            {{"type", "Point"},
+             {"coordinates",
+              {geo::rounded(detection.place->lon_deg(), 7), geo::rounded(detection.place->lat_deg(), 7)}}}},
+           {"properties", std::move(properties)}});
     }
   }
   return all;
@@ -106,14 +146,30 @@ void to_stored(vision::Image const& image, vision::Detection& detection) {
   }
 }
 
-base::Result<Found> look_at(std::string const& picture, Detector const& detector, fs::path const& overlay) {
-  auto const image = image_of(picture);
-  if (!image) return std::unexpected(image.error());
-  auto detections = detector(image->upright());
-  for (auto& detection : detections) to_stored(*image, detection);
-  auto const drawn = vision::encode_jpeg(vision::annotated(image->stored, detections));
+base::Result<Found> look_at(std::size_t which, std::string const& picture, Detector const& detector,
+                            fs::path const& overlay) {
+  auto const photograph = photograph_of(picture);
+  if (!photograph) return std::unexpected(photograph.error());
+  auto const& [image, flight] = *photograph;
+  auto seen = detector(which, image.upright(), flight);
+  auto const size = image.stored.size();
+  for (auto& detection : seen.detections) {
+    to_stored(image, detection);
+    auto const& box = detection.box;
+    if (seen.metres_a_pixel)
+      detection.place =
+          vision::place_of({box.x + 0.5 * box.width, box.y + 0.5 * box.height}, size, flight, *seen.metres_a_pixel);
+  }
+  auto const drawn = vision::encode_jpeg(vision::annotated(image.stored, seen.detections));
   if (auto const written = host::write_file(overlay, drawn); !written) return std::unexpected(written.error());
-  return Found{picture, image->stored.size(), std::move(detections)};
+  return Found{picture, size, seen.metres_a_pixel, std::move(seen.detections)};
+}
+
+/// Into the folder; says so on standard error if that does not work.
+bool is_written(fs::path const& file, std::string const& text) {
+  auto const written = host::write_file(file, text);
+  if (!written) host::print_error(written.error());
+  return written.has_value();
 }
 
 }  // namespace
@@ -125,6 +181,11 @@ void add_common_options(CLI::App& part, CommonOptions& options) {
   part.add_flag("--json", options.as_json, "Print detections.json instead of a line for each detection");
 }
 
+std::string content_of(fs::path const& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 Outcome carry_out(CommonOptions const& options, Detector const& detector) {
   std::error_code error;
   fs::create_directories(options.out, error);
@@ -134,8 +195,9 @@ Outcome carry_out(CommonOptions const& options, Detector const& detector) {
   }
   Outcome outcome;
   std::set<std::string> taken;
-  for (auto const& picture : options.pictures) {
-    auto found = look_at(picture, detector, options.out / overlay_name(picture, taken));
+  for (std::size_t which = 0; which < options.pictures.size(); ++which) {
+    auto const& picture = options.pictures[which];
+    auto found = look_at(which, picture, detector, options.out / overlay_name(picture, taken));
     if (!found) {
       auto wrong = found.error();
       if (!wrong.message.starts_with(options.out.string()))
@@ -148,10 +210,11 @@ Outcome carry_out(CommonOptions const& options, Detector const& detector) {
     outcome.found.push_back(*std::move(found));
   }
   auto const json = to_text(json_of(outcome.found));
-  if (auto const written = host::write_file(options.out / "detections.json", json); !written) {
-    host::print_error(written.error());
+  auto const geojson = geojson_of(outcome.found);
+  bool const is_placed = !geojson["features"].empty();
+  if (!is_written(options.out / "detections.json", json) ||
+      (is_placed && !is_written(options.out / "detections.geojson", to_text(geojson))))
     outcome.exit_code = host::exit_usage;
-  }
   if (options.as_json) fmt::print("{}", json);
   return outcome;
 }
@@ -161,7 +224,9 @@ Outcome carry_out(CommonOptions const& options, Detector const& detector) {
 void add_detect(CLI::App& program, int& exit_code) {
   auto* const verb = begin_verb(program, "detect");
   verb->require_subcommand(1);
+  detect::add_cars(*verb, exit_code);
   detect::add_doors(*verb, exit_code);
+  detect::add_slots(*verb, exit_code);
 }
 
 }  // namespace lapwing::apps

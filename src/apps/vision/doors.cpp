@@ -2,9 +2,7 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,11 +52,6 @@ std::optional<vision::DoorColour> colour_of(std::string_view text) {
   }
   if (at != end) return std::nullopt;
   return vision::DoorColour{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
-}
-
-std::string content_of(std::filesystem::path const& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// Tesseract, and the recogniser where set-up has made it: without it blurred signs are read less often, which is said.
@@ -141,9 +134,9 @@ void read_signs(vision::SignFinder& signs, cv::Mat const& upright, std::vector<v
 }
 
 int judge(DoorOptions const& options, Outcome const& outcome) {
-  auto const evaluation = evaluate_with(options.truth, outcome.found);
+  auto const evaluation = evaluate_with(options.truth, outcome.found, "door");
   if (!evaluation) return host::refuse(evaluation.error());
-  auto const& doors = evaluation->doors;
+  auto const& doors = evaluation->things;
   // Beside the JSON of standard output.
   auto* const out = options.common.as_json ? stderr : stdout;
   if (doors.pictures > 0)
@@ -166,11 +159,11 @@ int doors(DoorOptions const& options) {
     if (!all) return host::refuse(all.error());
     signs.emplace(*std::move(all));
   }
-  auto const outcome = carry_out(options.common, [&](cv::Mat const& upright) {
+  auto const outcome = carry_out(options.common, [&](std::size_t, cv::Mat const& upright, vision::FlightRecord const&) {
     auto found = (*find)(upright);
     give_corners(upright, found);
     if (signs) read_signs(*signs, upright, found);
-    return found;
+    return Seen{.detections = std::move(found)};
   });
   return options.truth.empty() ? outcome.exit_code : judge(options, outcome);
 }

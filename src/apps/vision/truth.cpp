@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 using base::ErrorKind;
 using base::fail;
 
-base::Result<std::optional<std::vector<vision::Box>>> doors_of(fs::path const& file, cv::Size const& size) {
+base::Result<std::optional<std::vector<vision::Box>>> boxes_of(fs::path const& file, cv::Size const& size) {
   std::ifstream in(file);
   if (!in) return std::optional<std::vector<vision::Box>>();
-  std::vector<vision::Box> doors;
+  std::vector<vision::Box> boxes;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -35,10 +35,10 @@ base::Result<std::optional<std::vector<vision::Box>>> doors_of(fs::path const& f
       return fail(ErrorKind::invalid_input, fmt::format("{}:{}: not a line of labels: {}", file.string(), number, line),
                   "class x y width height, each relative to the picture");
     if (kind != 0) continue;
-    doors.push_back(
+    boxes.push_back(
         {(x - width / 2) * size.width, (y - height / 2) * size.height, width * size.width, height * size.height});
   }
-  return std::optional(std::move(doors));
+  return std::optional(std::move(boxes));
 }
 
 std::map<std::string, std::string> texts_of(fs::path const& file) {
@@ -56,18 +56,19 @@ std::map<std::string, std::string> texts_of(fs::path const& file) {
 
 }  // namespace
 
-base::Result<Evaluation> evaluate_with(fs::path const& folder, std::span<Found const> found) {
+base::Result<Evaluation> evaluate_with(fs::path const& folder, std::span<Found const> found,
+                                       std::string_view category) {
   auto const texts = texts_of(folder / "labels.csv");
   Evaluation evaluation;
   std::vector<vision::Judged> judged;
   for (auto const& one : found) {
     fs::path const picture(one.picture);
-    auto const doors = doors_of(folder / (picture.stem().string() + ".txt"), one.size);
-    if (!doors) return std::unexpected(doors.error());
-    if (*doors) {
-      vision::Judged both{.found = {}, .truth = **doors};
+    auto const boxes = boxes_of(folder / (picture.stem().string() + ".txt"), one.size);
+    if (!boxes) return std::unexpected(boxes.error());
+    if (*boxes) {
+      vision::Judged both{.found = {}, .truth = **boxes};
       std::ranges::copy_if(one.detections, std::back_inserter(both.found),
-                           [](auto const& thing) { return thing.category == "door"; });
+                           [&](auto const& thing) { return thing.category == category; });
       judged.push_back(std::move(both));
     }
     if (auto const text = texts.find(picture.filename().string()); text != texts.end()) {
@@ -79,7 +80,7 @@ base::Result<Evaluation> evaluate_with(fs::path const& folder, std::span<Found c
   if (judged.empty() && evaluation.signs == 0)
     return fail(ErrorKind::not_found, fmt::format("{} has no labels of these pictures", folder.string()),
                 "NAME.txt for each NAME.jpg, or a labels.csv");
-  evaluation.doors = vision::evaluate(judged, 0.0);
+  evaluation.things = vision::evaluate(judged, 0.0);
   return evaluation;
 }
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "vision/lot/markings.hpp"
+
+namespace lapwing::vision::internal {
+
+/// A side of slots, in the row's own axes.
+struct Tooth {
+  double at = 0.0;  ///< across the sides, along the row
+  double begin = 0.0;
+  double end = 0.0;  ///< along the side
+
+  [[nodiscard]] double length() const { return end - begin; }
+};
+
+/// value(x) = offset + slope * x
+struct Linear {
+  double slope = 0.0;
+  double offset = 0.0;
+
+  [[nodiscard]] double operator()(double x) const { return offset + slope * x; }
+};
+
+/// Lines side by side at a pitch: one row of slots, or two that share their lines head to head.
+struct LineRow {
+  cv::Point2d along;         ///< a unit vector, as the sides lie
+  cv::Point2d across;        ///< the other one
+  std::vector<Tooth> teeth;  ///< by place
+  double pitch = 0.0;
+  Linear begin;  ///< where sides begin and end, by place along the row: slanted rows shift
+  Linear end;
+
+  [[nodiscard]] cv::Point2d point(double place, double share) const {
+    return place * across + (begin(place) + share * (end(place) - begin(place))) * along;
+  }
+};
+
+/// Every row that three or more of the lines make.
+[[nodiscard]] std::vector<LineRow> rows_of(std::span<PaintedLine const> lines);
+
+}  // namespace lapwing::vision::internal

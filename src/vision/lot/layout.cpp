@@ -1,0 +1,169 @@
+#include "vision/lot/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "vision/lot/internal/line_row.hpp"
+
+namespace lapwing::vision {
+
+namespace {
+
+using internal::LineRow;
+using internal::Tooth;
+
+/// Sides longer than this are two rows', head to head.
+constexpr double deepest_slot = 7.6;
+constexpr double narrowest_slot = 2.0;
+constexpr double widest_slot = 4.3;
+
+/// A place of the row's comb; what is painted there, if anything.
+struct Side {
+  double at = 0.0;
+  std::optional<Tooth> painted{};
+};
+
+/// The part of the sides that one slot takes.
+struct Depth {
+  double begin = 0.0;
+  double end = 1.0;
+};
+
+std::vector<Depth> depths_of(LineRow const& row) {
+  double const middle = row.teeth[row.teeth.size() / 2].at;
+  if (row.end(middle) - row.begin(middle) < deepest_slot) return {{0.0, 1.0}};
+  return {{0.0, 0.5}, {0.5, 1.0}};
+}
+
+bool is_on_car(PaintedLine const& line, std::span<TurnedBox const> cars) {
+  constexpr int tries = 15;
+  constexpr double most = 0.6;
+  int covered = 0;
+  for (int k = 0; k < tries; ++k) {
+    auto const at = line.from + (line.to - line.from) * (static_cast<double>(k) / (tries - 1));
+    if (std::ranges::any_of(cars, [&](TurnedBox const& car) { return contains(car, {at.x, at.y}); })) ++covered;
+  }
+  return covered >= most * tries;
+}
+
+/// Whether a car stands between two places of the row, as it would in a slot.
+bool has_car(LineRow const& row, double from, double to, Depth const& depth, std::span<TurnedBox const> cars) {
+  double const middle = 0.5 * (from + to);
+  double const direction = std::atan2(row.along.y, row.along.x);
+  constexpr double most_aside = 0.35;  // of the slot's width
+  constexpr double most_turned = 0.35;
+  return std::ranges::any_of(cars, [&](TurnedBox const& car) {
+    cv::Point2d const at(car.middle.x, car.middle.y);
+    double const aside = std::abs(at.dot(row.across) - middle);
+    double const deep = (at.dot(row.along) - row.begin(middle)) / (row.end(middle) - row.begin(middle));
+    bool const is_parallel = std::abs(std::sin(car.heading_rad - direction)) < std::sin(most_turned);
+    return is_parallel && aside < most_aside * (to - from) && deep > depth.begin && deep < depth.end;
+  });
+}
+
+/// The painted sides, those that must stand between them by the pitch, and those that cars show beyond the last ones.
+std::vector<Side> comb_of(LineRow const& row, std::span<Depth const> depths, std::span<TurnedBox const> cars) {
+  constexpr int most_hidden = 7;
+  std::vector<Side> comb;
+  for (auto const& tooth : row.teeth) {
+    if (!comb.empty()) {
+      double const last = comb.back().at;
+      double const gap = tooth.at - last;
+      int const steps = static_cast<int>(std::lround(gap / row.pitch));
+      bool const fits = std::abs(gap - steps * row.pitch) < 0.12 * steps * row.pitch + 0.2;
+      for (int k = 1; fits && steps <= most_hidden && k < steps; ++k) comb.push_back({.at = last + gap * k / steps});
+    }
+    comb.push_back({.at = tooth.at, .painted = tooth});
+  }
+  auto const stands = [&](double from) {
+    return std::ranges::any_of(depths,
+                               [&](Depth const& depth) { return has_car(row, from, from + row.pitch, depth, cars); });
+  };
+  constexpr int most_beyond = 4;
+  for (int k = 0; k < most_beyond && stands(comb.front().at - row.pitch); ++k)
+    comb.insert(comb.begin(), {.at = comb.front().at - row.pitch});
+  for (int k = 0; k < most_beyond && stands(comb.back().at); ++k) comb.push_back({.at = comb.back().at + row.pitch});
+  return comb;
+}
+
+/// Whether the paint goes along a good part of the slot.
+bool is_painted(LineRow const& row, Side const& side, Depth const& depth) {
+  if (!side.painted) return false;
+  double const begin = row.begin(side.at);
+  double const whole = row.end(side.at) - begin;
+  double const low = begin + depth.begin * whole;
+  double const high = begin + depth.end * whole;
+  constexpr double least_share = 0.3;
+  return std::min(side.painted->end, high) - std::max(side.painted->begin, low) > least_share * (high - low);
+}
+
+/// Three or more lines slantwise in it.
+bool is_hatched(SlotShape const& slot, std::span<PaintedLine const> lines) {
+  auto const middle = slot.middle();
+  auto const deep = slot.corners[2] - slot.corners[1];
+  auto const wide = slot.corners[1] - slot.corners[0];
+  constexpr double least_slant = 0.3;
+  constexpr double most_slant = 0.95;
+  auto const count = std::ranges::count_if(lines, [&](PaintedLine const& line) {
+    auto const way = line.to - line.from;
+    double const slant = std::abs(way.x * deep.y - way.y * deep.x) / (line.length() * cv::norm(deep));
+    auto const at = 0.5 * (line.from + line.to) - middle;
+    bool const is_inside =
+        std::abs(at.dot(deep)) < 0.5 * deep.dot(deep) && std::abs(at.dot(wide)) < 0.5 * wide.dot(wide);
+    return is_inside && slant > least_slant && slant < most_slant;
+  });
+  return count >= 3;
+}
+
+/// How sure a slot is by its sides, none if it is none.
+std::optional<double> surety_of(bool first, bool second, bool has_car, bool is_long_row) {
+  constexpr double painted = 0.95;
+  constexpr double half_painted = 0.8;
+  constexpr double by_car = 0.6;
+  if (first && second) return painted;
+  if (!has_car) return std::nullopt;
+  if (first || second) return half_painted;
+  return is_long_row ? std::optional(by_car) : std::nullopt;
+}
+
+void add_slots(LineRow const& row, std::span<TurnedBox const> cars, std::vector<SlotShape>& slots) {
+  auto const depths = depths_of(row);
+  auto const comb = comb_of(row, depths, cars);
+  constexpr std::size_t long_row = 5;
+  for (std::size_t k = 1; k < comb.size(); ++k) {
+    auto const& first = comb[k - 1];
+    auto const& second = comb[k];
+    if (second.at - first.at < narrowest_slot || second.at - first.at > widest_slot) continue;
+    for (auto const& depth : depths) {
+      auto const surety = surety_of(is_painted(row, first, depth), is_painted(row, second, depth),
+                                    has_car(row, first.at, second.at, depth, cars), comb.size() > long_row);
+      if (!surety) continue;
+      slots.push_back({.corners = {row.point(first.at, depth.begin), row.point(second.at, depth.begin),
+                                   row.point(second.at, depth.end), row.point(first.at, depth.end)},
+                       .surety = *surety});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SlotShape> slots_between(std::span<PaintedLine const> lines, std::span<TurnedBox const> cars) {
+  std::vector<PaintedLine> sides;
+  std::ranges::copy_if(lines, std::back_inserter(sides), [&](auto const& line) { return !is_on_car(line, cars); });
+  std::vector<SlotShape> all;
+  for (auto const& row : internal::rows_of(sides)) add_slots(row, cars, all);
+  std::erase_if(all, [&](SlotShape const& slot) { return is_hatched(slot, sides); });
+  // Rows that share a slot: the surer one has it.
+  std::ranges::stable_sort(all, std::ranges::greater(), &SlotShape::surety);
+  constexpr double same_slot = 1.3;
+  std::vector<SlotShape> kept;
+  for (auto const& slot : all) {
+    bool const is_told = std::ranges::any_of(
+        kept, [&](SlotShape const& other) { return cv::norm(other.middle() - slot.middle()) < same_slot; });
+    if (!is_told) kept.push_back(slot);
+  }
+  return kept;
+}
+
+}  // namespace lapwing::vision

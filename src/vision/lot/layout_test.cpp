@@ -1,0 +1,79 @@
+#include "vision/lot/layout.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace lapwing::vision {
+namespace {
+
+constexpr double pitch = 2.6;
+constexpr double depth = 5.0;
+
+PaintedLine side(int k, double slant = 0.0) {
+  double const x = 10.0 + k * pitch;
+  return {{x, 4.0}, {x + slant * depth, 4.0 + depth}};
+}
+
+TurnedBox car(double slot) {
+  return {
+      .middle = {10.0 + (slot + 0.5) * pitch, 6.5}, .length = 4.6, .width = 1.8, .heading_rad = std::numbers::pi / 2};
+}
+
+bool has_slot_at(std::vector<SlotShape> const& slots, double x, double y) {
+  return std::ranges::any_of(slots,
+                             [&](auto const& slot) { return cv::norm(slot.middle() - cv::Point2d(x, y)) < 0.3; });
+}
+
+TEST(Layout, BetweenNeighbouringSidesIsASlot) {
+  std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(3)};
+  auto const slots = slots_between(lines, {});
+  ASSERT_EQ(slots.size(), 3U);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
+}
+
+TEST(Layout, SlantedSidesMakeSlantedSlots) {
+  std::vector<PaintedLine> const lines{side(0, 0.5), side(1, 0.5), side(2, 0.5), side(3, 0.5)};
+  auto const slots = slots_between(lines, {});
+  ASSERT_EQ(slots.size(), 3U);
+  EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch + 0.25 * depth, 6.5));
+}
+
+TEST(Layout, LongSidesAreTwoRowsHeadToHead) {
+  std::vector<PaintedLine> lines;
+  for (int k = 0; k < 4; ++k) lines.push_back({{10.0 + k * pitch, 4.0}, {10.0 + k * pitch, 4.0 + 2.0 * depth}});
+  auto const slots = slots_between(lines, {});
+  ASSERT_EQ(slots.size(), 6U);
+  EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 6.5));
+  EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 11.5));
+}
+
+TEST(Layout, HiddenSidesAreCompletedWhereCarsStand) {
+  std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(5), side(6)};
+  EXPECT_EQ(slots_between(lines, {}).size(), 3U) << "nothing says that between the second and the fifth are slots";
+  std::vector<TurnedBox> const cars{car(2), car(4), car(6)};
+  auto const slots = slots_between(lines, cars);
+  EXPECT_EQ(slots.size(), 6U);
+  for (int const k : {0, 1, 2, 4, 5, 6}) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
+}
+
+TEST(Layout, WhatIsHatchedIsNoSlot) {
+  std::vector<PaintedLine> lines{side(0), side(1), side(2), side(3)};
+  for (int k = 0; k < 4; ++k) {
+    double const y = 4.6 + 1.1 * k;
+    lines.push_back({{10.1 + pitch, y}, {9.9 + 2.0 * pitch, y + 1.2}});
+  }
+  auto const slots = slots_between(lines, {});
+  EXPECT_EQ(slots.size(), 2U);
+  EXPECT_FALSE(has_slot_at(slots, 10.0 + 1.5 * pitch, 6.5));
+}
+
+TEST(Layout, LinesThatAreNoRowMakeNone) {
+  std::vector<PaintedLine> const road{{{0.0, 0.0}, {60.0, 0.0}}, {{0.0, 3.0}, {60.0, 3.0}}, {{0.0, 6.0}, {60.0, 6.0}}};
+  EXPECT_TRUE(slots_between(road, {}).empty());
+  EXPECT_TRUE(slots_between({}, {}).empty());
+}
+
+}  // namespace
+}  // namespace lapwing::vision
