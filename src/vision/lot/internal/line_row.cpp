@@ -104,22 +104,23 @@ std::optional<double> pitch_of(std::span<Tooth const> teeth) {
   return median(std::move(gaps));
 }
 
-/// How many others stand whole pitches away, and how long it is: what is no side of a slot has neither.
-double standing(Tooth const& tooth, std::span<Tooth const> teeth, double pitch, double longest) {
+/// How many others stand whole pitches away, and how long it is: edges of cars that stand side by side have a pitch,
+/// too, but are short.
+double standing(Tooth const& tooth, std::span<Tooth const> teeth, double pitch) {
   constexpr double farthest = 4.5;
   constexpr double off_comb = 0.16;
+  constexpr double long_enough = 6.0;
   double count = 0.0;
   for (auto const& other : teeth) {
     double const steps = std::abs(other.at - tooth.at) / pitch;
     if (steps > 0.5 && steps < farthest && std::abs(steps - std::round(steps)) < off_comb) count += 1.0;
   }
-  return count + 2.0 * tooth.length() / longest;
+  return count + std::min(tooth.length(), long_enough);
 }
 
 /// Of teeth that are too near to each other the better one.
 std::vector<Tooth> on_comb(std::span<Tooth const> teeth, double pitch) {
-  double const longest = std::ranges::max(teeth, {}, &Tooth::length).length();
-  auto const rank = [&](Tooth const& tooth) { return standing(tooth, teeth, pitch, longest); };
+  auto const rank = [&](Tooth const& tooth) { return standing(tooth, teeth, pitch); };
   constexpr double too_near = 0.72;
   std::vector<Tooth> kept;
   for (auto const& tooth : teeth) {
@@ -132,28 +133,58 @@ std::vector<Tooth> on_comb(std::span<Tooth const> teeth, double pitch) {
   return kept;
 }
 
-/// A line through ends of sides: the median of slopes and of offsets (Theil 1950, Sen 1968), which some hidden ends do
-/// not move. Only long sides are asked.
-Linear through(std::span<Tooth const> teeth, double Tooth::* which) {
+/// Those whose ends are their own: what is much shorter than others is hidden in part.
+std::vector<Tooth> whole_ones(std::span<Tooth const> teeth) {
   std::vector<double> lengths;
   for (auto const& tooth : teeth) lengths.push_back(tooth.length());
   std::ranges::sort(lengths);
   constexpr double long_enough = 0.75;
   double const least = long_enough * lengths[lengths.size() * 4 / 5];
-  std::vector<Tooth> asked;
-  std::ranges::copy_if(teeth, std::back_inserter(asked), [&](auto const& tooth) { return tooth.length() >= least; });
+  std::vector<Tooth> whole;
+  std::ranges::copy_if(teeth, std::back_inserter(whole), [&](auto const& tooth) { return tooth.length() >= least; });
+  return whole;
+}
+
+/// By how much both ends shift from place to place, in the median (Theil 1950, Sen 1968): none but in slanted rows.
+double slope_of(std::span<Tooth const> teeth) {
   std::vector<double> slopes;
-  for (std::size_t a = 0; a < asked.size(); ++a) {
-    for (std::size_t b = a + 1; b < asked.size(); ++b) {
-      double const apart = asked[b].at - asked[a].at;
-      if (apart > 1.0) slopes.push_back((asked[b].*which - asked[a].*which) / apart);
+  for (std::size_t a = 0; a < teeth.size(); ++a) {
+    for (std::size_t b = a + 1; b < teeth.size(); ++b) {
+      double const apart = teeth[b].at - teeth[a].at;
+      if (apart <= 1.0) continue;
+      slopes.push_back((teeth[b].begin - teeth[a].begin) / apart);
+      slopes.push_back((teeth[b].end - teeth[a].end) / apart);
     }
   }
-  Linear fit{.slope = asked.size() < 3 || slopes.empty() ? 0.0 : median(slopes)};
-  std::vector<double> offsets;
-  for (auto const& tooth : asked) offsets.push_back(tooth.*which - fit.slope * tooth.at);
-  fit.offset = median(std::move(offsets));
+  return slopes.empty() ? 0.0 : median(std::move(slopes));
+}
+
+struct Ends {
+  Linear begin;
+  Linear end;
+  double off = 0.0;  ///< how far the ends are from them, in all
+};
+
+Ends ends_with(double slope, std::span<Tooth const> teeth) {
+  std::vector<double> begins;
+  std::vector<double> ends;
+  for (auto const& tooth : teeth) {
+    begins.push_back(tooth.begin - slope * tooth.at);
+    ends.push_back(tooth.end - slope * tooth.at);
+  }
+  Ends fit{.begin = {slope, median(begins)}, .end = {slope, median(ends)}};
+  for (auto const& tooth : teeth)
+    fit.off += std::abs(tooth.begin - fit.begin(tooth.at)) + std::abs(tooth.end - fit.end(tooth.at));
   return fit;
+}
+
+/// Most rows go straight across their sides; what is hidden of some must not slant them.
+Ends ends_of(std::span<Tooth const> teeth) {
+  auto const whole = whole_ones(teeth);
+  auto const straight = ends_with(0.0, whole);
+  auto const slanted = ends_with(slope_of(whole), whole);
+  constexpr double much_better = 0.75;
+  return slanted.off < much_better * straight.off ? slanted : straight;
 }
 
 std::optional<LineRow> row_of(std::span<PaintedLine const> family) {
@@ -166,8 +197,9 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family) {
   row.pitch = *pitch;
   row.teeth = on_comb(row.teeth, row.pitch);
   if (row.teeth.size() < 3) return std::nullopt;
-  row.begin = through(row.teeth, &Tooth::begin);
-  row.end = through(row.teeth, &Tooth::end);
+  auto const ends = ends_of(row.teeth);
+  row.begin = ends.begin;
+  row.end = ends.end;
   double const middle = row.teeth[row.teeth.size() / 2].at;
   double const depth = row.end(middle) - row.begin(middle);
   if (depth < shallowest || depth > deepest) return std::nullopt;
