@@ -10,7 +10,7 @@ namespace lapwing::vision {
 
 namespace {
 
-/// Fitted by `training/cars/train.py occupancy` to rendered car parks that the network had not seen.
+/// Chosen by hand so that a found vehicle that covers its slot is near 1; `training/cars/train.py occupancy` fits them.
 constexpr double offset = -5.0;
 constexpr double of_covered = 8.0;
 constexpr double of_best = 3.0;
