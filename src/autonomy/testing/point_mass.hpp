@@ -74,7 +74,9 @@ class PointMass {
     ground_s_ = 0;
   }
   void arm_by_time(double s) {
-    if (arms_in_s_ > 0 && (arms_in_s_ -= s) <= 0) flight_.is_armed = true;
+    bool const is_arming = arms_in_s_ > 0;
+    if (is_arming) arms_in_s_ -= s;
+    if (is_arming && arms_in_s_ <= 0) flight_.is_armed = true;
     ground_s_ = flight_.is_armed && !is_flying_ ? ground_s_ + s : 0;
     if (ground_s_ > 10) disarm();
   }
@@ -96,9 +98,10 @@ class PointMass {
     is_level_ = true;
     if (std::hypot(place_.x(), place_.y()) > 0.1) {
       approach(geo::Point3<ArmingFrame>(0, 0, place_.z()), s);
-    } else if ((waited_s_ += s) > 5) {
-      descend(s);
+      return;
     }
+    waited_s_ += s;
+    if (waited_s_ > 5) descend(s);
   }
   void descend(double s) {
     if (!is_flying_) return;

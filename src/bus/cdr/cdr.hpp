@@ -112,7 +112,7 @@ void read(Reader& from, T& value) {
   } else if constexpr (std::same_as<T, std::string>) {
     from.text(value);
   } else if constexpr (IsVector<T>::value || IsArray<T>::value) {
-    using Element = typename T::value_type;
+    using Element = T::value_type;
     if constexpr (IsVector<T>::value) value.resize(from.length(least_bytes<Element>()));
     if constexpr (Number<Element>) {
       from.numbers(value.data(), value.size());

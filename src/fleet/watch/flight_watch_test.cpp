@@ -15,16 +15,16 @@ VehicleId const one{"1"};
 
 struct FlightWatch : testing::Test {
   /// The mission's run, in flight to its second place.
-  std::unique_ptr<tasks::TaskRun> fly(plan::Mission mission) {
+  std::unique_ptr<tasks::TaskRun> fly(plan::Mission mission) const {
     auto run = world->platform->start(task_of(std::move(mission)), one);
     EXPECT_TRUE(world->comes_to(*run, "item 3/")) << run->error();
     return run;
   }
-  RunState end_of(tasks::TaskRun const& run, base::Duration limit = 300s) {
+  RunState end_of(tasks::TaskRun const& run, base::Duration limit = 300s) const {
     (void)world->run_until([&run] { return run.state() != RunState::in_progress; }, limit);
     return run.state();
   }
-  void settle() { world->loop.run_until_done(world->platform->settle()); }
+  void settle() const { world->loop.run_until_done(world->platform->settle()); }
 
   std::unique_ptr<TestWorld> world = std::make_unique<TestWorld>();
   TestAutopilot& copter = world->add();

@@ -135,13 +135,13 @@ base::Result<CommandNumber> CarrierClient::give(Order order) {
 }
 
 base::Result<> CarrierClient::begin(Order order) {
-  auto const number = give(std::move(order));
+  auto const number = give(order);
   if (!number) return std::unexpected(number.error());
   return {};
 }
 
 base::Task<base::Result<>> CarrierClient::carry_out(Order order, base::Duration timeout) {
-  auto const number = give(std::move(order));
+  auto const number = give(order);
   if (!number) co_return std::unexpected(number.error());
   auto const deadline = loop_.now() + timeout;
   for (;;) {

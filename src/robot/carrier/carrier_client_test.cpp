@@ -25,8 +25,7 @@ Drive ahead(float speed_m_s) {
 }
 
 /// A host and a board with a pipe between, in time that does not wait for the wall's.
-class CarrierClientTest : public ::testing::Test {
- protected:
+struct CarrierClientTest : ::testing::Test {
   void start() {
     client.start({.here = [this](auto const&, bool anew) { said.push_back(anew ? "anew" : "here"); },
                   .away =

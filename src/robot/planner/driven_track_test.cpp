@@ -7,7 +7,6 @@
 namespace lapwing::robot {
 namespace {
 
-using explore::Cell;
 using explore::Place;
 
 struct DrivenTrackTest : ::testing::Test {

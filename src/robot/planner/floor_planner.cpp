@@ -68,23 +68,26 @@ Place FloorPlanner::on_map(explore::Place const& place) const {
   return {place.x() - half_m_, place.y() - half_m_};
 }
 
+void FloorPlanner::learn(Cell cell, Knowledge knowledge) {
+  if (!known_->contains(cell)) return;
+  auto const before = known_->at(cell);
+  if (before == knowledge) return;
+  if (before == Knowledge::free) --free_cells_;
+  if (knowledge == Knowledge::free) ++free_cells_;
+  known_->learn(cell, knowledge);
+}
+
 void FloorPlanner::learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed) {
   auto const shift = known_->width() / 2;
   for (auto const key : changed) {
     auto const tile = grid.tiles().find(key);
+    int index = 0;
     for (int y = 0; y < map::tile_cells; ++y) {
-      for (int x = 0; x < map::tile_cells; ++x) {
+      for (int x = 0; x < map::tile_cells; ++x, ++index) {
         Cell const cell{key.x * map::tile_cells + x + shift, key.y * map::tile_cells + y + shift};
-        if (!known_->contains(cell)) continue;
-        auto const knowledge =
-            tile == grid.tiles().end()
-                ? Knowledge::unknown
-                : explore::knowledge_of(tile->second->cells[static_cast<std::size_t>(y * map::tile_cells + x)]);
-        auto const before = known_->at(cell);
-        if (before == knowledge) continue;
-        if (before == Knowledge::free) --free_cells_;
-        if (knowledge == Knowledge::free) ++free_cells_;
-        known_->learn(cell, knowledge);
+        auto const evidence =
+            tile == grid.tiles().end() ? map::Evidence() : tile->second->cells[static_cast<std::size_t>(index)];
+        learn(cell, explore::knowledge_of(evidence));
       }
     }
   }

@@ -96,6 +96,7 @@ class FloorPlanner {
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
+  void learn(explore::Cell cell, explore::Knowledge knowledge);
   void learn_way(Situation const& situation, explore::Pose const& pose);
   void note_progress(Situation const& situation, explore::Pose const& pose, Plan const& plan);
   [[nodiscard]] std::optional<double> left_m(explore::Pose const& pose) const;

@@ -51,8 +51,8 @@ TEST(FloorPlanner, DrivesToAPlaceOnFreeCellsAlone) {
   double highest = 0.0;
   for (auto const& point : plan.way.points) {
     highest = std::max(highest, point.y());
-    for (double a = 0.0; a < 6.3; a += 0.3)
-      EXPECT_TRUE(is_free(point.x() + 0.2 * std::cos(a), point.y() + 0.2 * std::sin(a)))
+    for (int i = 0; i < 21; ++i)
+      EXPECT_TRUE(is_free(point.x() + 0.2 * std::cos(0.3 * i), point.y() + 0.2 * std::sin(0.3 * i)))
           << point.x() << ", " << point.y();
   }
   EXPECT_GT(highest, 1.2);
@@ -199,8 +199,9 @@ TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.0, 0.0)}));
   EXPECT_EQ(planner.plan({.time_s = 100.0}).state, State::under_way);
   // To and fro is not on.
-  for (double time_s = 101.0; time_s < 280.0; time_s += 1.0)
-    ASSERT_EQ(planner.plan({.pose = {time_s < 190.0 ? -0.1 : 0.0, 0.0, 0.0}, .time_s = time_s}).state, State::under_way)
+  for (int time_s = 101; time_s < 280; ++time_s)
+    ASSERT_EQ(planner.plan({.pose = {time_s < 190 ? -0.1 : 0.0, 0.0, 0.0}, .time_s = 1.0 * time_s}).state,
+              State::under_way)
         << time_s;
   auto const plan = planner.plan({.time_s = 281.0});
   EXPECT_EQ(plan.state, State::failed);
@@ -212,11 +213,11 @@ TEST(FloorPlanner, EndsAnExplorationThatDoesNotGetOnAndSaysWhatIsLeft) {
   learn_all(planner, drawn(in_room, 1.5));
   ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
   Plan plan;
-  double time_s = 0.0;
-  for (; time_s < 600.0 && plan.state != State::done && plan.state != State::failed; time_s += 1.0)
-    plan = planner.plan({.time_s = time_s});
+  int time_s = 0;
+  for (; time_s < 600 && plan.state != State::done && plan.state != State::failed; ++time_s)
+    plan = planner.plan({.time_s = 1.0 * time_s});
   EXPECT_EQ(plan.state, State::done);
-  EXPECT_LT(time_s, 200.0);
+  EXPECT_LT(time_s, 200);
   EXPECT_EQ(plan.reason, "2 places are left unseen: it could not get to see them");
   EXPECT_LT(planner.survey().coverage, 0.9);
 }

@@ -36,7 +36,7 @@ Room wall_before(double far_m) {
 /// Drives it for so many seconds as it steers.
 Pose2 follow(Follower& follower, Pose2 pose, double seconds, Room const& room = plenty) {
   constexpr double step_s = 0.1;
-  for (double t = 0.0; t < seconds; t += step_s) {
+  for (int i = 0; i * step_s < seconds; ++i) {
     auto const motion = follower.steer(pose, room);
     pose = pose * Pose2{motion.speed_m_s * step_s, 0.0, motion.turn_rad_s * step_s};
   }

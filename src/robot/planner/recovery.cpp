@@ -21,7 +21,8 @@ constexpr int directions = 32;
 
 void Recovery::begin(Now const& now) {
   int const step = tried_ % 3;
-  double const farther = 1.0 + tried_ / 3;
+  int const rounds = tried_ / 3;
+  double const farther = 1.0 + rounds;
   ++tried_;
   from_ = {now.pose.x, now.pose.y};
   bool const can_back = now.room.towards(std::numbers::pi, now.radius_m + keep_m) > back_m;

@@ -19,7 +19,7 @@ namespace lapwing::robot::ros {
 
 struct RosBodyOptions {
   std::uint32_t domain = 0;
-  std::string name_space = "";  ///< "/robot1", before the names of its topics; empty: none
+  std::string name_space = {};  ///< "/robot1", before the names of its topics; empty: none
   bool is_local = true;         ///< its ROS is on this machine
 };
 

@@ -137,7 +137,7 @@ base::Result<std::string> text_of(Angle angle) {
 
 base::Result<std::string> text_of(PointOfInterest const& point) {
   if (!is_possible(point.x_m) || !is_possible(point.y_m)) return too_far();
-  if (point.text.size() > longest_text || point.text.find('"') != std::string::npos)
+  if (point.text.size() > longest_text || point.text.contains('"'))
     return base::fail(
         base::ErrorKind::invalid_input,
         fmt::format("the text is longer than {} characters, or has a quotation mark in it", longest_text));
@@ -199,7 +199,7 @@ std::optional<std::string_view> quoted(std::string_view& text) {
 std::optional<Payload> point_of_interest(std::string_view text) {
   auto const name = quoted(text);
   auto const label = name ? quoted(text) : std::nullopt;
-  if (!label || label->size() > longest_text || label->find('"') != std::string_view::npos) return std::nullopt;
+  if (!label || label->size() > longest_text || label->contains('"')) return std::nullopt;
   auto const kind = meaning_of(kinds, *name);
   auto const comma = text.find(", ");
   if (!kind || comma == std::string_view::npos) return std::nullopt;

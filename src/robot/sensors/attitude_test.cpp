@@ -29,9 +29,12 @@ firmware::Quaternion turned(double yaw, double pitch, double roll) {
 }
 
 TEST(Attitude, GivesBackTheAnglesOfEveryTurn) {
-  for (double yaw = -3.1; yaw < 3.14; yaw += 0.4)
-    for (double pitch = -1.5; pitch < 1.51; pitch += 0.3)
-      for (double roll = -3.1; roll < 3.14; roll += 0.7) {
+  for (int i = 0; i < 16; ++i)
+    for (int j = 0; j < 11; ++j)
+      for (int k = 0; k < 9; ++k) {
+        double const yaw = -3.1 + 0.4 * i;
+        double const pitch = -1.5 + 0.3 * j;
+        double const roll = -3.1 + 0.7 * k;
         auto const said = attitude(turned(yaw, pitch, roll));
         EXPECT_NEAR(said.yaw_rad, yaw, 1e-5);
         EXPECT_NEAR(said.pitch_rad, pitch, 1e-5);

@@ -41,7 +41,7 @@ base::Result<> CarrierGuard::may_move() const {
 
 base::Task<base::Result<>> CarrierGuard::carry_out(Order order, base::Duration timeout) {
   if (auto const may = may_move(); !may) co_return std::unexpected(may.error());
-  auto carried = client_.carry_out(std::move(order), timeout);
+  auto carried = client_.carry_out(order, timeout);
   auto result = co_await carried;
   // The stop that replaced it has a reason that is worth more than "another command".
   if (!result && result.error().kind == base::ErrorKind::cancelled)
@@ -51,7 +51,7 @@ base::Task<base::Result<>> CarrierGuard::carry_out(Order order, base::Duration t
 
 base::Result<> CarrierGuard::begin(Order order) {
   if (auto const may = may_move(); !may) return may;
-  return client_.begin(std::move(order));
+  return client_.begin(order);
 }
 
 void CarrierGuard::kill() {

@@ -21,8 +21,7 @@ Drive ahead(float speed_m_s) {
 }
 
 /// A robot whose modules all report, until one is told not to.
-class CarrierGuardTest : public ::testing::Test {
- protected:
+struct CarrierGuardTest : ::testing::Test {
   CarrierGuardTest() {
     client.start({});
     scope.spawn(report());

@@ -72,7 +72,7 @@ TEST(Building, StopsARobotFiveCentimetresBeforeAWallAtEveryLegalSpeed) {
       pass(*building, host, 0.1);
       host.drive(speed, 0.0F);
       double nearest_m = 10.0;
-      for (double t = 0.0; t < 4.2 / static_cast<double>(speed); t += 0.5) {
+      for (int i = 0; i * 0.5 < 4.2 / static_cast<double>(speed); ++i) {
         pass(*building, host, 0.5);
         auto const& at = building->robot(0).body().pose().position;
         // Walls reach 5 cm into the room.

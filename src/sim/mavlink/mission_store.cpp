@@ -63,7 +63,7 @@ MissionPlan* MissionStore::plan_of(MissionType type) {
   }
 }
 
-void MissionStore::acknowledge(Address to, MavMissionResult result, MissionType type) {
+void MissionStore::acknowledge(Address to, MavMissionResult result, MissionType type) const {
   ports_.send(to, mavlink::MissionAck{.target = to, .result = result, .type = type});
 }
 

@@ -73,7 +73,7 @@ class MissionStore {
   [[nodiscard]] bool is_staged(mavlink::MissionType type) const;
   void complete();
   mavlink::MavMissionResult check(mavlink::MissionItem const& item) const;
-  void acknowledge(mavlink::Address to, mavlink::MavMissionResult result, mavlink::MissionType type);
+  void acknowledge(mavlink::Address to, mavlink::MavMissionResult result, mavlink::MissionType type) const;
   void clear(mavlink::MissionType type);
   void say_fence_is_indexed();
   void say_plan_is_received(mavlink::MissionType type);

@@ -86,22 +86,22 @@ TEST(Router, FindsWhatPathsName) {
 
 struct StaticFiles : ::testing::Test {
   StaticFiles() {
-    fs::create_directories(root_ / "assets");
-    write(root_ / "index.html", "<html>");
-    write(root_ / "assets/app-1a2b.js", "script");
-    write(root_ / ".hidden", "secret");
-    write(base_ / "outside.txt", "secret");
-    fs::create_symlink(base_ / "outside.txt", root_ / "link.txt");
+    fs::create_directories(root / "assets");
+    write(root / "index.html", "<html>");
+    write(root / "assets/app-1a2b.js", "script");
+    write(root / ".hidden", "secret");
+    write(parent / "outside.txt", "secret");
+    fs::create_symlink(parent / "outside.txt", root / "link.txt");
   }
   static void write(fs::path const& file, std::string_view text) { std::ofstream(file) << text; }
   [[nodiscard]] HttpResponse get(std::string path, std::vector<HttpHeader> headers = {}) const {
     return static_file(
-        root_, {.method = "GET", .path = std::move(path), .query = {}, .headers = std::move(headers), .body = {}});
+        root, {.method = "GET", .path = std::move(path), .query = {}, .headers = std::move(headers), .body = {}});
   }
 
-  base::testing::TemporaryFolder temporary_;
-  fs::path const base_ = temporary_.path();
-  fs::path const root_ = base_ / "dist";
+  base::testing::TemporaryFolder temporary;
+  fs::path const parent = temporary.path();
+  fs::path const root = parent / "dist";
 };
 
 TEST_F(StaticFiles, ServesTheIndexToBeAskedForAnew) {
@@ -123,7 +123,7 @@ TEST_F(StaticFiles, SendsNothingThatTheBrowserHas) {
   auto const again = get("/", {{"If-None-Match", tag}});
   EXPECT_EQ(again.status, 304);
   EXPECT_EQ(again.body, "");
-  write(root_ / "index.html", "<html>longer");
+  write(root / "index.html", "<html>longer");
   EXPECT_EQ(get("/", {{"If-None-Match", tag}}).status, 200);
 }
 

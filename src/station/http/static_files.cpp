@@ -53,7 +53,7 @@ std::optional<fs::path> find(fs::path const& root, std::string_view url_path) {
   std::error_code error;
   auto const base = fs::canonical(root, error);
   if (error) return std::nullopt;
-  auto const file = fs::canonical(base / relative, error);
+  auto file = fs::canonical(base / relative, error);
   if (error || !fs::is_regular_file(file, error)) return std::nullopt;
   auto const inside = file.lexically_relative(base);
   if (inside.empty() || *inside.begin() == "..") return std::nullopt;

@@ -47,9 +47,11 @@ Result<std::uint64_t> obey(vehicle::VehicleControl* control, ControlRequest requ
     control->release_emergency_stop(std::move(by));
   } else {
     auto const& change = std::get<ChangeCommander>(request.what);
-    if (change.what == ChangeCommander::What::request) done = control->request_control(change.vehicle, std::move(by));
-    if (change.what == ChangeCommander::What::yield) done = control->yield_control(change.vehicle, std::move(by));
-    if (change.what == ChangeCommander::What::keep) done = control->keep_control(change.vehicle, std::move(by));
+    switch (change.what) {
+      case ChangeCommander::What::request: done = control->request_control(change.vehicle, std::move(by)); break;
+      case ChangeCommander::What::yield: done = control->yield_control(change.vehicle, std::move(by)); break;
+      case ChangeCommander::What::keep: done = control->keep_control(change.vehicle, std::move(by)); break;
+    }
   }
   if (!done) return std::unexpected(done.error());
   return std::uint64_t{0};

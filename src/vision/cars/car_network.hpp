@@ -32,7 +32,7 @@ class CarNetwork {
   [[nodiscard]] std::vector<SeenCar> look_at_square(cv::Mat const& pixels, double least_score);
 
  private:
-  explicit CarNetwork(cv::dnn::Net net) : net_(std::move(net)) {}
+  explicit CarNetwork(cv::dnn::Net const& net) : net_(net) {}  // which is a handle
   [[nodiscard]] cv::Mat answer_to(cv::Mat const& square);
 
   cv::dnn::Net net_;

@@ -24,7 +24,7 @@ class DoorNetwork {
   [[nodiscard]] std::vector<Detection> find(cv::Mat const& pixels, double least_score);
 
  private:
-  explicit DoorNetwork(cv::dnn::Net net) : net_(std::move(net)) {}
+  explicit DoorNetwork(cv::dnn::Net const& net) : net_(net) {}  // which is a handle
 
   cv::dnn::Net net_;
 };

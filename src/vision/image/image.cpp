@@ -58,7 +58,7 @@ cv::Mat Image::upright() const {
     cv::Mat flipped;
     int const both = -1;
     cv::flip(out, flipped, turn.mirrors_x && turn.mirrors_y ? both : (turn.mirrors_x ? 1 : 0));
-    out = flipped;
+    out = std::move(flipped);
   }
   return out;
 }

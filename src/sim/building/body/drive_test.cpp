@@ -15,7 +15,7 @@ constexpr double step_s = 0.005;
 
 std::vector<Contact> drive(DrivenBody& body, double seconds, double left, double right, Surroundings const& around) {
   std::vector<Contact> all;
-  for (double t = 0.0; t < seconds; t += step_s) {
+  for (int i = 0; i * step_s < seconds; ++i) {
     auto const contacts = body.step(step_s, left, right, around);
     all.insert(all.end(), contacts.begin(), contacts.end());
   }

@@ -57,8 +57,10 @@ class Painter {
     std::array const numbers{seen_.at(x, y), seen_.at(x + 1, y), seen_.at(x, y + 1), seen_.at(x + 1, y + 1)};
     if (std::ranges::count(numbers, numbers[0]) == parts * parts) return look(numbers[0], x + 1.0, y + 1.0, parts);
     Light sum = Light::Zero();
-    for (int i = 0; i < parts * parts; ++i)
-      sum += look(numbers[static_cast<std::size_t>(i)], x + i % parts + 0.5, y + i / parts + 0.5, 1.0);
+    for (int i = 0; i < parts * parts; ++i) {
+      int const row = i / parts;
+      sum += look(numbers[static_cast<std::size_t>(i)], x + i % parts + 0.5, y + row + 0.5, 1.0);
+    }
     return sum / static_cast<float>(parts * parts);
   }
 

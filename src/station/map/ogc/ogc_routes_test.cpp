@@ -67,7 +67,7 @@ TEST_F(OgcRoutes, LeadFromTheLandingPageToAFeature) {
   auto const items = get(link(slots, "items"));
   EXPECT_EQ(items["type"], "FeatureCollection");
   EXPECT_EQ(items["numberMatched"], 2);
-  EXPECT_TRUE(items["timeStamp"].get<std::string>().ends_with("Z"));
+  EXPECT_TRUE(items["timeStamp"].get<std::string>().ends_with('Z'));
   EXPECT_EQ(link(items, "collection"), "/ogc/collections/slots");
   auto const item = get("/ogc/collections/slots/items/b");
   EXPECT_EQ(item["properties"], items["features"][1]["properties"]);
