@@ -88,7 +88,7 @@ base::Result<> add_robots(host::Session& session, host::StationConfig const& con
   for (auto const& text : config.robots) {
     auto const request = host::parse_robot(text);
     if (!request) return std::unexpected(request.error());
-    is_any_real = is_any_real || std::holds_alternative<host::LinkedRobot>(*request);
+    is_any_real = is_any_real || !std::holds_alternative<host::SimulatedRobots>(*request);
   }
   if (is_any_real && !config.map.home && !session.live_map.site("default"))
     return base::fail(base::ErrorKind::invalid_input, "nothing says where on the globe the robot is",

@@ -33,8 +33,9 @@ with harness.lapwing("station", "--robot", f"sim:{FLAT}", "--link", f"udpin://12
     harness.wait_until(lambda: station.ask("script")[1]["state"] == "stopped", 20, "the script is halted")
     assert station.command("go_to", "robot1", **{k: station.vehicle("robot1")["position"][k] for k in ("lat_deg", "lon_deg")})[0]["state"] == "refused"
 
-with tempfile.TemporaryDirectory() as new:  # the first station's store has a site
-    refused = subprocess.run([os.environ["LAPWING"], "station", "--robot", "udpout://127.0.0.1:9", "--port", "0", "--store", new], capture_output=True,
-                             text=True, timeout=30, check=False)
-assert refused.returncode == 2 and "where on the globe" in refused.stderr, (refused.returncode, refused.stderr)
+for real in ("udpout://127.0.0.1:9", "ros2://0/robot1"):
+    with tempfile.TemporaryDirectory() as new:  # the first station's store has a site
+        refused = subprocess.run([os.environ["LAPWING"], "station", "--robot", real, "--port", "0", "--store", new], capture_output=True, text=True,
+                                 timeout=30, check=False)
+    assert refused.returncode == 2 and "where on the globe" in refused.stderr, (real, refused.returncode, refused.stderr)
 print("the robot drove by a script of the station and stopped with the copter")
