@@ -10,41 +10,19 @@
 #include <fmt/format.h>
 
 #include "autonomy/settings/folder.hpp"
+#include "base/descriptor.hpp"
 
 namespace lapwing::autonomy {
 
 namespace {
 
 namespace fs = std::filesystem;
+using base::Descriptor;
 
 std::unexpected<base::Error> failed(std::string const& what, int error) {
   bool const is_full = error == ENOSPC || error == EDQUOT;
   return base::fail(base::ErrorKind::io, fmt::format("{}: {}", what, std::strerror(error)),
                     is_full ? "make room on that disk" : "look at that disk and its rights");
-}
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] int get() const { return number_; }
-
- private:
-  int number_;
-};
-
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    auto const written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
 }
 
 class DiskFolder final : public Folder {
@@ -71,7 +49,7 @@ class DiskFolder final : public Folder {
   base::Result<> write_through(std::string const& name, std::string_view content) override {
     Descriptor const file(::openat(folder_.get(), name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
     if (file.get() < 0) return failed(fmt::format("cannot make {}", place_of(name)), errno);
-    if (!write_all(file.get(), content) || ::fsync(file.get()) != 0)
+    if (!file.write_all(content) || ::fsync(file.get()) != 0)
       return failed(fmt::format("cannot write {}", place_of(name)), errno);
     return {};
   }

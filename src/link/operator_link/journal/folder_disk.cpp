@@ -12,6 +12,7 @@
 
 #include "base/async/scope.hpp"
 #include "base/async/side_thread.hpp"
+#include "base/descriptor.hpp"
 #include "link/operator_link/journal/disk.hpp"
 
 namespace lapwing::link::operator_link {
@@ -19,26 +20,13 @@ namespace lapwing::link::operator_link {
 namespace {
 
 namespace fs = std::filesystem;
+using base::Descriptor;
 
 std::unexpected<base::Error> failed(std::string const& what, int error) {
   bool const is_full = error == ENOSPC || error == EDQUOT;
   return base::fail(base::ErrorKind::io, fmt::format("{}: {}", what, std::strerror(error)),
                     is_full ? "Make room on that disk; it goes on by itself." : "Look at that disk and its rights.");
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] int get() const { return number_; }
-
- private:
-  int number_;
-};
 
 class FolderDisk final : public Disk {
  public:

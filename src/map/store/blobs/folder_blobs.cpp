@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/descriptor.hpp"
 #include "map/store/blobs/blobs.hpp"
 
 namespace lapwing::map::blobs {
@@ -13,6 +14,7 @@ namespace lapwing::map::blobs {
 namespace {
 
 namespace fs = std::filesystem;
+using base::Descriptor;
 
 constexpr auto unfinished = ".part";
 
@@ -21,46 +23,30 @@ std::unexpected<base::Error> system_fault(fs::path const& path) {
   return base::fail(base::ErrorKind::io, fmt::format("{}: {}", path.string(), std::strerror(errno)), hint);
 }
 
-/// A file of the operating system's, closed with its end.
-class Descriptor {
- public:
-  Descriptor(fs::path const& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-  Descriptor(Descriptor const&) = delete;
-  Descriptor& operator=(Descriptor const&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] bool is_open() const { return number_ >= 0; }
-  [[nodiscard]] bool write_all(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      auto const written = ::write(number_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return false;
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
-  }
-  [[nodiscard]] bool sync() const { return ::fsync(number_) == 0; }
-  [[nodiscard]] base::Result<std::string> read_all(fs::path const& path) const {
-    std::string bytes;
-    constexpr std::size_t piece = 1024 * 1024;
-    for (;;) {
-      auto const filled = bytes.size();
-      bytes.resize(filled + piece);
-      auto const read = ::read(number_, bytes.data() + filled, piece);
-      if (read < 0 && errno != EINTR) return system_fault(path);
-      bytes.resize(filled + static_cast<std::size_t>(read < 0 ? 0 : read));
-      if (read == 0) return bytes;
-    }
-  }
+Descriptor open_file(fs::path const& path, int flags) {
+  return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0644));
+}
 
- private:
-  int number_;
-};
+bool sync(Descriptor const& file) {
+  return ::fsync(file.get()) == 0;
+}
+
+base::Result<std::string> read_all(Descriptor const& file, fs::path const& path) {
+  std::string bytes;
+  constexpr std::size_t piece = 1024 * 1024;
+  for (;;) {
+    auto const filled = bytes.size();
+    bytes.resize(filled + piece);
+    auto const read = ::read(file.get(), bytes.data() + filled, piece);
+    if (read < 0 && errno != EINTR) return system_fault(path);
+    bytes.resize(filled + static_cast<std::size_t>(read < 0 ? 0 : read));
+    if (read == 0) return bytes;
+  }
+}
 
 bool sync_folder(fs::path const& folder) {
-  Descriptor const opened(folder, O_RDONLY | O_DIRECTORY);
-  return opened.is_open() && opened.sync();
+  auto const opened = open_file(folder, O_RDONLY | O_DIRECTORY);
+  return opened.is_open() && sync(opened);
 }
 
 class FolderBytes final : public Bytes {
@@ -89,11 +75,11 @@ class FolderBytes final : public Bytes {
 
   base::Result<std::string> read(std::string const& hash) override {
     auto const place = place_of(hash);
-    Descriptor const file(place, O_RDONLY);
+    auto const file = open_file(place, O_RDONLY);
     if (!file.is_open())
       return base::fail(errno == ENOENT ? base::ErrorKind::not_found : base::ErrorKind::io,
                         fmt::format("{}: {}", place.string(), std::strerror(errno)));
-    return file.read_all(place);
+    return read_all(file, place);
   }
 
   void remove(std::string const& hash) override { ::unlink(place_of(hash).c_str()); }
@@ -121,8 +107,8 @@ class FolderBytes final : public Bytes {
   }
 
   static base::Result<> write_whole(fs::path const& part, std::string const& bytes) {
-    Descriptor const file(part, O_WRONLY | O_CREAT | O_TRUNC);
-    if (!file.is_open() || !file.write_all(bytes) || !file.sync()) return system_fault(part);
+    auto const file = open_file(part, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.is_open() || !file.write_all(bytes) || !sync(file)) return system_fault(part);
     return {};
   }
 
