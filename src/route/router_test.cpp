@@ -33,7 +33,7 @@ base::Task<> pass(base::Loop& loop, base::Duration time) {
   co_await loop.sleep(time);
 }
 
-struct RouterTest : testing::Test {
+struct RouterTest : ::testing::Test {
   /// An endpoint for many, as udp in.
   link::PipeHub& add_hub(EndpointOptions options = {}) {
     if (options.name.empty()) options.name = next_name();

@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Two vehicles of which it does not matter what platform has them.
-struct AuthorityTest : testing::Test {
+struct AuthorityTest : ::testing::Test {
   AuthorityTest() {
     registry.edit(copter).name = "copter 1";
     registry.edit(robot).name = "robot a1";

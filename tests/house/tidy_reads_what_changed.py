@@ -43,10 +43,10 @@ with tempfile.TemporaryDirectory() as folder:
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text)
     (root / ".venv/bin/clang-tidy").chmod(0o755)
-    for name in ("tests/verify", "build"):
+    for name in ("tests/verify", "cmake", "build"):
         (root / name).mkdir(parents=True)
-    for name in ("tidy.py", "groups.py"):
-        shutil.copy(REPO / "tests/verify" / name, root / "tests/verify" / name)
+    for name in ("tests/verify/tidy.py", "cmake/together.py"):
+        shutil.copy(REPO / name, root / name)
     commands = [{"directory": str(root / "build"), "command": f"c++ {name}", "file": str(root / "src/room" / name)} for name in ("a.cpp", "b.cpp")]
     (root / "build/compile_commands.json").write_text(json.dumps(commands))
 

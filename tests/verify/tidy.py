@@ -20,15 +20,20 @@ import subprocess
 import sys
 import tempfile
 
-import groups
-
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "cmake"))
+import together  # noqa: E402
+
+# More take more memory than they save time.
+MOST_FILES = 12
 TOOL = str(ROOT / ".venv/bin/clang-tidy")
 # The analyzer's usual depth takes longer than all other checks together; what it alone finds, the sanitizers' runs show as well.
 SHALLOW = ["-Xclang", "-analyzer-config", "-Xclang", "mode=shallow"]
 # The command is that of the compiler, which is older and knows options that the tool does not.
 EXTRA = [f"--extra-arg={word}" for word in (*SHALLOW, "-Wno-unknown-warning-option")]
 FINDING = re.compile(r"^(?=\S+:\d+:\d+: (?:warning|error): )", re.MULTILINE)
+# Of files read as one these may be findings of nobody: what one of them uses is what another one brought.
+APART = re.compile(r"\[(clang-diagnostic-|misc-unused-using-decls)")
 INCLUDE = re.compile(rb'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 
 
@@ -103,7 +108,7 @@ def tidy(entries: list[dict[str, str]], folder: pathlib.Path) -> Outcome:
     if done.returncode == 0:
         return Outcome("", frozenset(files))
     said = done.stdout or done.stderr
-    if len(files) > 1 and ("[clang-diagnostic-" in said or not FINDING.search(said)):
+    if len(files) > 1 and (APART.search(said) or not FINDING.search(said)):
         apart = [tidy([entry], folder) for entry in entries]
         return Outcome("".join(one.said for one in apart), frozenset().union(*(one.good for one in apart)))
     wrong = {finding.partition(":")[0] for finding in FINDING.split(said) if FINDING.match(finding)}
@@ -131,10 +136,10 @@ def main() -> int:
     told: set[str] = set()
     good: set[str] = set()
     read = 0
-    together = sorted(groups.groups(wanted, room), key=len, reverse=True)
+    read_as_one = sorted(together.groups(wanted, room, MOST_FILES), key=len, reverse=True)
     with (tempfile.TemporaryDirectory(dir=build) as folder, concurrent.futures.ThreadPoolExecutor(chosen.jobs) as pool,
           memory.open("a") as remembered):
-        jobs = {pool.submit(tidy, [entries[file] for file in group], pathlib.Path(folder)): group for group in together}
+        jobs = {pool.submit(tidy, [entries[file] for file in group], pathlib.Path(folder)): group for group in read_as_one}
         for job in concurrent.futures.as_completed(jobs):
             outcome = job.result()
             read += len(jobs[job])

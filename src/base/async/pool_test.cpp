@@ -47,7 +47,7 @@ struct Counted {
   static inline std::atomic<int> alive = 0;
 };
 
-struct Pool : testing::Test {
+struct Pool : ::testing::Test {
   Pool() { gate = &own_gate, calls = 0, Counted::alive = 0; }
   ~Pool() override { EXPECT_EQ(Counted::alive, 0) << "left behind"; }
   Gate own_gate;

@@ -55,7 +55,7 @@ bool refreshes() {
   return asked && std::string_view(asked) == "1";
 }
 
-class CheckGolden : public testing::TestWithParam<fs::path> {};
+class CheckGolden : public ::testing::TestWithParam<fs::path> {};
 
 TEST_P(CheckGolden, SaysExactlyWhatIsExpected) {
   auto expected = GetParam();

@@ -61,7 +61,7 @@ bool refreshes() {
   return asked && std::string_view(asked) == "1";
 }
 
-class CodeGolden : public testing::TestWithParam<base::DiagnosticKind> {};
+class CodeGolden : public ::testing::TestWithParam<base::DiagnosticKind> {};
 
 TEST_P(CodeGolden, IsSaidOfItsScriptAndNothingElse) {
   auto const script = folder / fmt::format("{}.dolphin", GetParam().code);

@@ -7,23 +7,23 @@ namespace lapwing::explore {
 
 namespace {
 
-using Order = std::vector<std::size_t>;
+using Sequence = std::vector<std::size_t>;
 
 constexpr double worth_it = 1e-6;
 constexpr auto nobody = std::numeric_limits<std::size_t>::max();
 
 /// From what stands before position `at` of the tour to `place`.
-double into(TourCosts const& costs, Order const& tour, std::size_t at, std::size_t place) {
+double into(TourCosts const& costs, Sequence const& tour, std::size_t at, std::size_t place) {
   return at == 0 ? costs.from_start[place] : costs.between[tour[at - 1]][place];
 }
 
-double added_by(TourCosts const& costs, Order const& tour, std::size_t at, std::size_t place) {
+double added_by(TourCosts const& costs, Sequence const& tour, std::size_t at, std::size_t place) {
   double const there = into(costs, tour, at, place);
   if (at == tour.size()) return there + costs.end[place] - (tour.empty() ? 0.0 : costs.end[tour.back()]);
   return there + costs.between[place][tour[at]] - into(costs, tour, at, tour[at]);
 }
 
-void insert_cheapest(TourCosts const& costs, Order& tour, Order open, std::size_t kept) {
+void insert_cheapest(TourCosts const& costs, Sequence& tour, Sequence open, std::size_t kept) {
   while (!open.empty()) {
     std::size_t best = 0;
     std::size_t best_at = 0;
@@ -43,7 +43,7 @@ void insert_cheapest(TourCosts const& costs, Order& tour, Order open, std::size_
 }
 
 /// Turns pieces around while that makes it shorter.
-bool turn_pieces(TourCosts const& costs, Order& tour, std::size_t kept) {
+bool turn_pieces(TourCosts const& costs, Sequence& tour, std::size_t kept) {
   bool has_changed = false;
   for (std::size_t i = kept; i + 1 < tour.size(); ++i) {
     for (std::size_t j = i + 1; j < tour.size(); ++j) {
@@ -74,7 +74,7 @@ struct Move {
   bool is_turned = false;
 };
 
-bool saves(TourCosts const& costs, Order const& tour, Move& move) {
+bool saves(TourCosts const& costs, Sequence const& tour, Move& move) {
   std::size_t const i = move.begin;
   std::size_t const length = move.length;
   auto const rest = [&](std::size_t at) -> std::size_t {
@@ -95,16 +95,16 @@ bool saves(TourCosts const& costs, Order const& tour, Move& move) {
   return std::min(straight, turned) < saved - worth_it;
 }
 
-void make(Order& tour, Move const& move) {
+void make(Sequence& tour, Move const& move) {
   auto const begin = tour.begin() + static_cast<std::ptrdiff_t>(move.begin);
-  Order piece(begin, begin + static_cast<std::ptrdiff_t>(move.length));
+  Sequence piece(begin, begin + static_cast<std::ptrdiff_t>(move.length));
   if (move.is_turned) std::ranges::reverse(piece);
   tour.erase(begin, begin + static_cast<std::ptrdiff_t>(move.length));
   tour.insert(tour.begin() + static_cast<std::ptrdiff_t>(move.at), piece.begin(), piece.end());
 }
 
 /// Takes up to three places that follow one another elsewhere.
-bool move_pieces(TourCosts const& costs, Order& tour, std::size_t kept) {
+bool move_pieces(TourCosts const& costs, Sequence& tour, std::size_t kept) {
   bool has_changed = false;
   for (std::size_t length = 1; length <= 3; ++length) {
     for (std::size_t i = kept; i + length <= tour.size(); ++i) {
@@ -119,7 +119,7 @@ bool move_pieces(TourCosts const& costs, Order& tour, std::size_t kept) {
   return has_changed;
 }
 
-Order improved(TourCosts const& costs, Order tour, std::size_t kept) {
+Sequence improved(TourCosts const& costs, Sequence tour, std::size_t kept) {
   constexpr int most_rounds = 30;
   for (int round = 0; round < most_rounds; ++round) {
     bool const has_turned = turn_pieces(costs, tour, kept);
@@ -130,22 +130,22 @@ Order improved(TourCosts const& costs, Order tour, std::size_t kept) {
 
 }  // namespace
 
-double cost_of(TourCosts const& costs, Order const& tour) {
+double cost_of(TourCosts const& costs, Sequence const& tour) {
   if (tour.empty()) return 0.0;
   double cost = costs.from_start[tour.front()] + costs.end[tour.back()];
   for (std::size_t i = 1; i < tour.size(); ++i) cost += costs.between[tour[i - 1]][tour[i]];
   return cost;
 }
 
-Order good_tour(TourCosts const& costs, Order const& places) {
-  Order tour;
+Sequence good_tour(TourCosts const& costs, Sequence const& places) {
+  Sequence tour;
   insert_cheapest(costs, tour, places, 0);
   return improved(costs, std::move(tour), 0);
 }
 
-Order good_tour_from(TourCosts const& costs, Order const& places, std::size_t first) {
-  Order tour = {first};
-  Order open = places;
+Sequence good_tour_from(TourCosts const& costs, Sequence const& places, std::size_t first) {
+  Sequence tour = {first};
+  Sequence open = places;
   std::erase(open, first);
   insert_cheapest(costs, tour, std::move(open), 1);
   return improved(costs, std::move(tour), 1);

@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using mavlink::MavCmd;
 
-struct TakeOff : testing::Test {
+struct TakeOff : ::testing::Test {
   TakeOff() {
     world.run_for(10s);
     copter.refused_commands.insert(MavCmd::nav_takeoff);

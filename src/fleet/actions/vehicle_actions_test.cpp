@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 using mavlink::MavCmd;
 using mavlink::MavSeverity;
 
-struct VehicleActions : testing::Test {
+struct VehicleActions : ::testing::Test {
   VehicleActions() { world.run_for(5s); }
   [[nodiscard]] MavlinkVehicle& craft() const { return *world.fleet->find(vehicle::VehicleId{"1"}); }
   base::Result<> start() {

@@ -14,7 +14,7 @@ using vehicle::Action;
 using Kind = Standing::Kind;
 
 /// A copter, armed and in GUIDED at 20 m, that is heard when a test says so.
-struct GoalTest : testing::Test {
+struct GoalTest : ::testing::Test {
   GoalTest() {
     state.family = vehicle::Family::copter;
     state.autopilot = vehicle::Autopilot::ardupilot;
@@ -154,7 +154,7 @@ TEST_F(GoalTest, EndsATakeOffThatIsDisarmed) {
 
 TEST_F(GoalTest, LetsPx4EndATakeOffAtItsOwnHeight) {
   state.autopilot = vehicle::Autopilot::px4;
-  auto const mode = [this](std::string_view name) {
+  auto const mode = [](std::string_view name) {
     return *mavlink::mode_number(vehicle::Autopilot::px4, vehicle::Family::copter, name);
   };
   flies(0.0);

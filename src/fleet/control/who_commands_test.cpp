@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 using vehicle::Action;
 using vehicle::VehicleId;
 
-struct WhoCommands : testing::Test {
+struct WhoCommands : ::testing::Test {
   WhoCommands() {
     world.add_ready();
     (void)world.give({.action = Action::set_mode, .mode = "GUIDED"}, {"1"}, "anna");

@@ -17,7 +17,7 @@ using vehicle::VehicleId;
 
 VehicleId const one{"1"};
 
-struct MissionRun : testing::Test {
+struct MissionRun : ::testing::Test {
   std::unique_ptr<tasks::TaskRun> start(plan::Mission mission, VehicleId const& id = one) const {
     return world->platform->start(task_of(std::move(mission)), id);
   }

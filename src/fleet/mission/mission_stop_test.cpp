@@ -13,7 +13,7 @@ using vehicle::VehicleId;
 
 VehicleId const one{"1"};
 
-struct MissionStop : testing::Test {
+struct MissionStop : ::testing::Test {
   std::unique_ptr<tasks::TaskRun> start(MavCmd last = MavCmd::nav_loiter_unlim) const {
     return world->platform->start(task_of(mission_ending_with(last)), one);
   }

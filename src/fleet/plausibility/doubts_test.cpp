@@ -21,7 +21,7 @@ geo::Wgs84 beside(double north_m) {
   return geo::displaced(TestAutopilot::home, {.north = north_m});
 }
 
-struct Flight : testing::Test {
+struct Flight : ::testing::Test {
   /// Flies the mission on a copter that stands at home; its end.
   RunState end_of(plan::Mission mission, FleetPlatform::Options options = {}) {
     world = std::make_unique<TestWorld>(Fleet::Options{}, std::move(options));

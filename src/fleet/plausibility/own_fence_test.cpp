@@ -35,7 +35,7 @@ mavlink::MissionItem no_fly_circle(geo::Wgs84 center, float radius_m) {
   return item;
 }
 
-struct OperatorsFence : testing::Test {
+struct OperatorsFence : ::testing::Test {
   OperatorsFence() : copter(world.add_flying()) { copter.parameters = circle_of(300.0F); }
 
   vehicle::CommandOutcome go_to(double north_m) {

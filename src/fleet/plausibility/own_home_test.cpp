@@ -22,7 +22,7 @@ geo::Wgs84 north(double metres) {
 }
 
 /// A copter in the air whose home nobody has heard of.
-struct OwnHome : testing::Test {
+struct OwnHome : ::testing::Test {
   OwnHome() : copter(world.add()) {
     copter.denied_intervals.insert(MessageId::home_position);
     copter.parameters = {{"FENCE_ENABLE", 1.0F},   {"FENCE_TYPE", 2.0F},   {"FENCE_RADIUS", 300.0F},

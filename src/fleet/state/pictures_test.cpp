@@ -8,7 +8,7 @@ namespace {
 using namespace std::chrono_literals;
 using base::TimePoint;
 
-struct PictureTraceTest : testing::Test {
+struct PictureTraceTest : ::testing::Test {
   mavlink::CameraImageCaptured captured(std::int32_t image, base::Duration since_boot = 10s) const {
     mavlink::CameraImageCaptured message;
     message.since_boot = since_boot;

@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 using base::TimePoint;
 
-struct Telemetry : testing::Test {
+struct Telemetry : ::testing::Test {
   void take(mavlink::Message const& message, base::Duration at) { (void)take_telemetry(craft, message, TimePoint(at)); }
   void take_position(geo::Wgs84 place, base::Duration at, std::optional<double> heading_rad = 1.0) {
     take(mavlink::GlobalPosition{.since_boot = {},

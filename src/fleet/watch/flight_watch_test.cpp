@@ -13,7 +13,7 @@ using vehicle::VehicleId;
 
 VehicleId const one{"1"};
 
-struct FlightWatch : testing::Test {
+struct FlightWatch : ::testing::Test {
   /// The mission's run, in flight to its second place.
   std::unique_ptr<tasks::TaskRun> fly(plan::Mission mission) const {
     auto run = world->platform->start(task_of(std::move(mission)), one);

@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 using mavlink::MavCmd;
 using tasks::RunState;
 
-struct Waiting : testing::Test {
+struct Waiting : ::testing::Test {
   std::unique_ptr<tasks::TaskRun> start() {
     return world.platform->start(task_of(mission_ending_with(MavCmd::nav_loiter_unlim)), vehicle::VehicleId{"1"});
   }

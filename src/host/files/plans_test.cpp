@@ -12,7 +12,7 @@ namespace {
 constexpr auto way_points = "QGC WPL 110\n0 1 0 16 0 0 0 0 41 -8 90 1\n1 0 3 16 0 0 0 0 41.1 -8 30 1\n";
 
 /// A directory of its own for each test.
-struct Plans : testing::Test {
+struct Plans : ::testing::Test {
   Plans() {
     auto const* test = testing::UnitTest::GetInstance()->current_test_info();
     folder = std::filesystem::path(testing::TempDir()) / (std::string("lapwing_plans_") + test->name());

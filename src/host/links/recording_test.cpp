@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-class RecordingTest : public testing::Test {
+class RecordingTest : public ::testing::Test {
  public:
   ~RecordingTest() override { fs::remove_all(folder_); }
 

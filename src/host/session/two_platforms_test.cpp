@@ -75,7 +75,7 @@ class Robots final : public tasks::HarnessPlatform {
   vehicle::Authority& authority_;
 };
 
-struct TwoPlatforms : testing::Test {
+struct TwoPlatforms : ::testing::Test {
   TwoPlatforms() {
     session.hub.add_sink([this](base::LogRecord const& record) {
       if (record.source == "task" && record.text.starts_with("START")) started.push_back(record.text);

@@ -18,7 +18,7 @@ std::string_view name_of(LayerKind layer) {
 }
 
 std::optional<LayerKind> layer_named(std::string_view name) {
-  auto const found = std::ranges::find(all_layers, name, name_of);
+  auto const found = std::ranges::find(all_layers, name, [](LayerKind layer) { return name_of(layer); });
   return found == all_layers.end() ? std::nullopt : std::optional(*found);
 }
 

@@ -256,7 +256,7 @@ void expect_carried(auto const& layout, M const& sent) {
 TEST(Fields, SurviveTheWireForEveryMessageWithinItsResolution) {
   Filler fill;
   for_each_layout([&](auto const& layout, auto const& blank) {
-    for (int i = 0; i < 200 && !testing::Test::HasFailure(); ++i) {
+    for (int i = 0; i < 200 && !::testing::Test::HasFailure(); ++i) {
       auto m = blank;
       if constexpr (requires { m.target; }) m.target = {static_cast<std::uint8_t>(i), 7};
       std::apply([&](auto const&... entries) { (fill(entries, m), ...); }, layout.fields);

@@ -233,7 +233,7 @@ bool try_out(Exchange const& exchange, std::string_view vehicle, Badness const& 
   return false;
 }
 
-class LossyLink : public testing::TestWithParam<double> {};
+class LossyLink : public ::testing::TestWithParam<double> {};
 
 TEST_P(LossyLink, LetsEveryExchangeCompleteOrFailWithAReason) {
   int completed = 0;

@@ -34,7 +34,7 @@ class SameParameters final : public VehicleParameters {
   double value_;
 };
 
-struct JoinedParametersTest : testing::Test {
+struct JoinedParametersTest : ::testing::Test {
   JoinedParametersTest() {
     all.add("MAVLink", drones);
     all.add("test", robots);
