@@ -23,7 +23,7 @@ base::Task<> pass(base::Loop& loop, base::Duration time) {
 class Owner {
  public:
   Owner(base::Loop& loop, std::unique_ptr<link::ByteLink> link, std::uint8_t id)
-      : connection(loop, {.self = {id, autopilot_component}, .heartbeat = [this] { return heartbeat(); }}, {}),
+      : connection(loop, {.self = {id, autopilot_component}, .heartbeat = [] { return heartbeat(); }}, {}),
         subscription_(connection.subscribe([this](Received const& received) { take(received.message); })),
         scope_(loop) {
     version.uid2.fill(id);

@@ -116,8 +116,8 @@ std::string high_meant(Look const& look, Stop const& stop) {
 /// The way down to a landing ends at the ground whatever it says.
 void judge_ceiling(Look const& look, Findings& out) {
   double const highest_m = std::max(look.limits.highest_m, look.limits.ceiling_m);
-  auto const is_over = [&](double limit_m) {
-    return [&look, limit_m](Stop const& stop) {
+  auto const is_over = [](double limit_m) {
+    return [limit_m](Stop const& stop) {
       return stop.up_m && *stop.up_m > limit_m && stop.command != MavCmd::do_set_home && !stop.lands();
     };
   };
