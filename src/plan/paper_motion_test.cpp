@@ -69,15 +69,15 @@ struct DetailedEstimate : ::testing::Test {
   static Estimate of(vehicle::Family family, MissionBuilder const& builder) {
     return estimate(*builder.finish("m"), std::nullopt, performance_of(family));
   }
-  geo::Wgs84 home_ = geo::Wgs84::from_degrees(40.0, -8.0, 100.0);
-  geo::Wgs84 above_ = geo::Wgs84::from_degrees(40.0, -8.0, 130.0);
+  geo::Wgs84 home = geo::Wgs84::from_degrees(40.0, -8.0, 100.0);
+  geo::Wgs84 above = geo::Wgs84::from_degrees(40.0, -8.0, 130.0);
 };
 
 TEST_F(DetailedEstimate, CountsTakeOffAndLanding) {
   MissionBuilder builder;
-  ASSERT_TRUE(builder.home(home_));
-  ASSERT_TRUE(builder.take_off(above_, 0.0));
-  ASSERT_TRUE(builder.land(home_, 0.0, 0));
+  ASSERT_TRUE(builder.home(home));
+  ASSERT_TRUE(builder.take_off(above, 0.0));
+  ASSERT_TRUE(builder.land(home, 0.0, 0));
   auto const copter = of(vehicle::Family::copter, builder);
   EXPECT_NEAR(copter.path_m, 60.0, 1e-6);
   // 3 s of spooling up, 12 s of climb and its ramps, 20 m at 1.5 m/s and 10 m at 0.5 m/s down, 2 s to be landed.
@@ -87,7 +87,7 @@ TEST_F(DetailedEstimate, CountsTakeOffAndLanding) {
 
 TEST_F(DetailedEstimate, WingsAreSlowerThanTheirSpeedRoundCorners) {
   MissionBuilder builder;
-  ASSERT_TRUE(builder.home(above_));
+  ASSERT_TRUE(builder.home(above));
   for (int i = 0; i < 6; ++i)
     ASSERT_TRUE(builder.waypoint(*builder.from_last({.north_m = i % 2 == 0 ? 500.0 : -500.0, .east_m = 30.0})));
   auto const plane = of(vehicle::Family::plane, builder);

@@ -22,11 +22,11 @@ std::string text(base::Result<Allocation> const& allocation) {
 }
 
 struct AllocationTest : ::testing::Test {
-  TaskTree task(std::string_view name) { return stage_.task(name); }
+  TaskTree task(std::string_view name) { return stage.task(name); }
   std::string allocated(TaskTree const& tree, std::vector<std::string> const& picked) {
-    return text(allocate(tree, stage_.pick(picked)));
+    return text(allocate(tree, stage.pick(picked)));
   }
-  Stage stage_;
+  Stage stage;
 };
 
 /// A task with needs and a place, which those of the harness do not have.
@@ -103,9 +103,9 @@ TEST_F(AllocationTest, TakesTheSuitableVehicleNearestToTheTask) {
 }
 
 TEST_F(AllocationTest, VehicleOfUnknownPositionIsTheLastResortOfAPlacedTask) {
-  auto lost_place = *stage_.platform.find({"a1"});
+  auto lost_place = *stage.platform.find({"a1"});
   lost_place.position.reset();
-  stage_.platform.set_vehicle(lost_place);
+  stage.platform.set_vehicle(lost_place);
   auto const placed = performed(std::make_shared<Survey>("Sidescan", geo::Wgs84::from_degrees(42.0, -8.0)));
   EXPECT_EQ(allocated(placed, {"a1", "u1"}), "survey#0@u1");
   EXPECT_EQ(allocated(placed, {"a1"}), "survey#0@a1");
@@ -121,9 +121,9 @@ TEST_F(AllocationTest, GivesEachTaskTheVehicleAtItsPlaceWhateverTheOrder) {
 }
 
 TEST_F(AllocationTest, OfVehiclesThatAreAboutAsNearTakesTheFirst) {
-  auto near = *stage_.platform.find({"a2"});
-  near.position = geo::displaced(*stage_.platform.find({"a1"})->position, {.north = 1.0});
-  stage_.platform.set_vehicle(near);
+  auto near = *stage.platform.find({"a2"});
+  near.position = geo::displaced(*stage.platform.find({"a1"})->position, {.north = 1.0});
+  stage.platform.set_vehicle(near);
   auto const placed = performed(std::make_shared<Survey>("Camera", *near.position));
   EXPECT_EQ(allocated(placed, {"a1", "a2"}), "survey#0@a1");
 }
@@ -141,9 +141,9 @@ TEST_F(AllocationTest, TellsWhoTookTheVehicles) {  // case 36
 }
 
 TEST_F(AllocationTest, TellsEveryReasonForRejection) {
-  auto silent = *stage_.platform.find({"u1"});
+  auto silent = *stage.platform.find({"u1"});
   silent.connected = false;
-  stage_.platform.set_vehicle(silent);
+  stage.platform.set_vehicle(silent);
   auto const survey = performed(std::make_shared<Survey>("Multibeam", std::nullopt));
   auto const tree = restricted(survey, {{"a1"}, {"u1"}, {"u2"}});
   EXPECT_EQ(allocated(tree, {"a1", "a2", "u1"}),
@@ -171,7 +171,7 @@ TEST_F(AllocationTest, LongChainsAreFlatNotDeep) {
   auto tree = task("A:1");
   for (int i = 0; i < 2000; ++i) tree = sequence(task("A:1"), tree);
   EXPECT_EQ(tree->depth, 2);
-  EXPECT_EQ(allocate(tree, stage_.pick({"a1"}))->assignments.size(), 2001u);
+  EXPECT_EQ(allocate(tree, stage.pick({"a1"}))->assignments.size(), 2001u);
 }
 
 }  // namespace

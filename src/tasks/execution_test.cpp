@@ -11,9 +11,9 @@ namespace {
 using namespace testing;
 
 struct ExecutionTest : ::testing::Test {
-  TaskTree task(std::string_view name) { return stage_.task(name); }
-  Outcome execute(TaskTree const& tree) { return stage_.execute(tree, {"a1", "a2"}); }
-  auto& trace() { return stage_.trace; }
+  TaskTree task(std::string_view name) { return stage.task(name); }
+  Outcome execute(TaskTree const& tree) { return stage.execute(tree, {"a1", "a2"}); }
+  auto& trace() { return stage.trace; }
   /// A watch whose handler notes what it was called about.
   TaskTree watched(TaskTree body, Verdict verdict) {
     return watch(std::move(body), procedure({.run = [this, verdict](auto const& cause) {
@@ -21,19 +21,19 @@ struct ExecutionTest : ::testing::Test {
                    return std::expected<Verdict, Failure>(verdict);
                  }}));
   }
-  Stage stage_;
+  Stage stage;
 };
 
 TEST_F(ExecutionTest, SequenceStartsTheNextInTheTickInWhichOneEnds) {  // case 34
   EXPECT_TRUE(execute(sequence(task("A:0.3"), task("B:0.3"))).is_done());
   EXPECT_EQ(trace(), (Trace{"0.0 START A@a1", "0.3 DONE A@a1", "0.3 START B@a1", "0.6 DONE B@a1"}));
-  EXPECT_DOUBLE_EQ(stage_.now_s(), 0.7);
+  EXPECT_DOUBLE_EQ(stage.now_s(), 0.7);
 }
 
 TEST_F(ExecutionTest, ConcurrentRunsBothAtOnce) {  // case 35
   EXPECT_TRUE(execute(concurrent(task("A:0.3"), task("B:0.5"))).is_done());
   EXPECT_EQ(trace(), (Trace{"0.0 START A@a1", "0.0 START B@a2", "0.3 DONE A@a1", "0.5 DONE B@a2"}));
-  EXPECT_DOUBLE_EQ(stage_.now_s(), 0.6);
+  EXPECT_DOUBLE_EQ(stage.now_s(), 0.6);
 }
 
 TEST_F(ExecutionTest, AThousandRunAtOnceEachInItsTurn) {
@@ -53,7 +53,7 @@ TEST_F(ExecutionTest, AThousandRunAtOnceEachInItsTurn) {
   std::iota(expected.begin(), expected.end(), 0);
   std::ranges::stable_sort(expected, {}, [](int i) { return i % 10; });
   EXPECT_EQ(order, expected);
-  EXPECT_DOUBLE_EQ(stage_.now_s(), 1.0);
+  EXPECT_DOUBLE_EQ(stage.now_s(), 1.0);
 }
 
 TEST_F(ExecutionTest, OneErrorStopsAThousand) {
@@ -159,7 +159,7 @@ TEST_F(ExecutionTest, DuringEndsWithItsBodyOrDoesNotBegin) {
 
 TEST_F(ExecutionTest, DuringEndsATaskThatNeverEnds) {
   EXPECT_TRUE(execute(during(idle(std::nullopt), seconds(2))).is_done());
-  EXPECT_DOUBLE_EQ(stage_.now_s(), 2.1);
+  EXPECT_DOUBLE_EQ(stage.now_s(), 2.1);
 }
 
 TEST_F(ExecutionTest, AllOfRunsEachBranchWhenItsGuardHolds) {  // case 48
@@ -222,12 +222,12 @@ TEST_F(ExecutionTest, ConditionIsTestedOnceATick) {  // case 55
   int n = 0;
   EXPECT_TRUE(execute(condition(when([&] { return ++n > 5; }))).is_done());
   EXPECT_EQ(n, 6);
-  EXPECT_DOUBLE_EQ(stage_.now_s(), 0.6);
+  EXPECT_DOUBLE_EQ(stage.now_s(), 0.6);
 }
 
 TEST_F(ExecutionTest, ActionRunsOnceWithoutVehicles) {  // case 56
   int runs = 0;
-  EXPECT_TRUE(stage_.execute(doing([&] { ++runs; }), {}).is_done());
+  EXPECT_TRUE(stage.execute(doing([&] { ++runs; }), {}).is_done());
   EXPECT_EQ(runs, 1);
 }
 
@@ -311,15 +311,15 @@ TEST_F(ExecutionTest, SignalsReachLaterPartsInTheSameTick) {  // case 67
       concurrent(concurrent(restricted(sequence(task("S1:0.6"), post(1)), {{"a1"}}),
                             restricted(sequence(task("S2:0.2"), post(2)), {{"a2"}})),
                  restricted(all_of({{consume(1), task("R1:0.1")}, {consume(2), task("R2:0.1")}}), {{"u1"}}));
-  EXPECT_TRUE(stage_.execute(tree, {"a1", "a2", "u1"}).is_done());
+  EXPECT_TRUE(stage.execute(tree, {"a1", "a2", "u1"}).is_done());
   EXPECT_EQ(trace(), (Trace{"0.0 START S1@a1", "0.0 START S2@a2", "0.2 DONE S2@a2", "0.2 START R2@u1", "0.3 DONE R2@u1",
                             "0.6 DONE S1@a1", "0.6 START R1@u1", "0.7 DONE R1@u1"}));
 }
 
 TEST_F(ExecutionTest, LostVehicleFailsTheTaskThatWouldStart) {
-  auto silent = *stage_.platform.find({"a1"});
+  auto silent = *stage.platform.find({"a1"});
   silent.connected = false;
-  auto const lose = doing([&] { stage_.platform.set_vehicle(silent); });
+  auto const lose = doing([&] { stage.platform.set_vehicle(silent); });
   EXPECT_EQ(execute(sequence(lose, task("A:1"))).failure->message, "vehicle a1 is lost");
 }
 
@@ -332,15 +332,15 @@ TEST_F(ExecutionTest, RunsTreesAsDeepAsAllowed) {
 
 TEST_F(ExecutionTest, RunsAThousandTasksAtOnce) {
   std::vector<std::string> ids;
-  auto vehicle = *stage_.platform.find({"a1"});
+  auto vehicle = *stage.platform.find({"a1"});
   auto tree = idle(seconds(0));
   for (int i = 0; i < 1000; ++i) {
     ids.push_back(fmt::format("v{}", i));
     vehicle.id = {ids.back()};
-    stage_.platform.set_vehicle(vehicle);
+    stage.platform.set_vehicle(vehicle);
     tree = concurrent(tree, sequence(task("A:0.1"), task("B:0.1")));
   }
-  EXPECT_TRUE(stage_.execute(tree, ids).is_done());
+  EXPECT_TRUE(stage.execute(tree, ids).is_done());
   EXPECT_EQ(trace().size(), 4000u);
   EXPECT_EQ(trace().back(), "0.2 DONE B@v999");
 }
@@ -349,59 +349,59 @@ TEST_F(ExecutionTest, RunsAThousandTasksAtOnce) {
 
 struct DrivenExecutionTest : ExecutionTest {
   void begin(TaskTree const& tree) {
-    execution_.emplace(tree, *allocate(tree, stage_.pick({"a1", "a2"})), stage_.platform, stage_.observer());
-    execution_->start(stage_.loop.now());
+    execution.emplace(tree, *allocate(tree, stage.pick({"a1", "a2"})), stage.platform, stage.observer());
+    execution->start(stage.loop.now());
   }
-  std::optional<Execution> execution_;
+  std::optional<Execution> execution;
 };
 
 TEST_F(DrivenExecutionTest, StopEndsWhatRunsOnce) {
   begin(sequence(concurrent(task("A:5"), task("B:5")), task("C:5")));
-  EXPECT_FALSE(execution_->step(stage_.loop.now()));
-  execution_->stop(stage_.loop.now());
-  execution_->stop(stage_.loop.now());
-  EXPECT_TRUE(execution_->step(stage_.loop.now()));
-  EXPECT_TRUE(execution_->outcome()->is_stopped);
-  EXPECT_FALSE(execution_->outcome()->is_done());
-  execution_.reset();
+  EXPECT_FALSE(execution->step(stage.loop.now()));
+  execution->stop(stage.loop.now());
+  execution->stop(stage.loop.now());
+  EXPECT_TRUE(execution->step(stage.loop.now()));
+  EXPECT_TRUE(execution->outcome()->is_stopped);
+  EXPECT_FALSE(execution->outcome()->is_done());
+  execution.reset();
   EXPECT_EQ(trace(), (Trace{"0.0 START A@a1", "0.0 START B@a2", "0.0 STOP A@a1", "0.0 STOP B@a2"}));
 }
 
 TEST_F(DrivenExecutionTest, DestroyingItStopsWhatRuns) {
   begin(task("A:5"));
-  execution_.reset();
+  execution.reset();
   EXPECT_EQ(trace().back(), "0.0 STOP A@a1");
 }
 
 TEST_F(DrivenExecutionTest, ReleasedVehicleIsStoppedAndItsTasksFail) {
-  auto const withdraw = doing([&] { execution_->withdraw({"a1"}); });
+  auto const withdraw = doing([&] { execution->withdraw({"a1"}); });
   begin(concurrent(watched(restricted(task("A:5"), {{"a1"}}), Verdict::ignore),
                    sequence(withdraw, restricted(task("B:5"), {{"a2"}}))));
-  EXPECT_FALSE(execution_->step(stage_.loop.now()));
-  EXPECT_FALSE(execution_->step(stage_.loop.now()));
+  EXPECT_FALSE(execution->step(stage.loop.now()));
+  EXPECT_FALSE(execution->step(stage.loop.now()));
   EXPECT_EQ(trace(), (Trace{"0.0 START A@a1", "0.0 STOP A@a1", "0.0 START B@a2", "E vehicle a1 was released"}));
 }
 
 TEST_F(DrivenExecutionTest, NothingStartsOnAReleasedVehicle) {
-  begin(sequence(doing([&] { execution_->withdraw({"a1"}); }), task("A:5")));
-  EXPECT_TRUE(execution_->step(stage_.loop.now()));
+  begin(sequence(doing([&] { execution->withdraw({"a1"}); }), task("A:5")));
+  EXPECT_TRUE(execution->step(stage.loop.now()));
   EXPECT_EQ(trace(), (Trace{"0.0 ERROR A@a1 vehicle a1 was released"}));
 }
 
 TEST_F(DrivenExecutionTest, RunEndsWhenItIsStoppedFromOutside) {
   begin(idle(std::nullopt));
-  base::Task<Outcome> running = run(stage_.loop, *execution_);
-  stage_.loop.post([&] { execution_->stop(stage_.loop.now()); });
-  EXPECT_TRUE(stage_.loop.run_until_done(std::move(running)).is_stopped);
+  base::Task<Outcome> running = run(stage.loop, *execution);
+  stage.loop.post([&] { execution->stop(stage.loop.now()); });
+  EXPECT_TRUE(stage.loop.run_until_done(std::move(running)).is_stopped);
 }
 
 TEST_F(DrivenExecutionTest, ReportsEveryAllocationBeforeAnyStart) {
   std::vector<std::string> kinds;
   auto const tree = concurrent(task("A:5"), restricted(task("B:5"), {{"a1"}}));
-  Execution execution(tree, *allocate(tree, stage_.pick({"a1", "a2"})), stage_.platform, [&](TaskEvent const& event) {
+  Execution reporting(tree, *allocate(tree, stage.pick({"a1", "a2"})), stage.platform, [&](TaskEvent const& event) {
     kinds.push_back(fmt::format("{} {}@{}", to_string(event.kind), event.subject->name(), event.vehicle->text));
   });
-  execution.start(stage_.loop.now());
+  reporting.start(stage.loop.now());
   EXPECT_EQ(kinds, (Trace{"ALLOC B@a1", "ALLOC A@a2", "START A@a2", "START B@a1"}));
 }
 
@@ -409,13 +409,13 @@ TEST_F(DrivenExecutionTest, ViewShowsTheTreeAndWhatRuns) {
   auto const tree =
       sequence(task("A:0.1"), concurrent(task("B:5"), wait_for(never(), task("C:1")), {.line = 7, .label = "pair"}));
   begin(tree);
-  execution_->step(stage_.loop.now());
-  stage_.loop.run_until_done([](base::Loop& loop) -> base::Task<int> {
+  execution->step(stage.loop.now());
+  stage.loop.run_until_done([](base::Loop& loop) -> base::Task<int> {
     co_await loop.sleep(seconds(0.1));
     co_return 0;
-  }(stage_.loop));
-  execution_->step(stage_.loop.now());
-  auto const view = execution_->view();
+  }(stage.loop));
+  execution->step(stage.loop.now());
+  auto const view = execution->view();
   EXPECT_EQ(view.kind, "sequence");
   EXPECT_EQ(view.label, "A >> B | <choice>");
   EXPECT_EQ(view.children[0].state, TaskState::done);

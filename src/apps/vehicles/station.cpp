@@ -37,6 +37,19 @@ struct StationArguments {
   host::WebArguments web;
 };
 
+base::Result<> set_map(StationArguments const& arguments, host::MapContent& map) {
+  if (arguments.tiles) {
+    if (auto checked = host::check_tiles(*arguments.tiles); !checked) return std::unexpected(checked.error());
+    map.tiles = *arguments.tiles;
+  }
+  if (arguments.store) {
+    map.store.place = host::StoreSettings::Place::named;
+    map.store.address = *arguments.store;
+  }
+  if (arguments.scripts) map.scripts = *arguments.scripts;
+  return {};
+}
+
 base::Result<host::StationConfig> settings_of(StationArguments const& arguments) {
   base::Result<host::StationConfig> config =
       arguments.config.empty()
@@ -62,20 +75,12 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   auto plausibility = host::plausibility_of(arguments.plausibility, config->plausibility);
   if (!plausibility) return std::unexpected(plausibility.error());
   config->plausibility = *std::move(plausibility);
-  if (arguments.tiles) {
-    if (auto checked = host::check_tiles(*arguments.tiles); !checked) return std::unexpected(checked.error());
-    config->map.tiles = *arguments.tiles;
-  }
+  if (auto set = set_map(arguments, config->map); !set) return std::unexpected(set.error());
   if (!arguments.forward.empty()) {
     auto forward = host::forward_to(arguments.forward);
     if (!forward) return std::unexpected(forward.error());
     config->forward = *std::move(forward);
   }
-  if (arguments.store) {
-    config->map.store.place = host::StoreSettings::Place::named;
-    config->map.store.address = *arguments.store;
-  }
-  if (arguments.scripts) config->map.scripts = *arguments.scripts;
   if (arguments.signing_key) config->signing_key = *arguments.signing_key;
   if (arguments.record) config->record = *arguments.record;
   host::apply(arguments.web, config->web);

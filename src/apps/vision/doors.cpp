@@ -45,7 +45,10 @@ std::optional<vision::DoorColour> colour_of(std::string_view text) {
   auto const* at = text.data();
   auto const* const end = text.data() + text.size();
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (k > 0 && (at == end || *at++ != between[k - 1])) return std::nullopt;
+    if (k > 0) {
+      if (at == end || *at != between[k - 1]) return std::nullopt;
+      ++at;
+    }
     auto const [rest, error] = std::from_chars(at, end, values[k]);
     if (error != std::errc() || values[k] < 0 || values[k] > most[k]) return std::nullopt;
     at = rest;

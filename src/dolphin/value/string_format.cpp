@@ -295,12 +295,32 @@ Checked<void> fitting(Field const& field) {
   return {};
 }
 
+/// The values that the fields of one pattern take: the next one, the one with a number, or once more the one before.
+class ValuesInTurn {
+ public:
+  explicit ValuesInTurn(Arguments values) : values_(values) {}
+
+  Checked<std::string> text_for(Field const& field) {
+    if (field.again && !before_) return refused(fmt::format("%{} has no field before it", field.written));
+    auto const index = field.again ? *before_ : field.index > 0 ? field.index - 1 : next_++;
+    if (index >= values_.size()) return refused(fmt::format("format has too few values for %{}", field.written));
+    before_ = index;
+    auto text = field_text(field, values_[index]);
+    if (text && std::isupper(static_cast<unsigned char>(field.conversion))) text = in_capitals(*text);
+    return text;
+  }
+
+ private:
+  Arguments values_;
+  std::size_t next_ = 0;
+  std::optional<std::size_t> before_;
+};
+
 }  // namespace
 
 Checked<std::string> formatted(std::string_view pattern, Arguments arguments) {
   std::string out;
-  std::size_t next = 0;
-  std::optional<std::size_t> before;
+  ValuesInTurn values(arguments);
   while (!pattern.empty() && out.size() <= max_text_size) {
     auto const sign = std::min(pattern.find('%'), pattern.size());
     out += pattern.substr(0, sign);
@@ -310,27 +330,16 @@ Checked<std::string> formatted(std::string_view pattern, Arguments arguments) {
     auto const field = reader.run();
     if (!field) return std::unexpected(field.error());
     pattern.remove_prefix(reader.size());
-    std::string text;
     if (field->conversion == 'n') {
       out += '\n';
       continue;
     }
     if (auto const fine = fitting(*field); !fine) return std::unexpected(fine.error());
-    if (field->conversion == '%') {
-      text = "%";
-    } else {
-      if (field->again && !before) return refused(fmt::format("%{} has no field before it", field->written));
-      auto const index = field->again ? *before : field->index > 0 ? field->index - 1 : next++;
-      if (index >= arguments.size()) return refused(fmt::format("format has too few values for %{}", field->written));
-      before = index;
-      auto made = field_text(*field, arguments[index]);
-      if (!made) return std::unexpected(made.error());
-      text = *std::move(made);
-      if (std::isupper(static_cast<unsigned char>(field->conversion))) text = in_capitals(text);
-    }
-    auto const length = count_code_points(text);
+    auto const text = field->conversion == '%' ? Checked<std::string>("%") : values.text_for(*field);
+    if (!text) return std::unexpected(text.error());
+    auto const length = count_code_points(*text);
     std::string const blanks(length < field->width.value_or(0) ? *field->width - length : 0, ' ');
-    out += field->at_left ? text + blanks : blanks + text;
+    out += field->at_left ? *text + blanks : blanks + *text;
   }
   return out;
 }

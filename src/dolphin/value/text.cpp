@@ -73,7 +73,7 @@ class Printer {
       case ValueKind::map: print_map(*value.as<Map>(), depth); break;
       case ValueKind::entry:
         print(value.as<Entry>()->key, depth + 1);
-        out_ += "=";
+        out_ += '=';
         print(value.as<Entry>()->value, depth + 1);
         break;
       default: out_ += object_text(value); break;
@@ -83,29 +83,29 @@ class Printer {
 
  private:
   void print_list(List const& list, int depth) {
-    out_ += "[";
+    out_ += '[';
     for (std::size_t i = 0; i < list.items.size() && out_.size() <= max_printed_size; ++i) {
       if (i > 0) out_ += ", ";
       print(list.items[i], depth + 1);
     }
-    out_ += "]";
+    out_ += ']';
   }
   void print_map(Map const& map, int depth) {
     if (map.size() == 0) {
       out_ += "[:]";
       return;
     }
-    out_ += "[";
+    out_ += '[';
     bool first = true;
     for (auto const& [key, value] : map.items()) {
       if (out_.size() > max_printed_size) break;
       if (!first) out_ += ", ";
       first = false;
       print(key, depth + 1);
-      out_ += ":";
+      out_ += ':';
       print(value, depth + 1);
     }
-    out_ += "]";
+    out_ += ']';
   }
   static std::string vehicles_text(Vehicles const& set) {
     std::string text = "{ ";

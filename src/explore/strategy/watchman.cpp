@@ -159,22 +159,7 @@ class Planner {
         continue;
       }
       if (!is_last) see(a, b, false);
-      auto best = here;
-      double least_m = now_m - 0.05;
-      for (auto const node : views_.nodes()) {
-        constexpr double moved_m = 2.5;
-        if (length_of(roads_.place_of(node) - roads_.place_of(here)) * map_.cell_m() > moved_m) continue;
-        double const with_m = tree(a).distance_m[node] + (is_last ? 0.0F : tree(b).distance_m[node]);
-        if (with_m >= least_m) continue;
-        see_from(a, node, true);
-        if (!is_last) see_from(b, node, true);
-        if (cover_.sum() >= enough_) {
-          best = node;
-          least_m = with_m;
-        }
-        see_from(a, node, false);
-        if (!is_last) see_from(b, node, false);
-      }
+      auto const best = nearer_place(here, a, is_last ? std::nullopt : std::optional(b), now_m - 0.05);
       has_changed = has_changed || best != here;
       places_[i] = best;
       see(a, best, true);
@@ -195,6 +180,27 @@ class Planner {
   [[nodiscard]] double seen() const { return cover_.sum(); }
 
  private:
+  /// The place near `here` whose way from `a`, and on to `b` if there is one, is the shortest below `least_m` and shows
+  /// enough; `here` if there is none.
+  Node nearer_place(Node here, Node a, std::optional<Node> b, double least_m) {
+    auto best = here;
+    for (auto const node : views_.nodes()) {
+      constexpr double moved_m = 2.5;
+      if (length_of(roads_.place_of(node) - roads_.place_of(here)) * map_.cell_m() > moved_m) continue;
+      double const with_m = tree(a).distance_m[node] + (b ? tree(*b).distance_m[node] : 0.0F);
+      if (with_m >= least_m) continue;
+      see_from(a, node, true);
+      if (b) see_from(*b, node, true);
+      if (cover_.sum() >= enough_) {
+        best = node;
+        least_m = with_m;
+      }
+      see_from(a, node, false);
+      if (b) see_from(*b, node, false);
+    }
+    return best;
+  }
+
   [[nodiscard]] Node before(std::size_t i) const { return i == 0 ? start_ : places_[i - 1]; }
 
   RoadMap::Tree const& tree(Node node) {

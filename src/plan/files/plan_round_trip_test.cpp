@@ -116,7 +116,7 @@ Plan random_plan(unsigned seed) {
   int const count = dice.is_one_in(5) ? 0 : 1 + dice.upto(11);
   for (int i = 0; i < count; ++i) plan.mission.items.push_back(random_item(dice, count));
   if (count >= 5 && dice.is_one_in(2))
-    plan.patterns.push_back(random_survey(static_cast<std::size_t>(1 + dice.upto(2))));
+    plan.patterns.push_back(random_survey(static_cast<std::size_t>(dice.upto(2)) + 1));
   if (dice.is_one_in(4))
     plan.patterns.push_back({.first = static_cast<std::size_t>(count),
                              .count = 0,

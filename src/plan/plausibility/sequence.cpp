@@ -51,7 +51,7 @@ void judge_sequence(Look const& look, Findings& out) {
   bool const may_go = look.situation.autopilot == Autopilot::px4 || family == Family::plane;
   out.push_back({.rule = Rule::no_take_off,
                  .severity = may_go ? Severity::warn : Severity::refuse,
-                 .item = *first,
+                 .item = first,
                  .what = fmt::format("{} stands on the ground, and the mission begins without a take-off",
                                      look.situation.vehicle),
                  .meant = "begin with takeOff; after a landing, too"});

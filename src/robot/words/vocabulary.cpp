@@ -54,7 +54,7 @@ base::Result<> return_to_start(Draft& draft, std::size_t, Arguments) {
 }
 
 base::Result<> wait(Draft& draft, std::size_t, Arguments arguments) {
-  auto const* const whole = std::get_if<std::int64_t>(&arguments[0]);
+  auto const* const whole = std::get_if<std::int64_t>(&arguments.front());
   double const seconds = whole ? static_cast<double>(*whole) : std::get<double>(arguments[0]);
   if (!(seconds >= 0.0)) return base::fail(base::ErrorKind::invalid_input, "the time to wait must be 0 or more");
   draft.steps.emplace_back(WaitStep{seconds});

@@ -97,7 +97,7 @@ std::map<std::string, Entry> unpack(Bytes const& file) {
   auto const value_of = [&](int type) {
     float real = 0;
     std::int32_t whole = 0;
-    if (type == 1) whole = static_cast<std::int8_t>(file[at]);
+    if (type == 1) whole = std::int32_t{static_cast<std::int8_t>(file[at])};
     if (type == 2) whole = static_cast<std::int16_t>(file[at] | file[at + 1] << 8U);
     if (type == 3) std::memcpy(&whole, &file[at], 4);
     if (type == 4) std::memcpy(&real, &file[at], 4);

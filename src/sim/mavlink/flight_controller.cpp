@@ -259,12 +259,18 @@ void FlightController::dispatch(Message const& message, Address from) {
       broadcast_report(MessageId::mission_current);
   } else if (auto const* position = std::get_if<SetPositionTargetGlobalInt>(&message)) {
     on(*position);
-  } else if (auto const* read = std::get_if<ParamRequestRead>(&message)) {
+  } else if (auto const* setup = std::get_if<SetupSigning>(&message)) {
+    on(*setup);
+  } else {
+    dispatch_parameter(message, from);
+  }
+}
+
+void FlightController::dispatch_parameter(Message const& message, Address from) {
+  if (auto const* read = std::get_if<ParamRequestRead>(&message)) {
     on(*read, from);
   } else if (auto const* set = std::get_if<ParamSet>(&message)) {
     on(*set);
-  } else if (auto const* setup = std::get_if<SetupSigning>(&message)) {
-    on(*setup);
   } else if (std::holds_alternative<ParamRequestList>(message)) {
     list_reader_ = from;
     list_next_ = 0;

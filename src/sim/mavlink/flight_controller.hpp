@@ -76,6 +76,7 @@ class FlightController {
 
   void receive(mavlink::Received const& received);
   void dispatch(mavlink::Message const& message, mavlink::Address from);
+  void dispatch_parameter(mavlink::Message const& message, mavlink::Address from);
   void on(mavlink::CommandInt const& command, mavlink::Address from);
   void on(mavlink::SetPositionTargetGlobalInt const& target);
   void on(mavlink::ParamRequestRead const& request, mavlink::Address from);

@@ -329,8 +329,8 @@ std::optional<Message> report(MessageId id, ReportView const& view) {
       return fence_status(autopilot);
     case MessageId::extended_sys_state: return ExtendedSysState{.landed_state = autopilot.landed_state()};
     case MessageId::home_position:
-      if (!autopilot.home()) return std::nullopt;
-      return HomePosition{view.site.place_at(*autopilot.home()), *autopilot.home()};
+      if (auto const home = autopilot.home()) return HomePosition{view.site.place_at(*home), home};
+      return std::nullopt;
     case MessageId::gps_global_origin:
       if (!autopilot.home()) return std::nullopt;
       return GpsGlobalOrigin{view.site.anchor()};

@@ -9,7 +9,7 @@ namespace lapwing::slam {
 // Column 3 * j + c of the lower half holds the rows c..2 of the diagonal block j, then three rows of each block below
 // it.
 
-BlockSystem::BlockSystem(int poses, Couples couples) : poses_(poses), hessian_(3 * poses, 3 * poses) {
+BlockSystem::BlockSystem(int poses, Couples couples) : poses_(poses), hessian_(3L * poses, 3L * poses) {
   for (auto& [a, b] : couples) {
     LAPWING_ASSERT(a != b && a >= 0 && b >= 0 && a < poses && b < poses, a, b, poses);
     if (a > b) std::swap(a, b);
@@ -33,8 +33,8 @@ BlockSystem::BlockSystem(int poses, Couples couples) : poses_(poses), hessian_(3
         for (int r = 0; r < 3; ++r) hessian_.innerIndexPtr()[at++] = 3 * others_[p] + r;
     }
   }
-  hessian_.outerIndexPtr()[3 * poses] = at;
-  gradient_.resize(3 * poses);
+  hessian_.outerIndexPtr()[3L * poses] = at;
+  gradient_.resize(3L * poses);
   set_zero();
 }
 
@@ -48,7 +48,7 @@ void BlockSystem::add(int pose, Eigen::Matrix3d const& hessian, Eigen::Vector3d 
     auto* column = hessian_.valuePtr() + hessian_.outerIndexPtr()[3 * pose + c];
     for (int r = c; r < 3; ++r) column[r - c] += hessian(r, c);
   }
-  gradient_.segment<3>(3 * pose) += gradient;
+  gradient_.segment<3>(3L * pose) += gradient;
 }
 
 int BlockSystem::coupling(int a, int b) const {
@@ -61,7 +61,7 @@ int BlockSystem::coupling(int a, int b) const {
 }
 
 double* BlockSystem::block(int low, int position, int column) {
-  return hessian_.valuePtr() + hessian_.outerIndexPtr()[3 * low + column] + (3 - column) + 3 * position;
+  return hessian_.valuePtr() + hessian_.outerIndexPtr()[3L * low + column] + (3 - column) + 3L * position;
 }
 
 void BlockSystem::add_coupling(int a, int b, Eigen::Matrix3d const& hessian) {

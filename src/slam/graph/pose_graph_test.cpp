@@ -52,15 +52,15 @@ TEST(BlockSystem, SolvesAsADenseSolverDoes) {
         20.0 * Eigen::Matrix3d::Identity() + Eigen::Vector3d(1, 2, 3) * Eigen::RowVector3d(1, 2, 3);
     Eigen::Vector3d const slope(number(random), number(random), number(random));
     system.add(k, block, slope);
-    dense.block<3, 3>(3 * k, 3 * k) += block;
-    gradient.segment<3>(3 * k) += slope;
+    dense.block<3, 3>(3L * k, 3L * k) += block;
+    gradient.segment<3>(3L * k) += slope;
   }
   for (auto const& [a, b] : {std::pair{0, 1}, {2, 1}, {5, 3}, {6, 0}, {4, 2}}) {
     Eigen::Matrix3d coupling;
     for (auto& value : coupling.reshaped()) value = number(random);
     system.add_coupling(a, b, coupling);
-    dense.block<3, 3>(3 * a, 3 * b) += coupling;
-    dense.block<3, 3>(3 * b, 3 * a) += coupling.transpose();
+    dense.block<3, 3>(3L * a, 3L * b) += coupling;
+    dense.block<3, 3>(3L * b, 3L * a) += coupling.transpose();
   }
   auto const solution = system.solve();
   ASSERT_TRUE(solution.is_valid);

@@ -106,7 +106,8 @@ map::OccupancyGrid as_grid(Sheet const& sheet) {
         key = of_cell;
         tile = &grid.tile_to_write(key);
       }
-      auto const within = static_cast<std::size_t>((cell.y & 255) * map::tile_cells + (cell.x & 255));
+      auto const within =
+          static_cast<std::size_t>(cell.y & 255) * map::tile_cells + static_cast<std::size_t>(cell.x & 255);
       tile->cells[within] = map::Evidence::of_steps(
           static_cast<int>(std::lround(sheet.log_odds[sheet.index(x, y)] * steps_per_log_odds)));
     }

@@ -18,7 +18,7 @@ std::array<std::uint8_t, stamp_side * stamp_side> make_stamp() {
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
       auto const apart = static_cast<double>(x * x + y * y) * LocalGrid::cell_m * LocalGrid::cell_m;
-      stamp[static_cast<std::size_t>((y + reach) * stamp_side + x + reach)] =
+      stamp[static_cast<std::size_t>(y + reach) * stamp_side + static_cast<std::size_t>(x + reach)] =
           static_cast<std::uint8_t>(255.0 * std::exp(-apart / (2.0 * spread_m * spread_m)));
     }
   }
@@ -93,7 +93,7 @@ void LocalGrid::add(Frame const& frame, Pose2 const& pose) {
     if (row[reach * side + reach] == 255) continue;
     for (int j = 0; j < stamp_side; ++j, row += side)
       for (int i = 0; i < stamp_side; ++i)
-        row[i] = std::max(row[i], stamp[static_cast<std::size_t>(j * stamp_side + i)]);
+        row[i] = std::max(row[i], stamp[static_cast<std::size_t>(j) * stamp_side + static_cast<std::size_t>(i)]);
   }
 }
 

@@ -82,7 +82,7 @@ void refine_jointly(Graph& graph, JointOptions const& options, ForEach const& fo
     system.fix(0);
     auto const solution = system.solve();
     if (!solution.is_valid) return;
-    for (int k = 0; k < graph.size(); ++k) graph.poses[k] = stepped(graph.poses[k], solution.step.segment<3>(3 * k));
+    for (int k = 0; k < graph.size(); ++k) graph.poses[k] = stepped(graph.poses[k], solution.step.segment<3>(3L * k));
   }
 }
 

@@ -84,6 +84,36 @@ Line clearest(cv::Mat const& edge, Search const& search) {
   return best;
 }
 
+/// One side of a door, in pixels of the small picture.
+struct Side {
+  cv::Mat const& edge;
+  Search search;
+  bool is_cut;  ///< it lies on the picture's edge, where there is no line: the door goes on beyond it
+  bool counts;  ///< its line tells that there is a door
+};
+
+struct Outline {
+  std::array<Line, 4> lines;
+  double support = 0.0;  ///< the mean of the sides that count
+};
+
+Outline outline_of(std::array<Side, 4> const& sides) {
+  Outline outline;
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    outline.lines[k] = {.at = sides[k].search.wanted};
+    if (sides[k].is_cut) continue;
+    auto const line = clearest(sides[k].edge, sides[k].search);
+    if (line.support >= least_support) outline.lines[k] = line;
+    if (!sides[k].counts) continue;
+    sum += line.support;
+    ++count;
+  }
+  outline.support = count > 0 ? sum / count : 0.0;
+  return outline;
+}
+
 /// Where a standing and a lying line meet.
 cv::Point2d meeting(Line const& standing, double y_middle, Line const& lying, double x_middle) {
   // x = a + p (y - m), y = b + q (x - n)
@@ -125,13 +155,6 @@ DoorShape door_shape(cv::Mat const& pixels, Box const& box) {
       .wanted = in.x, .reach = reach * in.width, .slant = most_slant_of_side, .from = in.y, .to = in.y + in.height};
   Search const across{
       .wanted = in.y, .reach = reach * in.height, .slant = most_slant_of_top, .from = in.x, .to = in.x + in.width};
-  // What lies on the picture's edge has no line there: the door goes on beyond it.
-  struct Side {
-    cv::Mat const& edge;
-    Search search;
-    bool is_cut;
-    bool counts;
-  };
   auto const moved = [](Search search, double wanted) {
     search.wanted = wanted;
     return search;
@@ -142,19 +165,8 @@ DoorShape door_shape(cv::Mat const& pixels, Box const& box) {
       Side{upright, moved(side, in.x + in.width), right > pixels.cols - edge_pixels, true},
       // Floors have edges of their own, and furniture stands before doors.
       Side{lying, moved(across, in.y + in.height), bottom > pixels.rows - edge_pixels, false}};
-  std::array<Line, 4> lines;
-  double sum = 0.0;
-  int count = 0;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    lines[k] = {.at = sides[k].search.wanted};
-    if (sides[k].is_cut) continue;
-    auto const line = clearest(sides[k].edge, sides[k].search);
-    if (line.support >= least_support) lines[k] = line;
-    if (!sides[k].counts) continue;
-    sum += line.support;
-    ++count;
-  }
-  shape.support = count > 0 ? sum / count : 0.0;
+  auto const [lines, support] = outline_of(sides);
+  shape.support = support;
   double const x_middle = in.x + 0.5 * in.width;
   double const y_middle = in.y + 0.5 * in.height;
   constexpr std::array<std::array<std::size_t, 2>, 4> meet{{{0, 1}, {2, 1}, {2, 3}, {0, 3}}};

@@ -73,7 +73,7 @@ std::optional<double> number_in(std::string_view xmp, std::string_view name) {
 void read_xmp(std::string_view xmp, FlightRecord& flight) {
   constexpr double most_height_m = 10'000.0;
   auto const height = number_in(xmp, "RelativeAltitude");
-  if (height && *height > 1.0 && *height < most_height_m) flight.height_m = *height;
+  if (height && *height > 1.0 && *height < most_height_m) flight.height_m = height;
   for (auto const* const name : {"GimbalYawDegree", "Yaw", "FlightYawDegree"}) {
     if (flight.yaw_rad) break;
     if (auto const yaw = number_in(xmp, name)) flight.yaw_rad = geo::wrap_pi(std::fmod(*yaw, 360.0) * degree);

@@ -42,11 +42,11 @@ std::optional<Shape> sides_of(sqlite3_value* value) {
 }
 
 /// The four corners and emptiness of shapes, for the triggers of GeoPackage's R-tree (1.3, annex F.3).
-template <double Shape::* Side>
+template <double Shape::* side>
 void st_side(sqlite3_context* context, int, sqlite3_value** values) {
   auto const shape = sides_of(values[0]);
   if (!shape) return sqlite3_result_null(context);
-  sqlite3_result_double(context, (*shape).*Side);
+  sqlite3_result_double(context, (*shape).*side);
 }
 
 void st_is_empty(sqlite3_context* context, int, sqlite3_value** values) {

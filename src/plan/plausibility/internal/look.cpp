@@ -70,8 +70,8 @@ class Reader {
     stop.is_here = place.lat_rad == 0.0 && place.lon_rad == 0.0 && !is_above_sea(item.frame);
     stops.push_back(stop);
     if (item.command == MavCmd::do_set_home || stop.lands()) {
-      if (stop.sea_m) ground_m_ = *stop.sea_m;
-      if (item.command == MavCmd::do_set_home && stop.sea_m) home_m_ = *stop.sea_m;
+      if (stop.sea_m) ground_m_ = stop.sea_m;
+      if (item.command == MavCmd::do_set_home && stop.sea_m) home_m_ = stop.sea_m;
     }
   }
 
