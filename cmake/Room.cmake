@@ -1,3 +1,8 @@
+# A target that has the optimiser even in builds without it.
+function(lapwing_optimised target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Debug>:-O1>)
+endfunction()
+
 # lapwing_room(NAME [COMPUTES] [SOURCES ...] [USES ...] [PRIVATE_USES ...] [TESTS ...])
 #
 # One room of the house: the library lapwing_NAME (alias lapwing::NAME) from src/NAME, and its unit tests as NAME_test.
@@ -10,8 +15,8 @@ function(lapwing_room name)
     add_library(${target} STATIC ${ROOM_SOURCES})
     target_link_libraries(${target} PUBLIC lapwing_options fmt::fmt ${ROOM_USES} PRIVATE ${ROOM_PRIVATE_USES})
     lapwing_together(${target})
-    if(ROOM_COMPUTES AND CMAKE_BUILD_TYPE STREQUAL "Debug")
-      target_compile_options(${target} PRIVATE -O1)
+    if(ROOM_COMPUTES)
+      lapwing_optimised(${target})
     endif()
   else()
     add_library(${target} INTERFACE)
@@ -23,6 +28,9 @@ function(lapwing_room name)
     add_executable(${name}_test ${ROOM_TESTS})
     target_link_libraries(${name}_test PRIVATE ${target} ${ROOM_PRIVATE_USES} ${ROOM_TEST_USES} GTest::gtest_main)
     lapwing_together(${name}_test)
+    if(ROOM_COMPUTES)
+      lapwing_optimised(${name}_test)
+    endif()
     # Only tests that read others from the sources get the path: a compiler cache serves the rest to every checkout.
     foreach(test IN LISTS ROOM_TESTS)
       file(STRINGS ${test} uses_source_dir REGEX LAPWING_SOURCE_DIR LIMIT_COUNT 1)

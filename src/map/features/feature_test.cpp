@@ -219,7 +219,7 @@ TEST(Geometry, IsJudgedInBoundedTimeHoweverItsEdgesLie) {
   EXPECT_EQ(geometry_fault(slanting_comb(1'300)), std::nullopt);
   EXPECT_EQ(geometry_fault(slanting_comb(most_corners - 1)),
             "its edges lie too close together to be examined; simplify it or cut it in several");
-  EXPECT_LT(base::cpu_time() - began, 10s) << "with a sanitizer on a busy machine";
+  EXPECT_LT(base::cpu_time() - began, 60s) << "with a sanitizer; every edge against every other would take hours";
 }
 
 /// All its edges begin at one x, and their spans along y overlap.

@@ -141,8 +141,11 @@ TEST(GridTiles, ShowEveryTakenCellHoweverFarAway) {
   std::mt19937_64 random(52);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   for (int i = 0; i < 150; ++i) {
-    auto const site = site_at(120.0 * (any(random) - 0.5), 360.0 * (any(random) - 0.5));
-    OccupancyGrid grid(0.05, GridPlace({100.0 * any(random), 100.0 * any(random)}, 7.0 * any(random)));
+    double const lat_deg = 120.0 * (any(random) - 0.5);
+    auto const site = site_at(lat_deg, 360.0 * (any(random) - 0.5));
+    double const east_m = 100.0 * any(random);
+    double const north_m = 100.0 * any(random);
+    OccupancyGrid grid(0.05, GridPlace({east_m, north_m}, 7.0 * any(random)));
     Cell const post{static_cast<int>(random() % 600) - 300, static_cast<int>(random() % 600) - 300};
     for (int x = -2; x < 2; ++x)
       for (int y = -2; y < 2; ++y) std::ranges::fill(grid.tile_to_write({x, y}).cells, free_space);
@@ -157,7 +160,8 @@ TEST(GridTiles, ShowEveryTakenCellHoweverFarAway) {
         if (x >= 0 && y >= 0 && x < tile_px && y < tile_px) seen = std::max(seen, at(*picture, x, y));
     bool const is_at_the_edge = where.x < 1.0 || where.y < 1.0 || where.x > 255.0 || where.y > 255.0;
     EXPECT_TRUE(seen == shade_of(taken) || is_at_the_edge) << "case " << i << " at zoom " << zoom;
-    EXPECT_LE(std::ranges::count(*picture, shade_of(taken)), 4) << "and not as more than it is";
+    // A square of 1.12 pixels and more, turned by 18 degrees, reaches into all four neighbours of a pixel.
+    EXPECT_LE(std::ranges::count(*picture, shade_of(taken)), 5) << "and not as more than it is";
   }
 }
 
