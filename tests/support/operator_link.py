@@ -24,7 +24,7 @@ class Hand:
         self.lines: list[str] = []
         self._changed = threading.Condition()
         self.process = subprocess.Popen([PROGRAM, how, name, str(port), *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        self._reader = threading.Thread(target=self._read)
+        self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
         self.port = int(self.wait_for("listening ").split()[1]) if how == "serve" else port
 
