@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/files/replace_file.hpp"
 #include "parameters/parameter_file.hpp"
 
 namespace lapwing::parameters {
@@ -66,22 +67,11 @@ std::optional<CachedParameters> Cache::find(Identity const& identity) const {
 base::Result<> Cache::store(Identity const& identity, CachedParameters const& cached) const {
   if (folder_.empty() || identity.uid.empty()) return {};
   auto const path = file_of(identity);
-  auto const cannot = [&](std::string const& why) {
-    return base::fail(base::ErrorKind::io, fmt::format("{}: cannot write: {}", path.string(), why));
-  };
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) return cannot(error.message());
-  auto const fresh = fs::path(path.string() + ".part");
-  {
-    std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
-    file << to_text(cached);
-    file.flush();
-    if (!file) return cannot("is the disk full?");
-  }
-  fs::rename(fresh, path, error);
-  if (error) return cannot(error.message());
-  return {};
+  if (error)
+    return base::fail(base::ErrorKind::io, fmt::format("{}: cannot write: {}", path.string(), error.message()));
+  return base::replace_file(path, to_text(cached));
 }
 
 fs::path cache_folder(char const* xdg_cache_home, char const* home) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "base/text/diagnostic.hpp"
 #include "dolphin/services/format/formatting.hpp"
 #include "host/files/files.hpp"
@@ -43,7 +44,7 @@ base::Result<> replace(std::string const& path, std::string const& text) {
   auto const target = fs::canonical(path, error);
   auto const permissions = error ? fs::perms::none : fs::status(target, error).permissions();
   if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: cannot write: {}", path, error.message()));
-  if (auto written = host::write_file(target.string(), text); !written) return written;
+  if (auto written = base::replace_file(target.string(), text); !written) return written;
   fs::permissions(target, permissions, error);
   return {};
 }

@@ -20,8 +20,8 @@
 #include "apps/slam/map_graph.hpp"
 #include "apps/verb.hpp"
 #include "base/async/parallel_for.hpp"
+#include "base/files/replace_file.hpp"
 #include "base/text/json.hpp"
-#include "host/files/files.hpp"
 #include "slam/graph/g2o.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
@@ -230,7 +230,7 @@ base::Result<> write_results(MapOptions const& options, slam::ScanLog const& log
                              map::OccupancyGrid const& grid, std::vector<slam::TimedPose> const& poses,
                              Json const& report) {
   auto const write = [&](char const* name, std::string const& text) {
-    return host::write_file(options.out / name, text);
+    return base::replace_file(options.out / name, text);
   };
   if (options.wants_loops)
     if (auto done = write("loops.json", base::to_text(loops_json(log, mapping), 1)); !done) return done;

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.hpp"
-#include "host/files/files.hpp"
+#include "base/files/replace_file.hpp"
 #include "map/grid/png.hpp"
 
 namespace lapwing::apps {
@@ -92,9 +92,9 @@ GridPicture picture_of(map::OccupancyGrid const& grid) {
 
 base::Result<> write_map(GridPicture const& picture, std::filesystem::path const& folder) {
   auto const pgm = fmt::format("P5\n{} {}\n255\n", picture.width, picture.height) + picture.grey;
-  if (auto done = host::write_file(folder / "map.pgm", pgm); !done) return done;
-  if (auto done = host::write_file(folder / "map.yaml", yaml_of(picture)); !done) return done;
-  return host::write_file(folder / "map.png", png_of(picture));
+  if (auto done = base::replace_file(folder / "map.pgm", pgm); !done) return done;
+  if (auto done = base::replace_file(folder / "map.yaml", yaml_of(picture)); !done) return done;
+  return base::replace_file(folder / "map.png", png_of(picture));
 }
 
 }  // namespace lapwing::apps

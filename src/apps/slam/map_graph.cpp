@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/files/replace_file.hpp"
 #include "base/text/json.hpp"
-#include "host/files/files.hpp"
 #include "slam/graph/chordal.hpp"
 #include "slam/graph/g2o.hpp"
 #include "slam/graph/pose_graph.hpp"
@@ -40,9 +40,9 @@ base::Result<> settle_graph(std::string_view text, std::filesystem::path const& 
                                       {"squared_error", result.squared_error},
                                       {"rounds", result.rounds},
                                       {"wall_s", seconds}};
-  if (auto done = host::write_file(out / "graph.g2o", slam::write_g2o(result.poses, graph->constraints)); !done)
+  if (auto done = base::replace_file(out / "graph.g2o", slam::write_g2o(result.poses, graph->constraints)); !done)
     return done;
-  if (auto done = host::write_file(out / "report.json", base::to_text(report, 2) + "\n"); !done) return done;
+  if (auto done = base::replace_file(out / "report.json", base::to_text(report, 2) + "\n"); !done) return done;
   fmt::print("{} poses, {} constraints: squared error {:.6g}, was {:.6g}; {} rounds, {:.2f} s\n", graph->poses.size(),
              graph->constraints.size(), result.squared_error, given, result.rounds, seconds);
   return {};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "host/files/files.hpp"
 #include "host/session/session.hpp"
 #include "host/session/signals.hpp"
@@ -92,7 +93,7 @@ int demo(DemoOptions const& options) {
   session.run_to_end(std::nullopt);
   auto const outcome = *session.host.outcome();
   if (!options.report.empty()) {
-    if (auto written = host::write_file(options.report, host::to_json(session.report())); !written)
+    if (auto written = base::replace_file(options.report, host::to_json(session.report())); !written)
       return host::refuse(written.error());
   }
   if (session.map && outcome.kind != dolphin::Outcome::Kind::stopped) keep_map(session);

@@ -6,6 +6,7 @@
 
 #include "apps/vehicles/replay_store.hpp"
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "host/files/files.hpp"
 #include "host/links/recording.hpp"
 #include "host/session/session.hpp"
@@ -148,7 +149,7 @@ int replay(ReplayOptions const& options) {
   if (was_interrupted) return host::exit_interrupted;
   tell(session, *file, played);
   if (!options.report.empty()) {
-    if (auto written = host::write_file(options.report, host::to_json(session.report())); !written)
+    if (auto written = base::replace_file(options.report, host::to_json(session.report())); !written)
       return host::refuse(written.error());
   }
   if (session.map) keep_map(session);

@@ -12,9 +12,9 @@
 #include <opencv2/core.hpp>
 
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "base/text/printable.hpp"
 #include "geo/position_json.hpp"
-#include "host/files/files.hpp"
 #include "vision/annotate.hpp"
 
 namespace lapwing::apps {
@@ -161,13 +161,13 @@ base::Result<Found> look_at(std::size_t which, std::string const& picture, Detec
           vision::place_of({box.x + 0.5 * box.width, box.y + 0.5 * box.height}, size, flight, *seen.metres_a_pixel);
   }
   auto const drawn = vision::encode_jpeg(vision::annotated(image.stored, seen.detections));
-  if (auto const written = host::write_file(overlay, drawn); !written) return std::unexpected(written.error());
+  if (auto const written = base::replace_file(overlay, drawn); !written) return std::unexpected(written.error());
   return Found{picture, size, seen.metres_a_pixel, std::move(seen.detections)};
 }
 
 /// Into the folder; says so on standard error if that does not work.
 bool is_written(fs::path const& file, std::string const& text) {
-  auto const written = host::write_file(file, text);
+  auto const written = base::replace_file(file, text);
   if (!written) host::print_error(written.error());
   return written.has_value();
 }

@@ -58,23 +58,6 @@ base::Result<std::vector<ScriptText>> read_scripts(std::vector<std::string> cons
   return scripts;
 }
 
-base::Result<> write_file(std::string const& path, std::string_view content) {
-  auto const fresh = path + ".part";
-  auto const failure = [&] {
-    return base::fail(base::ErrorKind::io, fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
-  };
-  {
-    std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.flush();
-    if (!file) return failure();
-  }
-  std::error_code error;
-  fs::rename(fresh, path, error);
-  if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: cannot write: {}", path, error.message()));
-  return {};
-}
-
 fs::path home_directory() {
   if (auto const* home = std::getenv("LAPWING_HOME")) return home;
   return LAPWING_SOURCE_DIR;

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -20,8 +19,6 @@ struct ScriptText {
 };
 /// All of them or none.
 [[nodiscard]] base::Result<std::vector<ScriptText>> read_scripts(std::vector<std::string> const& paths);
-/// Replaces `path` as a whole: what was there stays until the new content is on disk.
-[[nodiscard]] base::Result<> write_file(std::string const& path, std::string_view content);
 
 /// The checkout the program was built from or started by: where examples/ and web/dist lie.
 [[nodiscard]] std::filesystem::path home_directory();

@@ -46,25 +46,6 @@ TEST(Files, RefusesAScriptBeyondTheLimitBeforeReadingIt) {
   EXPECT_NE(read.error().message.find("too large"), std::string::npos);
 }
 
-TEST(Files, ReplacesAFileAsAWhole) {
-  TemporaryFolder const folder;
-  auto const path = folder.write("report.json", "old and longer");
-  ASSERT_TRUE(write_file(path, "new"));
-  EXPECT_EQ(read_script(path).value(), "new");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1)
-      << "nothing is left over";
-}
-
-TEST(Files, LeavesTheOldFileWhenTheNewOneCannotBeWritten) {
-  TemporaryFolder const folder;
-  fs::create_directory(folder.path() / "report.json");  // a rename cannot replace a folder
-  auto const written = write_file((folder.path() / "report.json").string(), "new");
-  ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().kind, base::ErrorKind::io);
-  EXPECT_TRUE(fs::is_directory(folder.path() / "report.json"));
-  EXPECT_FALSE(write_file((folder.path() / "absent/report.json").string(), "new"));
-}
-
 TEST(Files, FindsTheHomeOfTheProgram) {
   EXPECT_TRUE(fs::exists(home_directory() / "examples/survey.dolphin"));
 }

@@ -1,20 +1,17 @@
 #include "host/files/key_file.hpp"
 
-#include <fcntl.h>
 #include <sys/random.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/files/replace_file.hpp"
 #include "host/files/secret_file.hpp"
 #include "mavlink/signing/key_store.hpp"
 
@@ -26,24 +23,6 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t shortest_passphrase = 12;
 constexpr base::Duration write_period = 10s;
-
-/// Also what lies at `path` for a moment is nobody else's to read.
-base::Result<> replace_secret(std::string const& path, std::string_view content) {
-  auto const fresh = path + ".part";
-  auto const cannot = [&](int why) {
-    return base::fail(base::ErrorKind::io, fmt::format("{}: cannot write: {}", path, std::strerror(why)));
-  };
-  (void)::unlink(fresh.c_str());
-  int const file = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (file < 0) return cannot(errno);
-  auto const written = ::write(file, content.data(), content.size());
-  bool const is_whole = written == static_cast<ssize_t>(content.size()) && ::fsync(file) == 0;
-  int const why = errno;
-  ::close(file);
-  if (!is_whole) return cannot(why);
-  if (std::rename(fresh.c_str(), path.c_str()) != 0) return cannot(errno);
-  return {};
-}
 
 std::string time_file_of(std::string const& path) {
   return path + ".time";
@@ -105,7 +84,7 @@ base::Result<mavlink::KeyRing> read_key_store(std::string const& path) {
 }
 
 base::Result<> write_key_store(std::string const& path, mavlink::KeyRing const& ring) {
-  return replace_secret(path, to_text(ring));
+  return base::replace_file(path, to_text(ring), base::Readers::owner);
 }
 
 base::Result<mavlink::SigningKey> random_key() {
@@ -137,7 +116,7 @@ void SigningTimeKeeper::write(mavlink::SigningTime time) {
   if (auto const there = read_time(file_); there && *there != written_) time = std::max(time, *there);
   written_ = time;
   auto const text = fmt::format("{}\n", time);
-  auto const done = replace_secret(file_, text);
+  auto const done = base::replace_file(file_, text, base::Readers::owner);
   if (done || std::exchange(has_warned_, true)) return;
   log_.warn(done.error().message + "; after a restart with a wrong clock vehicles may not listen");
 }

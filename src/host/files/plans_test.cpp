@@ -1,31 +1,21 @@
 #include "host/files/plans.hpp"
 
-#include <filesystem>
-
 #include <gtest/gtest.h>
 
-#include "host/files/files.hpp"
+#include "base/testing/temporary_folder.hpp"
 
 namespace lapwing::host {
 namespace {
 
 constexpr auto way_points = "QGC WPL 110\n0 1 0 16 0 0 0 0 41 -8 90 1\n1 0 3 16 0 0 0 0 41.1 -8 30 1\n";
 
-/// A directory of its own for each test.
-struct Plans : ::testing::Test {
-  Plans() {
-    auto const* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::path(testing::TempDir()) / (std::string("lapwing_plans_") + test->name());
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directory(folder);
-  }
-  ~Plans() override { std::filesystem::remove_all(folder); }
-  void write(std::string const& name, std::string_view text) const {
-    EXPECT_TRUE(write_file((folder / name).string(), text));
-  }
-  [[nodiscard]] base::Result<LoadedPlans> load() const { return load_plans(folder.string()); }
+using base::testing::TemporaryFolder;
 
-  std::filesystem::path folder;
+struct Plans : ::testing::Test {
+  void write(std::string const& name, std::string_view text) const { (void)folder.write(name, text); }
+  [[nodiscard]] base::Result<LoadedPlans> load() const { return load_plans(folder.path().string()); }
+
+  TemporaryFolder folder;
 };
 
 TEST_F(Plans, AreTheFilesThatEndSo) {
@@ -67,7 +57,7 @@ TEST_F(Plans, OfOneNameAreRefused) {
 
 TEST_F(Plans, WithoutADirectoryAreNone) {
   EXPECT_TRUE(load_plans("")->library.empty());
-  EXPECT_EQ(load_plans((folder / "nowhere").string()).error().kind, base::ErrorKind::not_found);
+  EXPECT_EQ(load_plans((folder.path() / "nowhere").string()).error().kind, base::ErrorKind::not_found);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "apps/vehicles/mission/plan_summary.hpp"
 #include "apps/vehicles/mission/vehicle_plans.hpp"
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "fleet/plausibility/own_fence.hpp"
 #include "fleet/plausibility/situation.hpp"
 #include "host/files/files.hpp"
@@ -77,7 +78,7 @@ Result<> write_plan_file(MissionOptions const& options, plan::Plan const& plan) 
   if (options.is_strict && !written->lost.empty())
     return base::fail(base::ErrorKind::refused,
                       fmt::format("{} was not written: something would be lost", options.out));
-  return host::write_file(options.out, written->text);
+  return base::replace_file(options.out, written->text);
 }
 
 // ---- with a vehicle

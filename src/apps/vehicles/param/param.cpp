@@ -10,6 +10,7 @@
 
 #include "apps/vehicles/param/param_jobs.hpp"
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "host/files/files.hpp"
 #include "host/links/find_vehicles.hpp"
 #include "host/links/link_session.hpp"
@@ -230,7 +231,7 @@ base::Task<int> save(ParamGround& ground, ParamArguments const& of) {
   auto const text = is_plain
                         ? parameters::mission_planner_text(listing.parameters)
                         : parameters::qgroundcontrol_text(listing.parameters, header_for(*vehicle->craft, listing));
-  if (auto const written = host::write_file(of.file, text); !written) co_return host::refuse(written.error());
+  if (auto const written = base::replace_file(of.file, text); !written) co_return host::refuse(written.error());
   fmt::print(stderr, "{} parameters of vehicle {} written to {}\n", listing.parameters.size(),
              vehicle->craft->id().text, of.file);
   co_return host::exit_done;

@@ -5,6 +5,7 @@
 
 #include "apps/vehicles/plan/dry_run.hpp"
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "base/text/diagnostic.hpp"
 #include "dolphin/machine/engine.hpp"
 #include "dolphin/names/needs.hpp"
@@ -98,10 +99,11 @@ base::Result<plan::Fence> read_fence_file(std::string const& path, geo::Wgs84 ho
 base::Result<> write_files(PlanOptions const& options, dryrun::FlightRecord const& record,
                            dryrun::Analysis const& analysis, plan::Fence const& fence) {
   if (!options.svg.empty()) {
-    if (auto written = host::write_file(options.svg, dryrun::to_svg(record, analysis, fence)); !written) return written;
+    if (auto written = base::replace_file(options.svg, dryrun::to_svg(record, analysis, fence)); !written)
+      return written;
   }
   if (options.json.empty()) return {};
-  return host::write_file(options.json, dryrun::to_json(record, analysis, fence));
+  return base::replace_file(options.json, dryrun::to_json(record, analysis, fence));
 }
 
 int plan_script(PlanOptions const& options) {

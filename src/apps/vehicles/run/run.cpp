@@ -6,6 +6,7 @@
 
 #include "apps/vehicles/run/harness_run.hpp"
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "base/text/diagnostic.hpp"
 #include "host/files/files.hpp"
 #include "host/files/key_file.hpp"
@@ -92,14 +93,14 @@ base::Result<> write_reports(host::Session const& session, RunOptions const& opt
   if (!options.report.empty()) paths.push_back(options.report);
   if (session.recording) paths.push_back(session.recording->beside(".json"));
   for (auto const& path : paths) {
-    if (auto written = host::write_file(path, host::to_json(session.report())); !written) return written;
+    if (auto written = base::replace_file(path, host::to_json(session.report())); !written) return written;
   }
   return {};
 }
 
 int run_script(host::Session& session, RunOptions const& options, host::ScriptText const& script) {
   if (session.recording) {
-    if (auto kept = host::write_file(session.recording->beside(".dolphin"), script.text); !kept)
+    if (auto kept = base::replace_file(session.recording->beside(".dolphin"), script.text); !kept)
       return host::refuse(kept.error());
   }
   auto const started = session.host.start(script.name, script.text);
