@@ -73,9 +73,11 @@ Detection detection_of(ReadLine const& line) {
   return sign;
 }
 
-/// Where the parts of a number stand: the row that gave a sign its text.
-bool are_on_one_line(cv::Rect2d const& a, cv::Rect2d const& b) {
-  return std::abs(a.y + 0.5 * a.height - b.y - 0.5 * b.height) < 0.4 * std::max(a.height, b.height);
+/// Where the parts of a number stand. Rows that lie over each other are the same letters, found twice.
+bool are_side_by_side(cv::Rect2d const& a, cv::Rect2d const& b) {
+  double const both = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  bool const is_level = std::abs(a.y + 0.5 * a.height - b.y - 0.5 * b.height) < 0.4 * std::max(a.height, b.height);
+  return is_level && both < 0.5 * std::min(a.width, b.width);
 }
 
 /// A sign that is being put together, and the row with its number.
@@ -96,7 +98,7 @@ void take_in(Sign& sign, ReadLine const& line) {
   if (!whole.kind) whole.kind = row.kind;
   if (!row.text) return;
   std::optional<std::string> both;
-  if (whole.text && are_on_one_line(sign.number.box, line.box)) {
+  if (whole.text && are_side_by_side(sign.number.box, line.box)) {
     bool const is_first = line.box.x < sign.number.box.x;
     both = is_first ? joined_number(*row.text, *whole.text) : joined_number(*whole.text, *row.text);
   }
