@@ -27,7 +27,7 @@ constexpr double steps_a_nat = 256.0;
 constexpr std::int16_t unseen = INT16_MIN;
 constexpr std::string_view log_odds_band = "log odds";
 
-std::array<double, 6> pixels_to_plane(OccupancyGrid const& grid, internal::CellBox const& box) {
+std::array<double, 6> pixels_to_plane(OccupancyGrid const& grid, map::CellBox const& box) {
   double const size_m = grid.resolution_m();
   double const turn = grid.site_from_grid().yaw_rad();
   auto const upper_left =
@@ -37,7 +37,7 @@ std::array<double, 6> pixels_to_plane(OccupancyGrid const& grid, internal::CellB
           upper_left.y(), size_m * std::sin(turn), -size_m * std::cos(turn)};
 }
 
-bool write_rows(GDALDataset& data, OccupancyGrid const& grid, internal::CellBox const& box) {
+bool write_rows(GDALDataset& data, OccupancyGrid const& grid, map::CellBox const& box) {
   auto const width = static_cast<int>(box.width);
   std::vector<std::int16_t> percent(static_cast<std::size_t>(width));
   std::vector<std::int16_t> steps(static_cast<std::size_t>(width));

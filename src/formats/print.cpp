@@ -61,7 +61,7 @@ bool is_on_paper(std::string const& site, std::string const& floor, PrintOptions
   return site == options.site && (floor == options.floor || (options.floor.empty() && has_one_floor));
 }
 
-SiteBox extent_of(map::OccupancyGrid const& grid, internal::CellBox const& box) {
+SiteBox extent_of(map::OccupancyGrid const& grid, map::CellBox const& box) {
   auto const corner = [&](std::int64_t x, std::int64_t y) {
     return grid.site_from_grid() *
            geo::Point<map::GridFrame>(static_cast<double>(box.least.x + x) * grid.resolution_m(),

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/files/replace_file.hpp"
 #include "formats/internal/gdal.hpp"
 #include "formats/internal/grid_cells.hpp"
 #include "formats/pgm.hpp"
@@ -26,18 +27,8 @@ namespace {
 
 using base::ErrorKind;
 using base::fail;
-using map::Cell;
 using map::Evidence;
 using map::OccupancyGrid;
-
-std::uint8_t pixel_of(Evidence evidence, RosMapOptions const& options) {
-  if (options.is_raw)
-    return evidence.is_seen() ? static_cast<std::uint8_t>(std::lround(evidence.probability() * 100.0)) : 255;
-  if (!evidence.is_seen()) return 205;
-  if (evidence.probability() >= options.taken_threshold) return 0;
-  if (evidence.probability() <= options.free_threshold) return 254;
-  return 205;
-}
 
 struct RosMap {
   std::filesystem::path image;
@@ -220,35 +211,12 @@ void fill(OccupancyGrid& grid, Pixels const& pixels, RosMap const& map) {
 }  // namespace
 
 base::Result<> write_ros_map(OccupancyGrid const& grid, std::filesystem::path const& folder, std::string const& name,
-                             RosMapOptions const& options) {
-  auto const seen = internal::seen_cells(grid, name);
-  if (!seen) return std::unexpected(seen.error());
-  auto const& box = *seen;
-  auto const pgm = folder / (name + ".pgm");
-  std::ofstream picture(pgm, std::ios::binary);
-  picture << fmt::format("P5\n# {} m a cell, written by lapwing\n{} {}\n255\n", grid.resolution_m(), box.width,
-                         box.height);
-  std::string row(static_cast<std::size_t>(box.width), '\0');
-  for (std::int64_t y = box.height - 1; y >= 0; --y) {
-    for (std::int64_t x = 0; x < box.width; ++x) {
-      Cell const cell{static_cast<std::int32_t>(box.least.x + x), static_cast<std::int32_t>(box.least.y + y)};
-      row[static_cast<std::size_t>(x)] = static_cast<char>(pixel_of(grid.at(cell), options));
-    }
-    picture.write(row.data(), static_cast<std::streamsize>(row.size()));
-  }
-  auto const corner = grid.site_from_grid() *
-                      geo::Point<map::GridFrame>(box.least.x * grid.resolution_m(), box.least.y * grid.resolution_m());
-  std::ofstream yaml(folder / (name + ".yaml"));
-  yaml << fmt::format(
-      "image: {}.pgm\nmode: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: 0\noccupied_thresh: {}\nfree_thresh: "
-      "{}\n",
-      name, options.is_raw ? "raw" : "trinary", grid.resolution_m(), corner.x(), corner.y(),
-      grid.site_from_grid().yaw_rad(), options.taken_threshold, options.free_threshold);
-  picture.close();
-  yaml.close();
-  if (!picture || !yaml)
-    return fail(ErrorKind::io, fmt::format("{} cannot be written", pgm.string()), "is there room on the disk?");
-  return {};
+                             map::RosMapOptions const& options) {
+  auto const box = internal::seen_cells(grid, name);
+  if (!box) return std::unexpected(box.error());
+  auto const map = map::ros_map(grid, *box, name, options);
+  if (auto done = base::replace_file(folder / (name + ".pgm"), map.pgm); !done) return done;
+  return base::replace_file(folder / (name + ".yaml"), map.yaml);
 }
 
 base::Result<OccupancyGrid> read_ros_map(std::filesystem::path const& yaml) {

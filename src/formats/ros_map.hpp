@@ -5,22 +5,14 @@
 
 #include "base/error.hpp"
 #include "map/grid/occupancy_grid.hpp"
+#include "map/grid/ros_map.hpp"
 
-/// Occupancy grids as ROS map servers read and write them: `NAME.pgm` and `NAME.yaml` (nav2_map_server, map_io.cpp;
-/// wiki.ros.org/map_server).
+/// Occupancy grids as ROS map servers read and write them: `NAME.pgm` and `NAME.yaml` (map/grid/ros_map.hpp).
 namespace lapwing::formats {
-
-struct RosMapOptions {
-  /// Probabilities from here on are written as taken, and those up to `free_threshold` as free, in mode `trinary`.
-  double taken_threshold = 0.65;
-  double free_threshold = 0.196;
-  /// `raw`: percent as the picture's values, with nothing rounded to three words; Nav2 reads both.
-  bool is_raw = false;
-};
 
 /// Writes `FOLDER/NAME.pgm` and `FOLDER/NAME.yaml`. Errors: invalid_input for an empty grid; io.
 [[nodiscard]] base::Result<> write_ros_map(map::OccupancyGrid const& grid, std::filesystem::path const& folder,
-                                           std::string const& name, RosMapOptions const& options = {});
+                                           std::string const& name, map::RosMapOptions const& options = {});
 
 /// Reads the .yaml and the picture that it names, which lies beside it: PGM, PNG and what else GDAL takes for a
 /// picture, in the modes `trinary`, `scale` and `raw`. Errors, invalid_input: what is not such a map, and more than

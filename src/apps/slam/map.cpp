@@ -235,7 +235,7 @@ base::Result<> write_results(MapOptions const& options, slam::ScanLog const& log
   if (options.wants_loops)
     if (auto done = write("loops.json", base::to_text(loops_json(log, mapping), 1)); !done) return done;
   if (!grid.tiles().empty())
-    if (auto done = write_map(picture_of(grid), options.out); !done) return done;
+    if (auto done = write_map(grid, options.out); !done) return done;
   if (auto done = write("trajectory.tum", tum_text(poses)); !done) return done;
   if (auto done = write("graph.g2o", slam::write_g2o(mapping.graph.poses, mapping.graph.constraints)); !done)
     return done;
