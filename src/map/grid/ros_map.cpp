@@ -42,7 +42,7 @@ RosMap ros_map(OccupancyGrid const& grid, CellBox const& box, std::string_view n
   auto const corner = grid.site_from_grid() *
                       geo::Point<GridFrame>(box.least.x * grid.resolution_m(), box.least.y * grid.resolution_m());
   return {.pgm = pgm_of(grid, box, options),
-          .yaml = fmt::format("image: {}.pgm\nmode: {}\nresolution: {}\norigin: [{}, {}, {}]\nnegate: "
+          .yaml = fmt::format("image: {}.pgm\nmode: {}\nresolution: {}\norigin: [{:.10g}, {:.10g}, {:.10g}]\nnegate: "
                               "0\noccupied_thresh: {}\nfree_thresh: {}\n",
                               name, options.is_raw ? "raw" : "trinary", grid.resolution_m(), corner.x(), corner.y(),
                               grid.site_from_grid().yaw_rad(), options.taken_above, free_threshold)};

@@ -33,7 +33,8 @@ TEST(RosMap, HasTheRowsFromAboveAndNoEmptyEdge) {
   EXPECT_TRUE(map.pgm.starts_with("P5\n")) << map.pgm.substr(0, 20);
   EXPECT_NE(map.pgm.find("\n3 2\n255\n"), std::string::npos);
   EXPECT_EQ(pixels(map), "\xCD\xCD\xCD" + std::string(1, '\0') + "\xFE\xCD");
-  EXPECT_NE(map.yaml.find("image: floor.pgm\nmode: trinary\nresolution: 0.05\norigin: [-0.1, 0.15"), std::string::npos)
+  EXPECT_NE(map.yaml.find("image: floor.pgm\nmode: trinary\nresolution: 0.05\norigin: [-0.1, 0.15, 0]"),
+            std::string::npos)
       << map.yaml;
 }
 
