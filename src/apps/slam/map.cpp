@@ -28,6 +28,7 @@
 #include "slam/mapper_parameters.hpp"
 #include "slam/readers/any_log.hpp"
 #include "slam/relations.hpp"
+#include "slam/walls/wall_lines.hpp"
 
 namespace lapwing::apps {
 
@@ -225,10 +226,19 @@ Json loops_json(slam::ScanLog const& log, slam::Mapping const& mapping) {
   return list;
 }
 
+/// Lines of metres in the map's frame, the longest wall first.
+std::string walls_csv(std::vector<slam::WallLine> const& walls) {
+  std::string text = "from_x_m,from_y_m,to_x_m,to_y_m,spread_m\n";
+  for (auto const& wall : walls)
+    text += fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}\n", wall.from.x(), wall.from.y(), wall.to.x(), wall.to.y(),
+                        wall.spread_m);
+  return text;
+}
+
 /// The report comes last: whoever sees it finds the others.
 base::Result<> write_results(MapOptions const& options, slam::ScanLog const& log, slam::Mapping const& mapping,
                              map::OccupancyGrid const& grid, std::vector<slam::TimedPose> const& poses,
-                             Json const& report) {
+                             std::vector<slam::WallLine> const& walls, Json const& report) {
   auto const write = [&](char const* name, std::string const& text) {
     return base::replace_file(options.out / name, text);
   };
@@ -236,6 +246,7 @@ base::Result<> write_results(MapOptions const& options, slam::ScanLog const& log
     if (auto done = write("loops.json", base::to_text(loops_json(log, mapping), 1)); !done) return done;
   if (!grid.tiles().empty())
     if (auto done = write_map(grid, options.out); !done) return done;
+  if (auto done = write("walls.csv", walls_csv(walls)); !done) return done;
   if (auto done = write("trajectory.tum", tum_text(poses)); !done) return done;
   if (auto done = write("graph.g2o", slam::write_g2o(mapping.graph.poses, mapping.graph.constraints)); !done)
     return done;
@@ -273,16 +284,18 @@ base::Result<> make_map(MapOptions const& options) {
     line(stage, share);
   });
   auto const grid = slam::draw_grid(*log, mapping.trajectory, {});
+  auto const walls = slam::find_walls(grid);
   auto const poses = timed(*log, mapping.trajectory);
   auto report = report_of(*log, mapping, poses, *relations);
   auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  report["walls"] = walls.size();
   report["wall_s"] = seconds;
   report["cpu_s"] = cpu_s();
   report["peak_mb"] = peak_mb();
   report["threads"] = threads;
   report["scan_ms"] = {
       {"p50", times.percentile_ms(0.5)}, {"p99", times.percentile_ms(0.99)}, {"max", times.percentile_ms(1.0)}};
-  if (auto done = write_results(options, *log, mapping, grid, poses, report); !done) return done;
+  if (auto done = write_results(options, *log, mapping, grid, poses, walls, report); !done) return done;
   print_summary(report);
   return {};
 }
@@ -297,7 +310,7 @@ void add_map(CLI::App& program, int& exit_code) {
       ->required()
       ->check(CLI::ExistingFile);
   verb->add_option("--out", options->out,
-                   "Folder for map.pgm, map.yaml, map.png, trajectory.tum, graph.g2o, report.json")
+                   "Folder for map.pgm, map.yaml, map.png, walls.csv, trajectory.tum, graph.g2o, report.json")
       ->required();
   verb->add_option("--relations", options->relations, "True relative poses to measure the trajectory with")
       ->check(CLI::ExistingFile);
