@@ -1,8 +1,10 @@
 #include "explore/strategy/gain.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "explore/floor/ray.hpp"
 
@@ -44,6 +46,34 @@ double unknown_beyond_m2(KnownMap const& map, Frontier const& frontier, double r
     if (entered >= 0.0) sum += last * last - entered * entered;
   }
   return sum * std::numbers::pi / static_cast<double>(rays) * map.cell_m() * map.cell_m();
+}
+
+double hidden_m2(KnownMap const& map, std::vector<Frontier> const& frontiers, double reach_m) {
+  DenseGrid<std::uint32_t> hidden_by(map.width(), map.height());  // the number of the last frontier, from 1; 0: none
+  std::size_t cells = 0;
+  std::uint32_t number = 0;
+  for (auto const& frontier : frontiers) {
+    ++number;
+    double const reach = std::min(2.0 * static_cast<double>(frontier.cells.size()), reach_m / map.cell_m());
+    std::vector<Cell> open;
+    auto const take_neighbours_of = [&](Cell cell) {
+      for (auto const& away : neighbours | std::views::take(4)) {
+        auto const next = cell + away;
+        bool const is_hidden = map.at(next) == Knowledge::unknown && length_of(next - frontier.middle) <= reach;
+        if (!is_hidden || hidden_by[next] == number) continue;
+        if (hidden_by[next] == 0) ++cells;
+        hidden_by[next] = number;
+        open.push_back(next);
+      }
+    };
+    for (auto const index : frontier.cells) take_neighbours_of(map.cell_of(index));
+    while (!open.empty()) {
+      auto const cell = open.back();
+      open.pop_back();
+      take_neighbours_of(cell);
+    }
+  }
+  return static_cast<double>(cells) * map.cell_m() * map.cell_m();
 }
 
 }  // namespace lapwing::explore

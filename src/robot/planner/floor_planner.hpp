@@ -45,8 +45,8 @@ struct PlannerOptions {
 /// What is known of the floor as a whole.
 struct Survey {
   double free_m2 = 0.0;  ///< seen and free
-  /// Seen, of what there seems to be: beside what was seen, the unknown within sight of the open frontiers. 1 when
-  /// there is none.
+  /// Seen, of what there seems to be: beside what was seen, the unknown that the open frontiers hide
+  /// (explore::hidden_m2). 1 when there is none.
   double coverage = 0.0;
   std::vector<Place> frontiers = {};  ///< the middles of the open ones
 };
