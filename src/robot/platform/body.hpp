@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,9 +19,10 @@ struct Reading {
   double speed_m_s = 0.0;
   std::optional<double> battery = {};  ///< 0..1
   explore::SideDistances sides = {};
-  bool is_killed = false;    ///< it stands until it is released
-  bool is_too_near = false;  ///< something is nearer than its safe distance: it backs away from that
-  bool is_waiting = false;   ///< its watchdog stands it still: no command has come lately
+  bool is_killed = false;          ///< it stands until it is released
+  bool is_too_near = false;        ///< something is nearer than its safe distance: it backs away from that
+  bool is_waiting = false;         ///< its watchdog stands it still: no command has come lately
+  std::uint16_t sensors_code = 0;  ///< what is wrong with the sensors, of watch/codes.hpp
 };
 
 /// A robot's hardware as the platform sees it, whatever link leads to it: readings and scans in, motions out.
@@ -41,6 +43,10 @@ class Body {
   [[nodiscard]] virtual slam::Sensor const* laser() const = 0;
   /// Over what it is reached, for people.
   [[nodiscard]] virtual std::string link() const = 0;
+
+  /// What is wrong with what drives it, of watch/codes.hpp; nothing while nothing new was heard of it. Asked ten times
+  /// a second by who watches it.
+  [[nodiscard]] virtual std::optional<std::uint16_t> take_carrier_code() = 0;
 
   /// Goes on like this until told otherwise; a body that hears nothing for half a second stands still by itself.
   virtual void drive(Motion motion) = 0;

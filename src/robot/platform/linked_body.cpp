@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "robot/platform/scan_laying.hpp"
+#include "robot/watch/self_report.hpp"
 
 namespace lapwing::robot {
 
@@ -57,7 +58,8 @@ void LinkedBody::take(firmware::Readings const& readings) {
                           .sides = sides_of(sensed->walls),
                           .is_killed = readings.has(Flag::killed),
                           .is_too_near = readings.has(Flag::too_near),
-                          .is_waiting = readings.has(Flag::watchdog)});
+                          .is_waiting = readings.has(Flag::watchdog),
+                          .sensors_code = sensors_code(sensed->faults)});
   if (!scan_ || end_of(*scan_, description_->laser) > readings.time) return;
   auto const scan = *std::exchange(scan_, std::nullopt);
   bool const fits = sensor_ && scan.ranges_m.size() == sensor_->bearings_rad.size();
@@ -70,6 +72,19 @@ void LinkedBody::take(LaserRanges const& scan) {
 
 void LinkedBody::tell(firmware::Log const& log) {
   log_.info(fmt::format("the board says {} ({})", static_cast<int>(log.code), log.value));
+}
+
+std::optional<std::uint16_t> LinkedBody::take_carrier_code() {
+  constexpr base::Duration while_of_frames = std::chrono::seconds(2);
+  auto const status = client_.status();
+  if (status.is_here && status.heard == told_of_) return std::nullopt;
+  told_of_ = status.heard;
+  auto const code = carrier_code(status, frames_then_);
+  if (loop_.now() - frames_since_ >= while_of_frames) {
+    frames_then_ = status.frames;
+    frames_since_ = loop_.now();
+  }
+  return code;
 }
 
 void LinkedBody::drive(Motion motion) {

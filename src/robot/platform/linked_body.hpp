@@ -20,6 +20,7 @@ class LinkedBody final : public Body {
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* laser() const override { return sensor_ ? &*sensor_ : nullptr; }
   [[nodiscard]] std::string link() const override { return link_->name(); }
+  [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;
   void kill() override { client_.kill(); }
   void release() override { client_.release(); }
@@ -39,6 +40,9 @@ class LinkedBody final : public Body {
   std::optional<slam::Sensor> sensor_;
   std::optional<LaserRanges> scan_;  ///< that odometry has not caught up with
   bool is_told_to_stand_ = false;
+  base::TimePoint told_of_{};  ///< when that was heard which the carrier's code was told of last
+  firmware::FrameReader::Counters frames_then_;
+  base::TimePoint frames_since_{};
   CarrierClient client_;
 };
 

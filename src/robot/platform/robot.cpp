@@ -9,6 +9,7 @@
 
 #include "base/async/pool.hpp"
 #include "robot/platform/robot_display.hpp"
+#include "robot/watch/codes.hpp"
 
 namespace lapwing::robot {
 
@@ -21,6 +22,7 @@ constexpr std::size_t most_waiting_scans = 50;  ///< then the oldest go: seconds
 constexpr base::Duration scan_is_old = 1s;      ///< nobody drives by what was seen before
 constexpr base::Duration survey_period = 1s;
 constexpr base::Duration write_period = 500ms;
+constexpr base::Duration left_out_lately = 5s;
 
 geo::Transform<geo::SiteFrame, map::GridFrame> place_of(RobotSpec const& spec) {
   return {spec.start.position, spec.start.yaw_rad};
@@ -58,6 +60,11 @@ Robot::Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundin
       site_from_map_(place_of(spec_)),
       map_from_site_(site_from_map_.inverse()),
       follower_(spec_.planning.limits),
+      health_({.loop = around_.loop,
+               .body = *body_,
+               .name = spec_.name,
+               .log = around_.log,
+               .communication = around_.communication}),
       scanned_(around_.loop),
       planned_(around_.loop),
       changed_(around_.loop),
@@ -83,6 +90,8 @@ void Robot::take(Reading const& reading) {
   if (last_reading_) driven_m_ += slam::distance_m(last_reading_->odometry, reading.odometry);
   bool const is_first = !last_reading_;
   last_reading_ = reading;
+  health_.sensed(reading.sensors_code);
+  health_.set_code(Module::mapping, mapping_code());
   show_reading(reading, is_first);
   steer();
   if (is_first || stands()) changed_.notify_all();
@@ -91,7 +100,10 @@ void Robot::take(Reading const& reading) {
 void Robot::take(slam::Scan const& scan) {
   scanned_at_ = around_.loop.now();
   room_ = Room(scan, *body_->laser());
-  if (scans_.size() == most_waiting_scans) scans_.pop_front();
+  if (scans_.size() == most_waiting_scans) {
+    scans_.pop_front();
+    left_out_at_ = around_.loop.now();
+  }
   scans_.push_back(scan);
   scanned_.notify_all();
 }
@@ -107,8 +119,7 @@ void Robot::steer() {
     auto const& odometry = last_reading_->odometry;
     motion = follower_.steer(pose_now(odometry), room_.seen_from(odometry));
   }
-  asked_ = motion;
-  body_->drive(motion);
+  asked_ = health_.guard().drive(motion);
 }
 
 base::Task<> Robot::watch_link() {
@@ -136,24 +147,52 @@ base::Task<> Robot::keep_thinking() {
       thoughts_ = std::make_unique<Thoughts>(*body_->laser(), mapping_options(spec_), spec_.planning);
       has_thoughts_ = true;
     }
-    ThoughtInput input{.scans = {std::make_move_iterator(scans_.begin()), std::make_move_iterator(scans_.end())},
-                       .errand = std::exchange(next_errand_, std::nullopt),
-                       .sides = last_reading_ ? last_reading_->sides : explore::SideDistances{},
-                       .driven_m = driven_m_,
-                       .time_s = base::to_seconds(around_.loop.now().time_since_epoch())};
-    scans_.clear();
-    input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
-    auto result = co_await around_.loop.on_pool(&think, std::move(thoughts_), known_errand_, std::move(input));
-    thoughts_ = std::move(result.thoughts);
+    auto mapping = map_scans();
+    auto map = co_await std::move(mapping);
+    auto planning = plan(std::move(map));
+    auto result = co_await std::move(planning);
+    thoughts_ = std::move(result.map.thoughts);
     loops_ = thoughts_->map.loops();
     use(std::move(result));
   }
 }
 
-void Robot::use(ThoughtResult result) {
+base::Task<MapResult> Robot::map_scans() {
+  health_.begin_work(Module::mapping);
+  if (spec_.hold_up) co_await spec_.hold_up(Module::mapping);
+  std::vector<slam::Scan> scans{std::make_move_iterator(scans_.begin()), std::make_move_iterator(scans_.end())};
+  scans_.clear();
+  auto result = co_await around_.loop.on_pool(&take_in, std::move(thoughts_), std::move(scans));
+  is_pose_lost_ = pose_check_.feed(base::to_seconds(around_.loop.now().time_since_epoch()), result.misfit);
+  health_.say(Module::mapping, ModuleState::ready, mapping_code());
+  co_return result;
+}
+
+base::Task<PlanResult> Robot::plan(MapResult map) {
+  health_.begin_work(Module::planner);
+  if (spec_.hold_up) co_await spec_.hold_up(Module::planner);
+  PlanInput input{.errand = std::exchange(next_errand_, std::nullopt),
+                  .sides = last_reading_ ? last_reading_->sides : explore::SideDistances{},
+                  .driven_m = driven_m_,
+                  .time_s = base::to_seconds(around_.loop.now().time_since_epoch())};
+  input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
+  auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
+  if (result.errand == last_errand_ && result.plan.state == Plan::State::failed) planner_code_ = code::no_way;
+  health_.say(Module::planner, ModuleState::ready, planner_code_);
+  co_return result;
+}
+
+std::uint16_t Robot::mapping_code() const {
+  auto const now = around_.loop.now();
+  if (is_pose_lost_) return code::pose_lost;
+  if (!scanned_at_ || now - *scanned_at_ >= scan_is_old) return code::no_scans;
+  return left_out_at_ && now - *left_out_at_ < left_out_lately ? code::mapping_slow : code::none;
+}
+
+void Robot::use(PlanResult result) {
   known_errand_ = result.errand;
-  here_ = result.here;
-  odometry_here_ = result.odometry;
+  here_ = result.map.here;
+  odometry_here_ = result.map.odometry;
   if (result.survey) {
     survey_ = std::move(result.survey);
     surveyed_at_ = around_.loop.now();
@@ -163,10 +202,10 @@ void Robot::use(ThoughtResult result) {
     follower_.take(plan_.way);
     planned_.notify_all();
   }
-  write_map(result);
+  write_map(result.map);
 }
 
-void Robot::write_map(ThoughtResult& result) {
+void Robot::write_map(MapResult& result) {
   if (result.grid) {
     grid_ = std::move(result.grid);
     unwritten_.insert(result.changed.begin(), result.changed.end());
@@ -179,6 +218,8 @@ void Robot::write_map(ThoughtResult& result) {
 }
 
 void Robot::give(Errand errand) {
+  // What became of an errand stands until there is another.
+  if (!std::holds_alternative<std::monostate>(errand)) planner_code_ = code::none;
   around_.registry.edit(id()).mode.set(mode_for(errand), around_.loop.now());
   around_.registry.touch(id());
   next_errand_ = NewErrand{.number = ++last_errand_, .errand = std::move(errand)};
@@ -262,12 +303,12 @@ void Robot::end_drive(std::string const& reason, bool is_failure) {
 }
 
 void Robot::kill(std::string const& reason) {
-  body_->kill();
+  health_.guard().kill();
   end_drive(reason, true);
 }
 
-void Robot::release() {
-  body_->release();
+base::Result<> Robot::restart() {
+  return health_.guard().restart();
 }
 
 // ---- what it shows

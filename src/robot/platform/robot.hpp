@@ -10,8 +10,10 @@
 #include "base/async/loop.hpp"
 #include "base/async/scope.hpp"
 #include "base/log.hpp"
+#include "robot/mapping/pose_check.hpp"
 #include "robot/planner/follower.hpp"
 #include "robot/platform/body.hpp"
+#include "robot/platform/robot_health.hpp"
 #include "robot/platform/thoughts.hpp"
 #include "robot/words/drive_task.hpp"
 #include "tasks/platform.hpp"
@@ -31,6 +33,8 @@ struct RobotSpec {
   std::vector<std::string> payload = {"Laser"};
   MappingOptions mapping = {};
   PlannerOptions planning = {};
+  /// Awaited before mapping and planning work: has the module hang for as long, in tests and exercises. Empty: none.
+  std::function<base::Task<>(Module)> hold_up = {};
 };
 
 /// How sure a robot is of where it is, against the part of its map around it: standard deviations, of the place along
@@ -72,6 +76,8 @@ class Robot {
     std::function<std::optional<geo::Point<geo::SiteFrame>>(geo::Wgs84)> on_site;
     std::function<std::optional<geo::Wgs84>(geo::Point<geo::SiteFrame>)> on_globe;
     OnMap on_map;
+    /// What is wrong with the way to the operators, of watch/codes.hpp; nothing where there is none to be watched.
+    std::function<std::optional<std::uint16_t>()> communication;
     base::Logger log;
   };
   Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundings);
@@ -90,12 +96,19 @@ class Robot {
   [[nodiscard]] std::shared_ptr<DriveRecord const> start(std::string name, std::vector<Step> steps);
   /// Ends what it does; it stands. `is_failure`: somebody else took it, or it cannot go on.
   void end_drive(std::string const& reason, bool is_failure);
+  /// It stands, whatever its modules say, until it is restarted.
   void kill(std::string const& reason);
-  void release();
+  /// The operator's, after a kill. Error (refused): which of its modules is not well yet.
+  base::Result<> restart();
 
   [[nodiscard]] bool is_driving() const { return record_ && record_->outcome == DriveRecord::Outcome::running; }
   [[nodiscard]] bool stands() const;
+  /// As its body shows.
   [[nodiscard]] bool is_killed() const { return last_reading_ && last_reading_->is_killed; }
+  /// It was killed, here or at its body.
+  [[nodiscard]] bool needs_restart() const { return health_.watch().is_killed() || is_killed(); }
+  /// How its modules do.
+  [[nodiscard]] ModuleWatch const& watch() const { return health_.watch(); }
   [[nodiscard]] std::vector<std::shared_ptr<DriveRecord const>> const& drives() const { return drives_; }
   [[nodiscard]] std::optional<Survey> const& survey() const { return survey_; }
   [[nodiscard]] std::optional<Located> const& here() const { return here_; }
@@ -115,8 +128,11 @@ class Robot {
   void take(slam::Scan const& scan);
   void steer();
   void show_reading(Reading const& reading, bool is_first);
-  void write_map(ThoughtResult& result);
-  void use(ThoughtResult result);
+  void write_map(MapResult& result);
+  [[nodiscard]] base::Task<MapResult> map_scans();
+  [[nodiscard]] base::Task<PlanResult> plan(MapResult map);
+  [[nodiscard]] std::uint16_t mapping_code() const;
+  void use(PlanResult result);
   void give(Errand errand);
   base::Task<> keep_thinking();
   base::Task<> watch_link();
@@ -132,6 +148,11 @@ class Robot {
   geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map_;
   geo::Transform<map::GridFrame, geo::SiteFrame> map_from_site_;
   Follower follower_;
+  RobotHealth health_;
+  PoseCheck pose_check_;
+  bool is_pose_lost_ = false;
+  std::uint16_t planner_code_ = 0;
+  std::optional<base::TimePoint> left_out_at_;  ///< when a scan was that could not be kept up with
 
   std::optional<Reading> last_reading_;
   std::deque<slam::Scan> scans_;  ///< that have not been thought of

@@ -92,14 +92,15 @@ void RobotControl::give(CommandRecord& record, VehicleId const& id, bool takes_o
   log_.info(fmt::format("{} commands {} to {}", record.by, to_string(record.command.action), robot->spec().name));
   auto const action = record.command.action;
   if (auto steps = steps_of(record.command)) {
-    if (robot->is_killed())
+    if (robot->needs_restart())
       return show(record.number, id, CommandState::refused, "it is stopped: let it go again first (arm)");
     auto drive = robot->start(fmt::format("{} by {}", to_string(action), record.by), *std::move(steps));
     show(record.number, id, CommandState::under_way);
     return scope_.spawn(follow(record.number, id, std::move(drive)));
   }
   if (action == Action::arm) {
-    robot->release();
+    if (auto const restarted = robot->restart(); !restarted)
+      return show(record.number, id, CommandState::refused, restarted.error().message);
     return show(record.number, id, CommandState::confirmed, "it may drive");
   }
   if (action == Action::disarm) {
@@ -179,7 +180,9 @@ void RobotControl::release_emergency_stop(Commander by) {
   if (!std::exchange(emergency_.is_latched, false)) return;
   stopping_ = {};
   around_.authority.bar(std::nullopt);
-  for (auto const& robot : platform_.robots()) robot->release();
+  for (auto const& robot : platform_.robots())
+    if (auto const restarted = robot->restart(); !restarted)
+      log_.warn(fmt::format("{} stays stopped: {}", robot->spec().name, restarted.error().message));
   log_.warn(fmt::format("emergency stop of robots released by {}", by));
   ++revision_;
 }

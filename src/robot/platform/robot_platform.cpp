@@ -96,6 +96,10 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       },
       .on_map = [this, spec](map::OccupancyGrid const& grid,
                              std::vector<map::TileKey> const& changed) { write(spec, grid, changed); },
+      .communication = [this]() -> std::optional<std::uint16_t> {
+        if (!communication_) return std::nullopt;
+        return communication_();
+      },
       .log = log_};
   robots_.push_back(std::make_unique<Robot>(std::move(spec), std::move(body), std::move(around)));
   scope_.spawn(pass_on(*robots_.back()));
@@ -173,7 +177,7 @@ std::unique_ptr<tasks::TaskRun> RobotPlatform::start(std::shared_ptr<tasks::Plat
   if (!found->is_connected()) return std::make_unique<tasks::FailedRun>(fmt::format("{} is lost", name), true);
   if (auto claimed = around_.authority.claim(id, vehicle::script_commander); !claimed)
     return std::make_unique<tasks::FailedRun>(claimed.error().message);
-  if (found->is_killed())
+  if (found->needs_restart())
     return std::make_unique<tasks::FailedRun>(fmt::format("{} is stopped: let it go again first", name), true);
   return std::make_unique<DriveRun>(*found, found->start(drive->name(), drive->steps()));
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +53,9 @@ class RobotPlatform final : public tasks::Platform {
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
                                                       vehicle::VehicleId const& id) override;
   [[nodiscard]] base::Task<void> settle() override;
+  /// How the way to the operators is, for the robots' communication module: gives what is wrong with it, of
+  /// watch/codes.hpp. Without this nobody says anything of it. An outage of it stops nothing.
+  void set_communication(std::function<std::uint16_t()> code) { communication_ = std::move(code); }
   /// Of all robots; `settle` waits until they stand.
   void end_drives(std::string const& reason);
 
@@ -65,6 +70,7 @@ class RobotPlatform final : public tasks::Platform {
   Surroundings around_;
   base::Logger log_;
   tasks::Vocabulary vocabulary_;
+  std::function<std::uint16_t()> communication_;
   base::Notifier vehicles_changed_;
   base::Notifier settled_;
   std::vector<std::unique_ptr<Robot>> robots_;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "robot/mapping/pose_check.hpp"
+
 namespace lapwing::robot {
 
 namespace {
@@ -22,21 +24,27 @@ std::vector<Place> ends_of(slam::Scan const& scan, slam::Sensor const& sensor, s
 
 }  // namespace
 
-ThoughtResult think(std::unique_ptr<Thoughts> thoughts, std::uint64_t errand, ThoughtInput input) {
+MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans) {
   auto& map = thoughts->map;
-  auto& planner = thoughts->planner;
-  auto const last = input.scans.back();
-  for (auto& scan : input.scans) map.add(std::move(scan));
-  ThoughtResult result;
+  MapResult result;
+  result.last = scans.back();
+  for (auto& scan : scans) map.add(std::move(scan));
   result.changed = map.take_changes();
-  if (!result.changed.empty()) {
-    planner.learn(map.grid(), result.changed);
-    result.grid = map.grid();
-  }
+  if (!result.changed.empty()) result.grid = map.grid();
   result.here = map.here();
   result.odometry = map.odometry();
+  result.seen = ends_of(result.last, map.sensor(), result.here.pose);
+  result.misfit = misfit(map.grid(), result.seen);
+  result.thoughts = std::move(thoughts);
+  return result;
+}
+
+PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
+  auto& planner = map.thoughts->planner;
+  auto const& floor = map.thoughts->map;
+  if (map.grid) planner.learn(*map.grid, map.changed);
+  PlanResult result;
   result.errand = errand;
-  auto const& driven = map.graph().poses;
   std::optional<base::Error> refused;
   if (input.errand) {
     result.errand = input.errand->number;
@@ -45,16 +53,16 @@ ThoughtResult think(std::unique_ptr<Thoughts> thoughts, std::uint64_t errand, Th
   if (refused) {
     result.plan = {.state = Plan::State::failed, .reason = refused->message};
   } else {
-    result.plan = planner.plan({.pose = result.here.pose,
+    result.plan = planner.plan({.pose = map.here.pose,
                                 .driven_m = input.driven_m,
                                 .time_s = input.time_s,
                                 .sides = input.sides,
-                                .seen = ends_of(last, map.sensor(), result.here.pose),
-                                .room = Room(last, map.sensor()),
-                                .driven = driven});
+                                .seen = map.seen,
+                                .room = Room(map.last, floor.sensor()),
+                                .driven = floor.graph().poses});
   }
   if (input.wants_survey) result.survey = planner.survey();
-  result.thoughts = std::move(thoughts);
+  result.map = std::move(map);
   return result;
 }
 

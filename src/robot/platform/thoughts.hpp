@@ -23,8 +23,20 @@ struct NewErrand {
   Errand errand = {};
 };
 
-struct ThoughtInput {
-  std::vector<slam::Scan> scans = {};  ///< in the order of time, at least one
+/// What mapping has made of some scans, and planning goes on with.
+struct MapResult {
+  std::unique_ptr<Thoughts> thoughts;
+  slam::Scan last;  ///< of them
+  Located here;
+  slam::Pose2 odometry;  ///< of the scan at which it was here
+  /// How little the scan fits the map there: see `misfit`. Nothing where too little of what it shows is known.
+  std::optional<double> misfit = {};
+  std::vector<Place> seen = {};                 ///< the ends of its beams, in the map
+  std::optional<map::OccupancyGrid> grid = {};  ///< when it has changed
+  std::vector<map::TileKey> changed = {};
+};
+
+struct PlanInput {
   std::optional<NewErrand> errand = {};
   explore::SideDistances sides = {};
   double driven_m = 0.0;
@@ -32,18 +44,16 @@ struct ThoughtInput {
   bool wants_survey = false;
 };
 
-struct ThoughtResult {
-  std::unique_ptr<Thoughts> thoughts;
-  Located here;
-  slam::Pose2 odometry;  ///< of the scan at which it was here
+struct PlanResult {
+  MapResult map;
   Plan plan;
   std::uint64_t errand = 0;  ///< which one the plan is for; 0: none
   std::optional<Survey> survey = {};
-  std::optional<map::OccupancyGrid> grid = {};  ///< when it has changed
-  std::vector<map::TileKey> changed = {};
 };
 
-/// A pure function for `Loop::on_pool`: takes the scans into the map and plans on it.
-[[nodiscard]] ThoughtResult think(std::unique_ptr<Thoughts> thoughts, std::uint64_t errand, ThoughtInput input);
+/// A pure function for `Loop::on_pool`: takes the scans into the map; in the order of time, at least one.
+[[nodiscard]] MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans);
+/// The same: plans on what has come of that. `errand`: the one that the planner has.
+[[nodiscard]] PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input);
 
 }  // namespace lapwing::robot

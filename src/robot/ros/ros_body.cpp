@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "robot/watch/codes.hpp"
+
 namespace lapwing::robot::ros {
 
 using namespace std::chrono_literals;
@@ -18,6 +20,9 @@ constexpr base::Duration frames_come_within = 3s;
 /// A command may get lost on its way; what makes it stand is said a few times.
 constexpr int zeros = 3;
 constexpr base::Duration kill_period = 50ms;
+/// A base that says nothing for so long is away.
+constexpr base::Duration base_is_away = 500ms;
+constexpr double low_battery = 0.15;
 
 std::chrono::nanoseconds since_epoch(bus::Time const& time) {
   return std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nanosec);
@@ -152,6 +157,13 @@ void RosBody::tell_reading() {
                           .battery = battery_,
                           .sides = sides_,
                           .is_killed = is_killed_});
+}
+
+std::optional<std::uint16_t> RosBody::take_carrier_code() {
+  if (!now_ || loop_.now() - told_at_ >= base_is_away) return code::board_away;
+  if (std::exchange(carrier_told_, told_at_) == told_at_) return std::nullopt;
+  if (battery_ && *battery_ <= low_battery) return code::battery_low;
+  return is_killed_ ? code::killed : code::none;
 }
 
 // ---- out

@@ -43,6 +43,7 @@ class RosBody final : public Body {
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* laser() const override { return scans_ ? &scans_->sensor() : nullptr; }
   [[nodiscard]] std::string link() const override;
+  [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;
   void kill() override;
   void release() override { is_killed_ = false; }
@@ -86,7 +87,8 @@ class RosBody final : public Body {
   std::optional<bus::LaserScan> waiting_;  ///< that odometry has not caught up with
   explore::SideDistances sides_{.left_m = 5.0, .front_m = 7.5, .right_m = 5.0};
   base::TimePoint told_at_{};
-  int stood_ = 0;  ///< zeros that were sent since it drove
+  base::TimePoint carrier_told_{};  ///< of which reading the carrier's code was told last
+  int stood_ = 0;                   ///< zeros that were sent since it drove
   bool is_killed_ = false;
   base::Scope scope_;
 };

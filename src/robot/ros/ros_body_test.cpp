@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "robot/watch/codes.hpp"
+
 namespace lapwing::robot::ros {
 namespace {
 
@@ -106,6 +108,22 @@ TEST_F(RosBodyTest, LaysScansWhereTheRobotWasThen) {
   EXPECT_DOUBLE_EQ(scans.back().odometry.x, 1.5) << "halfway between the two moments";
   EXPECT_EQ(scans.back().ranges_m, (std::vector<float>{3.0F, 3.0F, 3.0F}));
   EXPECT_DOUBLE_EQ(scans.back().time.count(), 10.5);
+}
+
+TEST_F(RosBodyTest, SaysHowItsBaseIsAndWhenItIsAway) {
+  be_at(10, 1.0);
+  ASSERT_TRUE(comes_true([&] { return !readings.empty(); }));
+  EXPECT_EQ(body->take_carrier_code(), code::none);
+  EXPECT_EQ(body->take_carrier_code(), std::nullopt) << "nothing new was heard of it";
+  std::optional<std::uint16_t> said;
+  auto const says = [&](std::uint16_t code) {
+    if (auto const now = body->take_carrier_code()) said = now;
+    return said == code;
+  };
+  EXPECT_TRUE(comes_true([&] { return says(code::board_away); }));
+  body->kill();
+  be_at(11, 1.0);
+  EXPECT_TRUE(comes_true([&] { return says(code::killed); }));
 }
 
 TEST_F(RosBodyTest, DrivesAndLeavesARobotAloneThatStands) {

@@ -14,18 +14,21 @@ namespace lapwing::robot::testing {
 
 /// A platform with a robot in the small office, in time without pace.
 struct PlatformBench {
-  explicit PlatformBench(unsigned threads = 2)
+  /// `hold_up`: has a module of the first robot hang.
+  explicit PlatformBench(unsigned threads = 2, std::function<base::Task<>(Module)> hold_up = {})
       : loop(base::Loop::Pace{.unpaced = true, .begins_at = base::UtcTime(std::chrono::hours(24 * 365 * 30))},
              threads) {
     live_map.put_site(*geo::Site::make("office", geo::Wgs84::from_degrees(41.178, -8.598, 90.0)));
-    robot = add("robot1");
+    robot = add("robot1", {}, std::move(hold_up));
   }
 
-  Robot* add(std::string const& id, SimpleBodyOptions const& options = {}) {
+  Robot* add(std::string const& id, SimpleBodyOptions const& options = {},
+             std::function<base::Task<>(Module)> hold_up = {}) {
     auto made = std::make_unique<SimpleBody>(loop, small_office(), options);
     if (!body) body = made.get();
     RobotSpec spec{.id = id, .name = "robot " + id.substr(5), .site = "office"};
     spec.planning.side_m = 40.0;
+    spec.hold_up = std::move(hold_up);
     return platform.add(std::move(spec), std::move(made)).value();
   }
   void run_for(base::Duration time) {

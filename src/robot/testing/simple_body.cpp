@@ -83,18 +83,23 @@ base::Task<> SimpleBody::live() {
     co_await loop_.sleep(step);
     move();
     if (is_silent || !listener_.on_reading) continue;
-    bool const is_waiting = loop_.now() - told_at_ > 500ms;
-    listener_.on_reading({.at = loop_.now(),
-                          .odometry = odometry_,
-                          .speed_m_s = motion_.speed_m_s,
-                          .battery = battery,
-                          .sides = {range_m(slam::place(pose_), pose_.yaw + std::numbers::pi / 2),
-                                    range_m(slam::place(pose_), pose_.yaw),
-                                    range_m(slam::place(pose_), pose_.yaw - std::numbers::pi / 2)},
-                          .is_killed = is_killed_,
-                          .is_waiting = is_waiting});
+    if (!is_numb) tell_reading();
     if (!is_blind && i % 2 == 0) look();
   }
+}
+
+void SimpleBody::tell_reading() {
+  bool const is_waiting = loop_.now() - told_at_ > 500ms;
+  listener_.on_reading(
+      {.at = loop_.now(),
+       .odometry = odometry_,
+       .speed_m_s = motion_.speed_m_s,
+       .battery = battery,
+       .sides = {range_m(slam::place(pose_), pose_.yaw + std::numbers::pi / 2), range_m(slam::place(pose_), pose_.yaw),
+                 range_m(slam::place(pose_), pose_.yaw - std::numbers::pi / 2)},
+       .is_killed = is_killed_,
+       .is_waiting = is_waiting,
+       .sensors_code = sensors_code});
 }
 
 void SimpleBody::move() {

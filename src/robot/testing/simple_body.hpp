@@ -46,6 +46,9 @@ class SimpleBody final : public Body {
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* laser() const override { return &laser_; }
   [[nodiscard]] std::string link() const override { return "test://"; }
+  [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override {
+    return is_silent ? std::nullopt : std::optional(carrier_code);
+  }
   void drive(Motion motion) override;
   void kill() override { is_killed_ = true; }
   void release() override { is_killed_ = false; }
@@ -55,15 +58,21 @@ class SimpleBody final : public Body {
   [[nodiscard]] double driven_m() const { return driven_m_; }
 
   // ---- what tests do to it
+  /// Somebody takes it up and puts it down there; its wheels feel nothing of that.
+  void carry_to(slam::Pose2 const& pose) { pose_ = pose; }
   bool is_silent = false;  ///< says nothing
+  bool is_numb = false;    ///< its sensors say nothing; its laser and its carrier do
   bool is_blind = false;   ///< its laser says nothing
   double battery = 0.9;
+  std::uint16_t carrier_code = 0;
+  std::uint16_t sensors_code = 0;
   std::vector<Wall> put_in_the_way = {};  ///< seen and hit like walls
 
  private:
   base::Task<> live();
   void move();
   void look();
+  void tell_reading();
   [[nodiscard]] double noise(double deviation) { return deviation * normal_(random_); }
   [[nodiscard]] double range_m(Eigen::Vector2d const& from, double yaw) const;
 

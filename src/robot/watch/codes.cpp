@@ -115,11 +115,17 @@ Severity severity_of(std::uint16_t code) {
 std::string code_page() {
   std::string page =
       "# What a robot's modules say when something is wrong\n\n"
-      "Each module says ten times a second how it is; an error code is one of these. *Critical* stops the robot, "
-      "*degraded* lets it go on less\n"
-      "well, a *notice* is for whoever likes to know. A module that says nothing for 0.3 s stops the robot, too. This "
-      "page is made from\n"
-      "`src/robot/watch/codes.cpp`, which the Health tab and the API speak from as well.\n";
+      "Each module says ten times a second how it is; an error code is one of these. *Critical* stops the robot until "
+      "it has been over for 2 s,\n"
+      "*degraded* lets it go on less well, a *notice* is for whoever likes to know. A module without which the robot "
+      "does not drive (SIM, CAR, MMU,\n"
+      "PLN) and that says nothing for 0.3 s stops it, too. What is so now stands in the tab *Health* of the page and "
+      "in "
+      "`GET /api/v1/health`\n"
+      "([guide](../guide/robots.md#whether-it-is-well)). This page is made from `src/robot/watch/codes.cpp`, which "
+      "both "
+      "speak from as well.\n"
+      "Nothing says 304, 402, 403, 501 to 503, 602, 701 and 801 yet.\n";
   std::optional<Module> module;
   for (auto const& entry : table) {
     if (module != entry.module) {

@@ -55,8 +55,9 @@ enum class ModuleState : std::uint8_t {
 struct ModuleReport {
   ModuleState state = ModuleState::starting;
   std::uint16_t error_code = 0;  ///< of the table in codes.hpp; zero: none
-  std::uint64_t memory_bytes = 0;
-  double cpu_share = 0;  ///< of one core, since its last report
+  /// Of the process that it runs in, which several modules may share; nothing where it runs on a board.
+  std::optional<std::uint64_t> memory_bytes = {};
+  std::optional<double> cpu_share = {};  ///< of one core, of the same process
 };
 
 }  // namespace lapwing::robot

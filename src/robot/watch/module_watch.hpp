@@ -19,6 +19,9 @@ struct WatchSettings {
   std::vector<Module> required{Module::sensors, Module::carrier, Module::mapping, Module::planner};
   /// Three periods of the modules' reports (the seed leaves it open).
   base::Duration silence = std::chrono::milliseconds(300);
+  /// So long a module must have been without a critical error. A board forgives a wheel that is blocked with the next
+  /// command, the stop itself included: without this the robot would push against it again at once.
+  base::Duration calm = std::chrono::seconds(2);
 };
 
 /// A module as the Health tab shows it.
@@ -42,8 +45,10 @@ struct Clearance {
 
 /// Who is well and who is not. Values in, values out: the moments are given.
 ///
-/// The robot may move when every required module was heard within the watch period, is ready and has no critical error,
-/// and no kill holds. After a silence that is over it may move again by itself; after a kill only `restart` lets it.
+/// The robot may move when every required module was heard within the watch period, is ready and has had no critical
+/// error for a moment, and no kill holds. After a silence that is over it may move again by itself; after a kill only
+/// `restart` lets it. Of several that are not well, one that says what is wrong is named before one that is silent,
+/// which may be its consequence.
 class ModuleWatch {
  public:
   explicit ModuleWatch(WatchSettings settings = {});
@@ -60,8 +65,11 @@ class ModuleWatch {
  private:
   struct Entry {
     std::optional<ModuleReport> report;
-    std::deque<base::TimePoint> heard;  ///< the newest last; no more than a second back
+    std::deque<base::TimePoint> heard;           ///< the newest last; no more than a second back
+    std::optional<base::TimePoint> critical_at;  ///< when it last said something critical
+    ModuleReport critical;                       ///< what that was
   };
+  [[nodiscard]] std::optional<Clearance> critical_objection(Module module, base::TimePoint now) const;
   [[nodiscard]] Clearance clearance_of_modules(base::TimePoint now) const;
   [[nodiscard]] std::optional<Clearance> objection(Module module, base::TimePoint now) const;
   [[nodiscard]] Entry const& entry(Module module) const { return entries_[static_cast<std::size_t>(module)]; }

@@ -69,6 +69,29 @@ TEST(ModuleWatch, ACriticalErrorStopsAndALesserOneDoesNot) {
   EXPECT_EQ(watch.clearance(at(1s)).reason, "mapping (MMU) reports error 4711: none that this program knows");
   watch.report(Module::mapping, {.state = ModuleState::failed}, at(1s));
   EXPECT_EQ(watch.clearance(at(1s)).reason, "mapping (MMU) has failed");
+  watch.report(Module::mapping, ready(), at(1100ms));
+  EXPECT_EQ(watch.clearance(at(1100ms)).reason, "mapping (MMU) had failed a moment ago");
+}
+
+TEST(ModuleWatch, WaitsForAMomentWithoutACriticalErrorBeforeItLetsGoOn) {
+  ModuleWatch watch;
+  all_report(watch, at(1s));
+  watch.report(Module::carrier, ready(code::left_wheel_dead), at(1s));
+  all_report(watch, at(1100ms));
+  EXPECT_EQ(watch.clearance(at(1100ms)).reason,
+            "carrier (CAR) reported a moment ago error 203: The left wheel is driven and gives no pulses.");
+  all_report(watch, at(2900ms));
+  EXPECT_FALSE(watch.clearance(at(2900ms)).may_move);
+  all_report(watch, at(3s));
+  EXPECT_TRUE(watch.clearance(at(3s)).may_move);
+}
+
+TEST(ModuleWatch, NamesWhoSaysWhatIsWrongBeforeWhoIsSilent) {
+  ModuleWatch watch;
+  all_report(watch, at(1s));
+  watch.report(Module::carrier, ready(code::board_away), at(1500ms));
+  auto const clearance = watch.clearance(at(1500ms));
+  EXPECT_EQ(clearance.who, Module::carrier) << clearance.reason;
 }
 
 TEST(ModuleWatch, AnOutageOfTheOperatorsPartsStopsNothing) {
@@ -176,6 +199,14 @@ TEST(ProcessUse, IsThatOfThisProcess) {
   EXPECT_GT(after.cpu, before.cpu);
   EXPECT_GT(cpu_share(before, after, 1s), 0);
   EXPECT_EQ(cpu_share(before, after, 0s), 0);
+}
+
+TEST(ProcessMeter, SaysTheMemoryAtOnceAndTheSameUntilItLooksAgain) {
+  ProcessMeter meter;
+  auto const first = meter.use();
+  EXPECT_GT(first.memory_bytes, 1'000'000U);
+  EXPECT_EQ(first.cpu_share, 0);
+  EXPECT_EQ(meter.use().memory_bytes, first.memory_bytes);
 }
 
 }  // namespace

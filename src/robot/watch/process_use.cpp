@@ -33,4 +33,15 @@ double cpu_share(ProcessUse const& before, ProcessUse const& after, base::Durati
   return base::to_seconds(after.cpu - before.cpu) / base::to_seconds(between);
 }
 
+ProcessMeter::Use ProcessMeter::use() {
+  auto const now = std::chrono::steady_clock::now();
+  if (looked_at_ && now - *looked_at_ < std::chrono::seconds(1)) return use_;
+  auto const seen = process_use();
+  if (looked_at_) use_.cpu_share = cpu_share(seen_, seen, now - *looked_at_);
+  use_.memory_bytes = seen.memory_bytes;
+  looked_at_ = now;
+  seen_ = seen;
+  return use_;
+}
+
 }  // namespace lapwing::robot

@@ -1,4 +1,5 @@
-#include "robot/watch/carrier_guard.hpp"
+// The guard over a board that runs the firmware's program, at the far end of a line.
+#include "robot/platform/carrier_guard.hpp"
 
 #include <optional>
 #include <string>
@@ -9,21 +10,19 @@
 #include "base/async/loop.hpp"
 #include "link/pipe_link.hpp"
 #include "robot/carrier/testing/piped_board.hpp"
+#include "robot/platform/linked_body.hpp"
+#include "robot/watch/codes.hpp"
 
 namespace lapwing::robot {
 namespace {
 
 using namespace std::chrono_literals;
-using firmware::Drive;
 
-Drive ahead(float speed_m_s) {
-  return {.number = 0, .speed_m_s = speed_m_s, .by = Drive::By::heading, .turn = 0};
-}
+constexpr Motion ahead{.speed_m_s = 0.3, .turn_rad_s = 0.0};
 
 /// A robot whose modules all report, until one is told not to.
 struct CarrierGuardTest : ::testing::Test {
   CarrierGuardTest() {
-    client.start({});
     scope.spawn(report());
     wait(1s);
   }
@@ -40,15 +39,22 @@ struct CarrierGuardTest : ::testing::Test {
     auto const sleep = [](base::Loop& on, base::Duration how_long) -> base::Task<> { co_await on.sleep(how_long); };
     loop.run_until_done(sleep(loop, time));
   }
+  void drives() {
+    ASSERT_EQ(guard.drive(ahead), ahead);
+    wait(3s);
+    ASSERT_GT(board.body.speed_m_s(), 0.28F);
+    said.clear();
+  }
 
+  base::LogHub hub;
   base::Loop loop{{.unpaced = true}};
   link::Pipe pipe = link::make_pipe(loop);
   testing::PipedBoard board{loop, *pipe.b};
-  CarrierClient client{loop, *pipe.a};
+  LinkedBody body{loop, std::move(pipe.a), base::Logger(hub, "test")};
   ModuleWatch watch;
   std::vector<std::string> said;
   CarrierGuard guard{loop,
-                     client,
+                     body,
                      watch,
                      {.stopped = [this](Clearance const& why) { said.push_back(why.reason); },
                       .free = [this] { said.emplace_back("free"); }}};
@@ -62,10 +68,7 @@ TEST_F(CarrierGuardTest, StopsTheRobotWithinTheWatchPeriodWhicheverModuleHangs) 
   for (auto const module : WatchSettings{}.required) {
     hung.reset();
     wait(1s);
-    ASSERT_TRUE(guard.begin(ahead(0.3F)));
-    wait(3s);
-    ASSERT_GT(board.body.speed_m_s(), 0.28F);
-    said.clear();
+    drives();
     hung = module;
     wait(340ms);  // the period, and a look
     EXPECT_EQ(said.size(), 1U) << name_of(module).name;
@@ -73,42 +76,41 @@ TEST_F(CarrierGuardTest, StopsTheRobotWithinTheWatchPeriodWhicheverModuleHangs) 
     EXPECT_TRUE(board.body.is_standing()) << name_of(module).name;
     ASSERT_EQ(said.size(), 1U);
     EXPECT_NE(said[0].find(name_of(module).short_name), std::string::npos) << said[0];
-    auto const refused = guard.begin(ahead(0.3F));
-    ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find(name_of(module).short_name), std::string::npos);
+    EXPECT_EQ(guard.drive(ahead), Motion{});
+    wait(1s);
+    EXPECT_TRUE(board.body.is_standing()) << name_of(module).name;
   }
 }
 
-TEST_F(CarrierGuardTest, TellsWhoWaitsForAnOrderWhichModuleEndedIt) {
-  std::optional<base::Result<>> ended;
-  auto const run = [](CarrierGuard& on, std::optional<base::Result<>>& into) -> base::Task<> {
-    into = co_await on.carry_out(firmware::Turn{.number = 0, .heading_rad = 3}, 20s);
-  };
-  scope.spawn(run(guard, ended));
-  wait(500ms);
-  sick = Module::mapping;
-  code = 302;
-  wait(2s);
-  ASSERT_TRUE(ended);
-  ASSERT_FALSE(*ended);
-  EXPECT_EQ(
-      ended->error().message,
-      "the robot stays where it is: mapping (MMU) reports error 302: The place on the map is not known any more.");
-  EXPECT_TRUE(board.body.is_standing());
+TEST_F(CarrierGuardTest, StopsTheRobotAtOnceWhicheverModuleReportsACriticalErrorAndForAWhile) {
+  code = code::pose_lost;
+  for (auto const module : WatchSettings{}.required) {
+    wait(3s);
+    drives();
+    sick = module;
+    wait(120ms);  // until its next report, and a look
+    ASSERT_EQ(said.size(), 1U) << name_of(module).name;
+    EXPECT_NE(said[0].find(name_of(module).short_name), std::string::npos) << said[0];
+    wait(1500ms);
+    EXPECT_TRUE(board.body.is_standing()) << name_of(module).name;
+    sick.reset();
+    wait(1500ms);
+    EXPECT_EQ(guard.drive(ahead), Motion{}) << "it was not well a moment ago";
+  }
 }
 
 TEST_F(CarrierGuardTest, GoesOnByItselfAfterASilenceAndByAnOperatorAfterAKill) {
   hung = Module::mapping;
   wait(1s);
-  EXPECT_FALSE(guard.begin(ahead(0.1F)));
+  EXPECT_EQ(guard.drive(ahead), Motion{});
   hung.reset();
   wait(500ms);
-  EXPECT_TRUE(guard.begin(ahead(0.1F)));
+  EXPECT_EQ(guard.drive(ahead), ahead);
   wait(2s);
   guard.kill();
   wait(1s);
   EXPECT_TRUE(board.body.is_standing());
-  EXPECT_FALSE(guard.begin(ahead(0.1F)));
+  EXPECT_EQ(guard.drive(ahead), Motion{});
   hung = Module::planner;
   wait(1s);
   EXPECT_FALSE(guard.restart());
@@ -117,9 +119,27 @@ TEST_F(CarrierGuardTest, GoesOnByItselfAfterASilenceAndByAnOperatorAfterAKill) {
   wait(500ms);
   EXPECT_TRUE(guard.restart());
   wait(500ms);
-  EXPECT_TRUE(guard.begin(ahead(0.1F)));
+  EXPECT_EQ(guard.drive(ahead), ahead);
   wait(2s);
   EXPECT_GT(board.body.speed_m_s(), 0.08F);
+}
+
+TEST_F(CarrierGuardTest, ABoardThatIsUnpluggedStopsByItselfAndSaysSoWhenItIsBack) {
+  drives();
+  EXPECT_EQ(body.take_carrier_code(), code::none);
+  board.is_unplugged = true;
+  wait(300ms);
+  EXPECT_EQ(body.take_carrier_code(), std::nullopt) << "nothing new is heard of it";
+  wait(1500ms);
+  EXPECT_TRUE(board.body.is_standing()) << "its own watchdog";
+  EXPECT_EQ(body.take_carrier_code(), code::board_away);
+  board.is_unplugged = false;
+  wait(1s);
+  EXPECT_EQ(body.take_carrier_code(), code::board_watchdog);
+  EXPECT_EQ(guard.drive(ahead), ahead);
+  wait(2s);
+  EXPECT_GT(board.body.speed_m_s(), 0.28F);
+  EXPECT_EQ(body.take_carrier_code(), code::none);
 }
 
 }  // namespace
