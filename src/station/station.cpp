@@ -12,6 +12,7 @@
 #include "station/exports/export_routes.hpp"
 #include "station/feeds/alarms_feed.hpp"
 #include "station/feeds/control_feed.hpp"
+#include "station/feeds/health_feed.hpp"
 #include "station/feeds/log_feed.hpp"
 #include "station/feeds/pictures_feed.hpp"
 #include "station/feeds/plans_feed.hpp"
@@ -21,6 +22,7 @@
 #include "station/http/openapi.hpp"
 #include "station/messages/alarm_messages.hpp"
 #include "station/messages/control_messages.hpp"
+#include "station/messages/health_messages.hpp"
 #include "station/operator/control_routes.hpp"
 #include "station/operator/parameter_routes.hpp"
 #include "station/operator/script_folder.hpp"
@@ -50,8 +52,10 @@ HttpResponse start_failure(StartFailure const& failure) {
 }
 
 /// What a station shows to those who ask for it.
-std::vector<std::unique_ptr<Feed>> further_feeds(MapFace const& map, std::vector<std::unique_ptr<Feed>> of_others) {
+std::vector<std::unique_ptr<Feed>> further_feeds(MapFace const& map, vehicle::VehicleModules const* modules,
+                                                 std::vector<std::unique_ptr<Feed>> of_others) {
   auto feeds = map.feeds();
+  if (modules) feeds.push_back(std::make_unique<HealthFeed>(*modules));
   for (auto& feed : of_others) feeds.push_back(std::move(feed));
   return feeds;
 }
@@ -77,7 +81,7 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       map_face_(loop, options_.map ? *options_.map : *own_map_, options_.store),
       exports_(options_.exporter ? std::make_unique<ExportJobs>(loop, *options_.exporter) : nullptr),
       viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_),
-               further_feeds(map_face_, std::move(options_.feeds))),
+               further_feeds(map_face_, options_.modules, std::move(options_.feeds))),
       work_(loop),
       server_(std::move(server)) {
   server_->set_router(make_router());
@@ -229,6 +233,7 @@ Router Station::make_router() {
   router.add("POST", "/api/v1/stop", [this](auto const&) { return post_stop(); });
   add_control_routes(router, options_.control, log_);
   add_alarm_routes(router, options_.alarms, loop_);
+  add_health_route(router, options_.modules, loop_);
   add_parameter_routes(router, options_.parameters);
   map_face_.add_routes(router);
   add_export_routes(router, loop_, options_.map ? *options_.map : *own_map_, exports_.get());

@@ -28,6 +28,7 @@
 #include "station/viewers.hpp"
 #include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
+#include "vehicle/modules.hpp"
 #include "vehicle/parameters.hpp"
 #include "vehicle/registry.hpp"
 
@@ -52,6 +53,7 @@ class Station {
     vehicle::VehicleControl* control = nullptr;        ///< outlives the station; null: vehicles are only shown
     vehicle::VehicleAlarms* alarms = nullptr;          ///< outlives the station; null: there are none
     vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
+    vehicle::VehicleModules const* modules = nullptr;  ///< outlives the station; null: nobody tells of any
     map::LiveMap* map = nullptr;                       ///< outlives the station; null: an empty one of its own
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
     std::vector<BaseMap> base_maps = {};               ///< that viewers may choose from

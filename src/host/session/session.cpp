@@ -13,6 +13,7 @@
 #include "host/session/signals.hpp"
 #include "host/simulation/simulation.hpp"
 #include "mavlink/connection/connection_link.hpp"
+#include "robot/watch/codes.hpp"
 
 namespace lapwing::host {
 
@@ -83,6 +84,7 @@ Session::Session(Options const& options)
       live_map([this] { return loop.utc_now(); }),
       robots({loop, ground.registry, ground.authority, live_map}, log.named("robots")),
       robot_control(robots, {loop, ground.authority}, log),
+      robot_modules(robots),
       platforms(loop, log.named("platforms")),
       console(make_console(loop, log)),
       host(
@@ -215,11 +217,16 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
     options.exporter = map_exports.get();
   }
   options.map = &live_map;
-  if (!robots.robots().empty()) options.feeds.push_back(std::make_unique<RobotsFeed>(robots, live_map));
+  if (!robots.robots().empty()) {
+    options.feeds.push_back(std::make_unique<RobotsFeed>(robots, live_map));
+    options.modules = &robot_modules;
+  }
   options.metrics = [this] { return metrics_of(ground.registry, ground.link_reports(), forwarding, loop.now()); };
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
+  robots.set_communication(
+      [this] { return map && map->viewers() > 0 ? robot::code::none : robot::code::operator_away; });
   fmt::print(stderr, "\n");
   // What a service prints lies in its journal: a token that has a file of its own stays there.
   bool const is_in_file = !access.token_file.empty();

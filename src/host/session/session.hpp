@@ -26,6 +26,7 @@
 #include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "robot/platform/robot_control.hpp"
+#include "robot/platform/robot_modules.hpp"
 #include "robot/platform/robot_platform.hpp"
 #include "route/router.hpp"
 #include "sim/world/world.hpp"
@@ -109,6 +110,7 @@ class Session {
   std::vector<std::unique_ptr<SimulatedBuilding>> buildings;  ///< in which simulated robots drive
   robot::RobotPlatform robots;
   robot::RobotControl robot_control;   ///< what operators do with the robots
+  robot::RobotModules robot_modules;   ///< how the robots' modules do
   tasks::Platforms platforms;          ///< the fleet, the robots and what has joined them, for scripts
   vehicle::JoinedControl all_control;  ///< the same for operators
   vehicle::JoinedParameters all_parameters;
