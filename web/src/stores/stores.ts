@@ -10,6 +10,7 @@ import { ExportsStore } from './exports.svelte';
 import { FeedsStore } from './feeds.svelte';
 import { FloorsStore } from './floors.svelte';
 import { FleetStore } from './fleet.svelte';
+import { HealthStore } from './health.svelte';
 import { HistoryStore } from './history.svelte';
 import { LayersStore } from './layers.svelte';
 import { LogStore } from './log.svelte';
@@ -36,6 +37,7 @@ export interface Stores {
   control: ControlStore;
   log: LogStore;
   alarms: AlarmsStore;
+  health: HealthStore;
   settings: Settings;
 }
 
@@ -61,6 +63,7 @@ export function createStores(network: Network, voices: Voices): Stores {
   const scripts = new ScriptsStore(session, control);
   const log = new LogStore(session);
   const alarms = new AlarmsStore(session, fleet, settings, voices);
+  const health = new HealthStore(session);
   // Who reads another store hears after it.
   session.begin([fleet, layers, history, control, scripts, log, alarms, baseMaps]);
   return {
@@ -79,6 +82,7 @@ export function createStores(network: Network, voices: Voices): Stores {
     control,
     log,
     alarms,
+    health,
     settings,
   };
 }
