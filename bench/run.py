@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store] [explore] [robots] [slam]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store] [explore] [robots] [kill] [slam]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -382,6 +382,12 @@ def robots() -> list:
     return buildings.measure(LAPWING, say)
 
 
+def kill() -> dict:
+    import kill as kills
+
+    return kills.measure(LAPWING, BENCH_BIN / "bench_kill_board", say)
+
+
 def slam() -> list:
     sys.path.insert(0, str(ROOT / "bench/slam"))
     import speed
@@ -412,7 +418,7 @@ def main():
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "shown": map_feeds, "upload": upload, "start": start,
                          "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "load": load, "store": store,
-                         "explore": explore, "robots": robots, "slam": slam}[name]()
+                         "explore": explore, "robots": robots, "kill": kill, "slam": slam}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 
