@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t most_waiting_scans = 50;  ///< then the oldest go: seconds that it could not keep up
 constexpr base::Duration scan_is_old = 1s;      ///< nobody drives by what was seen before
 constexpr base::Duration survey_period = 1s;
+constexpr base::Duration walls_period = 5s;
 constexpr base::Duration write_period = 500ms;
 constexpr base::Duration left_out_lately = 5s;
 
@@ -176,6 +177,7 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
                   .driven_m = driven_m_,
                   .time_s = base::to_seconds(around_.loop.now().time_since_epoch())};
   input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
+  input.wants_walls = around_.loop.now() - walls_at_ >= walls_period;
   auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
   if (result.errand == last_errand_ && result.plan.state == Plan::State::failed) planner_code_ = code::no_way;
   health_.say(Module::planner, ModuleState::ready, planner_code_);
@@ -203,6 +205,7 @@ void Robot::use(PlanResult result) {
     planned_.notify_all();
   }
   write_map(result.map);
+  if (result.walls) write_walls(*result.walls);
 }
 
 void Robot::write_map(MapResult& result) {
@@ -215,6 +218,12 @@ void Robot::write_map(MapResult& result) {
   around_.on_map(*grid_, {unwritten_.begin(), unwritten_.end()});
   unwritten_.clear();
   written_at_ = around_.loop.now();
+}
+
+void Robot::write_walls(WallBook::Changes const& changes) {
+  walls_at_ = around_.loop.now();
+  bool const are_any = !changes.put.empty() || !changes.removed.empty();
+  if (are_any && around_.on_walls) around_.on_walls(changes);
 }
 
 void Robot::give(Errand errand) {

@@ -69,6 +69,8 @@ class Robot {
   using FindPlace = std::function<base::Result<geo::Point<geo::SiteFrame>>(std::string const& name)>;
   /// Called when the grid has changed, twice a second at most.
   using OnMap = std::function<void(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed)>;
+  /// Called when walls have changed, every few seconds at most; in the map's frame.
+  using OnWalls = std::function<void(WallBook::Changes const& changes)>;
   struct Surroundings {
     base::Loop& loop;
     vehicle::Registry& registry;
@@ -76,6 +78,7 @@ class Robot {
     std::function<std::optional<geo::Point<geo::SiteFrame>>(geo::Wgs84)> on_site;
     std::function<std::optional<geo::Wgs84>(geo::Point<geo::SiteFrame>)> on_globe;
     OnMap on_map;
+    OnWalls on_walls;
     /// What is wrong with the way to the operators, of watch/codes.hpp; nothing where there is none to be watched.
     std::function<std::optional<std::uint16_t>()> communication;
     base::Logger log;
@@ -129,6 +132,7 @@ class Robot {
   void steer();
   void show_reading(Reading const& reading, bool is_first);
   void write_map(MapResult& result);
+  void write_walls(WallBook::Changes const& changes);
   [[nodiscard]] base::Task<MapResult> map_scans();
   [[nodiscard]] base::Task<PlanResult> plan(MapResult map);
   [[nodiscard]] std::uint16_t mapping_code() const;
@@ -171,6 +175,7 @@ class Robot {
   slam::Pose2 odometry_here_;
   std::optional<Survey> survey_;
   base::TimePoint surveyed_at_{};
+  base::TimePoint walls_at_{};  ///< when they were looked for
   slam::LoopCloser::Counts loops_;
   std::optional<map::OccupancyGrid> grid_;
   std::set<map::TileKey> unwritten_;

@@ -57,6 +57,16 @@ bool is_called(map::PointOfInterest const& point, std::string_view name) {
 
 }  // namespace
 
+namespace {
+
+/// Without a number what the ids of all its walls begin with.
+std::string wall_id(RobotSpec const& spec, std::optional<std::uint32_t> number) {
+  auto const prefix = spec.id + " wall ";
+  return number ? prefix + std::to_string(*number) : prefix;
+}
+
+}  // namespace
+
 RobotPlatform::RobotPlatform(Surroundings around, base::Logger log)
     : around_(around),
       log_(std::move(log)),
@@ -96,11 +106,13 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       },
       .on_map = [this, spec](map::OccupancyGrid const& grid,
                              std::vector<map::TileKey> const& changed) { write(spec, grid, changed); },
+      .on_walls = [this, spec](WallBook::Changes const& changes) { write_walls(spec, changes); },
       .communication = [this]() -> std::optional<std::uint16_t> {
         if (!communication_) return std::nullopt;
         return communication_();
       },
       .log = log_};
+  forget_walls(spec);
   robots_.push_back(std::make_unique<Robot>(std::move(spec), std::move(body), std::move(around)));
   scope_.spawn(pass_on(*robots_.back()));
   return robots_.back().get();
@@ -210,6 +222,32 @@ void RobotPlatform::write(RobotSpec const& spec, map::OccupancyGrid const& grid,
   auto const written = around_.live_map.put_tiles({.site = spec.site, .floor = spec.floor, .name = spec.name}, grid,
                                                   changed, {.writer = spec.id, .at = around_.loop.utc_now()});
   if (!written) log_.warn(fmt::format("the map of {} is not shown: {}", spec.name, written.error().message));
+}
+
+void RobotPlatform::write_walls(RobotSpec const& spec, WallBook::Changes const& changes) {
+  map::Account const account{.writer = spec.id, .at = around_.loop.utc_now()};
+  auto const& site_from_map = spec.mapping.site_from_map;
+  std::vector<map::Feature> walls;
+  for (auto const& [number, line] : changes.put)
+    walls.push_back({.id = wall_id(spec, number),
+                     .site = spec.site,
+                     .floor = spec.floor,
+                     .account = account,
+                     .content = map::Wall{.line = {{site_from_map * line.from, site_from_map * line.to}}}});
+  if (auto const put = around_.live_map.put_all(std::move(walls)); !put)
+    log_.warn(fmt::format("walls that {} has found are not shown: {}", spec.name, put.error().message));
+  for (auto const number : changes.removed)
+    (void)around_.live_map.remove(map::LayerKind::walls, wall_id(spec, number), account);
+}
+
+void RobotPlatform::forget_walls(RobotSpec const& spec) {
+  auto const layer = map::LayerKind::walls;
+  auto const prefix = wall_id(spec, {});
+  std::vector<std::string> ids;
+  for (auto const* record : around_.live_map.within(layer, spec.site, std::nullopt, around_.live_map.size(layer)))
+    if (record->feature.id.starts_with(prefix)) ids.push_back(record->feature.id);
+  for (auto const& id : ids)
+    (void)around_.live_map.remove(layer, id, {.writer = spec.id, .at = around_.loop.utc_now()});
 }
 
 }  // namespace lapwing::robot

@@ -64,6 +64,9 @@ class RobotPlatform final : public tasks::Platform {
   [[nodiscard]] base::Result<geo::Point<geo::SiteFrame>> find_place(RobotSpec const& spec,
                                                                     std::string const& name) const;
   void write(RobotSpec const& spec, map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed);
+  void write_walls(RobotSpec const& spec, WallBook::Changes const& changes);
+  /// Of a robot that maps anew, so that what it found another time does not lie among what it finds now.
+  void forget_walls(RobotSpec const& spec);
   base::Task<> pass_on(Robot& robot);
   base::Task<> pass_on_membership();
 

@@ -15,6 +15,17 @@ struct RobotPlatformTest : ::testing::Test, testing::PlatformBench {
   void SetUp() override {
     ASSERT_TRUE(run_until([this] { return robot->here().has_value(); }, 5s));
   }
+  /// From a place to the nearest wall on the map.
+  [[nodiscard]] double from_walls_m(Eigen::Vector2d const& place) const {
+    double nearest_m = 1e9;
+    for (auto const* found : live_map.within(map::LayerKind::walls, "office", std::nullopt, 1000)) {
+      auto const& ends = std::get<map::Wall>(found->feature.content).line.points;
+      Eigen::Vector2d const way = ends[1].v - ends[0].v;
+      double const share = std::clamp((place - ends[0].v).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      nearest_m = std::min(nearest_m, (ends[0].v + share * way - place).norm());
+    }
+    return nearest_m;
+  }
   /// How far its own belief is from where it stands.
   [[nodiscard]] double error_m() const { return slam::distance_m(robot->here()->pose, body->truth()); }
 };
@@ -36,6 +47,9 @@ TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
   EXPECT_EQ(record.account.writer, "robot1");
   EXPECT_LT(record.grid.at(record.grid.cell_at({6.0, 0.0})).probability(), 0.2) << "the corridor";
   EXPECT_TRUE(robot->survey()->frontiers.empty());
+
+  // Where walls were drawn some were found.
+  for (auto const& [from, to] : testing::small_office()) EXPECT_LT(from_walls_m(0.5 * (from + to)), 0.1) << from << to;
 }
 
 TEST_F(RobotPlatformTest, ShowsWhereItIsAndHowSureOfIt) {

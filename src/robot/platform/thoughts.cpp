@@ -62,6 +62,7 @@ PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
                                 .driven = floor.graph().poses});
   }
   if (input.wants_survey) result.survey = planner.survey();
+  if (input.wants_walls) result.walls = map.thoughts->walls.take(slam::find_walls(floor.grid()));
   result.map = std::move(map);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "robot/mapping/floor_map.hpp"
+#include "robot/mapping/wall_book.hpp"
 #include "robot/planner/floor_planner.hpp"
 
 namespace lapwing::robot {
@@ -16,6 +17,7 @@ struct Thoughts {
       : map(std::move(sensor), mapping), planner(planning) {}
   FloorMap map;
   FloorPlanner planner;
+  WallBook walls;
 };
 
 struct NewErrand {
@@ -42,6 +44,7 @@ struct PlanInput {
   double driven_m = 0.0;
   double time_s = 0.0;
   bool wants_survey = false;
+  bool wants_walls = false;  ///< which costs more than all the rest
 };
 
 struct PlanResult {
@@ -49,6 +52,7 @@ struct PlanResult {
   Plan plan;
   std::uint64_t errand = 0;  ///< which one the plan is for; 0: none
   std::optional<Survey> survey = {};
+  std::optional<WallBook::Changes> walls = {};
 };
 
 /// A pure function for `Loop::on_pool`: takes the scans into the map; in the order of time, at least one.

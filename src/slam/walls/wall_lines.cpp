@@ -1,8 +1,11 @@
 #include "slam/walls/wall_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -56,6 +59,46 @@ struct Moments {
   }
 };
 
+/// A number a cell, in tiles as the grid has them: the neighbours of a cell mostly lie in the tile that was looked into
+/// last.
+class CellNumbers {
+ public:
+  void set(Cell cell, std::int32_t number) {
+    auto& tile = tiles_[key_of(cell)];
+    if (!tile) {
+      tile = std::make_unique<Tile>();
+      tile->fill(none);
+    }
+    (*tile)[place_of(cell)] = number;
+  }
+  /// Less than zero: none.
+  [[nodiscard]] std::int32_t at(Cell cell) const {
+    auto const key = key_of(cell);
+    if (!last_ || key != last_key_) {
+      auto const found = tiles_.find(key);
+      last_ = found == tiles_.end() ? nullptr : found->second.get();
+      last_key_ = key;
+    }
+    return last_ ? (*last_)[place_of(cell)] : none;
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  using Tile = std::array<std::int32_t, std::size_t{map::tile_cells} * map::tile_cells>;
+  static std::uint64_t key_of(Cell cell) {
+    auto const [x, y] = map::tile_of(cell);
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U) | static_cast<std::uint32_t>(y);
+  }
+  static std::size_t place_of(Cell cell) {
+    constexpr std::int32_t within = map::tile_cells - 1;
+    return static_cast<std::size_t>(cell.y & within) * map::tile_cells + static_cast<std::size_t>(cell.x & within);
+  }
+
+  std::unordered_map<std::uint64_t, std::unique_ptr<Tile>> tiles_;
+  mutable Tile const* last_ = nullptr;
+  mutable std::uint64_t last_key_ = 0;
+};
+
 /// The taken cells of a grid, by where they lie.
 class Pieces {
  public:
@@ -81,18 +124,15 @@ class Pieces {
     auto const cell = cells_[i];
     for (int y = -reach; y <= reach; ++y) {
       for (int x = -reach; x <= reach; ++x) {
-        auto const found = by_cell_.find(key_of({cell.x + x, cell.y + y}));
-        if (found != by_cell_.end() && found->second != i) visit(found->second);
+        auto const found = numbers_.at({cell.x + x, cell.y + y});
+        if (found >= 0 && static_cast<std::size_t>(found) != i) visit(static_cast<std::size_t>(found));
       }
     }
   }
 
  private:
-  static std::uint64_t key_of(Cell cell) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x)) << 32U) | static_cast<std::uint32_t>(cell.y);
-  }
   void add(Cell cell) {
-    by_cell_.emplace(key_of(cell), pieces_.size());
+    numbers_.set(cell, static_cast<std::int32_t>(pieces_.size()));
     cells_.push_back(cell);
     pieces_.push_back({.at = {(cell.x + 0.5) * cell_m_, (cell.y + 0.5) * cell_m_}, .along = Eigen::Vector2d::Zero()});
   }
@@ -111,7 +151,7 @@ class Pieces {
   int reach_;
   std::vector<Cell> cells_;
   std::vector<Piece> pieces_;
-  std::unordered_map<std::uint64_t, std::size_t> by_cell_;
+  CellNumbers numbers_;
 };
 
 /// Places that lie along one line.
