@@ -66,8 +66,9 @@ void Carrier::accept(Time now, Order const& order, Outbox& out) {
   last_number_ = order.number;
   reached_since_.reset();
   has_watchdog_bitten_ = false;
-  left_.forgive();
-  right_.forgive();
+  // Who steers gives a command ten times a second: a wheel that is being watched must not be watched anew each time.
+  if (left_.is_dead()) left_.forgive();
+  if (right_.is_dead()) right_.forgive();
 }
 
 void Carrier::drop() {

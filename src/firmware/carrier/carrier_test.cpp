@@ -227,6 +227,17 @@ TEST(Carrier, StopsByItselfHalfASecondAfterItsHostFellSilent) {
 
 // ---- what breaks ----
 
+TEST(Carrier, FindsADeadEncoderWhileItIsSteeredAllTheTime) {
+  Rig rig;
+  rig.body.faults.is_left_dead = true;
+  rig.run(100ms);
+  for (CommandNumber number = 1; number <= 8; ++number) {
+    rig.tell(ahead(number, 0.16F));
+    rig.run(100ms);
+  }
+  EXPECT_EQ(rig.count(LogCode::left_wheel_dead), 1);
+}
+
 TEST(Carrier, StopsWhenAnEncoderIsDead) {
   Rig rig;
   rig.body.faults.is_left_dead = true;

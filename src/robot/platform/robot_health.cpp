@@ -28,8 +28,7 @@ RobotHealth::RobotHealth(Surroundings surroundings)
 base::Task<> RobotHealth::beat() {
   for (;;) {
     co_await around_.loop.sleep(report_period);
-    if (auto const code = around_.body.take_carrier_code())
-      watch_.report(Module::carrier, {.state = ModuleState::ready, .error_code = *code}, around_.loop.now());
+    report_carrier();
     for (auto const module : {Module::mapping, Module::planner})
       if (auto const& mine = own(module); !mine.is_at_work) report(module, mine.state, mine.code);
     if (!around_.communication) continue;
@@ -37,7 +36,13 @@ base::Task<> RobotHealth::beat() {
   }
 }
 
+void RobotHealth::report_carrier() {
+  if (auto const code = around_.body.take_carrier_code())
+    watch_.report(Module::carrier, {.state = ModuleState::ready, .error_code = *code}, around_.loop.now());
+}
+
 void RobotHealth::sensed(std::uint16_t code) {
+  report_carrier();
   report(Module::sensors, ModuleState::ready, code);
 }
 

@@ -37,7 +37,7 @@ class RobotHealth {
   [[nodiscard]] CarrierGuard& guard() { return guard_; }
   [[nodiscard]] ModuleWatch const& watch() const { return watch_; }
 
-  /// The sensors have spoken.
+  /// The sensors have spoken. What the carrier said with it counts at once, before anybody steers.
   void sensed(std::uint16_t code);
   /// Mapping or planning has begun to work beside the loop, until it says something again.
   void begin_work(Module module) { own(module).is_at_work = true; }
@@ -55,6 +55,7 @@ class RobotHealth {
   };
   [[nodiscard]] Own& own(Module module) { return module == Module::mapping ? mapping_ : planner_; }
   base::Task<> beat();
+  void report_carrier();
   void report(Module module, ModuleState state, std::uint16_t code);
 
   Surroundings around_;
