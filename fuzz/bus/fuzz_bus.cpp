@@ -4,6 +4,9 @@
 #include <string_view>
 
 #include "bus/cdr/cdr.hpp"
+#include "bus/messages/diagnostics.hpp"
+#include "bus/messages/mavros.hpp"
+#include "bus/messages/mavros_services.hpp"
 #include "bus/messages/navigation.hpp"
 #include "bus/messages/sensors.hpp"
 #include "require.hpp"
@@ -29,12 +32,20 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   using namespace lapwing::bus;
   if (size == 0) return 0;
   std::string_view const bytes(reinterpret_cast<char const*>(data + 1), size - 1);
-  switch (data[0] % 6) {
+  switch (data[0] % 14) {
     case 0: read<LaserScan>(bytes); break;
     case 1: read<Odometry>(bytes); break;
     case 2: read<OccupancyGrid>(bytes); break;
     case 3: read<TFMessage>(bytes); break;
     case 4: read<BatteryState>(bytes); break;
+    case 5: read<NavSatFix>(bytes); break;
+    case 6: read<DiagnosticStatus>(bytes); break;
+    case 7: read<GeoPoseStamped>(bytes); break;
+    case 8: read<mavros::State>(bytes); break;
+    case 9: read<mavros::HomePosition>(bytes); break;
+    case 10: read<mavros::SysStatus>(bytes); break;
+    case 11: read<mavros::SetMode::Request>(bytes); break;
+    case 12: read<mavros::ParamSetV2::Request>(bytes); break;
     default: read<Path>(bytes); break;
   }
   return 0;

@@ -53,6 +53,16 @@ struct Description<String> {
   static constexpr auto fields = std::tuple{Field{"data", &String::data}};
 };
 
+struct Float64 {
+  double data = 0.0;
+  friend bool operator==(Float64 const&, Float64 const&) = default;
+};
+template <>
+struct Description<Float64> {
+  static constexpr std::string_view name = "std_msgs/msg/Float64";
+  static constexpr auto fields = std::tuple{Field{"data", &Float64::data}};
+};
+
 struct Point {
   double x = 0.0;
   double y = 0.0;

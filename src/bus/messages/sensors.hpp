@@ -7,7 +7,7 @@
 
 #include "bus/messages/common.hpp"
 
-/// sensor_msgs, as far as robots need it.
+/// sensor_msgs, as far as robots and drones need it.
 namespace lapwing::bus {
 
 /// Beam i looks `angle_min + i * angle_increment`, counterclockwise from ahead.
@@ -78,6 +78,42 @@ struct Description<BatteryState> {
                                             Field{"cell_temperature", &BatteryState::cell_temperature},
                                             Field{"location", &BatteryState::location},
                                             Field{"serial_number", &BatteryState::serial_number}};
+};
+
+struct NavSatStatus {
+  static constexpr std::int8_t no_fix = -1;
+  static constexpr std::int8_t fix = 0;
+  std::int8_t status = no_fix;
+  std::uint16_t service = 0;  ///< bits: 1 GPS, 2 GLONASS, 4 Compass, 8 Galileo
+  friend bool operator==(NavSatStatus const&, NavSatStatus const&) = default;
+};
+template <>
+struct Description<NavSatStatus> {
+  static constexpr std::string_view name = "sensor_msgs/msg/NavSatStatus";
+  static constexpr auto fields =
+      std::tuple{Field{"status", &NavSatStatus::status}, Field{"service", &NavSatStatus::service}};
+};
+
+struct NavSatFix {
+  Header header = {};
+  NavSatStatus status = {};
+  double latitude = 0.0;   ///< degrees, as ROS has it
+  double longitude = 0.0;  ///< degrees
+  double altitude = 0.0;   ///< metres above the ellipsoid; not a number where it is not known
+  std::array<double, 9> position_covariance = {};
+  std::uint8_t position_covariance_type = 0;  ///< 0: not known
+  friend bool operator==(NavSatFix const&, NavSatFix const&) = default;
+};
+template <>
+struct Description<NavSatFix> {
+  static constexpr std::string_view name = "sensor_msgs/msg/NavSatFix";
+  static constexpr auto fields = std::tuple{Field{"header", &NavSatFix::header},
+                                            Field{"status", &NavSatFix::status},
+                                            Field{"latitude", &NavSatFix::latitude},
+                                            Field{"longitude", &NavSatFix::longitude},
+                                            Field{"altitude", &NavSatFix::altitude},
+                                            Field{"position_covariance", &NavSatFix::position_covariance},
+                                            Field{"position_covariance_type", &NavSatFix::position_covariance_type}};
 };
 
 }  // namespace lapwing::bus

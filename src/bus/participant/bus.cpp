@@ -88,10 +88,15 @@ bool is_name(std::string_view topic) {
 
 }  // namespace
 
-base::Result<std::string> dds_topic(std::string_view topic) {
+base::Result<std::string> dds_topic(std::string_view topic, Lane lane) {
   if (!is_name(topic))
     return base::fail(ErrorKind::invalid_input, fmt::format("\"{}\" is no topic", topic),
                       "a topic is like /robot1/scan: letters, digits, _ and single slashes, one of them first");
+  switch (lane) {
+    case Lane::topic: return fmt::format("rt{}", topic);
+    case Lane::request: return fmt::format("rq{}Request", topic);
+    case Lane::reply: return fmt::format("rr{}Reply", topic);
+  }
   return fmt::format("rt{}", topic);
 }
 
@@ -120,8 +125,8 @@ struct Bus::Parts {
     dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
   }
 
-  base::Result<dds::Topic*> topic(std::string_view ros_name, std::string_view ros_type) {
-    auto const name = dds_topic(ros_name);
+  base::Result<dds::Topic*> topic(std::string_view ros_name, std::string_view ros_type, Lane lane) {
+    auto const name = dds_topic(ros_name, lane);
     if (!name) return std::unexpected(name.error());
     auto const type = dds_type(ros_type);
     if (auto const known = topics.find(*name); known != topics.end()) {
@@ -130,7 +135,8 @@ struct Bus::Parts {
                         fmt::format("{} has the type {} already", ros_name, known->second->get_type_name()));
     }
     dds::TypeSupport const support(new internal::RawType(type));  // which owns it
-    if (support.register_type(participant) != Done::RETCODE_OK)
+    bool const is_known = !participant->find_type(type).empty();  // by another topic
+    if (!is_known && support.register_type(participant) != Done::RETCODE_OK)
       return base::fail(ErrorKind::io, fmt::format("the bus does not take the type {}", ros_type));
     auto* made = participant->create_topic(*name, type, dds::TOPIC_QOS_DEFAULT);
     if (!made) return base::fail(ErrorKind::io, fmt::format("the bus does not take the topic {}", ros_name));
@@ -139,6 +145,36 @@ struct Bus::Parts {
 };
 
 namespace {
+
+SampleIdentity identity_of(rtps::SampleIdentity const& theirs) {
+  SampleIdentity identity;
+  auto const& guid = theirs.writer_guid();
+  auto const entity = std::ranges::copy(guid.guidPrefix.value, identity.writer.begin()).out;
+  std::ranges::copy(guid.entityId.value, entity);
+  // A number of DDS has two halves; that of nobody is -1 in the upper one.
+  if (theirs.sequence_number() != rtps::SequenceNumber_t::unknown())
+    identity.number = static_cast<std::int64_t>(theirs.sequence_number().to64long());
+  return identity;
+}
+
+rtps::GUID_t guid_of(std::array<std::uint8_t, 16> const& bytes) {
+  rtps::GUID_t guid;
+  auto const entity = bytes.begin() + rtps::GuidPrefix_t::size;
+  std::copy(bytes.begin(), entity, guid.guidPrefix.value);
+  std::copy(entity, bytes.end(), guid.entityId.value);
+  return guid;
+}
+
+rtps::SampleIdentity dds_identity_of(SampleIdentity const& ours) {
+  rtps::SampleIdentity identity;
+  identity.writer_guid(guid_of(ours.writer));
+  if (ours.number > 0) identity.sequence_number(rtps::SequenceNumber_t(static_cast<std::uint64_t>(ours.number)));
+  return identity;
+}
+
+base::UtcTime utc_of(rtps::Time_t const& time) {
+  return base::UtcTime(std::chrono::duration_cast<base::UtcTime::duration>(std::chrono::nanoseconds(time.to_ns())));
+}
 
 class TopicWriter final : public Bus::Writer {
  public:
@@ -154,6 +190,12 @@ class TopicWriter final : public Bus::Writer {
   }
 
   void write(std::string bytes) override { writer_.write(&bytes); }
+  SampleIdentity write_related(std::string bytes, SampleIdentity const& related) override {
+    rtps::WriteParams params;
+    params.related_sample_identity(dds_identity_of(related));
+    writer_.write(&bytes, params);
+    return identity_of(params.sample_identity());
+  }
   [[nodiscard]] int readers() const override {
     dds::PublicationMatchedStatus status;
     writer_.get_publication_matched_status(status);
@@ -168,18 +210,22 @@ class TopicWriter final : public Bus::Writer {
 /// Runs on the middleware's threads; what it posts comes on the loop.
 class Listener final : public dds::DataReaderListener {
  public:
-  explicit Listener(base::Inbox<std::string>::Post post) : post_(std::move(post)) {}
+  explicit Listener(base::Inbox<Sample>::Post post) : post_(std::move(post)) {}
   void on_data_available(dds::DataReader* reader) override {
     std::string bytes;
     dds::SampleInfo about;
     while (reader->take_next_sample(&bytes, &about) == Done::RETCODE_OK) {
-      if (about.valid_data) (void)post_(std::move(bytes));
+      if (about.valid_data)
+        (void)post_({.bytes = std::move(bytes),
+                     .identity = identity_of(about.sample_identity),
+                     .related = identity_of(about.related_sample_identity),
+                     .written = utc_of(about.source_timestamp)});
       bytes.clear();
     }
   }
 
  private:
-  base::Inbox<std::string>::Post post_;
+  base::Inbox<Sample>::Post post_;
 };
 
 class TopicReader final : public Bus::Reader {
@@ -208,16 +254,21 @@ class TopicReader final : public Bus::Reader {
     return status.current_count;
   }
   [[nodiscard]] std::uint64_t dropped() const override { return inbox_.dropped(); }
+  [[nodiscard]] std::array<std::uint8_t, 16> guid() const override {
+    rtps::SampleIdentity identity;
+    identity.writer_guid(reader_->guid());
+    return identity_of(identity).writer;
+  }
 
  private:
   base::Task<> tell() {
     for (;;) {
-      auto const bytes = co_await inbox_.receive(std::chrono::hours(1));
-      if (bytes) heard_(*bytes);
+      auto const sample = co_await inbox_.receive(std::chrono::hours(1));
+      if (sample) heard_(*sample);
     }
   }
 
-  base::Inbox<std::string> inbox_;
+  base::Inbox<Sample> inbox_;
   Listener listener_;
   dds::Subscriber& subscriber_;
   dds::DataReader* reader_ = nullptr;
@@ -250,9 +301,9 @@ base::Result<std::unique_ptr<Bus>> Bus::open(base::Loop& loop, BusOptions const&
   return std::unique_ptr<Bus>(new Bus(loop, std::move(parts)));
 }
 
-base::Result<std::unique_ptr<Bus::Writer>> Bus::write_to(std::string_view topic, std::string_view type,
-                                                         Profile profile) {
-  auto const made = parts_->topic(topic, type);
+base::Result<std::unique_ptr<Bus::Writer>> Bus::write_to(std::string_view topic, std::string_view type, Profile profile,
+                                                         Lane lane) {
+  auto const made = parts_->topic(topic, type, lane);
   if (!made) return std::unexpected(made.error());
   auto qos = qos_of<dds::DataWriterQos>(profile);
   // Messages of several packets cannot be written at once, and whoever writes has better things to do.
@@ -263,8 +314,8 @@ base::Result<std::unique_ptr<Bus::Writer>> Bus::write_to(std::string_view topic,
 }
 
 base::Result<std::unique_ptr<Bus::Reader>> Bus::read_from(std::string_view topic, std::string_view type,
-                                                          Profile profile, Heard heard) {
-  auto const made = parts_->topic(topic, type);
+                                                          Profile profile, Heard heard, Lane lane) {
+  auto const made = parts_->topic(topic, type, lane);
   if (!made) return std::unexpected(made.error());
   auto reader = std::make_unique<TopicReader>(loop_, *parts_->subscriber, profile, std::move(heard));
   if (!reader->open(*made, qos_of<dds::DataReaderQos>(profile)))

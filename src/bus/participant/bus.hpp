@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -16,6 +17,28 @@ enum class Profile {
   standard,     ///< nothing is lost: reliable, the last ten
   sensor_data,  ///< only what is new counts: best effort, the last five
   latched,      ///< who comes late gets the last one: reliable, transient local (maps, static transforms)
+};
+
+/// Which message it is: who wrote it (a DDS GUID), and its number there. Requests of services are told apart by it.
+struct SampleIdentity {
+  std::array<std::uint8_t, 16> writer = {};  ///< zeros: nobody
+  std::int64_t number = 0;
+  friend bool operator==(SampleIdentity const&, SampleIdentity const&) = default;
+};
+
+/// A message as it came.
+struct Sample {
+  std::string bytes = {};
+  SampleIdentity identity = {};
+  SampleIdentity related = {};  ///< what it answers, or where its answer is to go
+  base::UtcTime written{};      ///< by the writer's clock
+};
+
+/// What DDS topic a name of ROS stands for.
+enum class Lane {
+  topic,    ///< rt/NAME
+  request,  ///< rq/NAMERequest, of a service
+  reply,    ///< rr/NAMEReply
 };
 
 struct BusOptions {
@@ -45,6 +68,8 @@ class Bus {
    public:
     virtual ~Writer() = default;
     virtual void write(std::string bytes) = 0;
+    /// Of a service: `related` goes with it. Returns which message it became.
+    virtual SampleIdentity write_related(std::string bytes, SampleIdentity const& related) = 0;
     /// How many readers it has found.
     [[nodiscard]] virtual int readers() const = 0;
   };
@@ -56,16 +81,18 @@ class Bus {
     [[nodiscard]] virtual int writers() const = 0;
     /// Messages that came faster than they were taken.
     [[nodiscard]] virtual std::uint64_t dropped() const = 0;
+    /// Of this reader, as DDS knows it.
+    [[nodiscard]] virtual std::array<std::uint8_t, 16> guid() const = 0;
   };
-  using Heard = std::function<void(std::string const& bytes)>;
+  using Heard = std::function<void(Sample const& sample)>;
 
   /// `topic` as ROS names it, "/robot1/scan"; `type` likewise, "sensor_msgs/msg/LaserScan". Errors: invalid_input for a
   /// name that is none, and for a topic that has another type already; io.
   [[nodiscard]] base::Result<std::unique_ptr<Writer>> write_to(std::string_view topic, std::string_view type,
-                                                               Profile profile);
+                                                               Profile profile, Lane lane = Lane::topic);
   /// `heard` must not destroy the reader.
   [[nodiscard]] base::Result<std::unique_ptr<Reader>> read_from(std::string_view topic, std::string_view type,
-                                                                Profile profile, Heard heard);
+                                                                Profile profile, Heard heard, Lane lane = Lane::topic);
 
  private:
   struct Parts;
@@ -75,8 +102,9 @@ class Bus {
   std::unique_ptr<Parts> parts_;
 };
 
-/// "rt/robot1/scan" of "/robot1/scan". Error: invalid_input, with what a name is made of.
-[[nodiscard]] base::Result<std::string> dds_topic(std::string_view topic);
+/// "rt/robot1/scan" of "/robot1/scan", "rq/robot1/dockRequest" of the service "/robot1/dock". Error: invalid_input,
+/// with what a name is made of.
+[[nodiscard]] base::Result<std::string> dds_topic(std::string_view topic, Lane lane = Lane::topic);
 /// "sensor_msgs::msg::dds_::LaserScan_" of "sensor_msgs/msg/LaserScan".
 [[nodiscard]] std::string dds_type(std::string_view type);
 

@@ -37,8 +37,8 @@ class Subscription {
                                                        std::function<void(M const&)> heard) {
     auto malformed = std::make_shared<std::uint64_t>(0);
     auto reader = bus.read_from(topic, Description<M>::name, profile,
-                                [heard = std::move(heard), malformed](std::string const& bytes) {
-                                  if (auto const message = decode<M>(bytes))
+                                [heard = std::move(heard), malformed](Sample const& sample) {
+                                  if (auto const message = decode<M>(sample.bytes))
                                     heard(*message);
                                   else
                                     ++*malformed;
