@@ -25,8 +25,8 @@ struct State {
 /// Where it returns to.
 struct HomePosition {
   Header header = {};
-  GeoPoint geo = 0;
-  Point position = 0;  ///< in the local frame: east, north, up
+  GeoPoint geo = {};
+  Point position = {};  ///< in the local frame: east, north, up
   Quaternion orientation = {};
   Vector3 approach = {};
   friend bool operator==(HomePosition const&, HomePosition const&) = default;
