@@ -13,6 +13,7 @@ constexpr std::string_view vehicles = "lapwing-vehicles";
 constexpr std::string_view maps = "lapwing-map";
 constexpr std::string_view slam = "lapwing-slam";
 constexpr std::string_view eyes = "lapwing-vision";
+constexpr std::string_view aboard = "lapwing-onboard";
 
 /// In the order in which help shows them.
 constexpr std::array table{
@@ -26,6 +27,7 @@ constexpr std::array table{
     Verb{"sim", "Simulated vehicles that speak MAVLink, for any ground station", vehicles},
     Verb{"replay", "Play a recording of vehicles into the map", vehicles},
     Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
+    Verb{"onboard", "The programs on a survey drone: flight bridge and decisions, started and watched", aboard},
     Verb{"explore", "Let simulated robots explore a floor plan: travel, time and coverage", maps},
     Verb{"map", "Make a floor map of what a robot's laser and wheels recorded", slam},
     Verb{"store", "What the map's store holds: list, verify, compact, export, import, copy", maps},

@@ -30,6 +30,9 @@ void add_store(CLI::App& program, int& exit_code);
 // That of lapwing-slam:
 void add_map(CLI::App& program, int& exit_code);
 
+// That of lapwing-onboard:
+void add_onboard(CLI::App& program, int& exit_code);
+
 // That of lapwing-vision:
 void add_detect(CLI::App& program, int& exit_code);
 

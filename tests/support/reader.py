@@ -1,7 +1,7 @@
 """Somebody who reads a guide at a terminal: saves its scripts, types its commands in order, and ends what goes on. Not a test itself.
 
 What differs from a reader's machine: ports are free ones, so that tests run beside each other; `./lapwing` is the program that
-was built; a serial device is the simulated vehicles' UDP port; simulated vehicles live twenty times as fast.
+was built; a serial device is the simulated vehicles' UDP port; simulated vehicles live twenty times as fast, unless the page has a pace of its own.
 """
 
 import contextlib
@@ -26,7 +26,8 @@ SERVERS = re.compile(r"lapwing (?:demo|station|replay)\b")
 class Reader:
     def __init__(self, folder: pathlib.Path):
         self.folder = folder
-        self.ports = {"14550": harness.free_udp_port(), "14551": harness.free_udp_port(), "8080": harness.free_tcp_port()}
+        self.ports = {"14550": harness.free_udp_port(), "14551": harness.free_udp_port(), "8080": harness.free_tcp_port(),
+                      "3000": harness.free_tcp_port()}
         self.going_on: list[tuple[str, subprocess.Popen, pathlib.Path]] = []
         (folder / "examples").symlink_to(harness.ROOT / "examples")
         (folder / "bin").mkdir()
@@ -45,14 +46,15 @@ class Reader:
             line = re.sub(r"serial://\S+", "udpin://127.0.0.1:14550", line)
         if SERVERS.search(line) and "--port" not in line:
             line += " --port 8080"
-        if re.search(r"lapwing sim\b", line) or re.search(r"lapwing run\b.*--link", line):
+        has_simulated_time = re.search(r"lapwing sim\b", line) or re.search(r"lapwing run\b.*--link", line)
+        if has_simulated_time and "--speedup" not in line:
             line += f" --speedup {SPEEDUP}"
         line = line.replace("curl ", "curl --silent --show-error --fail-with-body ")
-        return re.sub(r"\b(14550|14551|8080)\b", lambda port: str(self.ports[port[0]]), line)
+        return re.sub(r"\b(14550|14551|8080|3000)\b", lambda port: str(self.ports[port[0]]), line)
 
     def shown(self, line: str) -> str:
         """A line of the page as this reader sees it."""
-        return re.sub(r"\b(14550|14551|8080)\b", lambda port: str(self.ports[port[0]]), line)
+        return re.sub(r"\b(14550|14551|8080|3000)\b", lambda port: str(self.ports[port[0]]), line)
 
     def start(self, line: str, until: str):
         path = self.folder / f"output-{len(self.going_on)}-{time.monotonic_ns()}"

@@ -88,6 +88,8 @@ class PeerSession {
   [[nodiscard]] std::string const& peer() const { return peer_; }
   [[nodiscard]] SessionCounters const& counters() const { return counters_; }
   [[nodiscard]] base::TimePoint last_connected() const { return last_connected_; }
+  /// When anything came of the far end, pings included; in JSON mode, which has none, when it connected.
+  [[nodiscard]] base::TimePoint last_heard() const { return last_heard_; }
   [[nodiscard]] base::Notifier& changed() { return changed_; }
 
   // What servers and clients do with it.

@@ -1,0 +1,150 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "apps/onboard/onboard_config.hpp"
+#include "apps/verb.hpp"
+#include "base/log.hpp"
+#include "base/wall_clock.hpp"
+#include "host/files/config_file.hpp"
+#include "host/files/secret_file.hpp"
+#include "host/session/signals.hpp"
+#include "onboard/life/life_line.hpp"
+#include "onboard/supervisor/supervisor.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+struct OnboardArguments {
+  std::string config;
+  std::string only;
+};
+
+/// Without its supervisor a bridge stays for as long as decide takes to bring the drone down.
+constexpr base::Duration bridge_outlives = std::chrono::seconds(12);
+
+/// One process: its loop and log, and how it ends.
+class OwnProcess {
+ public:
+  OwnProcess(std::string name, OnboardConfig config) : name_(std::move(name)), config_(std::move(config)) {
+    hub_.add_sink(base::standard_error_sink(base::LogLevel::info));
+  }
+
+  int run() {
+    if (auto end = onboard::LifeLine::from_environment()) life_.emplace(loop_, *std::move(end), [this] { orphaned(); });
+    if (auto const opened = open(); !opened) return host::refuse(opened.error());
+    host::StopSignals const signals(loop_, [this] { stop(); });
+    loop_.run();
+    return host::exit_done;
+  }
+
+ private:
+  base::Result<> open() {
+    auto options = config_.bus;
+    options.name = fmt::format("lapwing-{}", name_);
+    auto bus = bus::Bus::open(loop_, options);
+    if (!bus) return std::unexpected(bus.error());
+    bus_ = *std::move(bus);
+    return name_ == bridge_process ? open_bridge() : open_decide();
+  }
+  base::Result<> open_bridge() {
+    auto bridge = bridge::Bridge::open(loop_, *bus_, config_.bridge, log_);
+    if (!bridge) return std::unexpected(bridge.error());
+    bridge_ = *std::move(bridge);
+    log_.info(fmt::format("waits for flight controller {}", config_.bridge.system_id));
+    return {};
+  }
+  base::Result<> open_decide() {
+    if (!config_.token_file.empty()) {
+      auto token = host::read_secret({.path = config_.token_file.string(),
+                                      .what = "token file",
+                                      .hint = "make one: openssl rand -hex 32 > FILE; chmod 600 FILE"});
+      if (!token) return std::unexpected(token.error());
+      config_.decide.desk.server.end.token = *std::move(token);
+    }
+    auto decide = onboard::Decide::open(loop_, *bus_, config_.decide, log_);
+    if (!decide) return std::unexpected(decide.error());
+    decide_ = *std::move(decide);
+    return {};
+  }
+
+  void stop() {
+    if (decide_)
+      decide_->leave([this] { loop_.stop(); });
+    else
+      loop_.stop();
+  }
+  void orphaned() {
+    log_.warn("the supervisor has gone");
+    if (decide_) return stop();
+    scope_.spawn(stop_later());
+  }
+  base::Task<> stop_later() {
+    co_await loop_.sleep(bridge_outlives);
+    stop();
+  }
+
+  std::string name_;
+  OnboardConfig config_;
+  base::LogHub hub_;
+  base::Logger log_{hub_, name_};
+  base::Loop loop_;
+  std::unique_ptr<bus::Bus> bus_;
+  std::unique_ptr<bridge::Bridge> bridge_;
+  std::unique_ptr<onboard::Decide> decide_;
+  std::optional<onboard::LifeLine> life_;
+  base::Scope scope_{loop_};
+};
+
+/// What starts the processes of this program: itself, with another word.
+void complete_commands(OnboardConfig& config, std::string const& file) {
+  std::error_code error;
+  auto const program = std::filesystem::read_symlink("/proc/self/exe", error).string();
+  for (auto& process : config.processes)
+    if (process.command.empty()) process.command = {program, "onboard", "--config", file, "--only", process.name};
+}
+
+int supervise(OnboardConfig config, std::string const& file) {
+  complete_commands(config, file);
+  base::LogHub hub;
+  hub.add_sink(base::standard_error_sink(base::LogLevel::info));
+  base::Logger const log(hub, "onboard");
+  base::Loop loop;
+  auto const write_health = [&](std::vector<onboard::ProcessStatus> const& all) {
+    if (config.health_file.empty()) return;
+    auto const written = host::write_file(config.health_file.string(), onboard::status_text(all, base::wall_now()));
+    if (!written) log.warn(fmt::format("health is not written: {}", written.error().message));
+  };
+  onboard::Supervisor supervisor(loop, {.processes = config.processes}, log, write_health);
+  host::StopSignals const signals(loop, [&] {
+    log.info("stops: the drone comes down or is disarmed first");
+    supervisor.stop([&loop] { loop.stop(); });
+  });
+  loop.run();
+  return host::exit_done;
+}
+
+int start_onboard(OnboardArguments const& arguments) {
+  auto config = host::load_config(arguments.config, read_onboard_config, "docs/reference/onboard.md");
+  if (!config) return host::refuse(config.error());
+  if (arguments.only.empty()) return supervise(*std::move(config), arguments.config);
+  OwnProcess process(arguments.only, *std::move(config));
+  return process.run();
+}
+
+}  // namespace
+
+void add_onboard(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<OnboardArguments>();
+  auto* verb = begin_verb(program, "onboard");
+  verb->add_option("--config", arguments->config, "TOML file with the vehicle's processes")->required();
+  verb->add_option("--only", arguments->only, "Be this one process, without the others and without being watched")
+      ->check(CLI::IsMember({std::string(bridge_process), std::string(decide_process)}));
+  verb->callback([arguments, &exit_code] { exit_code = start_onboard(*arguments); });
+}
+
+}  // namespace lapwing::apps

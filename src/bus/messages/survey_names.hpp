@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string_view>
+
+/// Topics between the processes of a survey drone: who decides, who looks, who maps and who plans.
+namespace lapwing::bus::survey::names {
+
+inline constexpr std::string_view lot_detected = "/park_lot_detected";
+inline constexpr std::string_view place_in_lot = "/des_loc_inbound";
+inline constexpr std::string_view occupancy_map = "/occupancy_map";
+inline constexpr std::string_view planner_setpoint = "/path_plan_setpoint";
+inline constexpr std::string_view vision_health = "/vision_health";
+inline constexpr std::string_view mapper_health = "/mapper_health";
+inline constexpr std::string_view planner_health = "/path_plan_health";
+
+inline constexpr std::string_view wanted_pose = "/des_pose";
+inline constexpr std::string_view current_state = "/curr_state";
+
+}  // namespace lapwing::bus::survey::names

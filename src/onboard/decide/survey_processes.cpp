@@ -1,0 +1,123 @@
+#include "onboard/decide/survey_processes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "bus/messages/survey_names.hpp"
+#include "onboard/decide/flight_hand.hpp"
+
+namespace lapwing::onboard {
+
+namespace topics = bus::survey::names;
+using namespace std::chrono_literals;
+using bus::Profile;
+
+namespace {
+
+struct HealthTopic {
+  std::string_view process;
+  std::string_view topic;
+};
+constexpr std::array health_topics{HealthTopic{"vision", topics::vision_health},
+                                   HealthTopic{"mapper", topics::mapper_health},
+                                   HealthTopic{"planner", topics::planner_health}};
+
+/// What is seen is told several times a second.
+constexpr base::Duration sight_lasts = 2s;
+/// Until it counts that a process has not spoken: three of its reports.
+constexpr base::Duration first_report = 3s;
+
+std::optional<double> yaw_of(bus::Quaternion const& q) {
+  double const square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  constexpr double least = 0.25;
+  if (!std::isfinite(square) || square < least) return std::nullopt;
+  return std::atan2(2 * (q.w * q.z + q.x * q.y), square - 2 * (q.y * q.y + q.z * q.z));
+}
+
+}  // namespace
+
+std::vector<std::string_view> known_processes() {
+  std::vector<std::string_view> known;
+  for (auto const& one : health_topics) known.push_back(one.process);
+  return known;
+}
+
+base::Result<std::unique_ptr<SurveyProcesses>> SurveyProcesses::open(base::Loop& loop, bus::Bus& bus,
+                                                                     FlightHeard const& flight,
+                                                                     std::vector<std::string> const& relies_on) {
+  std::unique_ptr<SurveyProcesses> processes(new SurveyProcesses(loop, flight));
+  if (auto const opened = processes->open_topics(bus, relies_on); !opened) return std::unexpected(opened.error());
+  return processes;
+}
+
+base::Result<> SurveyProcesses::open_topics(bus::Bus& bus, std::vector<std::string> const& relies_on) {
+  bus::Ends ends(bus);
+  auto const keep = [&]<class M>(std::string_view topic, Heard<M>& last) {
+    ends.hear<M>(topics_, topic, Profile::sensor_data,
+                 [this, &last](M const& message) { last = {message, loop_.now()}; });
+  };
+  for (auto const& [process, topic] : health_topics) {
+    if (std::ranges::find(relies_on, process) == relies_on.end()) continue;
+    auto& added = processes_.emplace_back(std::make_unique<Process>(std::string(process)));
+    keep(topic, added->health);
+  }
+  keep(topics::lot_detected, sees_lot_);
+  keep(topics::place_in_lot, place_in_lot_);
+  keep(topics::planner_setpoint, setpoint_);
+  ends.hear<bus::OccupancyGrid>(topics_, topics::occupancy_map, Profile::standard,
+                                [this](bus::OccupancyGrid const& grid) { take(grid); });
+  ends.say(wanted_, topics::wanted_pose, Profile::standard);
+  ends.say(state_, topics::current_state, Profile::latched);
+  return ends.result();
+}
+
+void SurveyProcesses::take(bus::OccupancyGrid const& grid) {
+  auto const& at = grid.info.origin.position;
+  auto const origin = flight_.from_home(at);
+  bool const fits = grid.data.size() == std::size_t{grid.info.width} * grid.info.height &&
+                    grid.data.size() <= autonomy::most_map_cells;
+  if (!fits || !origin) return;
+  map_ = autonomy::OccupancyMap{.columns = grid.info.width,
+                                .rows = grid.info.height,
+                                .resolution_m = grid.info.resolution,
+                                .origin = {origin->x(), origin->y()},
+                                .cells = grid.data};
+}
+
+std::optional<base::Duration> SurveyProcesses::silence_of(Process const& process) const {
+  auto const now = loop_.now();
+  if (process.health.message) return now - process.health.at;
+  // After a start in flight nobody has had time to speak yet.
+  if (now - began_ <= first_report) return now - began_;
+  return std::nullopt;
+}
+
+void SurveyProcesses::tell(autonomy::Told& told) const {
+  auto const now = loop_.now();
+  for (auto const& process : processes_) {
+    autonomy::ProcessHealth health{.name = process->name, .silence = silence_of(*process)};
+    if (auto const& report = process->health.message) {
+      health.is_well = report->level < bus::DiagnosticStatus::error;
+      health.words = report->message;
+    }
+    told.processes.push_back(std::move(health));
+  }
+  if (auto const* const sees = sees_lot_.within(sight_lasts, now)) told.sees_lot = sees->data;
+  if (place_in_lot_.message) told.place = {.is_in_lot = place_in_lot_.message->data, .at = place_in_lot_.at};
+  if (!setpoint_.message) return;
+  auto const& pose = setpoint_.message->pose;
+  if (auto const place = flight_.from_home(pose.position))
+    told.setpoint = {.place = *place, .yaw_rad = yaw_of(pose.orientation), .at = setpoint_.at};
+}
+
+void SurveyProcesses::hear(autonomy::Said const& said) {
+  if (told_state_ != said.state) state_->publish({std::string(autonomy::to_string(said.state))});
+  told_state_ = said.state;
+  if (!said.wanted_place) return;
+  if (auto const place = flight_.in_local_frame(said.wanted_place->place))
+    wanted_->publish(local_pose(*place, said.wanted_place->yaw_rad));
+}
+
+}  // namespace lapwing::onboard

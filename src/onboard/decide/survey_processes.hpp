@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "autonomy/interface/said.hpp"
+#include "autonomy/interface/told.hpp"
+#include "autonomy/operator/report_text.hpp"
+#include "base/async/loop.hpp"
+#include "bus/messages/diagnostics.hpp"
+#include "bus/messages/navigation.hpp"
+#include "bus/participant/ends.hpp"
+#include "onboard/decide/flight_listener.hpp"
+
+namespace lapwing::onboard {
+
+/// The processes that report their health, by the names that a configuration calls them.
+[[nodiscard]] std::vector<std::string_view> known_processes();
+
+/// The processes that look, map and plan: what they say, and what they are told.
+class SurveyProcesses {
+ public:
+  /// `relies_on`: those without which the drone does not fly, of `known_processes`. Others may be there or not. All
+  /// outlive it. Errors: those of the bus.
+  [[nodiscard]] static base::Result<std::unique_ptr<SurveyProcesses>> open(base::Loop& loop, bus::Bus& bus,
+                                                                           FlightHeard const& flight,
+                                                                           std::vector<std::string> const& relies_on);
+  SurveyProcesses(SurveyProcesses const&) = delete;
+  SurveyProcesses& operator=(SurveyProcesses const&) = delete;
+
+  /// Writes what they have said.
+  void tell(autonomy::Told& told) const;
+  [[nodiscard]] std::optional<autonomy::OccupancyMap> const& map() const { return map_; }
+  /// What the machine has decided.
+  void hear(autonomy::Said const& said);
+
+ private:
+  struct Process {
+    std::string name;
+    Heard<bus::DiagnosticStatus> health = {};
+  };
+  SurveyProcesses(base::Loop& loop, FlightHeard const& flight) : loop_(loop), flight_(flight), began_(loop.now()) {}
+  base::Result<> open_topics(bus::Bus& bus, std::vector<std::string> const& relies_on);
+  void take(bus::OccupancyGrid const& grid);
+  [[nodiscard]] std::optional<base::Duration> silence_of(Process const& process) const;
+
+  base::Loop& loop_;
+  FlightHeard const& flight_;
+  base::TimePoint began_;
+  std::vector<std::unique_ptr<Process>> processes_;
+  Heard<bus::Bool> sees_lot_;
+  Heard<bus::Bool> place_in_lot_;
+  Heard<bus::PoseStamped> setpoint_;
+  std::optional<autonomy::OccupancyMap> map_;
+  std::optional<autonomy::State> told_state_;
+  std::optional<bus::Publisher<bus::PoseStamped>> wanted_;
+  std::optional<bus::Publisher<bus::String>> state_;
+  bus::Subscriptions topics_;  ///< last: nothing comes any more
+};
+
+}  // namespace lapwing::onboard

@@ -1,0 +1,196 @@
+"""A simulated survey drone with its onboard programs, and its operator in plain Python. Not a test itself."""
+
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+
+import harness
+from operator_link import COMMAND, Station
+
+HOME = (43.2585, -79.9201)
+
+
+class Operator:
+    """Speaks the operator link, or bare JSON, and keeps what it hears."""
+
+    def __init__(self, port: int, plain: bool = False, name: str = "operator"):
+        self.port, self.plain, self.name = port, plain, name
+        self.heartbeats: list[dict] = []
+        self.errors: list[str] = []
+        self._changed = threading.Condition()
+        self._station = Station(port, name=name)
+        self._ends = False
+        self.connect()
+
+    def connect(self, seconds: float = 10) -> None:
+        deadline = time.monotonic() + seconds
+        while True:
+            try:
+                if self.plain:
+                    self._socket = socket.create_connection(("127.0.0.1", self.port), timeout=5)
+                else:
+                    self._station.connect()
+                    self._socket = self._station.socket
+                break
+            except OSError:
+                assert time.monotonic() < deadline, f"nobody serves on port {self.port}"
+                time.sleep(0.05)
+        self._ends = False
+        self._thread = threading.Thread(target=self._read, daemon=True)
+        self._thread.start()
+
+    def cut(self) -> None:
+        """As a network does: without a word."""
+        self._ends = True
+        self._station.socket = self._socket
+        self._station.cut()
+        self._thread.join()
+
+    def _read(self) -> None:
+        with contextlib.suppress(OSError):
+            self._read_plain() if self.plain else self._read_frames()
+
+    def _read_plain(self) -> None:
+        rest = b""
+        while not self._ends:
+            with contextlib.suppress(TimeoutError):
+                piece = self._socket.recv(65536)
+                if not piece:
+                    return
+                *lines, rest = (rest + piece).split(b"\n")
+                for line in lines:
+                    self._take(line.decode())
+
+    def _read_frames(self) -> None:
+        known = len(self._station.messages)
+        while not self._ends:
+            with contextlib.suppress(TimeoutError):
+                self._station.hear()
+            for _, _, text in self._station.messages[known:]:
+                self._take(text)
+            known = len(self._station.messages)
+
+    def _take(self, text: str) -> None:
+        message = json.loads(text)
+        with self._changed:
+            if message["Type"] == "Heartbeat":
+                self.heartbeats.append(message)
+            else:
+                self.errors.append(message["Message"])
+            self._changed.notify_all()
+
+    def say(self, text: str) -> None:
+        if self.plain:
+            self._socket.sendall(text.encode())
+        else:
+            self._station.say(COMMAND, text)  # a frame is one sendall, so that those of the reader do not get in between
+
+    def command(self, kind: str, **fields) -> None:
+        self.say(json.dumps({"Type": kind, **fields}))
+
+    @property
+    def last(self) -> dict:
+        return self.heartbeats[-1] if self.heartbeats else {}
+
+    def wait(self, condition, what: str, seconds: float = 30):
+        with self._changed:
+            assert self._changed.wait_for(lambda: condition(self), seconds), \
+                f"not within {seconds} s: {what}; last {self.last}, errors {self.errors[-5:]}"
+
+    def wait_for_state(self, state: str, seconds: float = 30) -> dict:
+        """A heartbeat that comes from now on has it."""
+        known = len(self.heartbeats)
+        self.wait(lambda o: any(one["State"] == state for one in o.heartbeats[known:]), f"state {state}", seconds)
+        return next(one for one in self.heartbeats[known:] if one["State"] == state)
+
+    def wait_for_error(self, words: str, seconds: float = 10) -> str:
+        self.wait(lambda o: any(words in one for one in o.errors), f"an ErrorLog with '{words}'", seconds)
+        return next(one for one in self.errors if words in one)
+
+
+class Drone:
+    """`lapwing sim` and `lapwing onboard`, ended with the block."""
+
+    def __init__(self, mode: str = "framed", decide: str = "", processes: str = "", sim: tuple[str, ...] = ()):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lapwing-drone-"))
+        self.port, self.link, self.domain = harness.free_tcp_port(), harness.free_udp_port(), 1 + os.getpid() % 100
+        self.config = self.folder / "onboard.toml"
+        self.config.write_text(f"""
+health_file = "health.json"
+[bus]
+domain = {self.domain}
+[bridge]
+link = "udpin://127.0.0.1:{self.link}"
+[decide]
+state_folder = "state"
+{decide}
+[operator]
+port = {self.port}
+mode = "{mode}"
+{processes}
+""")
+        self._sim_words = ["sim", "--vehicles", "copter:1", "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{self.link}", *sim]
+        self.log: list[str] = []
+
+    def __enter__(self):
+        self._sim = subprocess.Popen([harness.LAPWING, *self._sim_words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.start()
+        return self
+
+    def start(self) -> None:
+        self.onboard = subprocess.Popen([harness.LAPWING, "onboard", "--config", self.config], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                        text=True)
+        self._reader = threading.Thread(target=self._read, args=(self.onboard.stderr,), daemon=True)
+        self._reader.start()
+
+    def _read(self, stream) -> None:
+        for line in stream:
+            self.log.append(line.rstrip("\n"))
+
+    def __exit__(self, kind, *_):
+        if kind is not None:
+            print("\n".join(self.log[-80:]))
+        if self.onboard.poll() is None:
+            self.onboard.send_signal(signal.SIGTERM)
+            try:
+                self.onboard.wait(timeout=30)
+            except subprocess.TimeoutExpired:
+                self.onboard.kill()
+                self.onboard.wait()
+                if kind is None:
+                    raise
+        self._sim.send_signal(signal.SIGINT)
+        self._sim.wait(timeout=10)
+
+    def health(self) -> dict[str, dict]:
+        with contextlib.suppress(OSError, ValueError):
+            return {one["name"]: one for one in json.loads((self.folder / "health.json").read_text())["processes"]}
+        return {}
+
+    def pid(self, name: str) -> int | None:
+        return self.health().get(name, {}).get("pid")
+
+    def wait_for_log(self, words: str, seconds: float = 20) -> str:
+        harness.wait_until(lambda: any(words in line for line in self.log) or time.sleep(0.05), seconds, f"a line with '{words}' in {self.log[-12:]}")
+        return next(line for line in self.log if words in line)
+
+
+def take_off(operator: Operator, ready_s: float = 40) -> None:
+    """From the ground to Hover. A drone that has just been switched on needs a while until it may be armed."""
+    deadline = time.monotonic() + ready_s
+    operator.wait(lambda o: o.last, "the first heartbeat", 20)
+    while True:
+        operator.command("Arm")
+        with contextlib.suppress(AssertionError):
+            operator.wait(lambda o: o.last["State"] == "Arm" and o.last["Armed"], "armed", 5)
+            break
+        assert time.monotonic() < deadline, f"it is not armed: {operator.errors[-5:]}"
+    operator.command("Takeoff")
+    operator.wait(lambda o: o.last["State"] == "Hover", "Hover", 40)
