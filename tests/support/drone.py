@@ -20,12 +20,12 @@ HOME = (43.2585, -79.9201)
 class Operator:
     """Speaks the operator link, or bare JSON, and keeps what it hears."""
 
-    def __init__(self, port: int, plain: bool = False, name: str = "operator"):
+    def __init__(self, port: int, plain: bool = False, name: str = "operator", token: str = ""):
         self.port, self.plain, self.name = port, plain, name
         self.heartbeats: list[dict] = []
         self.errors: list[str] = []
         self._changed = threading.Condition()
-        self._station = Station(port, name=name)
+        self._station = Station(port, name=name, token=token)
         self._ends = False
         self.connect()
 
@@ -118,7 +118,7 @@ class Operator:
 class Drone:
     """`lapwing sim` and `lapwing onboard`, ended with the block."""
 
-    def __init__(self, mode: str = "framed", decide: str = "", processes: str = "", sim: tuple[str, ...] = ()):
+    def __init__(self, mode: str = "framed", decide: str = "", desk: str = "", processes: str = ""):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lapwing-drone-"))
         self.port, self.link, self.domain = harness.free_tcp_port(), harness.free_udp_port(), 1 + os.getpid() % 100
         self.config = self.folder / "onboard.toml"
@@ -134,13 +134,14 @@ state_folder = "state"
 [operator]
 port = {self.port}
 mode = "{mode}"
+{desk}
 {processes}
 """)
-        self._sim_words = ["sim", "--vehicles", "copter:1", "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{self.link}", *sim]
+        self._sim_words = ["sim", "--vehicles", "copter:1", "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{self.link}"]
         self.log: list[str] = []
 
     def __enter__(self):
-        self._sim = subprocess.Popen([harness.LAPWING, *self._sim_words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.simulator = subprocess.Popen([harness.LAPWING, *self._sim_words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.start()
         return self
 
@@ -166,8 +167,8 @@ mode = "{mode}"
                 self.onboard.wait()
                 if kind is None:
                     raise
-        self._sim.send_signal(signal.SIGINT)
-        self._sim.wait(timeout=10)
+        self.simulator.send_signal(signal.SIGINT)
+        self.simulator.wait(timeout=10)
 
     def health(self) -> dict[str, dict]:
         with contextlib.suppress(OSError, ValueError):

@@ -1,0 +1,127 @@
+"""Vision and planner of a survey drone are played by a program on a foreign middleware: without them it does not arm, it explores by the planner's
+setpoints, asks it about places, shows the map, and comes home when vision reports that it has failed."""
+
+import math
+import threading
+import time
+
+import ros_robot
+from cyclonedds.idl import IdlStruct
+from cyclonedds.idl.types import float32, int8, sequence, uint32
+from dataclasses import dataclass
+from drone import Drone, Operator, take_off
+from ros_drone import Bool, DiagnosticStatus, PoseStamped, RosDrone
+from ros_robot import Header, Point, Pose, Quaternion, Time, message
+
+
+@dataclass
+class MapMetaData(IdlStruct, **message("nav_msgs", "MapMetaData")):
+    map_load_time: Time
+    resolution: float32
+    width: uint32
+    height: uint32
+    origin: Pose
+
+
+@dataclass
+class OccupancyGrid(IdlStruct, **message("nav_msgs", "OccupancyGrid")):
+    header: Header
+    info: MapMetaData
+    data: sequence[int8]
+
+
+NO_TURN = Quaternion(0.0, 0.0, 0.0, 1.0)
+
+
+def header() -> Header:
+    return Header(ros_robot.RosRobot._stamp(), "map")
+
+
+class Survey:
+    """Says ten times a second what it is set to say."""
+
+    def __init__(self, ros: RosDrone):
+        self.level, self.words = 0, ""
+        self.sees_lot = self.place_in_lot = self.setpoint = None
+        self._health = [ros.writer(topic, DiagnosticStatus) for topic in ("/vision_health", "/path_plan_health")]
+        self._lot, self._place = ros.writer("/park_lot_detected", Bool), ros.writer("/des_loc_inbound", Bool)
+        self._setpoints, self.maps = ros.writer("/path_plan_setpoint", PoseStamped), ros.writer("/occupancy_map", OccupancyGrid)
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._say, daemon=True)
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._ends.set()
+        self._thread.join()
+
+    def _say(self):
+        while not self._ends.wait(0.1):
+            self._health[0].write(DiagnosticStatus(self.level, "vision", self.words, "", []))
+            self._health[1].write(DiagnosticStatus(0, "planner", "", "", []))
+            if self.sees_lot is not None:
+                self._lot.write(Bool(self.sees_lot))
+            if self.place_in_lot is not None:
+                self._place.write(Bool(self.place_in_lot))
+            if self.setpoint is not None:
+                self._setpoints.write(PoseStamped(header(), Pose(self.setpoint, NO_TURN)))
+
+
+def far_m(heartbeat: dict, x: float, y: float) -> float:
+    return math.hypot(heartbeat["Local Position X"] - x, heartbeat["Local Position Y"] - y)
+
+
+with Drone(decide='relies_on = ["vision", "planner"]') as drone:
+    ros = RosDrone(drone.domain)
+    operator = Operator(drone.port)
+    operator.wait(lambda o: o.last and "vision has not reported yet" in o.last["Health Reason"], "vision is missed", 20)
+    operator.wait(lambda o: o.last["Latitude"] is not None and o.last["Battery Percentage"], "the drone itself is ready", 40)
+    operator.command("Arm")
+    operator.wait_for_error("Arm is refused: vision has not reported yet")
+
+    with Survey(ros) as survey:
+        take_off(operator)
+        home = ros.home.position
+        survey.sees_lot = True
+        operator.command("Autonomous Explore")
+        operator.wait_for_state("AutonomousExplore", 5)
+        survey.setpoint = Point(home.x + 12, home.y - 5, home.z + 11)
+        operator.wait(lambda o: far_m(o.last, 12, -5) < 1.5 and abs(o.last["Relative Altitude"] - 11) < 1, "it is where the planner wants it", 40)
+        # One that makes no sense is not flown.
+        survey.setpoint = Point(home.x + 12, home.y - 5, home.z + 500)
+        operator.wait_for_error("the planner's setpoint is refused")
+        survey.sees_lot = False
+        operator.wait_for_state("NoParkingLotDetected", 5)
+        operator.wait(lambda o: o.last["User Error"] == 2, "No_Lot_Detected")
+        survey.setpoint = survey.sees_lot = None
+
+        operator.command("Autonomous Move", X=5, Y=6)
+        operator.wait_for_state("AutonomousMove", 5)
+        ros.wait(lambda r: r.wanted and math.hypot(r.wanted.pose.position.x - home.x - 5, r.wanted.pose.position.y - home.y - 6) < 0.1, "the planner is asked")
+        survey.place_in_lot = True
+        there = operator.wait_for_state("Hover", 40)
+        assert far_m(there, 5, 6) < 2, there
+        survey.place_in_lot = False
+        operator.command("AutonomousMove", X=30, Y=30)
+        operator.wait_for_state("DesiredLocationError", 5)
+        operator.wait(lambda o: o.last["User Error"] == 1, "Desired_Location_Out_Of_Bounds")
+        assert far_m(operator.last, 5, 6) < 3, operator.last
+
+        info = MapMetaData(Time(0, 0), 0.5, 3, 2, Pose(Point(home.x - 1, home.y + 2, 0.0), NO_TURN))
+        survey.maps.write(OccupancyGrid(header(), info, [0, 100, -1, 50, 0, 0]))
+        operator.wait(lambda o: o.last["Occupancy Map"], "the map", 5)
+        shown = operator.last["Occupancy Map"]
+        assert (shown["Columns"], shown["Rows"], shown["Cells"]) == (3, 2, [0, 100, -1, 50, 0, 0]), shown
+        assert abs(shown["Origin X"] + 1) < 0.01 and abs(shown["Origin Y"] - 2) < 0.01, shown
+
+        survey.level, survey.words = 2, "the camera is gone"
+        operator.wait_for_state("Malfunction", 5)
+        operator.wait(lambda o: o.last["Health Status"] == 1 and "vision has failed: the camera is gone" in o.last["Health Reason"], "why")
+        ros.wait(lambda r: r.state.mode == "RTL", "RTL", 5)
+        assert "the camera is gone" in (drone.folder / "state/malfunction.txt").read_text()
+        survey.level = 0
+        operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 90)
+    operator.cut()
+    print(f"{time.strftime('%H:%M:%S')}: flown with vision and planner of somebody else")
