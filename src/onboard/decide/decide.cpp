@@ -26,11 +26,13 @@ bool is_a(autonomy::Command const& command) {
   return std::holds_alternative<T>(command);
 }
 
-bool is_safe(State state, autonomy::Told const& told) {
+/// What others fly is theirs.
+bool is_safe(autonomy::Memory const& memory, autonomy::Told const& told) {
   auto const& flight = told.flight;
-  if (!flight || !flight->is_armed) return true;
+  if (!flight || !flight->is_armed || memory.is_flown_by_hand) return true;
+  if (memory.state == State::idle) return !memory.disarms_until && !memory.is_killed;
   bool const comes_down = flight->mode == autonomy::return_home || flight->mode == autonomy::land_here;
-  return autonomy::descents.has(state) && comes_down;
+  return autonomy::descents.has(memory.state) && comes_down;
 }
 
 }  // namespace
@@ -163,8 +165,9 @@ void Decide::leave(std::function<void()> done) {
 
 /// As an operator would bring it to rest.
 std::optional<autonomy::Command> Decide::command_to_leave() const {
-  if (!done_ || has_been_told_to_come_down_) return std::nullopt;
-  auto const state = machine_->memory().state;
+  auto const& memory = machine_->memory();
+  if (!done_ || has_been_told_to_come_down_ || memory.is_flown_by_hand) return std::nullopt;
+  auto const state = memory.state;
   bool const may_fly = state == State::takeoff || autonomy::flight_states.has(state);
   if (may_fly) return autonomy::command::Land{};
   if (state == State::arm) return autonomy::command::Disarm{};
@@ -172,7 +175,7 @@ std::optional<autonomy::Command> Decide::command_to_leave() const {
 }
 
 void Decide::leave_if_safe(autonomy::Told const& told) {
-  bool const safe = is_safe(machine_->memory().state, told);
+  bool const safe = is_safe(machine_->memory(), told);
   if (!safe && loop_.now() < leaves_until_) return;
   if (!safe) log_.error("the drone was not seen to come down or to be disarmed before this program ended");
   if (safe && told.flight && told.flight->is_armed) log_.info(fmt::format("left in mode {}", told.flight->mode));

@@ -77,7 +77,8 @@ with Drone() as drone:
     drone.start()
     harness.wait_until(lambda: drone.pid("decide") or time.sleep(0.05), 10, "it runs again")
     operator.connect()
-    operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has come home", 90)
+    witness.wait(lambda w: not w.state.armed, "it has come home", 90)
+    operator.wait(lambda o: o.last["State"] == "Idle" and o.last["Ardupilot State"] and not o.last["Armed"], "who decides sees it", 10)
     take_off(operator)
     children = [drone.pid("bridge"), drone.pid("decide")]
     drone.onboard.kill()
