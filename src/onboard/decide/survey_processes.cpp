@@ -44,6 +44,25 @@ std::vector<std::string_view> known_processes() {
   return known;
 }
 
+std::optional<geo::Box<autonomy::ArmingFrame>> seen_extent(autonomy::OccupancyMap const& map) {
+  std::uint32_t left = map.columns, right = 0, low = map.rows, high = 0;
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    if (map.cells[i] < 0) continue;
+    auto const column = static_cast<std::uint32_t>(i % map.columns);
+    auto const row = static_cast<std::uint32_t>(i / map.columns);
+    left = std::min(left, column);
+    right = std::max(right, column + 1);
+    low = std::min(low, row);
+    high = std::max(high, row + 1);
+  }
+  if (right == 0) return std::nullopt;
+  auto const corner = [&](std::uint32_t column, std::uint32_t row) {
+    return geo::Point<autonomy::ArmingFrame>(map.origin.x() + column * map.resolution_m,
+                                             map.origin.y() + row * map.resolution_m);
+  };
+  return geo::Box<autonomy::ArmingFrame>{corner(left, low), corner(right, high)};
+}
+
 base::Result<std::unique_ptr<SurveyProcesses>> SurveyProcesses::open(base::Loop& loop, bus::Bus& bus,
                                                                      FlightHeard const& flight,
                                                                      std::vector<std::string> const& relies_on) {
@@ -77,13 +96,15 @@ void SurveyProcesses::take(bus::OccupancyGrid const& grid) {
   auto const& at = grid.info.origin.position;
   auto const origin = flight_.from_home(at);
   bool const fits = grid.data.size() == std::size_t{grid.info.width} * grid.info.height &&
-                    grid.data.size() <= autonomy::most_map_cells;
+                    grid.data.size() <= autonomy::most_map_cells && std::isfinite(grid.info.resolution) &&
+                    grid.info.resolution > 0;
   if (!fits || !origin) return;
   map_ = autonomy::OccupancyMap{.columns = grid.info.width,
                                 .rows = grid.info.height,
                                 .resolution_m = grid.info.resolution,
                                 .origin = {origin->x(), origin->y()},
                                 .cells = grid.data};
+  lot_ = seen_extent(*map_);
 }
 
 std::optional<base::Duration> SurveyProcesses::silence_of(Process const& process) const {
@@ -105,6 +126,7 @@ void SurveyProcesses::tell(autonomy::Told& told) const {
     told.processes.push_back(std::move(health));
   }
   if (auto const* const sees = sees_lot_.within(sight_lasts, now)) told.sees_lot = sees->data;
+  told.lot = lot_;
   if (place_in_lot_.message) told.place = {.is_in_lot = place_in_lot_.message->data, .at = place_in_lot_.at};
   if (!setpoint_.message) return;
   auto const& pose = setpoint_.message->pose;

@@ -19,6 +19,9 @@ namespace lapwing::onboard {
 /// The processes that report their health, by the names that a configuration calls them.
 [[nodiscard]] std::vector<std::string_view> known_processes();
 
+/// How far the lot reaches, as far as it was seen: around the cells that are known. Nothing when none is.
+[[nodiscard]] std::optional<geo::Box<autonomy::ArmingFrame>> seen_extent(autonomy::OccupancyMap const& map);
+
 /// The processes that look, map and plan: what they say, and what they are told.
 class SurveyProcesses {
  public:
@@ -54,6 +57,7 @@ class SurveyProcesses {
   Heard<bus::Bool> place_in_lot_;
   Heard<bus::PoseStamped> setpoint_;
   std::optional<autonomy::OccupancyMap> map_;
+  std::optional<geo::Box<autonomy::ArmingFrame>> lot_;
   std::optional<autonomy::State> told_state_;
   std::optional<bus::Publisher<bus::PoseStamped>> wanted_;
   std::optional<bus::Publisher<bus::String>> state_;

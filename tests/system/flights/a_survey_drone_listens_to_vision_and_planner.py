@@ -116,6 +116,9 @@ with Drone(decide='relies_on = ["vision", "planner"]') as drone:
         assert (shown["Columns"], shown["Rows"], shown["Cells"]) == (3, 2, [0, 100, -1, 50, 0, 0]), shown
         assert abs(shown["Origin X"] + 1) < 0.01 and abs(shown["Origin Y"] - 2) < 0.01, shown
 
+        operator.command("Autonomous Move", X=300, Y=0)
+        operator.wait_for_error("Autonomous Move is refused")  # too far from what was seen of the lot
+
         survey.level, survey.words = 2, "the camera is gone"
         operator.wait_for_state("Malfunction", 5)
         operator.wait(lambda o: o.last["Health Status"] == 1 and "vision has failed: the camera is gone" in o.last["Health Reason"], "why")
