@@ -7,6 +7,7 @@
 
 #include "apps/onboard/onboard_config.hpp"
 #include "apps/verb.hpp"
+#include "base/files/replace_file.hpp"
 #include "base/log.hpp"
 #include "base/wall_clock.hpp"
 #include "host/files/config_file.hpp"
@@ -116,7 +117,7 @@ int supervise(OnboardConfig config, std::string const& file) {
   base::Loop loop;
   auto const write_health = [&](std::vector<onboard::ProcessStatus> const& all) {
     if (config.health_file.empty()) return;
-    auto const written = host::write_file(config.health_file.string(), onboard::status_text(all, base::wall_now()));
+    auto const written = base::replace_file(config.health_file, onboard::status_text(all, base::wall_now()));
     if (!written) log.warn(fmt::format("health is not written: {}", written.error().message));
   };
   onboard::Supervisor supervisor(loop, {.processes = config.processes}, log, write_health);
