@@ -25,7 +25,7 @@ CLANG = "asan"
 SANITIZED = {"asan": {"ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_string_checks=1:check_initialization_order=1:new_delete_type_mismatch=0",
                       "LSAN_OPTIONS": f"suppressions={ROOT}/tests/verify/lsan.supp",
                       "UBSAN_OPTIONS": "print_stacktrace=1:halt_on_error=1"},
-             "tsan": {"TSAN_OPTIONS": "halt_on_error=1:second_deadlock_stack=1"}}
+             "tsan": {"TSAN_OPTIONS": f"halt_on_error=1:second_deadlock_stack=1:suppressions={ROOT}/tests/verify/tsan.supp"}}
 # What compares a page or a list with the sources that it is made from.
 CROSS_CHECKS = r"^house\.|^editors\.grammar$|[Rr]eference|Grammar|OpenApi|Protocol|^web\.(check|lint)$"
 
