@@ -10,9 +10,10 @@ base::Result<map::CellBox> seen_cells(map::OccupancyGrid const& grid, std::strin
     return base::fail(base::ErrorKind::invalid_input,
                       fmt::format("nothing was seen in the grid {}: there is no map to write", name));
   if (box->width * box->height > most_cells)
-    return base::fail(base::ErrorKind::invalid_input,
-                      fmt::format("the grid {} has {} x {} cells, more than 400 million", name, box->width, box->height),
-                      "write a part of it, or one of coarser cells");
+    return base::fail(
+        base::ErrorKind::invalid_input,
+        fmt::format("the grid {} has {} x {} cells, more than 400 million", name, box->width, box->height),
+        "write a part of it, or one of coarser cells");
   return *box;
 }
 
