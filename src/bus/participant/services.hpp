@@ -24,7 +24,7 @@ concept Service = requires { S::name; } && Message<typename S::Request> && Messa
 /// A request that waits for its reply.
 template <Service S>
 struct Call {
-  typename S::Request request;
+  S::Request request;
   base::UtcTime asked{};  ///< by the asker's clock
   /// Once, now or later; after the server has gone nothing happens.
   std::function<void(typename S::Response const&)> reply;
@@ -48,7 +48,7 @@ class ServiceServer {
           if (sample.related.writer != SampleIdentity().writer) asker.writer = sample.related.writer;
           called({.request = *std::move(request),
                   .asked = sample.written,
-                  .reply = [to, asker](typename S::Response const& response) {
+                  .reply = [to, asker](S::Response const& response) {
                     if (auto const writer = to.lock()) (void)writer->write_related(encode(response), asker);
                   }});
         },
@@ -88,7 +88,7 @@ class ServiceClient {
   }
 
   /// Returns the number of the call. A server that is not there yet does not hear it.
-  std::int64_t call(typename S::Request const& request) {
+  std::int64_t call(S::Request const& request) {
     auto const identity = requests_->write_related(encode(request), {.writer = own_->reader});
     own_->writer = identity.writer;
     return identity.number;

@@ -49,18 +49,21 @@ double unknown_beyond_m2(KnownMap const& map, Frontier const& frontier, double r
 }
 
 double hidden_m2(KnownMap const& map, std::vector<Frontier> const& frontiers, double reach_m) {
+  if (frontiers.empty()) return 0.0;
   DenseGrid<std::uint32_t> hidden_by(map.width(), map.height());  // the number of the last frontier, from 1; 0: none
   std::size_t cells = 0;
   std::uint32_t number = 0;
   for (auto const& frontier : frontiers) {
     ++number;
     double const reach = std::min(2.0 * static_cast<double>(frontier.cells.size()), reach_m / map.cell_m());
+    auto const reach2 = static_cast<std::int64_t>(reach * reach);
     std::vector<Cell> open;
     auto const take_neighbours_of = [&](Cell cell) {
       for (auto const& away : neighbours | std::views::take(4)) {
         auto const next = cell + away;
-        bool const is_hidden = map.at(next) == Knowledge::unknown && length_of(next - frontier.middle) <= reach;
-        if (!is_hidden || hidden_by[next] == number) continue;
+        if (hidden_by.or_else(next, number) == number || map.at(next) != Knowledge::unknown) continue;
+        auto const [x, y] = next - frontier.middle;
+        if (std::int64_t{x} * x + std::int64_t{y} * y > reach2) continue;
         if (hidden_by[next] == 0) ++cells;
         hidden_by[next] = number;
         open.push_back(next);

@@ -44,7 +44,7 @@ struct SupervisorTest : ::testing::Test {
   }
   [[nodiscard]] bool says(std::string const& words) const {
     for (auto const& line : lines)
-      if (line.find(words) != std::string::npos) return true;
+      if (line.contains(words)) return true;
     return false;
   }
 
