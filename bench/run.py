@@ -1,4 +1,4 @@
-"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store] [explore] [robots] [kill] [slam]
+"""Run the benchmarks beside their peers and write build/bench-results.json. usage: run.py [decode] [pool] [feed] [start] [scale] [fleet] [language] [upload] [lossy] [params] [router] [page] [load] [store] [explore] [robots] [kill] [slam] [survey]
 
 Every figure is taken in this one run on this machine, ours and the peer's alternating; quote ratios rather than absolute times.
 """
@@ -395,6 +395,13 @@ def slam() -> list:
     return speed.measure(LAPWING, say)
 
 
+def survey() -> str:
+    """The figures are of simulated flights: the same build gives the same on every machine."""
+    done = subprocess.run([BENCH_BIN / "bench_survey", os.environ.get("LAPWING_BENCH_LOTS", "20")], capture_output=True, text=True, check=True)
+    say(done.stdout)
+    return done.stdout
+
+
 def machine() -> dict:
     cpu = next((line.split(":", 1)[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines()
                 if line.startswith("model name")), platform.machine())
@@ -418,7 +425,7 @@ def main():
     for name in wanted:
         results[name] = {"decode": decode, "pool": pool, "feed": feed, "map": live_map, "shown": map_feeds, "upload": upload, "start": start,
                          "scale": scale, "fleet": fleet, "lossy": lossy, "params": params, "router": router, "language": language, "page": page, "load": load, "store": store,
-                         "explore": explore, "robots": robots, "kill": kill, "slam": slam}[name]()
+                         "explore": explore, "robots": robots, "kill": kill, "slam": slam, "survey": survey}[name]()
     path.write_text(json.dumps(results, indent=2) + "\n")
     say(f"written to {path.relative_to(ROOT)}")
 

@@ -15,6 +15,8 @@ namespace {
 constexpr double no_way = std::numeric_limits<double>::infinity();
 /// More places at once make no better order.
 constexpr std::size_t most_stops = 120;
+/// Where there is no way.
+constexpr double unreachable_s = 1e6;
 /// Straight on means: no farther aside than that.
 constexpr double straight_m = 0.5;
 
@@ -226,7 +228,7 @@ double SurveyPlanner::seconds_between(Stop const& a, Stop const& b) const {
   auto const& from = poses_[a.pose];
   auto const& to = poses_[b.pose];
   double const way_m = route_length_m(a.place, fence_.route(a.place, b.place));
-  if (!std::isfinite(way_m)) return 1e6;
+  if (!std::isfinite(way_m)) return unreachable_s;
   Eigen::Vector2d const way = b.place.v - a.place.v;
   double const aside_m = std::abs(-std::sin(axis_rad_) * way.x() + std::cos(axis_rad_) * way.y());
   bool const goes_on = a.pose == b.pose && aside_m < straight_m;
@@ -234,15 +236,28 @@ double SurveyPlanner::seconds_between(Stop const& a, Stop const& b) const {
   return seconds_to_move(way_m, to.height_m - from.height_m, to.yaw_rad - from.yaw_rad, settings_.flight);
 }
 
+double SurveyPlanner::seconds_to(Stop const& stop, SurveyDrone const& drone) const {
+  auto const& pose = poses_[stop.pose];
+  double const way_m = route_length_m(below(drone.place), fence_.route(below(drone.place), stop.place));
+  if (!std::isfinite(way_m)) return unreachable_s;
+  return seconds_to_move(way_m, air_place(stop).z() - drone.place.z(), pose.yaw_rad - drone.yaw_rad, settings_.flight);
+}
+
+void SurveyPlanner::keep_worthwhile(std::vector<Stop>& stops, SurveyDrone const& drone) const {
+  std::vector<Stop> kept;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    double least_s = seconds_to(stops[i], drone);
+    for (std::size_t k = 0; k < stops.size(); ++k)
+      if (k != i) least_s = std::min(least_s, seconds_between(stops[k], stops[i]));
+    bool const is_near_by = stops[i].bits >= settings_.least_bits_a_s * least_s;
+    if (is_near_by && seconds_to(stops[i], drone) < unreachable_s) kept.push_back(stops[i]);
+  }
+  stops = std::move(kept);
+}
+
 std::vector<std::size_t> SurveyPlanner::order(std::vector<Stop> const& stops, SurveyDrone const& drone) const {
   TourCosts costs;
-  for (auto const& stop : stops) {
-    auto const& pose = poses_[stop.pose];
-    double const way_m = route_length_m(below(drone.place), fence_.route(below(drone.place), stop.place));
-    costs.from_start.push_back(std::isfinite(way_m) ? seconds_to_move(way_m, air_place(stop).z() - drone.place.z(),
-                                                                      pose.yaw_rad - drone.yaw_rad, settings_.flight)
-                                                    : 1e6);
-  }
+  for (auto const& stop : stops) costs.from_start.push_back(seconds_to(stop, drone));
   for (auto const& a : stops) {
     auto& row = costs.between.emplace_back();
     for (auto const& b : stops) row.push_back(seconds_between(a, b));
@@ -337,24 +352,21 @@ SurveyStep SurveyPlanner::next(LotMap const& lot, SurveyDrone const& drone, Surv
     return *goal;
 
   auto stops = rows(lot, bits);
-  if (stops.empty()) stops = rest(lot, bits);
+  keep_worthwhile(stops, drone);
+  if (stops.empty()) {
+    stops = rest(lot, bits);
+    keep_worthwhile(stops, drone);
+  }
   if (stops.size() > most_stops) {
     std::ranges::stable_sort(stops, {},
                              [&](Stop const& stop) { return geo::distance_m(stop.place, below(drone.place)); });
     stops.resize(most_stops);
   }
-  auto const tour = order(stops, drone);
-  double total_bits = 0.0;
-  double total_s = 0.0;
-  for (std::size_t i = 0; i < tour.size(); ++i) {
-    total_bits += stops[tour[i]].bits;
-    total_s += i == 0 ? 1.0 : seconds_between(stops[tour[i - 1]], stops[tour[i]]);
-  }
-  bool const is_enough = stops.empty() || total_bits < settings_.least_bits_a_s * total_s;
+  bool const is_enough = stops.empty();
   if (is_enough && settings_.keeps_watching) return SurveyWait{settings_.watch_again};
   if (is_enough) return end(SurveyEnding::nothing_more);
 
-  auto next = goal_of(stops, tour, drone);
+  auto next = goal_of(stops, order(stops, drone), drone);
   if (is_within(next, drone, budget)) return next;
   // Not so far any more: whatever is worth most in the time that is left.
   std::optional<SurveyGoal> best;

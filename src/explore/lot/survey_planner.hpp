@@ -33,7 +33,7 @@ struct SurveySettings {
   double step_m = 4.0;          ///< between places that are thought of
   double row_share = 0.35;      ///< a place in a row is flown to for that share of what fresh ground would tell there
   double least_bits = 2.0;      ///< a place that tells less is not flown to
-  double least_bits_a_s = 0.5;  ///< nor is a round of places that tell less in the time that they take
+  double least_bits_a_s = 0.5;  ///< nor is one that tells less in each second from the nearest other one
   double arrived_m = 1.0;
   bool keeps_watching = false;  ///< looks again at what has grown old, until energy or time ends it
   base::Duration watch_again = std::chrono::seconds(20);
@@ -120,6 +120,9 @@ class SurveyPlanner {
   void leave_to_others(LotBits& bits, std::span<AirPlace const> others) const;
   [[nodiscard]] std::vector<std::size_t> order(std::vector<Stop> const& stops, SurveyDrone const& drone) const;
   [[nodiscard]] double seconds_between(Stop const& a, Stop const& b) const;
+  [[nodiscard]] double seconds_to(Stop const& stop, SurveyDrone const& drone) const;
+  /// Without those that are out of reach, or too far from the drone and all others for what they tell.
+  void keep_worthwhile(std::vector<Stop>& stops, SurveyDrone const& drone) const;
   [[nodiscard]] SurveyGoal goal_of(std::vector<Stop> const& stops, std::vector<std::size_t> const& tour,
                                    SurveyDrone const& drone) const;
   [[nodiscard]] bool is_within(SurveyGoal const& goal, SurveyDrone const& drone, SurveyBudget const& budget) const;
