@@ -58,6 +58,7 @@ FloorPlanner::FloorPlanner(PlannerOptions const& options)
   roads_ = std::make_unique<explore::RoadMap>(*known_);
   search_ = std::make_unique<explore::GridSearch>(*known_);
   frontiers_ = std::make_unique<explore::Frontiers>(*known_);
+  all_frontiers_ = std::make_unique<explore::Frontiers>(*known_);
 }
 
 explore::Place FloorPlanner::on_floor(Place const& place) const {

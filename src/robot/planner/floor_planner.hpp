@@ -114,6 +114,7 @@ class FloorPlanner {
   std::unique_ptr<explore::RoadMap> roads_;
   std::unique_ptr<explore::GridSearch> search_;
   std::unique_ptr<explore::Frontiers> frontiers_;
+  std::unique_ptr<explore::Frontiers> all_frontiers_;  ///< nothing is given up in these
   std::unique_ptr<explore::Strategy> strategy_;
   explore::Navigator navigator_;
   Errand errand_;

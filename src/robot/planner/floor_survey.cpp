@@ -8,17 +8,16 @@ namespace lapwing::robot {
 
 namespace {
 
-constexpr double gain_reach_m = 5.0;
+constexpr double hidden_reach_m = 3.0;
 
 }  // namespace
 
 Survey FloorPlanner::survey() const {
   Survey survey{.free_m2 = static_cast<double>(free_cells_) * options_.cell_m * options_.cell_m};
   // With a memory of its own: what was given up is open all the same, and so is what cannot be reached.
-  explore::Frontiers frontiers(*known_);
-  auto const open = frontiers.find_all(*known_);
+  auto const open = all_frontiers_->find_all(*known_);
   for (auto const& frontier : open) survey.frontiers.push_back(on_map(known_->middle(frontier.middle)));
-  double const unknown_m2 = explore::hidden_m2(*known_, open, gain_reach_m);
+  double const unknown_m2 = explore::hidden_m2(*known_, open, hidden_reach_m);
   survey.coverage = survey.free_m2 > 0.0 ? survey.free_m2 / (survey.free_m2 + unknown_m2) : 0.0;
   return survey;
 }

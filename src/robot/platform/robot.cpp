@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_waiting_scans = 50;  ///< then the oldest go: seconds that it could not keep up
 constexpr base::Duration scan_is_old = 1s;      ///< nobody drives by what was seen before
-constexpr base::Duration survey_period = 1s;
+constexpr base::Duration survey_period = 2s;
 constexpr base::Duration walls_period = 5s;
 constexpr base::Duration write_period = 500ms;
 constexpr base::Duration left_out_lately = 5s;
