@@ -4,6 +4,7 @@ the drone comes home. Who knows no token does not command it."""
 import os
 import signal
 
+import harness
 from drone import Drone, Operator, take_off
 from operator_link import Refused, Station
 from ros_drone import RosDrone
@@ -31,7 +32,8 @@ with drone:
         operator.wait(lambda o: o.last["Health Status"] == 1 and "the flight controller has been silent" in o.last["Health Reason"], "why")
     finally:
         os.kill(drone.simulator.pid, signal.SIGCONT)
-    assert "reason: the flight controller has been silent" in (drone.folder / "state/malfunction.txt").read_text()
+    told = drone.folder / "state/malfunction.txt"
+    harness.wait_until(lambda: told.exists() and "reason: the flight controller has been silent" in told.read_text(), 10, "what happened is written")
     witness.wait(lambda w: w.state.mode in ("RTL", "LAND"), "it comes down", 15)
     operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 90)
     assert drone.health()["bridge"]["restarts"] == 0, drone.health()
