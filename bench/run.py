@@ -383,6 +383,7 @@ def robots() -> list:
 
 
 def kill() -> dict:
+    sys.path.insert(0, str(ROOT / "bench/kill_switch"))
     import kill as kills
 
     return kills.measure(LAPWING, BENCH_BIN / "bench_kill_board", say)

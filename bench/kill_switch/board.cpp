@@ -1,4 +1,4 @@
-// A robot in a simulated building whose board speaks over TCP, for bench/kill.py: says on standard output when its
+// A robot in a simulated building whose board speaks over TCP, for kill.py beside it: says on standard output when its
 // wheels were commanded to zero and when they turn again, by the clock that all programs of a machine share.
 // usage: bench_kill_board BUILDING.toml PORT
 #include <chrono>

@@ -18,7 +18,7 @@ import tempfile
 import threading
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # The flat as it is: places that are not on the map are driven to by nobody.
 EXPLORE = "robot = pick { id 'robot1'; timeout 60.seconds }\nexecute robot: drive { explore(); returnToStart() }\n"
 PRESSES = int(os.environ.get("LAPWING_BENCH_PRESSES", "1000"))
