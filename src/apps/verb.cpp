@@ -31,7 +31,7 @@ constexpr std::array table{
     Verb{"explore", "Let simulated robots explore a floor plan: travel, time and coverage", maps},
     Verb{"map", "Make a floor map of what a robot's laser and wheels recorded", slam},
     Verb{"store", "What the map's store holds: list, verify, compact, export, import, copy", maps},
-    Verb{"detect", "What is in pictures: doors and the signs beside them", eyes},
+    Verb{"detect", "What is in pictures: doors and their signs; from above cars and parking slots", eyes},
     Verb{"basemap", "Make map tiles of a picture that knows where it lies, such as a GeoTIFF", maps},
     Verb{"param", "Parameters of vehicles: list, get, set, save, load, compare, copy", vehicles},
     Verb{"signing", "Keys that sign MAVLink: new, setup, rotate, off, drop, show", vehicles},
