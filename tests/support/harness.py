@@ -11,6 +11,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -23,21 +24,46 @@ SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
 
 # Ports of this process alone: what the system hands out itself (from 32768 on) may be another test's or another program's a moment
-# after it was looked at. Processes that run side by side have numbers near each other, and so blocks of ports of their own.
+# after it was looked at. A process holds the first port of each block that it took, which keeps other processes out of the block, and
+# no port is given twice, since whoever got it may not have bound it yet.
+PORTS = range(12000, 32480)
 PORTS_EACH = 32
-_first = 12000 + os.getpid() % 640 * PORTS_EACH
-_ports = itertools.cycle(range(_first, _first + PORTS_EACH))
+_claims: list[socket.socket] = []
+_lock = threading.Lock()
+
+
+def _blocks():
+    firsts = list(PORTS[::PORTS_EACH])
+    begin = os.getpid() % len(firsts)
+    for first in firsts[begin:] + firsts[:begin]:
+        claim = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            claim.bind(("127.0.0.1", first))
+        except OSError:
+            claim.close()
+            continue
+        _claims.append(claim)
+        yield range(first + 1, first + PORTS_EACH)
+    raise OSError("all ports for tests are taken")
+
+
+_ports = itertools.chain.from_iterable(_blocks())
+
+
+def _is_free(port: int, kind: socket.SocketKind) -> bool:
+    with socket.socket(socket.AF_INET, kind) as probe:
+        if kind == socket.SOCK_STREAM:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # one of a server that has ended is free
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return False
+        return True
 
 
 def _free_port(kind: socket.SocketKind) -> int:
-    for port in itertools.islice(_ports, PORTS_EACH):
-        with socket.socket(socket.AF_INET, kind) as probe:
-            if kind == socket.SOCK_STREAM:
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # one of a server that has ended is free
-            with contextlib.suppress(OSError):
-                probe.bind(("127.0.0.1", port))
-                return port
-    raise OSError(f"all of the {PORTS_EACH} ports of this test are taken")
+    with _lock:
+        return next(port for port in _ports if _is_free(port, kind))
 
 
 def free_udp_port() -> int:
