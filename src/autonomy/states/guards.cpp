@@ -26,6 +26,8 @@ Objection not_ready_to_arm(Situation const& s) {
   if (auto no = battery_too_low(s)) return no;
   if (auto no = process_failure(s)) return no;
   if (is_in_the_air(s)) return "it is flying already: Land first";
+  // Near the ground it may still be flying, and would stop there in the middle of its landing.
+  if (is_armed(s) && is_coming_down(s)) return "it is landing: wait until it is disarmed";
   auto const& flight = *s.told.flight;
   if (!flight.prearm_ok) return "the flight controller's own checks fail: see its messages";
   if (flight.gps_fix < gps_fix_3d) return fmt::format("there is no GPS fix (type {}): wait for one", flight.gps_fix);

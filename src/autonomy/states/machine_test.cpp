@@ -79,7 +79,11 @@ TEST(Machine, DoesNotArmWhatIsNotReadyAndSaysWhy) {
             [](Bench& b) { b.told.processes[0] = {"vision", 100ms, false, "no camera"}; }},
            {"the flight controller's own checks fail", [](Bench& b) { b.flight().prearm_ok = false; }},
            {"there is no GPS fix (type 2)", [](Bench& b) { b.flight().gps_fix = 2; }},
-           {"it is flying already", [](Bench& b) { b.fly_at(9); }}}) {
+           {"it is flying already", [](Bench& b) { b.fly_at(9); }},
+           {"it is landing: wait until it is disarmed", [](Bench& b) {
+              b.fly_at(0.95);
+              b.flight().mode = "RTL";
+            }}}) {
     Bench bench;
     bench.step();
     make(bench);
