@@ -1,4 +1,4 @@
-// What an operator sends to a drone, and what the drone's own settings may hold. A command that is read goes to a drone
+// What an operator sends to a drone and a drone to its operator, and what the drone's own settings may hold. A command that is read goes to a drone
 // that hovers, which answers it; whatever it asks for afterwards is finite.
 
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "autonomy/operator/command_text.hpp"
+#include "autonomy/operator/report_reader.hpp"
 #include "autonomy/operator/report_text.hpp"
 #include "autonomy/settings/heights_text.hpp"
 #include "autonomy/states/machine.hpp"
@@ -65,6 +66,9 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     obey(*command);
   else
     fuzz::require(error_log_text(command.error()).size() < 8 * longest_error_log);
+  if (auto const report = parse_report(text))
+    if (auto const* const heartbeat = std::get_if<report::Heartbeat>(&*report); heartbeat && heartbeat->map)
+      fuzz::require(heartbeat->map->cells.size() == std::size_t{heartbeat->map->columns} * heartbeat->map->rows);
   if (auto const heights = parse_heights("settings", text)) fuzz::require(!heights_fault(*heights));
   return 0;
 }

@@ -1,0 +1,124 @@
+#include "autonomy/operator/report_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "autonomy/interface/state.hpp"
+#include "base/text/json.hpp"
+#include "base/text/printable.hpp"
+
+namespace lapwing::autonomy {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::unexpected<base::Error> wrong(std::string message) {
+  return base::fail(base::ErrorKind::invalid_input, std::move(message));
+}
+
+std::optional<double> number(Json const& object, char const* key, double least, double most) {
+  auto const found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  auto const value = found->get<double>();
+  return value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+std::string words(Json const& object, char const* key) {
+  auto const found = object.find(key);
+  if (found == object.end() || !found->is_string()) return {};
+  return base::printable(found->get<std::string>().substr(0, longest_report_text));
+}
+
+std::string user_error(Json const& object) {
+  auto const code = number(object, "User Error", 1, 255);
+  if (!code) return {};
+  auto const error = static_cast<UserError>(static_cast<std::uint8_t>(*code));
+  constexpr std::array known{UserError::desired_location_out_of_bounds, UserError::no_lot_detected,
+                             UserError::height_params_invalid};
+  if (std::ranges::find(known, error) == known.end()) return fmt::format("error {:.0f}", *code);
+  return std::string(to_string(error));
+}
+
+bool is_percent(Json const& cell) {
+  return cell.is_number_integer() && cell.get<std::int64_t>() >= -1 && cell.get<std::int64_t>() <= 100;
+}
+
+base::Result<OccupancyMap> occupancy_map(Json const& object) {
+  constexpr double far_m = 100'000.0;
+  auto const columns = number(object, "Columns", 1, most_map_cells);
+  auto const rows = number(object, "Rows", 1, most_map_cells);
+  auto const resolution_m = number(object, "Resolution", 0.01, 100.0);
+  auto const x_m = number(object, "Origin X", -far_m, far_m);
+  auto const y_m = number(object, "Origin Y", -far_m, far_m);
+  auto const cells = object.find("Cells");
+  bool const is_whole = columns && rows && resolution_m && x_m && y_m && cells != object.end() && cells->is_array();
+  if (!is_whole) return wrong("an occupancy map without Columns, Rows, Resolution, Origin X, Origin Y or Cells");
+  if (cells->size() > most_map_cells || static_cast<double>(cells->size()) != std::floor(*columns) * std::floor(*rows))
+    return wrong(fmt::format("an occupancy map of {} x {} with {} cells", *columns, *rows, cells->size()));
+  if (!std::ranges::all_of(*cells, is_percent)) return wrong("a cell of an occupancy map is not from -1 to 100");
+  return OccupancyMap{.columns = static_cast<std::uint32_t>(*columns),
+                      .rows = static_cast<std::uint32_t>(*rows),
+                      .resolution_m = *resolution_m,
+                      .origin = {*x_m, *y_m},
+                      .cells = cells->get<std::vector<std::int8_t>>()};
+}
+
+base::Result<Report> heartbeat(Json const& object) {
+  constexpr double far_m = 1e6;
+  report::Heartbeat heartbeat{.state = words(object, "State"),
+                              .mode = words(object, "Ardupilot State"),
+                              .height_m = number(object, "Relative Altitude", -far_m, far_m),
+                              .is_armed = object.value("Armed", Json(false)) == Json(true),
+                              .battery = number(object, "Battery Percentage", 0.0, 1.0),
+                              .user_error = user_error(object),
+                              .is_healthy = number(object, "Health Status", 0, 255).value_or(1) == 0,
+                              .health_reason = words(object, "Health Reason")};
+  auto const lat_deg = number(object, "Latitude", -90.0, 90.0);
+  auto const lon_deg = number(object, "Longitude", -180.0, 180.0);
+  if (lat_deg && lon_deg) heartbeat.position = geo::Wgs84::from_degrees(*lat_deg, *lon_deg);
+  auto const x_m = number(object, "Local Position X", -far_m, far_m);
+  auto const y_m = number(object, "Local Position Y", -far_m, far_m);
+  if (x_m && y_m) heartbeat.local = geo::Point<ArmingFrame>(*x_m, *y_m);
+  if (auto const map = object.find("Occupancy Map"); map != object.end() && map->is_object()) {
+    auto read = occupancy_map(*map);
+    if (!read) return std::unexpected(read.error());
+    heartbeat.map = *std::move(read);
+  }
+  return heartbeat;
+}
+
+base::Result<Report> slot_news(Json const& object) {
+  auto const features = object.find("Features");
+  if (features == object.end() || !features->is_object()) return wrong("slots without Features");
+  report::SlotNews news{.features = base::to_text(*features)};
+  auto const removed = object.find("Removed");
+  if (removed == object.end()) return news;
+  if (!removed->is_array() || removed->size() > most_removed_slots) return wrong("Removed of slots is no list of ids");
+  for (auto const& id : *removed) {
+    if (!id.is_string()) return wrong("Removed of slots is no list of ids");
+    news.removed.push_back(id.get<std::string>());
+  }
+  return news;
+}
+
+}  // namespace
+
+base::Result<Report> parse_report(std::string_view text) {
+  auto const object = Json::parse(text, nullptr, false);
+  if (!object.is_object()) return wrong("a drone's message is no JSON object");
+  auto const type = object.find("Type");
+  if (type == object.end() || !type->is_string()) return wrong("a drone's message has no Type that is a text");
+  auto const& name = type->get_ref<std::string const&>();
+  if (name == "Heartbeat") return heartbeat(object);
+  if (name == "ErrorLog") return report::ErrorLog{words(object, "Message")};
+  if (name == "Slots") return slot_news(object);
+  return wrong(fmt::format("a drone's message of the unknown type '{}'", base::printable(name.substr(0, 40))));
+}
+
+}  // namespace lapwing::autonomy

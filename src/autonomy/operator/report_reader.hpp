@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "autonomy/operator/report_text.hpp"
+#include "base/error.hpp"
+#include "geo/position.hpp"
+
+namespace lapwing::autonomy {
+
+/// A drone's messages as an operator's program reads them (`report_text.hpp` writes them).
+namespace report {
+
+struct Heartbeat {
+  std::string state = {};
+  std::string mode = {};  ///< empty: the drone does not know
+  std::optional<double> height_m = {};
+  bool is_armed = false;
+  std::optional<geo::Wgs84> position = {};  ///< at height 0
+  std::optional<geo::Point<ArmingFrame>> local = {};
+  std::optional<double> battery = {};  ///< 0..1
+  std::string user_error = {};         ///< "No_Lot_Detected"; empty for none
+  bool is_healthy = true;
+  std::string health_reason = {};
+  std::optional<OccupancyMap> map = {};  ///< nothing where the heartbeat carries none
+};
+
+struct ErrorLog {
+  std::string message;
+};
+
+/// What has changed of the places to park: features of the layer `slots`, as GeoJSON.
+struct SlotNews {
+  std::string features;  ///< a FeatureCollection of those that are new or other than before
+  std::vector<std::string> removed = {};
+};
+
+}  // namespace report
+
+using Report = std::variant<report::Heartbeat, report::ErrorLog, report::SlotNews>;
+
+/// Longer texts of one member are cut; more ids at once are refused.
+inline constexpr std::size_t longest_report_text = 1'000;
+inline constexpr std::size_t most_removed_slots = 10'000;
+
+/// Of one JSON object, of which `Type` decides. Numbers that are out of their range are as if they were not there.
+/// Errors (invalid_input): no JSON, no object, an unknown type, a map whose cells are not as many as it says or not
+/// from -1 to 100.
+[[nodiscard]] base::Result<Report> parse_report(std::string_view text);
+
+}  // namespace lapwing::autonomy

@@ -1,0 +1,78 @@
+#include "autonomy/operator/report_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "autonomy/testing/bench.hpp"
+
+namespace lapwing::autonomy {
+namespace {
+
+using namespace testing;
+
+report::Heartbeat heartbeat_of(std::string const& text) {
+  auto const read = parse_report(text);
+  if (!read) ADD_FAILURE() << read.error().message;
+  return std::get<report::Heartbeat>(read.value());
+}
+
+TEST(ReportReader, ReadsWhatTheDroneWrites) {
+  auto told = ready();
+  told.flight->local = geo::Point3<ArmingFrame>(3, 4, 12);
+  told.flight->relative_alt_m = 12.0;
+  told.flight->is_armed = true;
+  Said said{.state = State::autonomous_explore, .user_error = UserError::no_lot_detected};
+  said.health = {.is_healthy = false, .reason = "mapper has not reported yet"};
+  OccupancyMap const map{
+      .columns = 3, .rows = 2, .resolution_m = 0.5, .origin = {-4, 7}, .cells = {-1, 0, 100, 50, 0, -1}};
+  auto const read = heartbeat_of(heartbeat_text(said, told, map).value());
+  EXPECT_EQ(read.state, "AutonomousExplore");
+  EXPECT_EQ(read.mode, "STABILIZE");
+  EXPECT_EQ(read.height_m, 12.0);
+  EXPECT_TRUE(read.is_armed);
+  EXPECT_NEAR(read.position.value().lat_deg(), home_place.lat_deg(), 1e-12);
+  EXPECT_EQ(read.local, geo::Point<ArmingFrame>(3, 4));
+  EXPECT_EQ(read.battery, 0.9);
+  EXPECT_EQ(read.user_error, to_string(UserError::no_lot_detected));
+  EXPECT_FALSE(read.is_healthy);
+  EXPECT_EQ(read.health_reason, "mapper has not reported yet");
+  ASSERT_TRUE(read.map);
+  EXPECT_EQ(read.map->columns, 3U);
+  EXPECT_EQ(read.map->cells, map.cells);
+  EXPECT_EQ(read.map->origin, map.origin);
+}
+
+TEST(ReportReader, TakesWhatIsNotKnownForNotKnown) {
+  auto const read = heartbeat_of(heartbeat_text({}, {}).value());
+  EXPECT_EQ(read.state, "Idle");
+  EXPECT_EQ(read.mode, "");
+  EXPECT_FALSE(read.height_m || read.position || read.local || read.battery || read.map);
+  EXPECT_EQ(read.user_error, "");
+  EXPECT_FALSE(heartbeat_of(R"({"Type":"Heartbeat","Latitude":91,"Longitude":3})").position);
+}
+
+TEST(ReportReader, ReadsErrorLogs) {
+  auto const read = parse_report(error_log_text("it is \"late\"\n"));
+  EXPECT_EQ(std::get<report::ErrorLog>(read.value()).message, "it is \"late\"?");
+}
+
+TEST(ReportReader, ReadsNewsOfSlots) {
+  auto const read = parse_report(
+      R"({"Type":"Slots","Features":{"type":"FeatureCollection","features":[]},"Removed":["slot 3","slot 4"]})");
+  auto const& news = std::get<report::SlotNews>(read.value());
+  EXPECT_EQ(news.features, R"({"features":[],"type":"FeatureCollection"})");
+  EXPECT_EQ(news.removed, (std::vector<std::string>{"slot 3", "slot 4"}));
+}
+
+TEST(ReportReader, RefusesWhatIsNoReport) {
+  for (auto const* const text :
+       {"", "7", "[]", "{", R"({"Type":7})", R"({"Type":"Arm"})", R"({"Type":"Slots"})",
+        R"({"Type":"Slots","Features":{},"Removed":[7]})", R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1}})",
+        R"({"Type":"Heartbeat","Occupancy Map":{"Columns":2,"Rows":2,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[1,2,3]}})",
+        R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1,"Rows":1,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[101]}})"})
+    EXPECT_FALSE(parse_report(text)) << text;
+}
+
+}  // namespace
+}  // namespace lapwing::autonomy
