@@ -7,10 +7,10 @@ namespace {
 
 std::string shown(LogLevel lowest, LogLevel level, std::string text) {
   LogHub hub;
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   hub.add_sink(standard_error_sink(lowest));
   hub.write({.level = level, .utc = {}, .source = "fleet", .text = std::move(text)});
-  return testing::internal::GetCapturedStderr();
+  return ::testing::internal::GetCapturedStderr();
 }
 
 TEST(StandardErrorSink, ShowsSourceAndTextOfWhatIsImportantEnough) {
