@@ -1,5 +1,5 @@
-// What an operator sends to a drone and a drone to its operator, and what the drone's own settings may hold. A command that is read goes to a drone
-// that hovers, which answers it; whatever it asks for afterwards is finite.
+// What an operator sends to a drone and a drone to its operator, and what the drone's own settings may hold. A command
+// that is read goes to a drone that hovers, which answers it; whatever it asks for afterwards is finite.
 
 #include <cmath>
 #include <cstddef>

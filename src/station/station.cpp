@@ -17,6 +17,7 @@
 #include "station/feeds/pictures_feed.hpp"
 #include "station/feeds/plans_feed.hpp"
 #include "station/feeds/script_feed.hpp"
+#include "station/feeds/survey_feed.hpp"
 #include "station/feeds/tasks_feed.hpp"
 #include "station/feeds/vehicles_feed.hpp"
 #include "station/http/openapi.hpp"
@@ -53,9 +54,11 @@ HttpResponse start_failure(StartFailure const& failure) {
 
 /// What a station shows to those who ask for it.
 std::vector<std::unique_ptr<Feed>> further_feeds(MapFace const& map, vehicle::VehicleModules const* modules,
+                                                 vehicle::SurveyDrones const* survey,
                                                  std::vector<std::unique_ptr<Feed>> of_others) {
   auto feeds = map.feeds();
   if (modules) feeds.push_back(std::make_unique<HealthFeed>(*modules));
+  if (survey) feeds.push_back(std::make_unique<SurveyFeed>(*survey));
   for (auto& feed : of_others) feeds.push_back(std::move(feed));
   return feeds;
 }
@@ -81,7 +84,7 @@ Station::Station(base::Loop& loop, vehicle::Registry const& vehicles, ScriptCont
       map_face_(loop, options_.map ? *options_.map : *own_map_, options_.store),
       exports_(options_.exporter ? std::make_unique<ExportJobs>(loop, *options_.exporter) : nullptr),
       viewers_(loop, *server, usual_feeds(vehicles, script, history_, options_),
-               further_feeds(map_face_, options_.modules, std::move(options_.feeds))),
+               further_feeds(map_face_, options_.modules, options_.survey, std::move(options_.feeds))),
       work_(loop),
       server_(std::move(server)) {
   server_->set_router(make_router());
@@ -235,6 +238,7 @@ Router Station::make_router() {
   add_alarm_routes(router, options_.alarms, loop_);
   add_health_route(router, options_.modules, loop_);
   add_parameter_routes(router, options_.parameters);
+  add_survey_routes(router, options_.survey, log_);
   map_face_.add_routes(router);
   add_export_routes(router, loop_, options_.map ? *options_.map : *own_map_, exports_.get());
   add_base_map_routes(router, loop_, options_.base_maps);

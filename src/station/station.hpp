@@ -31,6 +31,7 @@
 #include "vehicle/modules.hpp"
 #include "vehicle/parameters.hpp"
 #include "vehicle/registry.hpp"
+#include "vehicle/survey_drones.hpp"
 
 namespace lapwing::station {
 
@@ -54,6 +55,7 @@ class Station {
     vehicle::VehicleAlarms* alarms = nullptr;          ///< outlives the station; null: there are none
     vehicle::VehicleParameters* parameters = nullptr;  ///< outlives the station; null: nobody can ask for them
     vehicle::VehicleModules const* modules = nullptr;  ///< outlives the station; null: nobody tells of any
+    vehicle::SurveyDrones* survey = nullptr;           ///< outlives the station; null: there are none
     map::LiveMap* map = nullptr;                       ///< outlives the station; null: an empty one of its own
     std::function<std::string()> metrics = {};         ///< what /metrics shows, as OpenMetrics; empty: it shows nothing
     std::vector<BaseMap> base_maps = {};               ///< that viewers may choose from

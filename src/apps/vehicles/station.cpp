@@ -23,6 +23,7 @@ struct StationArguments {
   std::string config;
   std::vector<std::string> links;
   std::vector<std::string> robots;
+  std::vector<std::string> survey;
   std::vector<std::string> payload;
   std::vector<std::string> forward;
   std::string plans;
@@ -58,6 +59,10 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   if (!config) return config;
   if (!arguments.links.empty()) config->links = arguments.links;
   if (!arguments.robots.empty()) config->robots = arguments.robots;
+  if (auto added = host::add_survey_links(arguments.survey, config->survey); !added)
+    return std::unexpected(added.error());
+  for (auto& drone : config->survey)
+    if (auto taken = host::take_token(drone); !taken) return std::unexpected(taken.error());
   if (config->links.empty()) config->links = {host::default_link};
   for (auto const& text : arguments.payload) {
     if (auto added = host::add_payload(text, config->payload); !added) return std::unexpected(added.error());
@@ -120,6 +125,7 @@ int serve(StationArguments const& arguments) {
   }
   if (auto opened = session.open_store(config->map); !opened) return host::refuse(opened.error());
   if (auto added = add_robots(session, *config); !added) return host::refuse(added.error());
+  if (auto opened = session.open_survey(config->survey); !opened) return host::refuse(opened.error());
   if (auto opened = session.open_links(config->links); !opened) return host::refuse(opened.error());
   if (auto opened = session.forward(config->forward); !opened) return host::refuse(opened.error());
   if (auto opened = session.open_map(config->web, config->map); !opened) return host::refuse(opened.error());
@@ -145,6 +151,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(host::default_link));
   verb->add_option("--robot", arguments->robots, host::robot_help)->allow_extra_args(false);
+  verb->add_option("--survey", arguments->survey, host::survey_help)->allow_extra_args(false);
   verb->add_option("--forward", arguments->forward, host::forward_help);
   verb->add_option("--payload", arguments->payload, host::payload_help);
   host::add_web_options(*verb, arguments->web);

@@ -66,11 +66,12 @@ TEST(ReportReader, ReadsNewsOfSlots) {
 }
 
 TEST(ReportReader, RefusesWhatIsNoReport) {
-  for (auto const* const text :
-       {"", "7", "[]", "{", R"({"Type":7})", R"({"Type":"Arm"})", R"({"Type":"Slots"})",
-        R"({"Type":"Slots","Features":{},"Removed":[7]})", R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1}})",
-        R"({"Type":"Heartbeat","Occupancy Map":{"Columns":2,"Rows":2,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[1,2,3]}})",
-        R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1,"Rows":1,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[101]}})"})
+  for (
+      auto const* const text :
+      {"", "7", "[]", "{", R"({"Type":7})", R"({"Type":"Arm"})", R"({"Type":"Slots"})",
+       R"({"Type":"Slots","Features":{},"Removed":[7]})", R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1}})",
+       R"({"Type":"Heartbeat","Occupancy Map":{"Columns":2,"Rows":2,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[1,2,3]}})",
+       R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1,"Rows":1,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[101]}})"})
     EXPECT_FALSE(parse_report(text)) << text;
 }
 

@@ -135,6 +135,14 @@ base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo
   return {};
 }
 
+base::Result<> Session::open_survey(std::vector<SurveyLink> links) {
+  if (links.empty()) return {};
+  auto opened = SurveyDesk::open(loop, live_map, log.named("survey"), std::move(links));
+  if (!opened) return std::unexpected(opened.error());
+  survey = *std::move(opened);
+  return {};
+}
+
 base::Result<> Session::simulate(sim::WorldOptions options) {
   auto started = start_simulation(ground, std::move(options), log);
   if (!started) return std::unexpected(started.error());
@@ -217,6 +225,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
     options.exporter = map_exports.get();
   }
   options.map = &live_map;
+  options.survey = survey.get();
   if (!robots.robots().empty()) {
     options.feeds.push_back(std::make_unique<RobotsFeed>(robots, live_map));
     options.modules = &robot_modules;

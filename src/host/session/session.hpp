@@ -23,6 +23,7 @@
 #include "host/session/script_host.hpp"
 #include "host/station/station_config.hpp"
 #include "host/station/web_access.hpp"
+#include "host/survey/survey_desk.hpp"
 #include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "robot/platform/robot_control.hpp"
@@ -78,6 +79,10 @@ class Session {
   /// `anchor`. Call it before links and the map are opened. Errors: those of `make_robots` and `RobotPlatform::add`.
   [[nodiscard]] base::Result<> add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor);
 
+  /// Connects to survey drones and goes on trying; the station shows and commands them. Call it before the map is
+  /// opened. Errors: those of `SurveyDesk::open`.
+  [[nodiscard]] base::Result<> open_survey(std::vector<SurveyLink> links);
+
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
   /// Joins other programs with the vehicles, for as long as the session lives; call after `open_links`. Errors:
@@ -122,6 +127,7 @@ class Session {
   std::unique_ptr<sim::World> world;
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
   std::unique_ptr<MapExports> map_exports;
+  std::unique_ptr<SurveyDesk> survey;   ///< where there are survey drones
   std::unique_ptr<TrackWriter> tracks;  ///< where there is a station to show them
   std::unique_ptr<station::Station> map;
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'

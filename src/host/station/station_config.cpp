@@ -172,6 +172,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   ConfigReader root(entries, diagnostics);
   read_links(root, diagnostics, config);
   read_robots(root, diagnostics, config);
+  for (auto& table : root.tables("survey")) config.survey.push_back(read_survey(table, source, diagnostics));
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);
   read_emergency_stop(root, diagnostics, config);

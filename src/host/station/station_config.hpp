@@ -13,6 +13,7 @@
 #include "host/map/station_map.hpp"
 #include "host/station/base_maps.hpp"
 #include "host/station/web_access.hpp"
+#include "host/survey/survey_link.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "vehicle/alarm.hpp"
 #include "vehicle/control.hpp"
@@ -39,6 +40,7 @@ struct MapContent {
 struct StationConfig {
   std::vector<std::string> links;        ///< empty: the default link
   std::vector<std::string> robots = {};  ///< as `--robot` names them
+  std::vector<SurveyLink> survey = {};   ///< survey drones
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   vehicle::StopAction emergency_action = vehicle::StopAction::hold;

@@ -30,6 +30,23 @@ std::string first_complaint(std::string text) {
          records[0].message + " | " + records[0].hint;
 }
 
+TEST(StationConfig, HasSurveyDrones) {
+  Read const read(
+      "[[survey]]\nname = \"hawk\"\naddress = \"10.0.0.2:3001\"\ntoken_file = \"hawk.token\"\nauthority = "
+      "\"ca.pem\"\n");
+  ASSERT_EQ(read.config.survey.size(), 1U);
+  EXPECT_EQ(read.config.survey[0].name, "hawk");
+  EXPECT_EQ(read.config.survey[0].settings.port, 3001);
+  EXPECT_TRUE(read.config.survey[0].settings.tls.has_value());
+  EXPECT_EQ(read.config.survey[0].token_file.filename(), "hawk.token");
+  for (auto const* const text :
+       {"[[survey]]\nname = \"hawk\"\n", "[[survey]]\naddress = \"a:1\"\n",
+        "[[survey]]\nname = \"a b\"\naddress = \"a:1\"\n", "[[survey]]\nname = \"a\"\naddress = \"a:x\"\n",
+        "[[survey]]\nname = \"a\"\naddress = \"a:1\"\nkey = \"k.pem\"\n",
+        "[[survey]]\nname = \"a\"\naddress = \"a:1\"\ntoken = \"secret\"\n"})
+    EXPECT_NE(first_complaint(text), "") << text;
+}
+
 TEST(StationConfig, SetsFromWhereOnABatteryCountsAsLow) {
   Read const read("[alarms]\nbattery_low_percent = 40\nbattery_critical_percent = 25.5\n");
   EXPECT_EQ(read.complaints(), "");

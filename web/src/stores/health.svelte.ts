@@ -1,4 +1,4 @@
-import { byNeed, healthOf, inNeed, type VehicleHealth } from '../lib/health';
+import { byNeed, healthOf, inNeed, type VehicleHealth } from '../lib/reports/health';
 import type { Session } from './session.svelte';
 
 /** How the modules of vehicles do, where there are such that say so. */

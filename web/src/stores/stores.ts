@@ -19,6 +19,7 @@ import { PlacingStore } from './placing.svelte';
 import { ScriptsStore } from './scripts.svelte';
 import { Session, type Network } from './session.svelte';
 import { Settings } from './settings.svelte';
+import { SurveyStore } from './survey.svelte';
 
 /** The station as the app sees it, each part of it in a store that alone writes it. */
 export interface Stores {
@@ -38,6 +39,7 @@ export interface Stores {
   log: LogStore;
   alarms: AlarmsStore;
   health: HealthStore;
+  survey: SurveyStore;
   settings: Settings;
 }
 
@@ -64,6 +66,7 @@ export function createStores(network: Network, voices: Voices): Stores {
   const log = new LogStore(session);
   const alarms = new AlarmsStore(session, fleet, settings, voices);
   const health = new HealthStore(session);
+  const survey = new SurveyStore(session);
   // Who reads another store hears after it.
   session.begin([fleet, layers, history, control, scripts, log, alarms, baseMaps]);
   return {
@@ -83,6 +86,7 @@ export function createStores(network: Network, voices: Voices): Stores {
     log,
     alarms,
     health,
+    survey,
     settings,
   };
 }

@@ -11,6 +11,8 @@ export class TestStation {
   subscribed: string[] = [];
   /** What it answers over HTTP, by the path of the address. */
   readonly files = new Map<string, Response>();
+  /** What was posted to it over HTTP. */
+  readonly posted: { address: string; body: unknown }[] = [];
   /** What was said aloud or sounded. */
   readonly sounds: string[] = [];
   readonly stores: Stores;
@@ -27,7 +29,7 @@ export class TestStation {
       isMuted: false,
     };
     this.stores = createStores(
-      { open: () => this.connect(), fetch: (address) => this.answer(address), token, keepToken: () => {} },
+      { open: () => this.connect(), fetch: (address, init) => this.answer(address, init), token, keepToken: () => {} },
       voices,
     );
     this.context = contextOf(this.stores);
@@ -82,7 +84,8 @@ export class TestStation {
     return socket;
   }
 
-  private answer(address: string): Promise<Response> {
+  private answer(address: string, { method, body }: RequestInit): Promise<Response> {
+    if (method === 'POST') this.posted.push({ address, body: typeof body === 'string' ? JSON.parse(body) : body });
     const found = this.files.get(address.split('?')[0] ?? '');
     return found ? Promise.resolve(found.clone()) : Promise.reject(new Error(`nobody answers ${address}`));
   }

@@ -1,5 +1,5 @@
-import type { Level } from './status';
-import { flag, list, number, object, seconds, textUpTo, word } from './wire/parsers';
+import type { Level } from '../status';
+import { flag, list, number, object, seconds, textUpTo, word } from '../wire/parsers';
 
 export interface ModuleError {
   code: number;

@@ -1,0 +1,107 @@
+#include "host/survey/lot_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "map/features/feature_json.hpp"
+
+namespace lapwing::host {
+
+namespace {
+
+constexpr auto site_id = "default";
+
+/// Percent, of which 0 and 100 are no certainties: the map adds up what it is told.
+::lapwing::map::Evidence evidence_of(std::int8_t percent) {
+  constexpr double surest = 0.98;
+  if (percent < 0) return {};
+  return ::lapwing::map::Evidence::of_probability(std::clamp(percent / 100.0, 1.0 - surest, surest));
+}
+
+bool is_alike(autonomy::OccupancyMap const& a, autonomy::OccupancyMap const& b) {
+  return a.columns == b.columns && a.rows == b.rows && a.resolution_m == b.resolution_m && a.origin == b.origin;
+}
+
+}  // namespace
+
+void LotWriter::note_origin(autonomy::report::Heartbeat const& heartbeat) {
+  if (!heartbeat.position || !heartbeat.local) return;
+  if (!map_.site(site_id)) {
+    auto site = geo::Site::make(site_id, *heartbeat.position);
+    if (!site) return;
+    map_.put_site(*std::move(site));
+  }
+  auto const here = map_.site(site_id)->point_of(*heartbeat.position);
+  geo::Point<geo::SiteFrame> const origin(here.x() - heartbeat.local->x(), here.y() - heartbeat.local->y());
+  if (origin_ && distance_m(*origin_, origin) <= moved_m) return;
+  origin_ = origin;
+  shown_.reset();
+}
+
+base::Result<> LotWriter::take(autonomy::report::Heartbeat const& heartbeat, base::UtcTime at) {
+  note_origin(heartbeat);
+  if (!origin_ || !heartbeat.map) return {};
+  return put_grid(*heartbeat.map, at);
+}
+
+base::Result<> LotWriter::put_grid(autonomy::OccupancyMap const& told, base::UtcTime at) {
+  bool const is_anew = !shown_ || !is_alike(*shown_, told);
+  geo::Vector<geo::SiteFrame> const corner(told.origin.x(), told.origin.y());
+  ::lapwing::map::OccupancyGrid grid(told.resolution_m, {*origin_ + corner, 0.0});
+  std::set<::lapwing::map::TileKey> changed;
+  for (std::size_t i = 0; i < told.cells.size(); ++i) {
+    ::lapwing::map::Cell const cell{static_cast<std::int32_t>(i % told.columns),
+                                    static_cast<std::int32_t>(i / told.columns)};
+    if (told.cells[i] >= 0) grid.set(cell, evidence_of(told.cells[i]));
+    if (is_anew ? told.cells[i] >= 0 : told.cells[i] != shown_->cells[i]) changed.insert(tile_of(cell));
+  }
+  if (changed.empty()) return {};
+  auto const put = map_.put_tiles({.site = site_id, .floor = {}, .name = drone_ + " parking"}, grid,
+                                  {changed.begin(), changed.end()}, {.writer = drone_, .at = at});
+  if (!put) return std::unexpected(put.error());
+  shown_ = told;
+  return {};
+}
+
+base::Result<> LotWriter::take(autonomy::report::SlotNews const& news, base::UtcTime at) {
+  auto const* const site = map_.site(site_id);
+  if (!site) return base::fail(base::ErrorKind::not_found, "nothing says yet where on the globe the drone is");
+  auto read =
+      ::lapwing::map::read_features(news.features, ::lapwing::map::LayerKind::slots,
+                                    [site](std::string_view id) { return id == site_id ? site : nullptr; },
+                                    {.id = {}, .site = site_id, .floor = {}, .account = {.writer = drone_, .at = at}});
+  if (!read) return std::unexpected(read.error());
+  // What is in the message is its word, whoever else it names.
+  for (auto& feature : *read) {
+    feature.id = id_of(feature.id);
+    feature.account.writer = drone_;
+    if (auto* const slot = std::get_if<::lapwing::map::Slot>(&feature.content)) slot->seen_by = drone_;
+  }
+  if (auto put = map_.put_all(*std::move(read)); !put) return std::unexpected(put.error());
+  for (auto const& id : news.removed) {
+    auto const gone = map_.remove(::lapwing::map::LayerKind::slots, id_of(id), {.writer = drone_, .at = at});
+    if (!gone && gone.error().kind != base::ErrorKind::not_found) return std::unexpected(gone.error());
+  }
+  return {};
+}
+
+std::optional<vehicle::SlotCounts> LotWriter::slots() const {
+  constexpr auto most = std::numeric_limits<std::size_t>::max();
+  vehicle::SlotCounts counts;
+  auto const all = map_.within(::lapwing::map::LayerKind::slots, site_id, std::nullopt, most);
+  for (auto const* const record : all) {
+    if (record->feature.account.writer != drone_) continue;
+    auto const& slot = std::get<::lapwing::map::Slot>(record->feature.content);
+    auto& count = slot.state == ::lapwing::map::SlotState::free    ? counts.free
+                  : slot.state == ::lapwing::map::SlotState::taken ? counts.taken
+                                                                   : counts.unknown;
+    ++count;
+  }
+  if (counts.free + counts.taken + counts.unknown == 0) return std::nullopt;
+  return counts;
+}
+
+}  // namespace lapwing::host

@@ -1,0 +1,139 @@
+#include "host/survey/survey_desk.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "autonomy/operator/command_text.hpp"
+
+namespace lapwing::host {
+
+namespace wire = link::operator_link;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A command that comes later than that was meant for another moment.
+constexpr base::Duration command_lives = 5s;
+constexpr base::Duration kill_lives = 10s;
+
+}  // namespace
+
+struct SurveyDesk::Seat {
+  Seat(::lapwing::map::LiveMap& map, std::string drone) : name(drone), lot(map, std::move(drone)) {}
+
+  std::string name;
+  std::optional<autonomy::report::Heartbeat> heartbeat = {};
+  std::deque<vehicle::SurveyWords> words = {};
+  std::string complaint = {};  ///< the last one of the map, so that it is told once
+  LotWriter lot;
+  std::unique_ptr<wire::Client> client = {};
+};
+
+SurveyDesk::SurveyDesk(base::Loop& loop, base::Logger log) : loop_(loop), log_(std::move(log)), scope_(loop) {}
+
+SurveyDesk::~SurveyDesk() = default;
+
+base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::lapwing::map::LiveMap& map,
+                                                           base::Logger log, std::vector<SurveyLink> links) {
+  std::unique_ptr<SurveyDesk> desk(new SurveyDesk(loop, std::move(log)));
+  std::set<std::string> names;
+  for (auto& [name, settings, token_file] : links) {
+    if (!names.insert(name).second)
+      return base::fail(base::ErrorKind::invalid_input, fmt::format("two survey drones are called {}", name),
+                        "give each a name of its own");
+    auto seat = std::make_unique<Seat>(map, name);
+    if (settings.client.end.name.empty()) settings.client.end.name = "station";
+    auto client =
+        wire::connect(loop, std::move(settings),
+                      {.arrived = [raw = desk.get(), one = seat.get()] { raw->hear(*one); },
+                       .event =
+                           [raw = desk.get(), one = seat.get()](wire::Event const& event) {
+                             auto const text = event.text.empty() ? "" : ": " + event.text;
+                             raw->log_.info(fmt::format("{}: {}{}", one->name, wire::to_string(event.kind), text));
+                           }});
+    if (!client) return std::unexpected(client.error());
+    seat->client = *std::move(client);
+    desk->seats_.push_back(std::move(seat));
+  }
+  return desk;
+}
+
+void SurveyDesk::hear(Seat& seat) {
+  while (auto const message = seat.client->session().take()) take(seat, message->text);
+}
+
+void SurveyDesk::take(Seat& seat, std::string const& text) {
+  auto report = autonomy::parse_report(text);
+  if (!report) return say(seat, report.error().message);
+  if (auto const* const log = std::get_if<autonomy::report::ErrorLog>(&*report)) return say(seat, log->message);
+  base::Result<> shown;
+  if (auto const* const news = std::get_if<autonomy::report::SlotNews>(&*report)) {
+    shown = seat.lot.take(*news, loop_.utc_now());
+  } else {
+    seat.heartbeat = std::get<autonomy::report::Heartbeat>(*std::move(report));
+    shown = seat.lot.take(*seat.heartbeat, loop_.utc_now());
+    seat.heartbeat->map.reset();
+  }
+  auto complaint = shown ? std::string() : fmt::format("the map does not take it: {}", shown.error().message);
+  if (!complaint.empty() && complaint != seat.complaint) say(seat, complaint);
+  if (!complaint.empty()) seat.complaint = std::move(complaint);
+}
+
+void SurveyDesk::say(Seat& seat, std::string words) {
+  log_.warn(fmt::format("{}: {}", seat.name, words));
+  seat.words.push_back({.at = loop_.utc_now(), .text = std::move(words)});
+  if (seat.words.size() > words_kept) seat.words.pop_front();
+}
+
+std::vector<vehicle::SurveyDroneView> SurveyDesk::drones() const {
+  std::vector<vehicle::SurveyDroneView> views;
+  for (auto const& seat : seats_) {
+    auto const& told = seat->heartbeat.value_or(autonomy::report::Heartbeat{});
+    views.push_back({.name = seat->name,
+                     .is_connected = seat->client->is_connected(),
+                     .trouble = seat->client->last_error(),
+                     .state = told.state,
+                     .mode = told.mode,
+                     .is_armed = told.is_armed,
+                     .is_healthy = told.is_healthy,
+                     .health_reason = told.health_reason,
+                     .user_error = told.user_error,
+                     .height_m = told.height_m,
+                     .position = told.position,
+                     .battery = told.battery,
+                     .slots = seat->lot.slots(),
+                     .words = {seat->words.begin(), seat->words.end()}});
+  }
+  return views;
+}
+
+base::Result<> SurveyDesk::command(std::string_view drone, std::string const& command) {
+  auto const found = std::ranges::find_if(seats_, [&](auto const& seat) { return seat->name == drone; });
+  if (found == seats_.end())
+    return base::fail(base::ErrorKind::not_found, fmt::format("there is no survey drone '{}'", drone));
+  auto const read = autonomy::parse_command(command);
+  if (!read) return std::unexpected(read.error());
+  auto& seat = **found;
+  bool const is_kill = std::holds_alternative<autonomy::command::Kill>(*read);
+  if (!is_kill && !seat.client->is_connected())
+    return base::fail(base::ErrorKind::refused, fmt::format("{} is not connected", seat.name),
+                      seat.client->last_error());
+  auto const sent = seat.client->session().send({.kind = wire::Kind::command,
+                                                 .text = command,
+                                                 .key = is_kill ? "kill" : "command",
+                                                 .lifetime = is_kill ? kill_lives : command_lives});
+  if (!sent) return std::unexpected(sent.error());
+  log_.warn(fmt::format("{}: {} asked for", seat.name, autonomy::name_of(*read)));
+  scope_.spawn(follow(seat, *sent, std::string(autonomy::name_of(*read))));
+  return {};
+}
+
+base::Task<> SurveyDesk::follow(Seat& seat, wire::MessageId id, std::string command) {
+  auto const taken = co_await seat.client->session().taken(id, kill_lives);
+  if (!taken) say(seat, fmt::format("{} has not reached it: {}", command, taken.error().message));
+}
+
+}  // namespace lapwing::host

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/async/loop.hpp"
+#include "base/async/scope.hpp"
+#include "base/log.hpp"
+#include "host/survey/lot_writer.hpp"
+#include "host/survey/survey_link.hpp"
+#include "vehicle/survey_drones.hpp"
+
+namespace lapwing::host {
+
+/// The operator's seat of survey drones (`lapwing onboard`): keeps connected to each, tells what they say, hands on
+/// what they are told and puts what they find on the map.
+class SurveyDesk final : public vehicle::SurveyDrones {
+ public:
+  /// All of these outlive it. Errors: those of `operator_link::connect`, and two of one name.
+  [[nodiscard]] static base::Result<std::unique_ptr<SurveyDesk>> open(base::Loop& loop, ::lapwing::map::LiveMap& map,
+                                                                      base::Logger log, std::vector<SurveyLink> links);
+  SurveyDesk(SurveyDesk const&) = delete;
+  SurveyDesk& operator=(SurveyDesk const&) = delete;
+  ~SurveyDesk() override;
+
+  [[nodiscard]] std::vector<vehicle::SurveyDroneView> drones() const override;
+  [[nodiscard]] base::Result<> command(std::string_view drone, std::string const& command) override;
+
+  static constexpr std::size_t words_kept = 20;
+
+ private:
+  struct Seat;
+
+  SurveyDesk(base::Loop& loop, base::Logger log);
+  void hear(Seat& seat);
+  void take(Seat& seat, std::string const& text);
+  void say(Seat& seat, std::string words);
+  [[nodiscard]] base::Task<> follow(Seat& seat, link::operator_link::MessageId id, std::string command);
+
+  base::Loop& loop_;
+  base::Logger log_;
+  std::vector<std::unique_ptr<Seat>> seats_;
+  base::Scope scope_;
+};
+
+}  // namespace lapwing::host

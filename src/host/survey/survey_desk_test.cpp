@@ -1,0 +1,155 @@
+#include "host/survey/survey_desk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "autonomy/operator/report_text.hpp"
+#include "base/log.hpp"
+
+namespace lapwing::host {
+namespace {
+
+namespace wire = link::operator_link;
+using namespace std::chrono_literals;
+using ::lapwing::map::LayerKind;
+
+auto const home = geo::Wgs84::from_degrees(43.2585, -79.9201, 100.0);
+
+/// A station's desk, and a drone's end of the operator link on this machine, in real time.
+class Desk : public ::testing::Test {
+ public:
+  void SetUp() override {
+    wire::ServeSettings settings{.port = 0};
+    settings.server.end.name = "drone";
+    drone = wire::serve(loop, std::move(settings), {}).value();
+    wire::ConnectSettings reached{.port = drone->port()};
+    reached.client.back_off = {.first = 10ms, .most = 50ms};
+    desk = SurveyDesk::open(loop, map, base::Logger(hub, "survey"), {{.name = "hawk", .settings = reached}}).value();
+    until([&] { return view().is_connected; });
+  }
+  template <class Condition>
+  void until(Condition condition) {
+    auto const deadline = loop.now() + 10s;
+    while (!condition() && loop.now() < deadline) loop.run_until_done(next_look());
+    EXPECT_TRUE(condition());
+  }
+  base::Task<> next_look() { co_await loop.sleep(2ms); }
+  [[nodiscard]] vehicle::SurveyDroneView view() const { return desk->drones().at(0); }
+  void say(std::string text) { ASSERT_EQ(drone->send_to_all({.text = std::move(text)}), 0U); }
+  void say_heartbeat(autonomy::Said const& said, std::optional<autonomy::OccupancyMap> const& found = std::nullopt) {
+    autonomy::Told told;
+    told.flight = autonomy::FlightController{.mode = "GUIDED",
+                                             .is_armed = true,
+                                             .relative_alt_m = 12.0,
+                                             .position = home,
+                                             .local = geo::Point3<autonomy::ArmingFrame>(5, 7, 12),
+                                             .battery = 0.8};
+    say(autonomy::heartbeat_text(said, told, found).value());
+  }
+  /// What the drone is told next.
+  std::string heard() {
+    auto* const session = drone->sessions().at(0);
+    auto const message = loop.run_until_done(session->receive(10s));
+    return message ? message->text : "nothing";
+  }
+
+  base::LogHub hub;
+  base::Loop loop;
+  ::lapwing::map::LiveMap map{[this] { return loop.utc_now(); }};
+  std::unique_ptr<wire::Server> drone;
+  std::unique_ptr<SurveyDesk> desk;
+};
+
+TEST_F(Desk, ShowsWhatTheDroneTells) {
+  EXPECT_EQ(view().state, "");
+  say_heartbeat({.state = autonomy::State::hover, .user_error = autonomy::UserError::no_lot_detected});
+  until([&] { return view().state == "Hover"; });
+  EXPECT_EQ(view().name, "hawk");
+  EXPECT_EQ(view().mode, "GUIDED");
+  EXPECT_TRUE(view().is_armed);
+  EXPECT_EQ(view().height_m, 12.0);
+  EXPECT_EQ(view().battery, 0.8);
+  EXPECT_EQ(view().user_error, to_string(autonomy::UserError::no_lot_detected));
+  say(autonomy::error_log_text("Takeoff is refused: it is not armed yet"));
+  until([&] { return !view().words.empty(); });
+  EXPECT_EQ(view().words.back().text, "Takeoff is refused: it is not armed yet");
+  say("{\"Type\":\"Poem\"}");
+  until([&] { return view().words.size() == 2; });
+  EXPECT_EQ(view().words.back().text, "a drone's message of the unknown type 'Poem'");
+}
+
+TEST_F(Desk, HandsCommandsOnAndNothingElse) {
+  ASSERT_TRUE(desk->command("hawk", R"({"Type":"Autonomous Explore"})"));
+  EXPECT_EQ(heard(), R"({"Type":"Autonomous Explore"})");
+  EXPECT_EQ(desk->command("dove", R"({"Type":"Arm"})").error().kind, base::ErrorKind::not_found);
+  EXPECT_EQ(desk->command("hawk", R"({"Type":"Sing"})").error().kind, base::ErrorKind::invalid_input);
+  drone.reset();
+  until([&] { return !view().is_connected; });
+  auto const refused = desk->command("hawk", R"({"Type":"Land"})");
+  EXPECT_EQ(refused.error().kind, base::ErrorKind::refused);
+  EXPECT_EQ(refused.error().message, "hawk is not connected");
+  EXPECT_TRUE(desk->command("hawk", R"({"Type":"Kill"})")) << "that waits for a moment";
+}
+
+TEST_F(Desk, PutsTheOccupancyMapWhereTheDroneIs) {
+  autonomy::OccupancyMap found{
+      .columns = 2, .rows = 2, .resolution_m = 0.5, .origin = {-1, 2}, .cells = {-1, 0, 100, 50}};
+  say_heartbeat({}, found);
+  until([&] { return !map.grids().empty(); });
+  auto const& [key, record] = *map.grids().begin();
+  EXPECT_EQ(key.site, "default");
+  EXPECT_EQ(key.name, "hawk parking");
+  // The drone is in the site's middle, 5 m east and 7 m north of where it was armed.
+  EXPECT_NEAR(record.grid.site_from_grid().origin().x(), -6.0, 1e-6);
+  EXPECT_NEAR(record.grid.site_from_grid().origin().y(), -5.0, 1e-6);
+  EXPECT_FALSE(record.grid.at({0, 0}).is_seen());
+  EXPECT_NEAR(record.grid.at({1, 0}).probability(), 0.02, 0.002);
+  EXPECT_NEAR(record.grid.at({0, 1}).probability(), 0.98, 0.002);
+  EXPECT_NEAR(record.grid.at({1, 1}).probability(), 0.5, 0.002);
+  found.cells = {0, 0, -1, 50};
+  say_heartbeat({}, found);
+  until([&] { return record.grid.at({0, 0}).is_seen(); });
+  EXPECT_FALSE(record.grid.at({0, 1}).is_seen()) << "what the drone does not know any more";
+}
+
+TEST_F(Desk, PutsSlotsOnTheMapAndCountsThem) {
+  say_heartbeat({});
+  until([&] { return map.site("default") != nullptr; });
+  auto const slot = [](int number, std::string_view state) {
+    double const west = -79.92 + number * 1e-4;
+    return fmt::format(
+        R"({{"type":"Feature","id":"{}","properties":{{"state":"{}","taken_probability":0.5}},"geometry":{{"type":"Polygon",)"
+        R"("coordinates":[[[{},43.25],[{},43.25],[{},43.2501],[{},43.2501],[{},43.25]]]}}}})",
+        number, state, west, west + 3e-5, west + 3e-5, west, west);
+  };
+  say(fmt::format(R"({{"Type":"Slots","Features":{{"type":"FeatureCollection","features":[{},{},{}]}}}})",
+                  slot(1, "free"), slot(2, "taken"), slot(3, "taken")));
+  until([&] { return view().slots.has_value(); });
+  EXPECT_EQ(view().slots->free, 1U);
+  EXPECT_EQ(view().slots->taken, 2U);
+  ASSERT_NE(map.find(LayerKind::slots, "hawk 2"), nullptr);
+  EXPECT_EQ(map.find(LayerKind::slots, "hawk 2")->feature.account.writer, "hawk");
+  say(R"({"Type":"Slots","Features":{"type":"FeatureCollection","features":[]},"Removed":["2","9"]})");
+  until([&] { return view().slots->taken == 1; });
+  say(R"({"Type":"Slots","Features":{"type":"Nonsense"}})");
+  until([&] { return !view().words.empty(); });
+  EXPECT_TRUE(view().words.back().text.starts_with("the map does not take it: ")) << view().words.back().text;
+}
+
+TEST(ParseSurvey, TakesAHostWithOrWithoutAPort) {
+  EXPECT_EQ(parse_survey("127.0.0.1")->port, 3000);
+  EXPECT_EQ(parse_survey("drone.local:3001")->host, "drone.local");
+  EXPECT_EQ(parse_survey("drone.local:3001")->port, 3001);
+  for (auto const* const text : {"", ":3000", "a:", "a:x", "a:70000", "a:0", "tcp://a:3000"})
+    EXPECT_FALSE(parse_survey(text)) << text;
+}
+
+TEST_F(Desk, RefusesTwoOfOneName) {
+  wire::ConnectSettings const reached{.port = drone->port()};
+  auto const opened = SurveyDesk::open(loop, map, base::Logger(hub, "survey"), {{"a", reached}, {"a", reached}});
+  EXPECT_EQ(opened.error().message, "two survey drones are called a");
+}
+
+}  // namespace
+}  // namespace lapwing::host

@@ -1,0 +1,103 @@
+#include "host/survey/survey_link.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host/files/secret_file.hpp"
+
+namespace lapwing::host {
+
+namespace wire = link::operator_link;
+using base::ConfigReader;
+using base::Diagnostics;
+using base::config_kinds::invalid_value;
+
+base::Result<wire::ConnectSettings> parse_survey(std::string_view text) {
+  auto const colon = text.rfind(':');
+  wire::ConnectSettings settings;
+  settings.host = std::string(text.substr(0, colon));
+  bool is_sound = !settings.host.empty() && settings.host.find('/') == std::string::npos;
+  if (colon != std::string_view::npos) {
+    auto const port = text.substr(colon + 1);
+    auto const [end, fault] = std::from_chars(port.data(), port.data() + port.size(), settings.port);
+    is_sound = is_sound && fault == std::errc{} && end == port.data() + port.size() && settings.port > 0;
+  }
+  if (is_sound) return settings;
+  return base::fail(base::ErrorKind::invalid_input, fmt::format("'{}' is no operator link of a survey drone", text),
+                    fmt::format("HOST:PORT, as 127.0.0.1:{}", wire::default_port));
+}
+
+base::Result<> add_survey_links(std::vector<std::string> const& texts, std::vector<SurveyLink>& links) {
+  for (auto const& text : texts) {
+    auto settings = parse_survey(text);
+    if (!settings) return std::unexpected(settings.error());
+    links.push_back({.name = fmt::format("drone{}", links.size() + 1), .settings = *std::move(settings)});
+  }
+  return {};
+}
+
+namespace {
+
+void read_tls(ConfigReader& table, base::SourceFile const& source, Diagnostics& diagnostics,
+              std::optional<wire::TlsClientSettings>& tls) {
+  auto const beside = [&source](std::string const& path) {
+    return std::filesystem::path(source.name()).parent_path() / path;
+  };
+  auto const authority = table.text("authority");
+  auto const certificate = table.text("certificate");
+  auto const key = table.text("key");
+  if (!authority && (certificate || key))
+    diagnostics.report(invalid_value, certificate ? certificate->span : key->span,
+                       "TLS needs to know who has signed the drone's certificate", "authority = \"FILE.pem\"");
+  if (certificate.has_value() != key.has_value())
+    diagnostics.report(invalid_value, certificate ? certificate->span : key->span,
+                       "a certificate and its key go together", "name both files, in PEM");
+  if (!authority) return;
+  tls = wire::TlsClientSettings{.authority = beside(authority->value)};
+  if (certificate) tls->certificate = beside(certificate->value);
+  if (key) tls->key = beside(key->value);
+}
+
+}  // namespace
+
+SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const& source, Diagnostics& diagnostics) {
+  SurveyLink link;
+  auto& reader = table.value;
+  auto const address = reader.text("address");
+  if (!address && !reader.has("address"))
+    diagnostics.report(invalid_value, table.span, "a survey drone needs an address", "address = \"127.0.0.1:3000\"");
+  if (address) {
+    auto settings = parse_survey(address->value);
+    if (settings)
+      link.settings = *std::move(settings);
+    else
+      diagnostics.report(invalid_value, address->span, settings.error().message, settings.error().hint);
+  }
+  auto const name = reader.text("name");
+  if (!name && !reader.has("name"))
+    diagnostics.report(invalid_value, table.span, "a survey drone needs a name", "name = \"hawk\"");
+  if (name) {
+    link.name = name->value;
+    if (auto const sound = wire::check_name(link.name); !sound)
+      diagnostics.report(invalid_value, name->span, sound.error().message, sound.error().hint);
+  }
+  if (auto const file = reader.text("token_file"))
+    link.token_file = std::filesystem::path(source.name()).parent_path() / file->value;
+  read_tls(reader, source, diagnostics, link.settings.tls);
+  reader.refuse("token", "keep it in a file of its own (mode 0600): token_file = \"drone.token\"");
+  reader.refuse_unknown();
+  return link;
+}
+
+base::Result<> take_token(SurveyLink& link) {
+  if (link.token_file.empty()) return {};
+  auto token = read_secret(
+      {.path = link.token_file.string(), .what = "token file", .hint = fmt::format("copy that of {}", link.name)});
+  if (!token) return std::unexpected(token.error());
+  link.settings.client.end.token = *std::move(token);
+  return {};
+}
+
+}  // namespace lapwing::host

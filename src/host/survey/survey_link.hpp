@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/config.hpp"
+#include "link/operator_link/endpoints.hpp"
+
+namespace lapwing::host {
+
+/// How a survey drone is reached.
+struct SurveyLink {
+  std::string name = {};  ///< by which operators know it
+  link::operator_link::ConnectSettings settings = {};
+  std::filesystem::path token_file = {};  ///< what the drone asks for; empty: it asks for none
+};
+
+/// What `--survey` says: HOST or HOST:PORT, the port of operator links where there is none. Error: invalid_input.
+[[nodiscard]] base::Result<link::operator_link::ConnectSettings> parse_survey(std::string_view text);
+inline constexpr auto survey_help =
+    "A survey drone's operator link (may be repeated): HOST[:PORT]; with a token or TLS: [[survey]] in the file";
+/// Those of `--survey` beside those of the file, called drone1, drone2 and so on. Error: that of `parse_survey`.
+[[nodiscard]] base::Result<> add_survey_links(std::vector<std::string> const& texts, std::vector<SurveyLink>& links);
+
+/// One `[[survey]]` of the station's file (docs/reference/station-config.md).
+[[nodiscard]] SurveyLink read_survey(base::Placed<base::ConfigReader>& table, base::SourceFile const& source,
+                                     base::Diagnostics& diagnostics);
+/// Reads the token's file, where there is one. Errors: those of `read_secret`.
+[[nodiscard]] base::Result<> take_token(SurveyLink& link);
+
+}  // namespace lapwing::host

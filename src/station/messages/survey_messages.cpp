@@ -1,0 +1,60 @@
+#include "station/messages/survey_messages.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/text/utc_text.hpp"
+#include "geo/position_json.hpp"
+#include "station/messages/feed_json.hpp"
+
+namespace lapwing::station {
+
+namespace {
+
+Json to_json(vehicle::SurveyDroneView const& drone) {
+  Json json{{"name", drone.name}, {"connected", drone.is_connected}};
+  if (!drone.trouble.empty()) json["trouble"] = drone.trouble;
+  json["words"] = Json::array();
+  for (auto const& [at, text] : drone.words) json["words"].push_back({{"at", base::to_iso8601(at)}, {"text", text}});
+  if (drone.state.empty()) return json;
+  json["state"] = drone.state;
+  if (!drone.mode.empty()) json["mode"] = drone.mode;
+  json["armed"] = drone.is_armed;
+  json["healthy"] = drone.is_healthy;
+  if (!drone.health_reason.empty()) json["health_reason"] = drone.health_reason;
+  if (!drone.user_error.empty()) json["user_error"] = drone.user_error;
+  if (drone.height_m) json["height_m"] = rounded(*drone.height_m, 2);
+  if (drone.battery) json["battery"] = rounded(*drone.battery, 3);
+  if (drone.position)
+    json["position"] = {{"lat_deg", rounded(drone.position->lat_deg(), 8)},
+                        {"lon_deg", rounded(drone.position->lon_deg(), 8)}};
+  if (auto const& slots = drone.slots)
+    json["slots"] = {{"free", slots->free}, {"taken", slots->taken}, {"unknown", slots->unknown}};
+  return json;
+}
+
+}  // namespace
+
+std::string survey_message(std::vector<vehicle::SurveyDroneView> const& drones) {
+  Json list = Json::array();
+  for (auto const& drone : drones) list.push_back(to_json(drone));
+  return dump({{"type", "survey"}, {"drones", std::move(list)}});
+}
+
+void add_survey_routes(Router& router, vehicle::SurveyDrones* drones, base::Logger const& log) {
+  router.add("GET", "/api/v1/survey", [drones](HttpRequest const&) {
+    return HttpResponse{.body = survey_message(drones ? drones->drones() : std::vector<vehicle::SurveyDroneView>())};
+  });
+  router.add("POST", "/api/v1/survey/{drone}/commands",
+             [drones, &log](HttpRequest const& request, PathArguments const& path) -> Reply {
+               auto const& drone = path["drone"];
+               if (!drones)
+                 return problem(404, "this station has no survey drones", "start it with --survey HOST:PORT");
+               if (auto const sent = drones->command(drone, request.body); !sent) return problem(sent.error());
+               log.info(fmt::format("a command for {} asked for over HTTP", drone));
+               return HttpResponse{.status = 202, .body = "{}"};
+             });
+}
+
+}  // namespace lapwing::station

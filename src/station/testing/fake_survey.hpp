@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vehicle/survey_drones.hpp"
+
+namespace lapwing::station::testing {
+
+/// Two survey drones: one explores, the other one has not been reached yet.
+class FakeSurvey : public vehicle::SurveyDrones {
+ public:
+  FakeSurvey() {
+    list = {{.name = "hawk",
+             .is_connected = true,
+             .state = "AutonomousExplore",
+             .mode = "GUIDED",
+             .is_armed = true,
+             .user_error = "No_Lot_Detected",
+             .height_m = 12.345,
+             .position = geo::Wgs84::from_degrees(43.2585, -79.9201),
+             .battery = 0.81234,
+             .slots = vehicle::SlotCounts{.free = 3, .taken = 4, .unknown = 1},
+             .words = {{.at = base::UtcTime(std::chrono::seconds(1'700'000'000)), .text = "it climbs"}}},
+            {.name = "dove", .trouble = "connection refused"}};
+  }
+  [[nodiscard]] std::vector<vehicle::SurveyDroneView> drones() const override { return list; }
+  [[nodiscard]] base::Result<> command(std::string_view drone, std::string const& command) override {
+    if (drone != "hawk") return base::fail(base::ErrorKind::refused, "dove is not connected", "connection refused");
+    commands.push_back(command);
+    return {};
+  }
+
+  std::vector<vehicle::SurveyDroneView> list;
+  std::vector<std::string> commands;
+};
+
+}  // namespace lapwing::station::testing
