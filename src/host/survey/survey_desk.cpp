@@ -19,6 +19,12 @@ namespace {
 constexpr base::Duration command_lives = 5s;
 constexpr base::Duration kill_lives = 10s;
 
+/// What overtakes what waits: of where to fly the last word counts, which says nothing of heights.
+std::string_view key_of(autonomy::Command const& command) {
+  if (std::holds_alternative<autonomy::command::Kill>(command)) return "kill";
+  return std::holds_alternative<autonomy::command::Configure>(command) ? "heights" : "flight";
+}
+
 }  // namespace
 
 struct SurveyDesk::Seat {
@@ -123,7 +129,7 @@ base::Result<> SurveyDesk::command(std::string_view drone, std::string const& co
                       seat.client->last_error());
   auto const sent = seat.client->session().send({.kind = wire::Kind::command,
                                                  .text = command,
-                                                 .key = is_kill ? "kill" : "command",
+                                                 .key = std::string(key_of(*read)),
                                                  .lifetime = is_kill ? kill_lives : command_lives});
   if (!sent) return std::unexpected(sent.error());
   log_.warn(fmt::format("{}: {} asked for", seat.name, autonomy::name_of(*read)));

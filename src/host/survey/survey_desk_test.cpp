@@ -92,6 +92,14 @@ TEST_F(Desk, HandsCommandsOnAndNothingElse) {
   EXPECT_TRUE(desk->command("hawk", R"({"Type":"Kill"})")) << "that waits for a moment";
 }
 
+TEST_F(Desk, LetsTheNewestWordOfWhereToFlyOvertakeOthersButNotHeights) {
+  ASSERT_TRUE(desk->command("hawk", R"({"Type":"Configure","Min":8,"Des":9,"Max":10})"));
+  ASSERT_TRUE(desk->command("hawk", R"({"Type":"Autonomous Explore"})"));
+  ASSERT_TRUE(desk->command("hawk", R"({"Type":"Land"})"));
+  EXPECT_EQ(heard(), R"({"Type":"Configure","Min":8,"Des":9,"Max":10})");
+  EXPECT_EQ(heard(), R"({"Type":"Land"})");
+}
+
 TEST_F(Desk, PutsTheOccupancyMapWhereTheDroneIs) {
   autonomy::OccupancyMap found{
       .columns = 2, .rows = 2, .resolution_m = 0.5, .origin = {-1, 2}, .cells = {-1, 0, 100, 50}};
