@@ -91,6 +91,7 @@ Session::Session(Options const& options)
           loop, platforms, *console, log, [this](tasks::TaskEvent const& event) { note(event); },
           options.seed.value_or(1)),
       on_stop_(options.on_stop),
+      emergency_action_(options.emergency_action),
       interrupted_(loop),
       events_(options.events),
       seed_(options.seed.value_or(1)) {
@@ -140,6 +141,8 @@ base::Result<> Session::open_survey(std::vector<SurveyLink> links) {
   auto opened = SurveyDesk::open(loop, live_map, log.named("survey"), std::move(links));
   if (!opened) return std::unexpected(opened.error());
   survey = *std::move(opened);
+  survey_control = std::make_unique<SurveyControl>(loop, *survey, emergency_action_, log.named("survey"));
+  all_control.add("survey drones", *survey_control);
   return {};
 }
 

@@ -23,7 +23,7 @@
 #include "host/session/script_host.hpp"
 #include "host/station/station_config.hpp"
 #include "host/station/web_access.hpp"
-#include "host/survey/survey_desk.hpp"
+#include "host/survey/survey_control.hpp"
 #include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "robot/platform/robot_control.hpp"
@@ -127,8 +127,9 @@ class Session {
   std::unique_ptr<sim::World> world;
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
   std::unique_ptr<MapExports> map_exports;
-  std::unique_ptr<SurveyDesk> survey;   ///< where there are survey drones
-  std::unique_ptr<TrackWriter> tracks;  ///< where there is a station to show them
+  std::unique_ptr<SurveyDesk> survey;             ///< where there are survey drones
+  std::unique_ptr<SurveyControl> survey_control;  ///< their emergency stop
+  std::unique_ptr<TrackWriter> tracks;            ///< where there is a station to show them
   std::unique_ptr<station::Station> map;
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 
@@ -140,6 +141,7 @@ class Session {
   void note(tasks::TaskEvent const& event);
 
   fleet::OnStop on_stop_;
+  vehicle::StopAction emergency_action_;
   base::Notifier interrupted_;  ///< by Ctrl-C
   EventFile const* events_;
   std::string record_folder_;

@@ -25,6 +25,12 @@ std::string_view key_of(autonomy::Command const& command) {
   return std::holds_alternative<autonomy::command::Configure>(command) ? "heights" : "flight";
 }
 
+bool stops(autonomy::Command const& command) {
+  return std::holds_alternative<autonomy::command::Kill>(command) ||
+         std::holds_alternative<autonomy::command::Land>(command) ||
+         std::holds_alternative<autonomy::command::Disarm>(command);
+}
+
 }  // namespace
 
 struct SurveyDesk::Seat {
@@ -116,24 +122,43 @@ std::vector<vehicle::SurveyDroneView> SurveyDesk::drones() const {
   return views;
 }
 
-base::Result<> SurveyDesk::command(std::string_view drone, std::string const& command) {
+SurveyDesk::Seat* SurveyDesk::seat_of(std::string_view drone) const {
   auto const found = std::ranges::find_if(seats_, [&](auto const& seat) { return seat->name == drone; });
-  if (found == seats_.end())
-    return base::fail(base::ErrorKind::not_found, fmt::format("there is no survey drone '{}'", drone));
+  return found == seats_.end() ? nullptr : found->get();
+}
+
+std::optional<autonomy::report::Heartbeat> SurveyDesk::heartbeat(std::string_view drone) const {
+  auto const* const seat = seat_of(drone);
+  return seat ? seat->heartbeat : std::nullopt;
+}
+
+base::Result<> SurveyDesk::command(std::string_view drone, std::string const& command) {
+  auto const read = autonomy::parse_command(command);
+  if (!barred_.empty() && read && !stops(*read))
+    return base::fail(base::ErrorKind::refused, barred_, "release it first; Land, Disarm and Kill are taken");
+  return stop(drone, command);
+}
+
+base::Result<> SurveyDesk::stop(std::string_view drone, std::string const& command) {
+  auto* const seat = seat_of(drone);
+  if (!seat) return base::fail(base::ErrorKind::not_found, fmt::format("there is no survey drone '{}'", drone));
   auto const read = autonomy::parse_command(command);
   if (!read) return std::unexpected(read.error());
-  auto& seat = **found;
-  bool const is_kill = std::holds_alternative<autonomy::command::Kill>(*read);
+  return send(*seat, *read, command);
+}
+
+base::Result<> SurveyDesk::send(Seat& seat, autonomy::Command const& command, std::string const& text) {
+  bool const is_kill = std::holds_alternative<autonomy::command::Kill>(command);
   if (!is_kill && !seat.client->is_connected())
     return base::fail(base::ErrorKind::refused, fmt::format("{} is not connected", seat.name),
                       seat.client->last_error());
   auto const sent = seat.client->session().send({.kind = wire::Kind::command,
-                                                 .text = command,
-                                                 .key = std::string(key_of(*read)),
+                                                 .text = text,
+                                                 .key = std::string(key_of(command)),
                                                  .lifetime = is_kill ? kill_lives : command_lives});
   if (!sent) return std::unexpected(sent.error());
-  log_.warn(fmt::format("{}: {} asked for", seat.name, autonomy::name_of(*read)));
-  scope_.spawn(follow(seat, *sent, std::string(autonomy::name_of(*read))));
+  log_.warn(fmt::format("{}: {} asked for", seat.name, autonomy::name_of(command)));
+  scope_.spawn(follow(seat, *sent, std::string(autonomy::name_of(command))));
   return {};
 }
 

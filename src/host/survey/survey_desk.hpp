@@ -4,8 +4,10 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "autonomy/interface/command.hpp"
 #include "base/async/loop.hpp"
 #include "base/async/scope.hpp"
 #include "base/log.hpp"
@@ -29,12 +31,21 @@ class SurveyDesk final : public vehicle::SurveyDrones {
   [[nodiscard]] std::vector<vehicle::SurveyDroneView> drones() const override;
   [[nodiscard]] base::Result<> command(std::string_view drone, std::string const& command) override;
 
+  /// Why nothing but Land, Disarm and Kill is handed on; empty: everything is.
+  void bar(std::string reason) { barred_ = std::move(reason); }
+  /// The same as `command`, whatever bars it.
+  [[nodiscard]] base::Result<> stop(std::string_view drone, std::string const& command);
+  /// The last one, without its map; nothing for a drone that has said none or is not there.
+  [[nodiscard]] std::optional<autonomy::report::Heartbeat> heartbeat(std::string_view drone) const;
+
   static constexpr std::size_t words_kept = 20;
 
  private:
   struct Seat;
 
   SurveyDesk(base::Loop& loop, base::Logger log);
+  [[nodiscard]] Seat* seat_of(std::string_view drone) const;
+  [[nodiscard]] base::Result<> send(Seat& seat, autonomy::Command const& command, std::string const& text);
   void hear(Seat& seat);
   void take(Seat& seat, std::string const& text);
   void say(Seat& seat, std::string words);
@@ -42,6 +53,7 @@ class SurveyDesk final : public vehicle::SurveyDrones {
 
   base::Loop& loop_;
   base::Logger log_;
+  std::string barred_;
   std::vector<std::unique_ptr<Seat>> seats_;
   base::Scope scope_;
 };

@@ -1,5 +1,7 @@
 #include "host/survey/survey_desk.hpp"
 
+#include "host/survey/survey_control.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -98,6 +100,24 @@ TEST_F(Desk, LetsTheNewestWordOfWhereToFlyOvertakeOthersButNotHeights) {
   ASSERT_TRUE(desk->command("hawk", R"({"Type":"Land"})"));
   EXPECT_EQ(heard(), R"({"Type":"Configure","Min":8,"Des":9,"Max":10})");
   EXPECT_EQ(heard(), R"({"Type":"Land"})");
+}
+
+TEST_F(Desk, StopsTheDroneInAnEmergencyUntilItSaysThatItStands) {
+  SurveyControl control(loop, *desk, vehicle::StopAction::hold, base::Logger(hub, "survey"));
+  say_heartbeat({.state = autonomy::State::autonomous_explore});
+  until([&] { return view().state == "AutonomousExplore"; });
+  control.emergency_stop(std::nullopt, "operator 2");
+  EXPECT_EQ(heard(), R"({"Type":"Compulsive Move","X":5,"Y":7})");
+  EXPECT_FALSE(control.emergency().vehicles.at(0).is_confirmed);
+  auto const refused = desk->command("hawk", R"({"Type":"Autonomous Explore"})");
+  EXPECT_EQ(refused.error().message, "the emergency stop of operator 2 is latched");
+  EXPECT_TRUE(desk->command("hawk", R"({"Type":"Land"})"));
+  EXPECT_EQ(heard(), R"({"Type":"Land"})");
+  say_heartbeat({.state = autonomy::State::hover});
+  until([&] { return control.emergency().vehicles.at(0).is_confirmed; });
+  EXPECT_EQ(control.emergency().vehicles.at(0).detail, "hovers");
+  control.release_emergency_stop("operator 2");
+  EXPECT_TRUE(desk->command("hawk", R"({"Type":"Autonomous Explore"})"));
 }
 
 TEST_F(Desk, PutsTheOccupancyMapWhereTheDroneIs) {
