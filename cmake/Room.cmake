@@ -43,7 +43,8 @@ function(lapwing_room name)
     if(ROOM_TEST_ENVIRONMENT)
       set(environment ENVIRONMENT ${ROOM_TEST_ENVIRONMENT})
     endif()
-    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+    # With sanitizers, on a machine that has other work, a test of many libraries takes more than the usual 5 s to say what it has.
+    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
       PROPERTIES TIMEOUT ${LAPWING_TEST_SECONDS} LABELS unit ${environment})
   endif()
 endfunction()

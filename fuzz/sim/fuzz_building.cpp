@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(unsigned char const* data, std::size_t siz
   camera.width = 16;
   camera.height = 12;
   auto const picture = develop(building.shoot_from(camera_on(building.robot(0).body().pose(), camera), camera));
-  require(picture.rgb.size() == 3U * 16U * 12U);
+  require(picture.rgb.size() == std::size_t{3} * 16 * 12);
   require(building.true_doors().size() == plan->doors.size());
   return 0;
 }

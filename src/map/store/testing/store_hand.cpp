@@ -29,7 +29,7 @@ constexpr int step = 20;
 std::string picture_of(std::string const& writer, int number) {
   std::string bytes = fmt::format("{} {} ", writer, number);
   while (bytes.size() < 20'000)
-    bytes += fmt::format("{:x} ", static_cast<unsigned>(number) * 2654435761U + bytes.size());
+    bytes += fmt::format("{:x} ", static_cast<std::uint64_t>(number) * 2654435761U + bytes.size());
   return bytes;
 }
 
@@ -38,7 +38,8 @@ std::string id_of(std::string const& writer, int number) {
 }
 
 PointOfInterest door(std::string const& writer, int number, std::string picture) {
-  return {.position = SitePoint(number % 100, number / 100),
+  int const row = number / 100;
+  return {.position = SitePoint(number % 100, row),
           .kind = "door",
           .name = fmt::format("{} {}", writer, number),
           .text = std::string(static_cast<std::size_t>(number % 500), 'x'),
