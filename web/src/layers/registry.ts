@@ -16,6 +16,7 @@ import { measure } from './measure';
 import { pictures } from './pictures';
 import { plans } from './plans';
 import { robots } from './robots';
+import { surveyDrones } from './survey_drones';
 import { trails } from './trails';
 import { vehicles } from './vehicles';
 
@@ -37,6 +38,7 @@ const LAYERS: readonly MakeLayer[] = [
   robots,
   pointsOfInterest,
   changes,
+  surveyDrones,
   vehicles,
   measure,
 ];
