@@ -37,6 +37,13 @@ describe('the layers of the map', () => {
     }
   });
 
+  it('draw what covers the whole map, and what there are thousands of, in the way that takes least', () => {
+    const all = style(layers, DARK, PLAIN).layers;
+    expect(all.filter(({ type }) => type === 'background')).toEqual([]);
+    const slots = all.filter((look) => 'source' in look && look.source === 'found-slots').map(({ type }) => type);
+    expect(slots).toEqual(['fill', 'symbol']);
+  });
+
   it('are named and grouped for the list of layers', () => {
     for (const { id, name, group } of layers) expect([...GROUPS, 'Tools'], `${id}: ${name}`).toContain(group);
     expect(layers.map(({ name }) => name)).not.toContain('');

@@ -11,8 +11,8 @@ export const footprints = foundLayer({
         id: 'footprints-fill',
         type: 'fill',
         filter: ['==', ['geometry-type'], 'Polygon'],
-        // Its edge is drawn by the line.
-        paint: { 'fill-antialias': false, 'fill-color': accent, 'fill-opacity': 0.04 },
+        // To be clicked, and not drawn: pictures lie on each other in dozens, and each tint would cover the map once more.
+        paint: { 'fill-antialias': false, 'fill-opacity': 0 },
       },
       {
         id: 'footprints-line',

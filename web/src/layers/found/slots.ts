@@ -12,6 +12,8 @@ const byState = (free: unknown, taken: unknown, unknown: unknown): unknown => [
   unknown,
 ];
 const colourOf = ({ levels }: MapColours): unknown => byState(levels.ready, levels.critical, levels.lost);
+/** With two digits more, which say how much it covers: 0.16, 0.55 and 0.08. */
+const fillOf = ({ levels }: MapColours): unknown => byState(`${levels.ready}29`, `${levels.critical}8c`, `${levels.lost}14`);
 
 /** Marked places for cars: by colour, by how full they are, and by a sign. */
 export const slots = foundLayer({
@@ -20,12 +22,8 @@ export const slots = foundLayer({
   legend: [{ sign: 'area', text: 'a slot: ○ free, × taken, ? nobody knows' }],
   looks: (colours) =>
     [
-      {
-        id: 'slots-fill',
-        type: 'fill',
-        paint: { 'fill-antialias': false, 'fill-color': colourOf(colours), 'fill-opacity': byState(0.16, 0.55, 0.08) },
-      },
-      { id: 'slots-line', type: 'line', minzoom: 16, paint: { 'line-color': colourOf(colours), 'line-width': 1.2 } },
+      // Areas draw their edges themselves: lines of thousands of slots take as long as all the rest of the map.
+      { id: 'slots', type: 'fill', paint: { 'fill-color': fillOf(colours), 'fill-outline-color': colourOf(colours) } },
       {
         id: 'slots-sign',
         type: 'symbol',
