@@ -32,8 +32,11 @@ export interface Drawing {
   readonly source: (id: string) => GeoJSONSource | undefined;
   /** What the layer paints has changed. */
   readonly wantsPaint: () => void;
-  /** Gives sources what has changed, as often as this machine can draw it; of what has to wait the newest by that name is done. */
-  readonly paced: (name: string, work: () => void) => void;
+  /**
+   * Gives sources what has changed, as often as this machine can draw it; of what has to wait the newest by that name is done. `isMuch`
+   * where one message has brought so much that more of it is on its way.
+   */
+  readonly paced: (name: string, work: () => void, isMuch?: boolean) => void;
 }
 
 /** What lies at a place on the screen. */

@@ -19,7 +19,7 @@ function paced() {
     pass(ms);
     ends();
   };
-  const run = (name: string, what: string): void => pace.run(name, () => done.push(what));
+  const run = (name: string, what: string, isMuch = false): void => pace.run(name, () => done.push(what), isMuch);
   return { pass, draw, run, done };
 }
 
@@ -34,28 +34,62 @@ describe('what is drawn again and again', () => {
   it('waits for two pictures where one takes long, and then the newest alone is drawn', () => {
     const { pass, draw, run, done } = paced();
     draw(300);
-    for (const piece of ['a', 'b', 'c']) run('slots', piece);
-    expect(done).toEqual(['a']);
+    run('slots', 'a');
+    pass(10);
+    for (const piece of ['b', 'c', 'd']) run('slots', piece);
     pass(599);
     expect(done).toEqual(['a']);
     pass(1);
-    expect(done).toEqual(['a', 'c']);
-    run('slots', 'd');
-    expect(done).toEqual(['a', 'c']);
-    pass(600);
+    expect(done).toEqual(['a', 'd']);
+    pass(5000);
     run('slots', 'e');
-    expect(done).toEqual(['a', 'c', 'd']);
-    pass(600);
-    expect(done).toEqual(['a', 'c', 'd', 'e']);
+    pass(10);
+    expect(done).toEqual(['a', 'd', 'e']);
   });
 
-  it('does not wait for what is drawn of others, nor for ever', () => {
+  it('has the differences of all sources drawn together where a picture takes long', () => {
+    const { pass, draw, run, done } = paced();
+    draw(300);
+    for (const name of ['slots', 'walls']) run(name, name);
+    expect(done).toEqual([]);
+    pass(10);
+    expect(done).toEqual(['slots', 'walls']);
+    run('slots', 'slots again');
+    pass(400);
+    run('walls', 'walls again');
+    pass(200);
+    expect(done).toEqual(['slots', 'walls', 'slots again', 'walls again']);
+  });
+
+  it('does not wait for ever', () => {
     const { pass, draw, run, done } = paced();
     draw(5000);
-    for (const name of ['slots', 'walls']) run(name, name);
-    expect(done).toEqual(['slots', 'walls']);
-    run('slots', 'again');
+    run('slots', 'a');
+    pass(10);
+    run('slots', 'b');
     pass(2000);
-    expect(done).toEqual(['slots', 'walls', 'again']);
+    expect(done).toEqual(['a', 'b']);
+  });
+
+  it('waits for the last piece of much that comes in pieces, also on a quick machine, and everything is drawn once', () => {
+    const { pass, run, done } = paced();
+    for (const piece of ['a', 'b', 'c']) {
+      run('slots', piece, true);
+      pass(60);
+    }
+    run('walls', 'w');
+    pass(59);
+    expect(done).toEqual([]);
+    pass(1);
+    expect(done).toEqual(['c', 'w']);
+  });
+
+  it('draws what there is of pieces that do not end', () => {
+    const { pass, run, done } = paced();
+    for (let piece = 0; piece < 31; ++piece) {
+      run('slots', `${piece}`, true);
+      pass(50);
+    }
+    expect(done.length).toBe(1);
   });
 });

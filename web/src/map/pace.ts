@@ -1,22 +1,38 @@
 /** When the picture of a map takes no longer than that, nothing has to wait. */
 const QUICK_MS = 50;
-/** Between two differences that a source is given, in pictures: the page has to get on meanwhile. */
+/** Between two turns, in pictures: the page has to get on meanwhile. */
 const PICTURES = 2;
 const MOST_MS = 2000;
+/** What the station tells in one round comes as several messages. */
+const ROUND_MS = 10;
+/** Much comes in pieces: so long after the last of them nothing more is on its way, and for so long at most it is waited for. */
+const CALM_MS = 120;
+const MOST_CALM_MS = 1500;
 
 /**
  * Keeps what changes often from being drawn as often as a slow machine can. Each difference that a source is given has the whole map drawn
- * anew; a layer of thousands comes in some dozen pieces, and a page that draws each of them has no time to take in the next.
+ * anew, and a page that draws has no time to take in the next message. So differences of all sources have their turns together, two
+ * pictures apart; and a layer of thousands, which comes in some dozen pieces, is drawn when all of them are there.
  */
 export class Pace {
   /** What the last picture of the map took. */
   private picture_ms = 0;
-  private readonly turns = new Map<string, { from: number; work?: () => void }>();
+  private readonly waiting = new Map<string, () => void>();
+  /** The next turn, and whether somebody looks whether it has come. */
+  private turn = 0;
+  private isDue = false;
+  /** When much began to come. */
+  private muchSince: number | undefined;
 
   constructor(
     private readonly now: () => number = () => performance.now(),
     private readonly later: (work: () => void, ms: number) => void = (work, ms) => void setTimeout(work, ms),
   ) {}
+
+  /** Whether a picture takes so long that those that nobody needs are to be spared. */
+  get isSlow(): boolean {
+    return this.picture_ms > QUICK_MS;
+  }
 
   /** The map has begun to draw; whoever calls it calls what it gives when the browser is ready for the next frame. */
   begins(): () => void {
@@ -24,19 +40,35 @@ export class Pace {
     return () => (this.picture_ms = this.now() - begun);
   }
 
-  /** Now, or when the map has had time for what it was given last under that name; only the newest work is done then. */
-  run(name: string, work: () => void): void {
-    const turn = this.turns.get(name) ?? { from: 0 };
-    this.turns.set(name, turn);
-    const wait = turn.from - this.now();
-    if (wait <= 0 && !turn.work) return this.take(turn, work);
-    if (!turn.work) this.later(() => this.take(turn, turn.work), wait);
-    turn.work = work;
+  /**
+   * At the next turn, which on a quick machine is now; only the newest work by that name is done then. `isMuch` where one message has
+   * brought so much that more of it is on its way.
+   */
+  run(name: string, work: () => void, isMuch = false): void {
+    const now = this.now();
+    this.waiting.set(name, work);
+    if (isMuch) {
+      this.muchSince ??= now;
+      this.turn = Math.max(this.turn, Math.min(now + CALM_MS, this.muchSince + MOST_CALM_MS));
+    } else if (this.waiting.size === 1 && this.isSlow) {
+      this.turn = Math.max(this.turn, now + ROUND_MS);
+    }
+    this.look();
   }
 
-  private take(turn: { from: number; work?: () => void }, work?: () => void): void {
-    turn.work = undefined;
-    turn.from = this.now() + (this.picture_ms > QUICK_MS ? Math.min(PICTURES * this.picture_ms, MOST_MS) : 0);
-    work?.();
+  private look(): void {
+    if (this.isDue || this.waiting.size === 0) return;
+    const wait = this.turn - this.now();
+    if (wait <= 0) return this.take();
+    this.isDue = true;
+    this.later(() => ((this.isDue = false), this.look()), wait);
+  }
+
+  private take(): void {
+    const works = [...this.waiting.values()];
+    this.waiting.clear();
+    this.muchSince = undefined;
+    this.turn = this.now() + (this.isSlow ? Math.min(PICTURES * this.picture_ms, MOST_MS) : 0);
+    for (const work of works) work();
   }
 }

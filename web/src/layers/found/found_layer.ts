@@ -12,6 +12,9 @@ interface Found {
   looks: (colours: MapColours) => LayerSpecification[];
 }
 
+/** One message brings no more than some hundred of a layer: where it brought so many, the rest follows. */
+const MUCH = 50;
+
 const SOURCE: GeoJSONSourceSpecification = { ...EMPTY, promoteId: 'id' };
 
 /** Of what the station tells of a layer those on the floors that are shown. */
@@ -21,6 +24,7 @@ export function foundLayer({ id, name, legend, looks }: Found): MakeLayer {
     const drawn = new DrawnFeatures();
     const source = `found-${id}`;
     let ids: string[] = [];
+    let seen = 0;
     return {
       id: source,
       name,
@@ -35,9 +39,12 @@ export function foundLayer({ id, name, legend, looks }: Found): MakeLayer {
       update(drawing) {
         const { generation } = drawing;
         const shown = new Map([...features.content].filter(([, feature]) => floors.isShown(feature)));
+        if (generation === 0) return;
+        const isMuch = shown.size > seen + MUCH;
+        seen = shown.size;
         // A new style has asked for what it shows by then.
-        if (generation > 0)
-          drawing.paced(source, () => drawing.generation === generation && drawn.show(drawing.source(source), generation, shown));
+        const show = (): unknown => drawing.generation === generation && drawn.show(drawing.source(source), generation, shown);
+        drawing.paced(source, show, isMuch);
       },
       hit({ x, y }, within, { map }): Hit | undefined {
         const reach = within / 3;
