@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { sparePainter } from './spared_drawing';
+import { gatherPictures, sparePainter } from './spared_drawing';
 
 /** A painter as far as masks go: it notes the sources for whose layers it has drawn them. */
 function painter() {
@@ -64,5 +64,68 @@ describe('drawing that nobody sees', () => {
     one.drawFunctions.sky();
     expect(one.drawFunctions.line).toBe(before);
     expect(vi.isMockFunction(one.drawFunctions.sky)).toBe(false);
+  });
+});
+
+describe('pictures of what comes bit by bit', () => {
+  /** A map one of whose sources has tiles on their way; its time goes by when it is told. */
+  function map(isSlow = true) {
+    const listeners = new Map<string, () => void>();
+    const waiting: (() => void)[] = [];
+    const one = {
+      pictures: 0,
+      moves: false,
+      missing: true,
+      triggerRepaint: () => void (one.pictures += 1),
+      isMoving: () => one.moves,
+      on: (event: string, listener: () => void) => listeners.set(event, listener),
+      style: { tileManagers: { slots: { loaded: () => !one.missing }, walls: { loaded: () => true } } },
+      tell: (event: string) => listeners.get(event)?.(),
+      look: (times = 1) => {
+        for (let i = 0; i < times; ++i) for (const work of waiting.splice(0)) work();
+      },
+    };
+    gatherPictures(
+      one,
+      () => isSlow,
+      (work) => waiting.push(work),
+    );
+    return one;
+  }
+
+  it('are one when all of it is there', () => {
+    const one = map();
+    for (let tile = 0; tile < 6; ++tile) one.triggerRepaint();
+    one.look(5);
+    expect(one.pictures).toBe(0);
+    one.missing = false;
+    one.look();
+    expect(one.pictures).toBe(1);
+    one.look(100);
+    one.triggerRepaint();
+    expect(one.pictures).toBe(2);
+  });
+
+  it('do not wait for ever', () => {
+    const one = map();
+    one.triggerRepaint();
+    one.look(100);
+    expect(one.pictures).toBe(1);
+  });
+
+  it('wait for nothing where they are quick', () => {
+    const one = map(false);
+    one.triggerRepaint();
+    expect(one.pictures).toBe(1);
+  });
+
+  it('wait for nothing while the map moves', () => {
+    const one = map();
+    one.triggerRepaint();
+    one.tell('move');
+    expect(one.pictures).toBe(1);
+    one.moves = true;
+    one.triggerRepaint();
+    expect(one.pictures).toBe(2);
   });
 });
