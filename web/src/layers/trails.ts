@@ -21,8 +21,8 @@ export const trails: MakeLayer = ({ layers: content }) => {
     name: 'Trails',
     group: 'Paths',
     legend: [{ sign: 'line', text: 'where a vehicle has been' }],
-    sources: { trails: { ...EMPTY, tolerance: 0.1 } },
-    layers: ({ ground }) => [casing(ground), line()],
+    sources: { trails: EMPTY },
+    layers: ({ ground }, hasTiles) => [casing(ground, hasTiles), line()],
     update({ generation, colourOf, source, wantsPaint }) {
       const known = [...content.trails.entries()];
       const ground = [generation, ...known.map(([id]) => colourOf(id))].join();
@@ -45,12 +45,16 @@ export const trails: MakeLayer = ({ layers: content }) => {
 // No round ends: where two pieces meet they would lie on each other, and be seen as a dot.
 const layout = { 'line-join': 'round' } as const;
 
+/** In wider views than this, without a base map, nothing lies below trails from which a casing would set them off. */
+const NEAR_ZOOM = 15;
+
 /** Below the line, to be seen on pictures, too. */
-function casing(ground: string): LayerSpecification {
+function casing(ground: string, hasTiles: boolean): LayerSpecification {
   return {
     id: 'trail-casings',
     type: 'line',
     source: 'trails',
+    minzoom: hasTiles ? 0 : NEAR_ZOOM,
     layout,
     paint: { 'line-color': ground, 'line-width': WIDTH_PX + 2.4, 'line-opacity': 0.65 },
   };
