@@ -1,7 +1,8 @@
 """What a fleet costs the station, and how long it takes until all of it is shown. For run.py.
 
 cost   10, 100 and 250 vehicles that send all their streams at 10 Hz to one station, and four networks of 250 with a station each
-       (a MAVLink network has 255 ids): processor time and memory of the stations and of the simulators.
+       (a MAVLink network has 255 ids): processor time and memory of the stations and of the simulators. Of the 250 once more while
+       20 viewers hear all that the station tells, in a process of their own on the same machine.
 shown  from the power-on of 100 vehicles to the moment when a viewer of the station has been told of all, and has all their
        places; MAVSDK's server on the same port says in its log when it has discovered each.
 """
@@ -42,17 +43,32 @@ def datagrams() -> dict:
     return {name: int(values[header.index(field)]) for name, field in (("taken", "InDatagrams"), ("dropped", "RcvbufErrors"))}
 
 
+@contextlib.contextmanager
+def viewers(url: str, count: int):
+    if count == 0:
+        yield
+        return
+    process = subprocess.Popen(["node", ROOT / "bench/map_load/viewers.mjs", url, str(count), "plain"])
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait(timeout=20)
+
+
 def cost(say) -> list:
     rows = []
-    for networks, vehicles in ((1, 10), (1, 100), (1, 250), (4, 250)):
+    for networks, vehicles, watching in ((1, 10, 0), (1, 100, 0), (1, 250, 0), (1, 250, 20), (4, 250, 0)):
         with contextlib.ExitStack() as stack:
             stations = [stack.enter_context(ground.station()) for _ in range(networks)]
             sims = [stack.enter_context(fleet(vehicles, station.link_ports[0], *TEN_HERTZ)) for station in stations]
             for station in stations:
                 harness.wait_until(lambda: station.get("/api/v1/status")["vehicles"] == vehicles, 90, f"{vehicles} vehicles")
-            rows.append(steady_state(networks, vehicles, stations, sims))
+            stack.enter_context(viewers(f"http://127.0.0.1:{stations[0].port}/", watching))
+            harness.wait_until(lambda: stations[0].get("/api/v1/status")["viewers"] == watching, 30, f"{watching} viewers")
+            rows.append({"viewers": watching, **steady_state(networks, vehicles, stations, sims)})
         row = rows[-1]
-        say(f"fleet   {row['vehicles']:5} vehicles at 10 Hz, {row['messages_per_s']:7.0f} messages/s, {row['dropped']} dropped: station{'s' if networks > 1 else ' '} "
+        say(f"fleet   {row['vehicles']:5} vehicles at 10 Hz, {watching:2} viewers, {row['messages_per_s']:7.0f} messages/s, {row['dropped']} dropped: station{'s' if networks > 1 else ' '} "
             f"{row['station_cpu_percent']:5.1f} % of a core ({row['station_cpu_percent_per_vehicle']:.3f} % a vehicle), "
             f"{row['station_mb']:5.1f} MB; sim {row['sim_cpu_percent']:5.1f} %, {row['sim_mb']:5.1f} MB")
     return rows

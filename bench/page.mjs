@@ -3,10 +3,11 @@
 //
 // A made-up station serves the built app and sends it what a real one would, five times a second, of vehicles that fly in circles with
 // trails of that many points. Told are, over those seconds: processor time of the page's main thread a tick (and what of it was script,
-// style and layout), of the page's process with its workers and of the process that draws; frames a second, those in which the map was
-// drawn, and the longest frame: with vehicles that rest, that fly, and that fly while somebody drags the map about all the time.
-// Drawing is done by the processor here, as on a machine without a GPU: figures of one machine compare with each other alone. With
-// `--pixels 0.25` the map has a sixteenth of the pixels, so that frames tell of the page rather than of the drawing.
+// style and layout), of the page's process with its workers and of the process that draws, which while the map is dragged is told for
+// each picture of it, too; frames a second, those in which the map was drawn, and the longest frame: with vehicles that rest, that fly,
+// and that fly while somebody drags the map about all the time. Drawing is done by the processor here, as on a machine without a GPU:
+// figures of one machine compare with each other alone. With `--pixels 0.25` the map has a sixteenth of the pixels, so that frames tell of
+// the page rather than of the drawing.
 import { createReadStream, existsSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
@@ -138,6 +139,7 @@ async function overSomeTime(page, session, system, tick) {
     longest_frame_ms: Math.max(...pauses),
     page_process_percent: share('renderer'),
     drawing_process_percent: share('GPU'),
+    drawing_ms_a_picture: ((timesAfter.GPU - timesBefore.GPU) * 1000) / Math.max(drawn, 1),
   };
 }
 
@@ -253,7 +255,7 @@ function tell(row) {
   console.log(
     `page    ${String(row.vehicles).padStart(3)} vehicles ${row.moves ? 'flying ' : 'resting'}${row.dragged ? ', map dragged' : ''}, trails of ${row.trail_points}: main thread ${figure('main_thread_ms_a_tick')} ms a tick ` +
       `at ${figure('ticks_a_second')} ticks/s (script ${figure('script_ms_a_tick')}, style and layout ${figure('style_and_layout_ms_a_tick')}), ${figure('frames_a_second')} frames/s, ${figure('map_frames_a_second')} of the map, ` +
-      `longest ${figure('longest_frame_ms', 0)} ms; page ${figure('page_process_percent', 0)} %, drawing ${figure('drawing_process_percent', 0)} % of a core`,
+      `longest ${figure('longest_frame_ms', 0)} ms; page ${figure('page_process_percent', 0)} %, drawing ${figure('drawing_process_percent', 0)} % of a core${row.dragged ? `, ${figure('drawing_ms_a_picture', 0)} ms for a picture` : ''}`,
   );
 }
 try {
