@@ -1,6 +1,9 @@
 import { BOLD } from '../layer';
 import { foundLayer } from './found_layer';
 
+/** Small in wide views, where hundreds would cover what they stand on. */
+const growing = (small: number, large: number): unknown => ['interpolate', ['linear'], ['zoom'], 15, small, 18, large];
+
 /** Doors, name tags and whatever else somebody points to. */
 export const pointsOfInterest = foundLayer({
   id: 'points_of_interest',
@@ -11,7 +14,12 @@ export const pointsOfInterest = foundLayer({
       {
         id: 'poi-dot',
         type: 'circle',
-        paint: { 'circle-radius': 6, 'circle-color': accent, 'circle-stroke-color': panel, 'circle-stroke-width': 2 },
+        paint: {
+          'circle-radius': growing(2.5, 6),
+          'circle-color': accent,
+          'circle-stroke-color': panel,
+          'circle-stroke-width': growing(0.6, 2),
+        },
       },
       {
         id: 'poi-name',
