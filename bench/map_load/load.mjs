@@ -139,7 +139,7 @@ async function pagePart(station, browser) {
     tell(
       { part: 'page', grid, ...row, ...latency },
       `grid ${grid.padEnd(5)}, page: ${figure(row.frames_a_second, 1)} frames/s, ${figure(row.map_frames_a_second, 1)} of the map, longest ${figure(row.longest_frame_ms)} ms, main thread ${figure(row.main_thread_percent)} %, ` +
-        `heap ${figure(row.heap_mb, 1)} MB; write to painted p50 ${figure(latency.painted_p50_ms)} ms, p99 ${figure(latency.painted_p99_ms)} ms; ${ofStation(row)}`,
+        `${figure(row.drawing_ms_a_picture)} ms of drawing for a picture, page ${figure(row.page_mb)} MB of which heap ${figure(row.heap_mb, 1)} MB; write to painted p50 ${figure(latency.painted_p50_ms)} ms, p99 ${figure(latency.painted_p99_ms)} ms; ${ofStation(row)}`,
     );
   }
   if (process.env.SHOT) await opened.page.screenshot({ path: process.env.SHOT });

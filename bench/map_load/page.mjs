@@ -1,4 +1,5 @@
 // The browser app at a station with a full map: what it costs, and how long after a write it is on the screen.
+import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -45,7 +46,17 @@ export async function open(browser, url) {
   await page.locator('.maplibregl-canvas').waitFor();
   const session = await page.context().newCDPSession(page);
   await session.send('Performance.enable', { timeDomain: 'threadTicks' });
-  return { page, session, begun };
+  return { page, session, system: await browser.newBrowserCDPSession(), begun };
+}
+
+/** What the page's process has of the machine's memory, and the processor time of the one that draws so far. */
+async function processes(system) {
+  const { processInfo } = await system.send('SystemInfo.getProcessInfo');
+  const resident_kb = ({ id }) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${id}/status`, 'utf8'))[1]);
+  return {
+    page_mb: Math.max(...processInfo.filter(({ type }) => type === 'renderer').map(resident_kb)) / 1024,
+    drawing_s: processInfo.find(({ type }) => type === 'GPU').cpuTime,
+  };
 }
 
 /** Waits until the map has not been drawn for a while; when it was drawn last, on the page's own clock. */
@@ -65,12 +76,12 @@ async function metrics(session) {
 }
 
 /** Frames a second, and what the page's main thread did. */
-export async function smoothness({ page, session }, seconds) {
+export async function smoothness({ page, session, system }, seconds) {
   await page.evaluate(() => (window.frames_.length = window.drawn_ = 0));
-  const before = await metrics(session);
+  const [before, begun] = [await metrics(session), await processes(system)];
   await pause(seconds * 1000);
   const [frames, drawn] = await page.evaluate(() => [window.frames_, window.drawn_]);
-  const after = await metrics(session);
+  const [after, ended] = [await metrics(session), await processes(system)];
   const pauses = frames.slice(1).map((at, i) => at - frames[i]);
   const length_s = (frames.at(-1) - frames[0]) / 1000;
   await session.send('HeapProfiler.collectGarbage');
@@ -79,6 +90,8 @@ export async function smoothness({ page, session }, seconds) {
     map_frames_a_second: drawn / length_s,
     longest_frame_ms: Math.max(...pauses),
     main_thread_percent: (100 * (after.TaskDuration - before.TaskDuration)) / seconds,
+    drawing_ms_a_picture: ((ended.drawing_s - begun.drawing_s) * 1000) / Math.max(drawn, 1),
+    page_mb: ended.page_mb,
     heap_mb: (await metrics(session)).JSHeapUsedSize / 1e6,
   };
 }
