@@ -20,7 +20,7 @@ function paced() {
     ends();
   };
   const run = (name: string, what: string, isMuch = false): void => pace.run(name, () => done.push(what), isMuch);
-  return { pass, draw, run, done };
+  return { pass, draw, run, done, end: () => pace.end() };
 }
 
 describe('what is drawn again and again', () => {
@@ -91,5 +91,13 @@ describe('what is drawn again and again', () => {
       pass(50);
     }
     expect(done.length).toBe(1);
+  });
+
+  it('does nothing any more for a map that is gone', () => {
+    const { pass, run, done, end } = paced();
+    run('slots', 'a', true);
+    end();
+    pass(5000);
+    expect(done).toEqual([]);
   });
 });

@@ -56,6 +56,11 @@ export class Pace {
     this.look();
   }
 
+  /** The map is gone: nothing that waits is done any more. */
+  end(): void {
+    this.waiting.clear();
+  }
+
   private look(): void {
     if (this.isDue || this.waiting.size === 0) return;
     const wait = this.turn - this.now();
