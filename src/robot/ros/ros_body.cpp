@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "robot/ros/scan_sides.hpp"
 #include "robot/watch/codes.hpp"
+#include "scans/pose_track.hpp"
+#include "scans/stamp.hpp"
 
 namespace lapwing::robot::ros {
 
@@ -23,10 +26,6 @@ constexpr base::Duration kill_period = 50ms;
 /// A base that says nothing for so long is away.
 constexpr base::Duration base_is_away = 500ms;
 constexpr double low_battery = 0.15;
-
-std::chrono::nanoseconds since_epoch(bus::Time const& time) {
-  return std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nanosec);
-}
 
 bool is_finite(slam::Pose2 const& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
@@ -89,8 +88,8 @@ std::string RosBody::link() const {
 
 void RosBody::take(bus::Odometry const& odometry) {
   auto const& pose = odometry.pose.pose;
-  Moment const moment{.stamp = since_epoch(odometry.header.stamp),
-                      .pose = {pose.position.x, pose.position.y, yaw_of(pose.orientation)},
+  Moment const moment{.stamp = scans::since_epoch(odometry.header.stamp),
+                      .pose = {pose.position.x, pose.position.y, scans::yaw_of(pose.orientation)},
                       .speed_m_s = odometry.twist.twist.linear.x};
   if (!is_finite(moment.pose) || !std::isfinite(moment.speed_m_s)) return;
   base_frame_ = odometry.child_frame_id;
@@ -110,7 +109,7 @@ void RosBody::take(bus::LaserScan const& scan) {
   if (!scans_) {
     auto const mount = mount_of(scan);
     if (!mount) return;
-    scans_ = ScanReader::make(scan, *mount);
+    scans_ = scans::ScanReader::make(scan, *mount);
     if (!scans_) return;
     log_.info(fmt::format("a laser of {} beams, {:.2f} m ahead and {:.2f} m to the left of {}", scan.ranges.size(),
                           mount->pose.x, mount->pose.y, base_frame_));
@@ -119,31 +118,29 @@ void RosBody::take(bus::LaserScan const& scan) {
   tell_scan();
 }
 
-std::optional<PlanarFrame> RosBody::mount_of(bus::LaserScan const& scan) {
+std::optional<scans::PlanarFrame> RosBody::mount_of(bus::LaserScan const& scan) {
   if (!laser_since_) laser_since_ = loop_.now();
   if (auto const mount = frames_.find(scan.header.frame_id, base_frame_)) return mount;
   if (loop_.now() - *laser_since_ < frames_come_within) return std::nullopt;
   log_.warn(fmt::format("/tf_static does not say where {} is on {}: it is taken for its middle, looking ahead",
                         scan.header.frame_id, base_frame_));
-  return PlanarFrame{};
+  return scans::PlanarFrame{};
 }
 
 // ---- on to the robot
 
 void RosBody::tell_scan() {
   if (!waiting_ || !now_) return;
-  auto const stamp = since_epoch(waiting_->header.stamp);
+  auto const stamp = scans::since_epoch(waiting_->header.stamp);
   if (stamp > now_->stamp) return;
   auto pose = now_->pose;
   if (before_ && stamp > before_->stamp) {
-    // Between two moments it goes on evenly.
     double const share = std::chrono::duration<double>(stamp - before_->stamp) / (now_->stamp - before_->stamp);
-    auto step = slam::between(before_->pose, now_->pose);
-    pose = before_->pose * slam::Pose2{share * step.x, share * step.y, share * step.yaw};
+    pose = scans::on_the_way(before_->pose, now_->pose, share);
   }
   auto ranges = scans_->ranges(*std::exchange(waiting_, std::nullopt));
   if (!ranges) return;  // of another laser on the same topic
-  sides_ = scans_->sides(*ranges);
+  sides_ = sides_of(scans_->sensor(), *ranges);
   if (listener_.on_scan)
     listener_.on_scan({.time = slam::LogTime(stamp), .odometry = pose, .ranges_m = *std::move(ranges)});
 }

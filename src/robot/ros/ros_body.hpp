@@ -12,8 +12,8 @@
 #include "bus/messages/navigation.hpp"
 #include "bus/participant/topics.hpp"
 #include "robot/platform/body.hpp"
-#include "robot/ros/planar.hpp"
-#include "robot/ros/scan_reader.hpp"
+#include "scans/planar.hpp"
+#include "scans/scan_reader.hpp"
 
 namespace lapwing::robot::ros {
 
@@ -54,7 +54,7 @@ class RosBody final : public Body {
   void take(bus::Odometry const& odometry);
   void take(bus::LaserScan const& scan);
   void take(bus::BatteryState const& battery);
-  [[nodiscard]] std::optional<PlanarFrame> mount_of(bus::LaserScan const& scan);
+  [[nodiscard]] std::optional<scans::PlanarFrame> mount_of(bus::LaserScan const& scan);
   void tell_reading();
   void tell_scan();
   void send(Motion motion);
@@ -77,12 +77,12 @@ class RosBody final : public Body {
   std::optional<bus::Subscription<bus::TFMessage>> frames_heard_;
   Listener listener_;
 
-  StaticFrames frames_;
+  scans::StaticFrames frames_;
   std::string base_frame_;
   std::optional<Moment> before_;  ///< the newest
   std::optional<Moment> now_;
   std::optional<double> battery_;
-  std::optional<ScanReader> scans_;
+  std::optional<scans::ScanReader> scans_;
   std::optional<base::TimePoint> laser_since_;
   std::optional<bus::LaserScan> waiting_;  ///< that odometry has not caught up with
   explore::SideDistances sides_{.left_m = 5.0, .front_m = 7.5, .right_m = 5.0};

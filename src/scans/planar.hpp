@@ -8,7 +8,7 @@
 #include "slam/pose2.hpp"
 
 /// What a robot on a floor needs of three-dimensional frames.
-namespace lapwing::robot::ros {
+namespace lapwing::scans {
 
 /// A frame in the plane of another: where it lies, and whether it hangs upside down, so that what turns to the left in
 /// it turns to the right in the other.
@@ -28,6 +28,9 @@ class StaticFrames {
   void take(bus::TFMessage const& message);
   /// Where `frame` lies in `base`; nothing while no chain of parents leads from one to the other.
   [[nodiscard]] std::optional<PlanarFrame> find(std::string const& frame, std::string const& base) const;
+  [[nodiscard]] bool knows(std::string const& frame) const { return links_.contains(frame); }
+  /// The last of the chain of its parents; the frame itself where it has none.
+  [[nodiscard]] std::string root_of(std::string frame) const;
 
  private:
   struct Link {
@@ -37,4 +40,4 @@ class StaticFrames {
   std::map<std::string, Link> links_;
 };
 
-}  // namespace lapwing::robot::ros
+}  // namespace lapwing::scans

@@ -1,4 +1,4 @@
-#include "robot/ros/scan_reader.hpp"
+#include "scans/scan_reader.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lapwing::robot::ros {
+namespace lapwing::scans {
 namespace {
 
 constexpr float quarter = std::numbers::pi_v<float> / 2.0F;
@@ -24,10 +24,6 @@ TEST(ScanReader, KnowsWhereTheBeamsLook) {
   ASSERT_TRUE(reader);
   EXPECT_EQ(reader->sensor().bearings_rad, (std::vector<float>{-quarter, 0.0F, quarter}));
   EXPECT_EQ(reader->sensor().mount_m, Eigen::Vector2f(0.2F, 0.1F));
-  auto const sides = reader->sides({1.0F, 2.0F, 3.0F});
-  EXPECT_DOUBLE_EQ(sides.right_m, 1.0);
-  EXPECT_DOUBLE_EQ(sides.front_m, 2.0);
-  EXPECT_DOUBLE_EQ(sides.left_m, 3.0);
 }
 
 TEST(ScanReader, TurnsRoundWhatHangsUpsideDown) {
@@ -57,4 +53,4 @@ TEST(ScanReader, RefusesWhatNoLaserSends) {
 }
 
 }  // namespace
-}  // namespace lapwing::robot::ros
+}  // namespace lapwing::scans

@@ -1,11 +1,11 @@
-#include "robot/ros/planar.hpp"
+#include "scans/planar.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace lapwing::robot::ros {
+namespace lapwing::scans {
 namespace {
 
 bus::Quaternion turned_by(double yaw_rad) {
@@ -29,12 +29,15 @@ TEST(StaticFrames, AreFollowedFromParentToParent) {
   EXPECT_FALSE(found->is_upside_down);
   EXPECT_FALSE(frames.find("camera", "base_link"));
   EXPECT_EQ(frames.find("base_link", "base_link"), PlanarFrame{});
+  EXPECT_EQ(frames.root_of("laser"), "base_link");
+  EXPECT_EQ(frames.root_of("camera"), "camera");
 }
 
 TEST(StaticFrames, ThatGoInACircleLeadNowhere) {
   StaticFrames frames;
   frames.take({.transforms = {frame("a", "b", {}), frame("b", "a", {})}});
   EXPECT_FALSE(frames.find("a", "base_link"));
+  EXPECT_FALSE(frames.root_of("a").empty()) << "it comes to an end";
 }
 
 TEST(StaticFrames, KnowWhatHangsUpsideDown) {
@@ -56,4 +59,4 @@ TEST(StaticFrames, ThatAreNoNumbersAreNotTaken) {
 }
 
 }  // namespace
-}  // namespace lapwing::robot::ros
+}  // namespace lapwing::scans

@@ -1,8 +1,8 @@
-#include "robot/ros/planar.hpp"
+#include "scans/planar.hpp"
 
 #include <cmath>
 
-namespace lapwing::robot::ros {
+namespace lapwing::scans {
 
 namespace {
 
@@ -53,4 +53,13 @@ std::optional<PlanarFrame> StaticFrames::find(std::string const& frame, std::str
   return std::nullopt;
 }
 
-}  // namespace lapwing::robot::ros
+std::string StaticFrames::root_of(std::string frame) const {
+  auto link = links_.find(frame);
+  for (int i = 0; i < longest_chain && link != links_.end(); ++i) {
+    frame = link->second.parent;
+    link = links_.find(frame);
+  }
+  return frame;
+}
+
+}  // namespace lapwing::scans

@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "bus/messages/sensors.hpp"
-#include "explore/strategy/strategy.hpp"
-#include "robot/ros/planar.hpp"
+#include "scans/planar.hpp"
 #include "slam/log/scan_log.hpp"
 
-namespace lapwing::robot::ros {
+namespace lapwing::scans {
 
 /// Reads sensor_msgs/LaserScan of one laser, as the first of them describes it.
 class ScanReader {
@@ -19,9 +18,6 @@ class ScanReader {
   [[nodiscard]] slam::Sensor const& sensor() const { return sensor_; }
   /// The ranges in the sensor's order; nothing when they are not as many.
   [[nodiscard]] std::optional<std::vector<float>> ranges(bus::LaserScan const& scan) const;
-  /// The nearest in fifteen degrees to either side of left, ahead and right, from the laser; as far as a sonar hears
-  /// where nothing is nearer.
-  [[nodiscard]] explore::SideDistances sides(std::vector<float> const& ranges) const;
 
  private:
   ScanReader() = default;
@@ -29,4 +25,4 @@ class ScanReader {
   bool is_reversed_ = false;
 };
 
-}  // namespace lapwing::robot::ros
+}  // namespace lapwing::scans
