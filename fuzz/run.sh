@@ -27,6 +27,10 @@ case $target in
     options=(-max_len=8192 "-dict=$root/fuzz/dictionaries/dolphin.dict")
     ;;
   decode | fleet | frame | tlog) "$bin/frame_seeds" "$target" "$seeds" ;;
+  bag)
+    python3 "$root/fuzz/scans/bag_seeds.py" "$seeds"
+    options=(-max_len=16384)
+    ;;
   building)
     cp "$root"/examples/buildings/*.toml "$seeds"
     printf '[[wall]]\nline=[[0,0],[4,0],[4,3],[0,3]]\nclosed=true\n[[door]]\nhinge=[1,0]\nlatch=[2,0]\nsign="7\\nWC"\nopen_s=1\nclosed_s=1\n[[person]]\nat=[3,1]\nwalks=true\n[[start]]\nat=[1,1]\n' | seed small

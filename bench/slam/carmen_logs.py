@@ -70,7 +70,7 @@ def write(log: Log, folder: pathlib.Path) -> tuple:
             count = len(scan.ranges)
             x, y, yaw = scan.odometry
             pose = f"{x:.6f} {y:.6f} {yaw:.6f}"
-            file.write(f"ROBOTLASER1 0 {log.start:.8f} {log.step * (count - 1):.8f} {log.step:.8f} {log.most} 0.01 0 {count} {' '.join(f'{r:.3f}' for r in scan.ranges)} 0 "
+            file.write(f"ROBOTLASER1 0 {log.start:.12f} {log.step * (count - 1):.12f} {log.step:.15f} {log.most} 0.01 0 {count} {' '.join(f'{r:.3f}' for r in scan.ranges)} 0 "
                        f"{pose} {pose} 0 0 0 0 0 {scan.time:.6f} h {scan.time:.6f}\n")
     if not log.relations:
         return path, None

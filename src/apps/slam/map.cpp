@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -18,15 +17,16 @@
 
 #include "apps/slam/map_files.hpp"
 #include "apps/slam/map_graph.hpp"
+#include "apps/slam/recorded_log.hpp"
 #include "apps/verb.hpp"
 #include "base/async/parallel_for.hpp"
 #include "base/files/replace_file.hpp"
 #include "base/text/json.hpp"
+#include "scans/storage/bag_files.hpp"
 #include "slam/graph/g2o.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
 #include "slam/mapper_parameters.hpp"
-#include "slam/readers/any_log.hpp"
 #include "slam/relations.hpp"
 #include "slam/walls/wall_lines.hpp"
 
@@ -41,31 +41,11 @@ struct MapOptions {
   fs::path log;
   fs::path out;
   fs::path relations;
+  scans::BagChoice topics;
   unsigned threads = 0;
   std::vector<std::string> settings;
   bool wants_loops = false;
 };
-
-constexpr std::uintmax_t most_log_bytes = 4ULL << 30;
-
-base::Result<std::string> read_file(fs::path const& path) {
-  std::error_code error;
-  auto const size = fs::file_size(path, error);
-  if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", path.string(), error.message()));
-  if (size > most_log_bytes)
-    return base::fail(base::ErrorKind::invalid_input,
-                      fmt::format("{}: more than {} GB", path.string(), most_log_bytes >> 30));
-  std::ifstream file(path, std::ios::binary);
-  std::string text(size, '\0');
-  if (!file.read(text.data(), static_cast<std::streamsize>(size)))
-    return base::fail(base::ErrorKind::io, fmt::format("{}: cannot be read", path.string()));
-  return text;
-}
-
-std::unexpected<base::Error> in_file(fs::path const& path, base::Error error) {
-  error.message = fmt::format("{}: {}", path.string(), error.message);
-  return std::unexpected(std::move(error));
-}
 
 base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
   if (path.empty()) return std::vector<slam::Relation>();
@@ -169,6 +149,10 @@ Json report_of(slam::ScanLog const& log, slam::Mapping const& mapping, std::vect
   return report;
 }
 
+Json bag_json(RecordedLog const& recorded) {
+  return {{"scan_topic", recorded.scan_topic}, {"odometry", recorded.odometry}, {"remarks", recorded.remarks}};
+}
+
 void print_summary(Json const& report) {
   fmt::print("{} scans, {} key frames, {} closures; {:.1f} s ({:.1f} s of CPU), {:.0f} MB\n",
              report["scans"].get<int>(), report["key_frames"].get<int>(), report["closures"].get<int>(),
@@ -259,7 +243,8 @@ base::Result<> make_map(MapOptions const& options) {
   if (!relations) return std::unexpected(relations.error());
   auto const settings = mapper_options(options.settings);
   if (!settings) return std::unexpected(settings.error());
-  auto text = read_file(options.log);
+  bool const is_bag = scans::is_bag(options.log);
+  auto text = is_bag ? std::string() : read_file(options.log);
   if (!text) return std::unexpected(text.error());
   std::error_code error;
   fs::create_directories(options.out, error);
@@ -268,10 +253,11 @@ base::Result<> make_map(MapOptions const& options) {
     auto done = settle_graph(*text, options.out);
     return done ? done : in_file(options.log, done.error());
   }
-  auto const log = slam::read_log(*text);
-  if (!log) return in_file(options.log, log.error());
-  text->clear();
-  text->shrink_to_fit();
+  auto const recorded =
+      is_bag ? read_bag_log(options.log, options.topics) : read_text_log(options.log, *std::move(text));
+  if (!recorded) return std::unexpected(recorded.error());
+  for (auto const& remark : recorded->remarks) fmt::print(stderr, "{}: {}\n", options.log.string(), remark);
+  auto const& log = recorded->log;
 
   auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
@@ -279,14 +265,15 @@ base::Result<> make_map(MapOptions const& options) {
   };
   ScanTimes times;
   ProgressLine line;
-  auto const mapping = slam::map_log(*log, *settings, for_each, [&](std::string_view stage, double share) {
+  auto const mapping = slam::map_log(log, *settings, for_each, [&](std::string_view stage, double share) {
     times(stage);
     line(stage, share);
   });
-  auto const grid = slam::draw_grid(*log, mapping.trajectory, {});
+  auto const grid = slam::draw_grid(log, mapping.trajectory, {});
   auto const walls = slam::find_walls(grid);
-  auto const poses = timed(*log, mapping.trajectory);
-  auto report = report_of(*log, mapping, poses, *relations);
+  auto const poses = timed(log, mapping.trajectory);
+  auto report = report_of(log, mapping, poses, *relations);
+  if (is_bag) report["bag"] = bag_json(*recorded);
   auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   report["walls"] = walls.size();
   report["wall_s"] = seconds;
@@ -295,7 +282,7 @@ base::Result<> make_map(MapOptions const& options) {
   report["threads"] = threads;
   report["scan_ms"] = {
       {"p50", times.percentile_ms(0.5)}, {"p99", times.percentile_ms(0.99)}, {"max", times.percentile_ms(1.0)}};
-  if (auto done = write_results(options, *log, mapping, grid, poses, walls, report); !done) return done;
+  if (auto done = write_results(options, log, mapping, grid, poses, walls, report); !done) return done;
   print_summary(report);
   return {};
 }
@@ -306,9 +293,14 @@ void add_map(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<MapOptions>();
   auto* verb = begin_verb(program, "map");
   verb->add_option("log", options->log,
-                   "What a robot recorded: a log of CARMEN (.clf, .log), a table of few ranges, or a pose graph (.g2o)")
+                   "What a robot recorded: a bag of ROS 2 (.mcap, .db3 or their folder), a log of CARMEN (.clf, .log), "
+                   "a table of "
+                   "few ranges, or a pose graph (.g2o)")
       ->required()
-      ->check(CLI::ExistingFile);
+      ->check(CLI::ExistingPath);
+  verb->add_option("--scan-topic", options->topics.scan_topic, "Which sensor_msgs/LaserScan of a bag that has several");
+  verb->add_option("--odom-topic", options->topics.odometry_topic,
+                   "Which nav_msgs/Odometry of a bag that has several, or /tf");
   verb->add_option("--out", options->out,
                    "Folder for map.pgm, map.yaml, map.png, walls.csv, trajectory.tum, graph.g2o, report.json")
       ->required();

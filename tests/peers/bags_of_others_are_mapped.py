@@ -1,0 +1,143 @@
+"""Bags of ROS 2 that others' programs wrote (rosbags 0.11: SQLite and MCAP, mcap 1.6: MCAP with every packing) give the map of the same
+drive as a log of CARMEN: to the micrometre where they hold the same numbers. What is read here was written by code of other people, after
+rosbag2's tables and MCAP's specification, and encoded in CDR by a third reading of them: our own writers in the unit tests could share a
+mistake with our readers."""
+
+import json
+import math
+import pathlib
+import sys
+import tempfile
+
+import harness
+
+try:
+    import ros_bags
+except ImportError as error:
+    print(f"rosbags and mcap are not installed: {error}")
+    sys.exit(harness.SKIPPED)
+
+from mcap.writer import CompressionType, IndexType  # noqa: E402
+from rosbags.rosbag2 import CompressionMode, StoragePlugin  # noqa: E402
+
+BEAMS, START, STEP, MOUNT = 180, -math.pi / 2, math.pi / 180, 0.25
+# An L of two corridors and a niche, so that the walls say where one is along either.
+WALLS = [((0, 0), (12, 0)), ((12, 0), (12, 9)), ((12, 9), (9, 9)), ((9, 9), (9, 3)), ((9, 3), (5, 3)), ((5, 3), (5, 4)), ((5, 4), (3, 4)),
+         ((3, 4), (3, 3)), ((3, 3), (0, 3)), ((0, 3), (0, 0))]
+
+
+def as_float(number: float) -> float:
+    """As a message has it, so that the log of CARMEN has the same."""
+    return float(ros_bags.numpy.float32(number))
+
+
+def seen(x: float, y: float, angle: float) -> float:
+    nearest = 80.0
+    dx, dy = math.cos(angle), math.sin(angle)
+    for (ax, ay), (bx, by) in WALLS:
+        ex, ey = bx - ax, by - ay
+        across = dx * ey - dy * ex
+        if abs(across) < 1e-9:
+            continue
+        far = ((ax - x) * ey - (ay - y) * ex) / across
+        along = ((ax - x) * dy - (ay - y) * dx) / across
+        if far > 0 and 0 <= along <= 1:
+            nearest = min(nearest, far)
+    return nearest
+
+
+def a_drive() -> list:
+    scans, x, y, yaw, time = [], 1.0, 1.5, 0.0, 1000.0
+    for i in range(150):
+        turn = math.pi / 2 / 20 if 70 <= i < 90 else 0.0
+        yaw += turn
+        x, y = x + 0.12 * math.cos(yaw), y + (0.12 if y < 7 else 0.0) * math.sin(yaw)
+        time += 0.1
+        lx, ly = x + MOUNT * math.cos(yaw), y + MOUNT * math.sin(yaw)
+        ranges = [as_float(round(seen(lx, ly, yaw + START + b * STEP), 2)) for b in range(BEAMS)]
+        # Its wheels tell each turn two hundredths too large.
+        scans.append((time, ranges, (round(x, 6), round(y, 6), round(1.02 * yaw, 6))))
+    return scans
+
+
+def write_carmen(scans: list, path: pathlib.Path):
+    lines = [f"PARAM robot_frontlaser_offset {MOUNT}\n"]
+    for time, ranges, (x, y, yaw) in scans:
+        pose = f"{x:.6f} {y:.6f} {yaw:.6f}"
+        lines.append(f"ROBOTLASER1 0 {START:.9f} {STEP * (BEAMS - 1):.9f} {STEP:.12f} 80 0.01 0 {BEAMS} {' '.join(repr(r) for r in ranges)} 0 "
+                     f"{pose} {pose} 0 0 0 0 0 {time:.6f} h {time:.6f}\n")
+    path.write_text("".join(lines))
+
+
+def mapped(log: pathlib.Path, out: pathlib.Path, *options: str) -> tuple:
+    """The trajectory (time, x, y, z and w of the turn), the report, what was said."""
+    _, said = harness.expect_exit(0, "map", str(log), "--out", str(out), "--threads", "1", *options)
+    numbers = [[float(word) for word in line.split()] for line in (out / "trajectory.tum").read_text().splitlines()]
+    return [(row[0], row[1], row[2], row[6], row[7]) for row in numbers], json.loads((out / "report.json").read_text()), said
+
+
+def furthest(a: list, b: list) -> float:
+    assert len(a) == len(b), f"{len(a)} scans, {len(b)} scans"
+    return max(max(abs(p - q) for p, q in zip(one, other)) for one, other in zip(a, b))
+
+
+def bags(scans: list, folder: pathlib.Path):
+    """(what, path), each as another program wrote it."""
+    drive = ros_bags.Drive(scans, START, STEP, 80.0, (MOUNT, 0.0, 0.0))
+    for storage in StoragePlugin:
+        path = folder / f"rosbags-{storage.name.lower()}"
+        ros_bags.by_rosbags(drive, path, storage)
+        yield f"rosbags, {storage.name}, folder", path
+        yield f"rosbags, {storage.name}, file", next(file for file in path.iterdir() if file.suffix in (".db3", ".mcap"))
+    path = folder / "messages"
+    ros_bags.by_rosbags(drive, path, StoragePlugin.SQLITE3, CompressionMode.MESSAGE)
+    yield "rosbags, each message packed", path
+    for compression in CompressionType:
+        path = folder / f"{compression.name}.mcap"
+        ros_bags.by_mcap(drive, path, compression, chunk_size=50_000)
+        yield f"mcap, {compression.name}", path
+    path = folder / "bare.mcap"
+    ros_bags.by_mcap(drive, path, is_chunked=False, index_types=IndexType.NONE, use_statistics=False, use_summary_offsets=False)
+    yield "mcap, no chunks, no index", path
+    path = folder / "frames.mcap"
+    ros_bags.by_mcap(ros_bags.Drive(scans, START, STEP, 80.0, (MOUNT, 0.0, 0.0), says_odometry=False), path)
+    yield "mcap, odometry by /tf", path
+    path = folder / "upside_down.mcap"
+    ros_bags.by_mcap(ros_bags.Drive(scans, START, STEP, 80.0, (MOUNT, 0.0, 0.0), is_upside_down=True), path)
+    yield "mcap, laser upside down", path
+
+
+def a_file_cut_off(whole: pathlib.Path, of_log: list, folder: pathlib.Path):
+    path = folder / "cut.mcap"
+    path.write_bytes(whole.read_bytes()[:whole.stat().st_size * 2 // 3])
+    poses, report, said = mapped(path, folder / "cut")
+    assert 50 < len(poses) < len(of_log), len(poses)
+    assert "cut off" in said and "cut off" in report["bag"]["remarks"][0], (said, report["bag"])
+
+
+def a_packed_file_is_explained(scans: list, folder: pathlib.Path):
+    path = folder / "packed"
+    ros_bags.by_rosbags(ros_bags.Drive(scans[:5], START, STEP, 80.0), path, StoragePlugin.SQLITE3, CompressionMode.FILE)
+    _, said = harness.expect_exit(2, "map", str(path), "--out", str(folder / "out"))
+    assert "unzstd" in said, said
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        scans = a_drive()
+        write_carmen(scans, folder / "drive.log")
+        of_log, _, _ = mapped(folder / "drive.log", folder / "carmen")
+        for what, path in bags(scans, folder):
+            of_bag, report, said = mapped(path, folder / "out")
+            apart = furthest(of_log, of_bag)
+            print(f"{what}: {apart:.1e}")
+            # Bearings of the log are counted in double numbers, those of a message in float: some 1e-7 a beam.
+            assert apart < 1e-4, (what, apart)
+            assert report["bag"]["scan_topic"] == "/scan" and report["bag"]["remarks"] == [], report["bag"]
+            assert report["bag"]["odometry"] == ("/tf (odom to base_link)" if "/tf" in what else "/odom"), report["bag"]
+        a_file_cut_off(folder / "LZ4.mcap", of_log, folder)
+        a_packed_file_is_explained(scans, folder)
+
+
+main()
