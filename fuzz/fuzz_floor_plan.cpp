@@ -6,13 +6,13 @@
 
 #include "explore/run/starts.hpp"
 #include "explore/simulated/world.hpp"
-#include "formats/pgm.hpp"
+#include "map/ros_files/pgm.hpp"
 #include "require.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
   using namespace lapwing;
   using fuzz::require;
-  auto const picture = formats::read_pgm({reinterpret_cast<char const*>(data), size});
+  auto const picture = map::read_pgm({reinterpret_cast<char const*>(data), size});
   if (!picture) {
     require(!picture.error().message.empty());
     return 0;

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace lapwing::formats {
+namespace lapwing::map {
 
 /// A grey picture, row by row from the top, 0 black and 255 white whatever range the file has.
 struct GreyPicture {
@@ -23,4 +23,4 @@ struct GreyPicture {
   return bytes.starts_with("P5") || bytes.starts_with("P2");
 }
 
-}  // namespace lapwing::formats
+}  // namespace lapwing::map

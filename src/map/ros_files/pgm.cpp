@@ -1,10 +1,10 @@
-#include "formats/pgm.hpp"
+#include "map/ros_files/pgm.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-namespace lapwing::formats {
+namespace lapwing::map {
 
 namespace {
 
@@ -72,4 +72,4 @@ base::Result<GreyPicture> read_pgm(std::string_view bytes) {
   return picture;
 }
 
-}  // namespace lapwing::formats
+}  // namespace lapwing::map

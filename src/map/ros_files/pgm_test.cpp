@@ -1,9 +1,9 @@
 // Grey maps as floor plans come: binary and plain, of any depth, with comments.
-#include "formats/pgm.hpp"
+#include "map/ros_files/pgm.hpp"
 
 #include <gtest/gtest.h>
 
-namespace lapwing::formats {
+namespace lapwing::map {
 namespace {
 
 using namespace std::string_view_literals;
@@ -36,4 +36,4 @@ TEST(Pgm, WhatIsNoneIsRefusedWithTheReason) {
 }
 
 }  // namespace
-}  // namespace lapwing::formats
+}  // namespace lapwing::map
