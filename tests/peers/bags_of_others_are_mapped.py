@@ -1,7 +1,7 @@
 """Bags of ROS 2 that others' programs wrote (rosbags 0.11: SQLite and MCAP, mcap 1.6: MCAP with every packing) give the map of the same
 drive as a log of CARMEN: to the micrometre where they hold the same numbers. What is read here was written by code of other people, after
 rosbag2's tables and MCAP's specification, and encoded in CDR by a third reading of them: our own writers in the unit tests could share a
-mistake with our readers."""
+mistake with our readers. One of them is then laid on the map of the log."""
 
 import json
 import math
@@ -122,6 +122,34 @@ def a_packed_file_is_explained(scans: list, folder: pathlib.Path):
     assert "unzstd" in said, said
 
 
+def a_bag_is_laid_on_the_map(bag: pathlib.Path, of_log: list, folder: pathlib.Path):
+    """The map of the log of CARMEN, the scans of the bag; where the robot began is searched for, or told."""
+    known = ("--localise", str(folder / "carmen/map.yaml"))
+    for start in ((), ("--start", "1,1.5,0")):
+        poses, report, _ = mapped(bag, folder / "known", *known, *start)
+        assert report["lost"] == 0 and ("start" in report) == (not start), report
+        apart = max(math.hypot(a[1] - b[1], a[2] - b[2]) for a, b in zip(of_log, poses, strict=True))
+        print(f"on the known map {start}: {apart:.3f} m")
+        assert apart < 0.15, apart
+    assert not (folder / "known/map.pgm").exists(), "no map is made"
+
+
+def nonsense_on_a_known_map_is_explained(bag: pathlib.Path, folder: pathlib.Path):
+    yaml = str(folder / "carmen/map.yaml")
+    _, said = harness.expect_exit(2, "map", str(bag), "--out", str(folder / "out"), "--localise", yaml, "--start", "1,2")
+    assert "not x,y,heading" in said, said
+    harness.expect_exit(2, "map", str(bag), "--out", str(folder / "out"), "--start", "1,2,3")
+    _, said = harness.expect_exit(2, "map", str(bag), "--out", str(folder / "out"), "--localise", str(bag))
+    assert "is no ROS map" in said, said
+    # A room of two by two metres is no place for this drive.
+    cells = bytes(0 if x in (0, 39) or y in (0, 39) else 254 for y in range(40) for x in range(40))
+    (folder / "cell.pgm").write_bytes(b"P5\n40 40\n255\n" + cells)
+    (folder / "cell.yaml").write_text("image: cell.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n")
+    _, said = harness.expect_exit(3, "map", str(bag), "--out", str(folder / "out"), "--localise", str(folder / "cell.yaml"))
+    assert "no place on the map fits" in said, said
+    assert json.loads((folder / "out/report.json").read_text())["lost"] == 150
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -136,6 +164,8 @@ def main():
             assert apart < 1e-4, (what, apart)
             assert report["bag"]["scan_topic"] == "/scan" and report["bag"]["remarks"] == [], report["bag"]
             assert report["bag"]["odometry"] == ("/tf (odom to base_link)" if "/tf" in what else "/odom"), report["bag"]
+        a_bag_is_laid_on_the_map(folder / "LZ4.mcap", of_log, folder)
+        nonsense_on_a_known_map_is_explained(folder / "LZ4.mcap", folder)
         a_file_cut_off(folder / "LZ4.mcap", of_log, folder)
         a_packed_file_is_explained(scans, folder)
 

@@ -1,12 +1,8 @@
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,8 +11,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/slam/localise.hpp"
 #include "apps/slam/map_files.hpp"
 #include "apps/slam/map_graph.hpp"
+#include "apps/slam/map_report.hpp"
 #include "apps/slam/recorded_log.hpp"
 #include "apps/verb.hpp"
 #include "base/async/parallel_for.hpp"
@@ -42,95 +40,17 @@ struct MapOptions {
   fs::path out;
   fs::path relations;
   scans::BagChoice topics;
+  fs::path known_map;
+  std::string start;
   unsigned threads = 0;
   std::vector<std::string> settings;
   bool wants_loops = false;
-};
-
-base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
-  if (path.empty()) return std::vector<slam::Relation>();
-  auto text = read_file(path);
-  if (!text) return std::unexpected(text.error());
-  auto relations = slam::read_relations(*text);
-  if (!relations) return in_file(path, relations.error());
-  return relations;
-}
-
-/// How long each scan took while the robot was followed, by the calls that tell of progress before each.
-class ScanTimes {
- public:
-  void operator()(std::string_view stage) {
-    auto const now = std::chrono::steady_clock::now();
-    if (last_) took_ms_.push_back(std::chrono::duration<double, std::milli>(now - *last_).count());
-    last_ = stage == "following" ? std::optional(now) : std::nullopt;
-  }
-  /// Milliseconds that so large a share of the scans did not exceed.
-  [[nodiscard]] double percentile_ms(double share) {
-    if (took_ms_.empty()) return 0.0;
-    std::ranges::sort(took_ms_);
-    return took_ms_[static_cast<std::size_t>(share * static_cast<double>(took_ms_.size() - 1))];
-  }
-
- private:
-  std::optional<std::chrono::steady_clock::time_point> last_;
-  std::vector<double> took_ms_;
-};
-
-/// On a terminal one line that changes; elsewhere a line a stage.
-class ProgressLine {
- public:
-  void operator()(std::string_view stage, double share) {
-    auto const percent = static_cast<int>(share * 100.0);
-    if (is_terminal_) {
-      if (percent == percent_) return;
-      fmt::print(stderr, "\r\033[K{:3} % {}", percent, stage);
-      if (percent == 100) fmt::print(stderr, "\r\033[K");
-    } else if (stage != stage_) {
-      fmt::print(stderr, "{:3} % {}\n", percent, stage);
-    }
-    percent_ = percent;
-    stage_ = stage;
-  }
-
- private:
-  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-  int percent_ = -1;
-  std::string stage_;
 };
 
 std::vector<slam::TimedPose> timed(slam::ScanLog const& log, std::vector<slam::Pose2> const& trajectory) {
   std::vector<slam::TimedPose> poses;
   for (std::size_t i = 0; i < trajectory.size(); ++i) poses.push_back({log.scans[i].time, trajectory[i]});
   return poses;
-}
-
-std::string tum_text(std::vector<slam::TimedPose> const& poses) {
-  std::string text;
-  for (auto const& [time, pose] : poses)
-    fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", time.count(), pose.x, pose.y,
-                   std::sin(0.5 * pose.yaw), std::cos(0.5 * pose.yaw));
-  return text;
-}
-
-Json spread_json(slam::Spread const& spread) {
-  return {{"mean", spread.mean}, {"std", spread.deviation}, {"mean_square", spread.mean_square}, {"max", spread.most}};
-}
-Json errors_json(slam::RelationErrors const& errors) {
-  return {{"translation_m", spread_json(errors.shift_m)}, {"rotation_deg", spread_json(errors.turn_deg)}};
-}
-
-double cpu_s() {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  auto const seconds = [](timeval const& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
-double peak_mb() {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  return static_cast<double>(used.ru_maxrss) / 1024.0;
 }
 
 Json report_of(slam::ScanLog const& log, slam::Mapping const& mapping, std::vector<slam::TimedPose> const& poses,
@@ -142,15 +62,8 @@ Json report_of(slam::ScanLog const& log, slam::Mapping const& mapping, std::vect
   report["closures_doubted"] = mapping.loops.doubted;
   report["closures_revoked"] = mapping.loops.revoked;
   report["path_m"] = mapping.graph.frames.empty() ? 0.0 : mapping.graph.frames.back().path_m;
-  if (!relations.empty())
-    report["relations"] = {{"count", relations.size()},
-                           {"component", errors_json(slam::component_errors(poses, relations))},
-                           {"motion", errors_json(slam::motion_errors(poses, relations))}};
+  if (!relations.empty()) report["relations"] = relations_json(poses, relations);
   return report;
-}
-
-Json bag_json(RecordedLog const& recorded) {
-  return {{"scan_topic", recorded.scan_topic}, {"odometry", recorded.odometry}, {"remarks", recorded.remarks}};
 }
 
 void print_summary(Json const& report) {
@@ -243,6 +156,12 @@ base::Result<> make_map(MapOptions const& options) {
   if (!relations) return std::unexpected(relations.error());
   auto const settings = mapper_options(options.settings);
   if (!settings) return std::unexpected(settings.error());
+  std::optional<slam::Pose2> start;
+  if (!options.start.empty()) {
+    auto const parsed = parse_start(options.start);
+    if (!parsed) return std::unexpected(parsed.error());
+    start = *parsed;
+  }
   bool const is_bag = scans::is_bag(options.log);
   auto text = is_bag ? std::string() : read_file(options.log);
   if (!text) return std::unexpected(text.error());
@@ -253,10 +172,12 @@ base::Result<> make_map(MapOptions const& options) {
     auto done = settle_graph(*text, options.out);
     return done ? done : in_file(options.log, done.error());
   }
-  auto const recorded =
-      is_bag ? read_bag_log(options.log, options.topics) : read_text_log(options.log, *std::move(text));
+  auto recorded = is_bag ? read_bag_log(options.log, options.topics) : read_text_log(options.log, *std::move(text));
   if (!recorded) return std::unexpected(recorded.error());
   for (auto const& remark : recorded->remarks) fmt::print(stderr, "{}: {}\n", options.log.string(), remark);
+  if (!options.known_map.empty()) {
+    return localise(*std::move(recorded), *relations, {.map = options.known_map, .start = start}, options.out);
+  }
   auto const& log = recorded->log;
 
   auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
@@ -274,14 +195,8 @@ base::Result<> make_map(MapOptions const& options) {
   auto const poses = timed(log, mapping.trajectory);
   auto report = report_of(log, mapping, poses, *relations);
   if (is_bag) report["bag"] = bag_json(*recorded);
-  auto const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  report["walls"] = walls.size();
-  report["wall_s"] = seconds;
-  report["cpu_s"] = cpu_s();
-  report["peak_mb"] = peak_mb();
+  add_use(report, started, times);
   report["threads"] = threads;
-  report["scan_ms"] = {
-      {"p50", times.percentile_ms(0.5)}, {"p99", times.percentile_ms(0.99)}, {"max", times.percentile_ms(1.0)}};
   if (auto done = write_results(options, log, mapping, grid, poses, walls, report); !done) return done;
   print_summary(report);
   return {};
@@ -304,6 +219,13 @@ void add_map(CLI::App& program, int& exit_code) {
   verb->add_option("--out", options->out,
                    "Folder for map.pgm, map.yaml, map.png, walls.csv, trajectory.tum, graph.g2o, report.json")
       ->required();
+  auto* known = verb->add_option("--localise", options->known_map,
+                                 "A ROS map (.yaml) on which the scans are laid, instead of making one: "
+                                 "trajectory.tum, fits.csv, report.json")
+                    ->check(CLI::ExistingFile);
+  verb->add_option("--start", options->start,
+                   "x,y,heading of the first scan on that map, metres and degrees; default: it is searched for")
+      ->needs(known);
   verb->add_option("--relations", options->relations, "True relative poses to measure the trajectory with")
       ->check(CLI::ExistingFile);
   verb->add_option("--threads", options->threads, "How many; default: as many as the machine has. The map is the same")

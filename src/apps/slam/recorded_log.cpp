@@ -37,6 +37,15 @@ std::unexpected<base::Error> in_file(fs::path const& path, base::Error error) {
   return std::unexpected(std::move(error));
 }
 
+base::Result<std::vector<slam::Relation>> read_relations(fs::path const& path) {
+  if (path.empty()) return std::vector<slam::Relation>();
+  auto text = read_file(path);
+  if (!text) return std::unexpected(text.error());
+  auto relations = slam::read_relations(*text);
+  if (!relations) return in_file(path, relations.error());
+  return relations;
+}
+
 base::Result<RecordedLog> read_text_log(fs::path const& path, std::string text) {
   auto log = slam::read_log(text);
   if (!log) return in_file(path, log.error());

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "scans/bag_contents.hpp"
 #include "slam/log/scan_log.hpp"
+#include "slam/relations.hpp"
 
 namespace lapwing::apps {
 
@@ -23,6 +24,9 @@ struct RecordedLog {
 
 /// The error with the file's name before it.
 [[nodiscard]] std::unexpected<base::Error> in_file(std::filesystem::path const& path, base::Error error);
+
+/// True relative poses; none where the path is empty.
+[[nodiscard]] base::Result<std::vector<slam::Relation>> read_relations(std::filesystem::path const& path);
 
 /// Of the content of a text file, which is let go before this returns.
 [[nodiscard]] base::Result<RecordedLog> read_text_log(std::filesystem::path const& path, std::string text);

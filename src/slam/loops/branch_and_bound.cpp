@@ -82,9 +82,11 @@ class Search {
   [[nodiscard]] static bool is_same_place(Branch const& best, Branch const& other) {
     constexpr int cells = 7;
     constexpr int degrees = 8;
+    constexpr int round = 360;
+    auto const turned = std::abs(other.turn - best.turn);
     auto const width = (1 << other.level) - 1;
     return other.x >= best.x - cells && other.x + width <= best.x + cells && other.y >= best.y - cells &&
-           other.y + width <= best.y + cells && std::abs(other.turn - best.turn) <= degrees;
+           other.y + width <= best.y + cells && std::min(turned, round - turned) <= degrees;
   }
 
   /// Of the branch's pose that is nearest to the guess.
