@@ -35,6 +35,12 @@ case $target in
     cp "$root"/examples/buildings/*.toml "$seeds"
     printf '[[wall]]\nline=[[0,0],[4,0],[4,3],[0,3]]\nclosed=true\n[[door]]\nhinge=[1,0]\nlatch=[2,0]\nsign="7\\nWC"\nopen_s=1\nclosed_s=1\n[[person]]\nat=[3,1]\nwalks=true\n[[start]]\nat=[1,1]\n' | seed small
     ;;
+  car_park)
+    cp "$root"/examples/car-park/*.toml "$seeds"
+    printf 'anchor=[41,-8,90]\n[cars]\nstay_min=5\n[[area]]\ncorners=[[-9,-9],[9,-9],[9,9]]\n[[row]]\nat=[0,0]\ncount=3\nslant_deg=20\n[[car]]\nat=[1,1]\n[[lane]]\npoints=[[0,0],[9,0]]\n[[tree]]\nat=[5,5]\n[[building]]\ncorners=[[-9,5],[-5,5],[-5,9]]\n' | seed small
+    printf 'file,time,east_m,north_m,up_m,yaw_deg,tilt_deg,roll_deg\na.png,2026-11-21T10:00:00Z,1,2,30,0,0,0\nb.png,2026-11-21T10:00:01Z,,,,,,\n' | seed poses
+    options=(-max_len=8192)
+    ;;
   floor_plan)
     printf 'P2\n# a room\n9 9 1\n%s' "$(for y in 0 1 1 1 1 1 1 1 0; do for x in 0 1 1 1 1 1 1 1 0; do printf '%d ' $((x * y)); done; done)" | seed plain
     printf 'P5\n3 2\n255\n\000\376\376\000\376\315' | seed binary

@@ -12,6 +12,7 @@
 #include "base/time.hpp"
 #include "geo/camera/ground_view.hpp"
 #include "geo/camera/lens.hpp"
+#include "geo/position.hpp"
 
 /// Pictures from a camera on a drone, whatever the camera is: one that renders a simulated car park, a folder of
 /// pictures that were taken before, or a test pattern.
@@ -81,7 +82,9 @@ struct CameraSettings {
   Kind kind = Kind::simulated;
   geo::Lens lens = geo::pinhole(1280, 720, 1.0821);  ///< 62 degrees across
   Mount mount = {};
-  std::filesystem::path world = {};   ///< simulated: the world file
+  std::filesystem::path world = {};  ///< simulated: the world file
+  /// Of the frame in which the poses are told, where that is not the world file's.
+  std::optional<geo::Wgs84> anchor = {};
   std::filesystem::path folder = {};  ///< folder: the pictures, and poses.csv beside them
   std::uint64_t seed = 1;             ///< of the faults; the world has its own
   CameraFaults faults = {};
