@@ -126,6 +126,38 @@ void draw_stains(cv::Mat& ground, CarPark const& park, RasterFrame const& frame)
   }
 }
 
+/// How much of the paint is left, pixel by pixel.
+struct Wear {
+  double depth;
+  cv::Mat const& clouds;
+  cv::Mat const& grain;
+
+  [[nodiscard]] double left_at(int row, int column) const {
+    double const cloudy = (clouds.at<std::uint8_t>(row, column) - 128.0) / 40.0;
+    double const grainy = static_cast<double>(grain.at<float>(row % grain_side, column % grain_side));
+    return std::clamp(1.0 - depth * (0.8 + 0.5 * cloudy + 0.35 * grainy), 0.0, 1.0);
+  }
+};
+
+void mix(cv::Vec3b& pixel, cv::Scalar const& colour, double share) {
+  for (int channel = 0; channel < 3; ++channel)
+    pixel[channel] = cv::saturate_cast<std::uint8_t>(pixel[channel] + share * (colour[channel] - pixel[channel]));
+}
+
+/// A straight piece of a line, by its four corners in the ground's pixels.
+void paint_piece(cv::Mat& ground, std::vector<cv::Point2d> corners, cv::Scalar const& colour, Wear const& wear) {
+  std::vector<cv::Point2f> const rough(corners.begin(), corners.end());
+  auto const box = (cv::boundingRect(rough) + cv::Size(4, 4) - cv::Point(2, 2)) & cv::Rect({}, ground.size());
+  if (box.empty()) return;
+  cv::Mat mask = cv::Mat::zeros(box.size(), CV_8U);
+  for (auto& corner : corners) corner -= cv::Point2d(box.tl());
+  fill_mask(mask, corners);
+  for (int y = 0; y < box.height; ++y)
+    for (int x = 0; x < box.width; ++x)
+      if (auto const covered = mask.at<std::uint8_t>(y, x); covered != 0)
+        mix(ground.at<cv::Vec3b>(y + box.y, x + box.x), colour, wear.left_at(y + box.y, x + box.x) * covered / 255.0);
+}
+
 }  // namespace
 
 cv::Scalar mean_grass() {
@@ -192,37 +224,16 @@ cv::Mat draw_surface(CarPark const& park, RasterFrame const& frame, cv::Mat cons
 
 void draw_paint(cv::Mat& ground, CarPark const& park, RasterFrame const& frame, cv::Mat const& clouds,
                 cv::Mat const& grain) {
+  Wear const wear{park.wear, clouds, grain};
   for (auto const& stripe : park.stripes) {
     auto const colour = bgr(stripe.colour, 1.0);
     for (std::size_t i = 1; i < stripe.points.size(); ++i) {
-      auto const way = stripe.points[i] - stripe.points[i - 1];
+      auto const& from = stripe.points[i - 1];
+      auto const& to = stripe.points[i];
+      auto const way = to - from;
       if (way.length() <= 0.0) continue;
       auto const aside = geo::Vector<geo::SiteFrame>(-way.y(), way.x()) * (0.5 * stripe.width_m / way.length());
-      auto const corners = pixels_of({stripe.points[i - 1] + aside, stripe.points[i] + aside, stripe.points[i] - aside,
-                                      stripe.points[i - 1] - aside},
-                                     frame);
-      std::vector<cv::Point2f> const rough(corners.begin(), corners.end());
-      auto box = cv::boundingRect(rough) + cv::Size(4, 4) - cv::Point(2, 2);
-      box &= cv::Rect({}, frame.size);
-      if (box.empty()) continue;
-      cv::Mat mask = cv::Mat::zeros(box.size(), CV_8U);
-      auto inside = corners;
-      for (auto& corner : inside) corner -= cv::Point2d(box.tl());
-      fill_mask(mask, inside);
-      for (int y = 0; y < box.height; ++y)
-        for (int x = 0; x < box.width; ++x) {
-          auto const covered = mask.at<std::uint8_t>(y, x);
-          if (covered == 0) continue;
-          int const row = y + box.y;
-          int const column = x + box.x;
-          double const rough_here = 0.5 + 0.5 * (clouds.at<std::uint8_t>(row, column) - 128.0) / 40.0 +
-                                    0.35 * static_cast<double>(grain.at<float>(row % grain_side, column % grain_side));
-          double const left = std::clamp(1.0 - park.wear * (0.3 + rough_here), 0.0, 1.0) * covered / 255.0;
-          auto& pixel = ground.at<cv::Vec3b>(row, column);
-          for (int channel = 0; channel < 3; ++channel)
-            pixel[channel] =
-                cv::saturate_cast<std::uint8_t>(pixel[channel] + left * (colour[channel] - pixel[channel]));
-        }
+      paint_piece(ground, pixels_of({from + aside, to + aside, to - aside, from - aside}, frame), colour, wear);
     }
   }
 }

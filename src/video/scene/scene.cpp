@@ -204,7 +204,7 @@ void Scene::standing(cv::Mat& picture, geo::GroundView const& view, std::vector<
     if (thing.vehicle != nullptr)
       draw_vehicle(projector, *thing.vehicle, sun_, sun_.in_shadow(ground_.shade_at(thing.vehicle->at)));
     else if (thing.crown != nullptr)
-      draw_crown(projector, *thing.crown);
+      draw_tree(projector, *thing.crown, sun_);
     else
       draw_block(projector, *thing.block, sun_);
   }

@@ -57,14 +57,14 @@ Crown crown_of(Tree const& tree, Sun const& sun, std::uint64_t seed, std::uint64
   constexpr std::array<Colour, 3> greens = {{{0.26, 0.36, 0.17}, {0.21, 0.30, 0.15}, {0.34, 0.39, 0.2}}};
   auto const& green = greens[dice.bits() % greens.size()];
   Crown crown{.tree = tree, .leaves = {}};
-  constexpr int tufts = 150;
+  constexpr int tufts = 380;
   double const flat = std::min(0.35 * tree.radius_m, 0.3 * tree.height_m);
   for (int i = 0; i < tufts; ++i) {
     double const out = std::sqrt(dice.uniform());
     double const angle = dice.uniform(0.0, 2.0 * std::numbers::pi);
     // A dome: the farther out, the lower.
     double const up = flat * (std::sqrt(1.0 - 0.9 * out * out) + 0.25 * dice.gaussian());
-    double const radius_m = tree.radius_m * dice.uniform(0.07, 0.24);
+    double const radius_m = tree.radius_m * dice.uniform(0.05, 0.15);
     Eigen::Vector3d const off((tree.radius_m - 0.6 * radius_m) * out * std::cos(angle),
                               (tree.radius_m - 0.6 * radius_m) * out * std::sin(angle), up - 1.2 * flat);
     double const facing = 0.5 + 0.5 * off.dot(sun.towards) / tree.radius_m;
@@ -76,7 +76,19 @@ Crown crown_of(Tree const& tree, Sun const& sun, std::uint64_t seed, std::uint64
   return crown;
 }
 
-void draw_crown(Projector const& projector, Crown const& crown) {
+void draw_tree(Projector const& projector, Crown const& crown, Sun const& sun) {
+  // The trunk, as wide as it is seen from the camera.
+  auto const& tree = crown.tree;
+  Eigen::Vector3d const foot(tree.at.x(), tree.at.y(), 0.0);
+  Eigen::Vector2d const away = (foot - projector.camera()).head<2>();
+  double const half_m = 0.06 * tree.radius_m;
+  if (away.norm() > half_m) {
+    Eigen::Vector3d const aside = Eigen::Vector3d(-away.y(), away.x(), 0.0) * (half_m / away.norm());
+    Eigen::Vector3d const up(0.0, 0.0, 0.8 * tree.height_m);
+    constexpr Colour bark = {0.3, 0.25, 0.2};
+    projector.fill(std::array<Eigen::Vector3d, 4>{foot - aside, foot + aside, foot + aside + up, foot - aside + up},
+                   bgr(bark, 0.8 * sun.brightness));
+  }
   for (auto const& leaves : crown.leaves) projector.disc(leaves.at, leaves.radius_m, leaves.colour);
 }
 

@@ -20,7 +20,7 @@ struct Crown {
 };
 
 [[nodiscard]] Crown crown_of(Tree const& tree, Sun const& sun, std::uint64_t seed, std::uint64_t number);
-void draw_crown(Projector const& projector, Crown const& crown);
+void draw_tree(Projector const& projector, Crown const& crown, Sun const& sun);
 void draw_block(Projector const& projector, Block const& block, Sun const& sun);
 
 }  // namespace lapwing::video
