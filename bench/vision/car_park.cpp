@@ -106,6 +106,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}\n", park.error().message);
     return bad_usage;
   }
+  if (park->slots.empty()) {
+    fmt::print(stderr, "{} has no slots to fly over\n", words[1]);
+    return bad_usage;
+  }
   if (words.size() > 2) {
     auto const count = words.size() > 3 ? std::strtoull(words[3], nullptr, 10) : 8;
     for (double const height_m : {20.0, 30.0})

@@ -1,13 +1,11 @@
 #include "video/camera/camera.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "video/camera/file_bytes.hpp"
 #include "video/camera/folder_camera.hpp"
 #include "video/camera/pattern_camera.hpp"
 #include "video/camera/simulated_camera.hpp"
+#include "video/files/file_bytes.hpp"
 #include "video/world/car_park_file.hpp"
 
 namespace lapwing::video {

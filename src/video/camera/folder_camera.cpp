@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "video/camera/file_bytes.hpp"
+#include "video/files/file_bytes.hpp"
 
 namespace lapwing::video {
 

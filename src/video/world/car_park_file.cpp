@@ -1,14 +1,14 @@
 #include "video/world/car_park_file.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <numbers>
+#include <limits>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/config.hpp"
+#include "video/files/file_bytes.hpp"
 #include "video/world/car_park_parts.hpp"
 #include "video/world/row_of_slots.hpp"
 
@@ -281,15 +281,9 @@ base::Result<CarPark> car_park_of(std::string name, std::string text) {
 }
 
 base::Result<CarPark> load_car_park(std::filesystem::path const& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    return base::fail(base::ErrorKind::not_found,
-                      fmt::format("there is no world file {} that can be read", file.string()));
-  std::string text(most_world_bytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) return base::fail(base::ErrorKind::io, fmt::format("{} cannot be read", file.string()));
-  auto park = car_park_of(file.string(), std::move(text));
+  auto text = bytes_of(file, most_world_bytes);
+  if (!text) return std::unexpected(text.error());
+  auto park = car_park_of(file.string(), std::move(*text));
   if (park && park->picture) park->picture->file = file.parent_path() / park->picture->file;
   return park;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/testing/temporary_folder.hpp"
+
 namespace lapwing::video {
 namespace {
 
@@ -141,7 +143,16 @@ TEST(CarParkFile, TheDemosCarParkIsSound) {
   EXPECT_NEAR(park->anchor.lat_deg(), 41.178, 1e-9);
 }
 
-TEST(CarParkFile, AFileThatIsNotThereIsNamed) {
+TEST(CarParkFile, ThePictureOfTheGroundIsFoundBesideIt) {
+  base::testing::TemporaryFolder const folder;
+  auto const file = folder.write("yard.toml", head + "[ground]\npicture = \"a.png\"\npicture_box = [0, 0, 9, 9]\n");
+  auto const park = load_car_park(file);
+  ASSERT_TRUE(park) << park.error().message;
+  EXPECT_EQ(park->picture->file, folder.path() / "a.png");
+}
+
+TEST(CarParkFile, AFolderOrAFileThatIsNotThereIsNamed) {
+  EXPECT_EQ(load_car_park("/").error().kind, base::ErrorKind::not_found);
   auto const park = load_car_park("/nowhere/world.toml");
   ASSERT_FALSE(park);
   EXPECT_EQ(park.error().kind, base::ErrorKind::not_found);

@@ -1,4 +1,4 @@
-#include "video/camera/file_bytes.hpp"
+#include "video/files/file_bytes.hpp"
 
 #include <fstream>
 #include <iterator>
