@@ -6,6 +6,7 @@
 #include "bridge/frames.hpp"
 #include "bridge/ros_messages.hpp"
 #include "bus/messages/mavros_names.hpp"
+#include "bus/messages/stamps.hpp"
 
 namespace lapwing::bridge {
 
@@ -37,7 +38,7 @@ base::Result<std::unique_ptr<FlightTopics>> FlightTopics::open(base::Loop& loop,
 }
 
 bus::Header FlightTopics::header(std::string frame) const {
-  return header_at(base::wall_now(), std::move(frame));
+  return bus::header_at(base::wall_now(), std::move(frame));
 }
 
 void FlightTopics::tell_state() {

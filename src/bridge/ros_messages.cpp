@@ -22,15 +22,6 @@ Integer whole(double value) {
 
 }  // namespace
 
-bus::Header header_at(base::UtcTime now, std::string frame) {
-  auto const since = now.time_since_epoch();
-  auto const seconds = std::chrono::floor<std::chrono::seconds>(since);
-  auto const rest = std::chrono::duration_cast<std::chrono::nanoseconds>(since - seconds);
-  return {
-      .stamp = {.sec = static_cast<std::int32_t>(seconds.count()), .nanosec = static_cast<std::uint32_t>(rest.count())},
-      .frame_id = std::move(frame)};
-}
-
 bus::mavros::State ros_state(FlightController const& flight, base::TimePoint now) {
   if (!flight.is_connected(now)) return {};
   auto const& heartbeat = *flight.heartbeat;

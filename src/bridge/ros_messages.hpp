@@ -8,7 +8,6 @@
 /// What a flight controller says, as MAVROS says it on the bus. Values in, values out.
 namespace lapwing::bridge {
 
-[[nodiscard]] bus::Header header_at(base::UtcTime now, std::string frame);
 [[nodiscard]] bus::mavros::State ros_state(FlightController const& flight, base::TimePoint now);
 [[nodiscard]] bus::mavros::SysStatus ros_system_status(mavlink::SysStatus const& status);
 /// Discharging is a negative current, as sensor_msgs has it; what is not known is not a number.

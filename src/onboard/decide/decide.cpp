@@ -115,10 +115,12 @@ void Decide::step() {
 void Decide::carry_out(autonomy::Said const& said, autonomy::Told const& told) {
   for (auto const& request : said.requests) hand_->ask(request);
   processes_->hear(said);
+  processes_->hear(machine_->memory().heights);
   if (logged_state_ != said.state) log_.info(fmt::format("state {}", autonomy::to_string(said.state)));
   logged_state_ = said.state;
   for (auto const& words : said.error_log) to_tell_.push_back(words);
   for (auto& words : flight_->take_warnings()) to_tell_.push_back(std::move(words));
+  for (auto& words : processes_->take_reports()) to_tell_.push_back(std::move(words));
   for (auto const& words : std::exchange(to_tell_, {})) {
     log_.warn(words);
     desk_->tell(words);

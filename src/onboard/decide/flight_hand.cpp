@@ -7,6 +7,7 @@
 
 #include "base/wall_clock.hpp"
 #include "bus/messages/mavros_names.hpp"
+#include "bus/messages/stamps.hpp"
 
 namespace lapwing::onboard {
 
@@ -25,12 +26,7 @@ constexpr auto return_altitude = "RTL_ALT";
 constexpr double cm_per_m = 100.0;
 
 bus::Header header_now(std::string frame) {
-  auto const since = base::wall_now().time_since_epoch();
-  auto const seconds = std::chrono::floor<std::chrono::seconds>(since);
-  auto const rest = std::chrono::duration_cast<std::chrono::nanoseconds>(since - seconds);
-  return {
-      .stamp = {.sec = static_cast<std::int32_t>(seconds.count()), .nanosec = static_cast<std::uint32_t>(rest.count())},
-      .frame_id = std::move(frame)};
+  return bus::header_at(base::wall_now(), std::move(frame));
 }
 
 }  // namespace

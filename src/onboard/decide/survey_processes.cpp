@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text/printable.hpp"
 #include "bus/messages/survey_names.hpp"
 #include "onboard/decide/flight_hand.hpp"
 
@@ -87,6 +88,9 @@ base::Result<> SurveyProcesses::open_topics(bus::Bus& bus, std::vector<std::stri
   keep(topics::planner_setpoint, setpoint_);
   ends.hear<bus::OccupancyGrid>(topics_, topics::occupancy_map, Profile::standard,
                                 [this](bus::OccupancyGrid const& grid) { take(grid); });
+  ends.hear<bus::String>(topics_, topics::survey_report, Profile::standard,
+                         [this](bus::String const& words) { take_report(words.data); });
+  ends.say(heights_, topics::hover_heights, Profile::latched);
   ends.say(wanted_, topics::wanted_pose, Profile::standard);
   ends.say(state_, topics::current_state, Profile::latched);
   return ends.result();
@@ -105,6 +109,12 @@ void SurveyProcesses::take(bus::OccupancyGrid const& grid) {
                                 .origin = {origin->x(), origin->y()},
                                 .cells = grid.data};
   lot_ = seen_extent(*map_);
+}
+
+/// From another process: it is shown as a line, and not without end.
+void SurveyProcesses::take_report(std::string const& words) {
+  constexpr std::size_t most = 8;
+  if (reports_.size() < most) reports_.push_back(base::printable(words));
 }
 
 std::optional<base::Duration> SurveyProcesses::silence_of(Process const& process) const {
@@ -140,6 +150,11 @@ void SurveyProcesses::hear(autonomy::Said const& said) {
   if (!said.wanted_place) return;
   if (auto const place = flight_.in_local_frame(said.wanted_place->place))
     wanted_->publish(local_pose(*place, said.wanted_place->yaw_rad));
+}
+
+void SurveyProcesses::hear(autonomy::HoverHeights const& heights) {
+  if (told_heights_ != heights) heights_->publish({.data = {heights.min_m, heights.desired_m, heights.max_m}});
+  told_heights_ = heights;
 }
 
 }  // namespace lapwing::onboard

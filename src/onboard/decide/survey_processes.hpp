@@ -3,12 +3,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "autonomy/interface/said.hpp"
 #include "autonomy/interface/told.hpp"
+#include "autonomy/interface/heights.hpp"
 #include "autonomy/operator/report_text.hpp"
 #include "base/async/loop.hpp"
+#include "bus/messages/arrays.hpp"
 #include "bus/messages/diagnostics.hpp"
 #include "bus/messages/navigation.hpp"
 #include "bus/participant/ends.hpp"
@@ -38,6 +41,10 @@ class SurveyProcesses {
   [[nodiscard]] std::optional<autonomy::OccupancyMap> const& map() const { return map_; }
   /// What the machine has decided.
   void hear(autonomy::Said const& said);
+  /// Those in force, between which the planner is to stay.
+  void hear(autonomy::HoverHeights const& heights);
+  /// What the planner has said to the operator since the last call.
+  [[nodiscard]] std::vector<std::string> take_reports() { return std::exchange(reports_, {}); }
 
  private:
   struct Process {
@@ -47,6 +54,7 @@ class SurveyProcesses {
   SurveyProcesses(base::Loop& loop, FlightHeard const& flight) : loop_(loop), flight_(flight), began_(loop.now()) {}
   base::Result<> open_topics(bus::Bus& bus, std::vector<std::string> const& relies_on);
   void take(bus::OccupancyGrid const& grid);
+  void take_report(std::string const& words);
   [[nodiscard]] std::optional<base::Duration> silence_of(Process const& process) const;
 
   base::Loop& loop_;
@@ -59,6 +67,9 @@ class SurveyProcesses {
   std::optional<autonomy::OccupancyMap> map_;
   std::optional<geo::Box<autonomy::ArmingFrame>> lot_;
   std::optional<autonomy::State> told_state_;
+  std::vector<std::string> reports_;
+  std::optional<autonomy::HoverHeights> told_heights_;
+  std::optional<bus::Publisher<bus::Float64MultiArray>> heights_;
   std::optional<bus::Publisher<bus::PoseStamped>> wanted_;
   std::optional<bus::Publisher<bus::String>> state_;
   bus::Subscriptions topics_;  ///< last: nothing comes any more
