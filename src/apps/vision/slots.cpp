@@ -11,9 +11,8 @@
 #include "apps/vision/detect.hpp"
 #include "apps/vision/overhead.hpp"
 #include "apps/vision/slot_files.hpp"
-#include "vision/lot/layout.hpp"
-#include "vision/lot/markings.hpp"
 #include "vision/lot/occupancy.hpp"
+#include "vision/lot/seen_slots.hpp"
 
 namespace lapwing::apps::detect {
 
@@ -21,8 +20,6 @@ namespace {
 
 /// Cars that are less sure say nothing of a slot.
 constexpr double least_car = 0.15;
-/// And less than these nothing of where slots are.
-constexpr double least_car_of_layout = 0.5;
 
 struct SlotOptions {
   CommonOptions common;
@@ -31,34 +28,7 @@ struct SlotOptions {
   std::filesystem::path truth;
 };
 
-vision::TurnedBox scaled(vision::TurnedBox box, double scale) {
-  return {.middle = {box.middle.x * scale, box.middle.y * scale},
-          .length = box.length * scale,
-          .width = box.width * scale,
-          .heading_rad = box.heading_rad};
-}
-
-struct PlacedSlot {
-  std::array<cv::Point2d, 4> corners;  ///< pixels
-  double surety = 1.0;
-};
-
-std::vector<PlacedSlot> found_slots(cv::Mat const& upright, Ground const& ground) {
-  double const metres = *ground.metres_a_pixel;
-  std::vector<vision::TurnedBox> cars;
-  for (auto const& car : ground.overhead.cars) {
-    if (car.score >= least_car_of_layout) cars.push_back(scaled(car.box, metres));
-  }
-  std::vector<PlacedSlot> slots;
-  for (auto const& slot : vision::slots_between(vision::painted_lines(upright, metres), cars)) {
-    PlacedSlot placed{.corners = slot.corners, .surety = slot.surety};
-    for (auto& corner : placed.corners) corner *= 1.0 / metres;
-    slots.push_back(placed);
-  }
-  return slots;
-}
-
-vision::Detection told(PlacedSlot const& slot, vision::Overhead const& overhead, cv::Size const& picture) {
+vision::Detection told(vision::SeenSlot const& slot, vision::Overhead const& overhead, cv::Size const& picture) {
   vision::Detection detection{.category = "slot", .box = {}, .score = slot.surety};
   auto& corners = detection.corners.emplace();
   cv::Point2d low = slot.corners[0];
@@ -123,9 +93,9 @@ int slots(SlotOptions const& options) {
         auto const ground = watcher->look(upright, flight, least_car);
         Seen seen{.detections = {}, .metres_a_pixel = ground.metres_a_pixel};
         if (!ground.metres_a_pixel) return seen;
-        std::vector<PlacedSlot> placed;
+        std::vector<vision::SeenSlot> placed;
         if (layouts.empty()) {
-          placed = found_slots(upright, ground);
+          placed = vision::slots_seen(upright, ground.overhead.cars, *ground.metres_a_pixel);
         } else {
           for (auto const& slot : layouts[which]) placed.push_back({.corners = slot.corners});
         }
