@@ -14,6 +14,7 @@ constexpr std::string_view maps = "lapwing-map";
 constexpr std::string_view slam = "lapwing-slam";
 constexpr std::string_view eyes = "lapwing-vision";
 constexpr std::string_view aboard = "lapwing-onboard";
+constexpr std::string_view seeing = "lapwing-perceive";
 
 /// In the order in which help shows them.
 constexpr std::array table{
@@ -28,6 +29,7 @@ constexpr std::array table{
     Verb{"replay", "Play a recording of vehicles into the map", vehicles},
     Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
     Verb{"onboard", "The programs on a survey drone: flight bridge and decisions, started and watched", aboard},
+    Verb{"perceive", "What a survey drone sees, maps and plans, as lapwing onboard starts it", seeing},
     Verb{"explore", "Let simulated robots explore a floor plan: travel, time and coverage", maps},
     Verb{"map", "Make a floor map of what a robot's laser and wheels recorded", slam},
     Verb{"store", "What the map's store holds: list, verify, compact, export, import, copy", maps},

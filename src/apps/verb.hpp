@@ -33,6 +33,9 @@ void add_map(CLI::App& program, int& exit_code);
 // That of lapwing-onboard:
 void add_onboard(CLI::App& program, int& exit_code);
 
+// That of lapwing-perceive:
+void add_perceive(CLI::App& program, int& exit_code);
+
 // That of lapwing-vision:
 void add_detect(CLI::App& program, int& exit_code);
 

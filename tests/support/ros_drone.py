@@ -262,6 +262,9 @@ class RosDrone:
     def writer(self, topic: str, kind) -> DataWriter:
         return DataWriter(self._participant, Topic(self._participant, f"rt{topic}", kind), qos=ros_robot._STANDARD)
 
+    def reader(self, topic: str, kind) -> DataReader:
+        return DataReader(self._participant, Topic(self._participant, f"rt{topic}", kind), qos=ros_robot._STANDARD)
+
     def __getattr__(self, key: str):
         """The last message of that topic, None before the first."""
         reader = self.__dict__["_readers"].get(key)

@@ -7,6 +7,7 @@
 
 #include "apps/onboard/onboard_config.hpp"
 #include "apps/verb.hpp"
+#include "base/async/child_program.hpp"
 #include "base/files/replace_file.hpp"
 #include "base/log.hpp"
 #include "base/wall_clock.hpp"
@@ -101,12 +102,38 @@ class OwnProcess {
   base::Scope scope_{loop_};
 };
 
+std::filesystem::path perceive_program() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "lapwing-perceive";
+}
+
 /// What starts the processes of this program: itself, with another word.
 void complete_commands(OnboardConfig& config, std::string const& file) {
   std::error_code error;
   auto const program = std::filesystem::read_symlink("/proc/self/exe", error).string();
   for (auto& process : config.processes)
-    if (process.command.empty()) process.command = {program, "onboard", "--config", file, "--only", process.name};
+    if (process.command.empty() && process.name == perceive_process)
+      process.command = {perceive_program().string(), "perceive", "--config", file};
+    else if (process.command.empty())
+      process.command = {program, "onboard", "--config", file, "--only", process.name};
+}
+
+/// Camera and survey are checked by the program that has them, before anything is started.
+bool is_seeing_sound(std::string const& file) {
+  constexpr std::uint64_t most_memory = std::uint64_t{16} << 30U;  // of address space, for libraries alone
+  base::Loop loop;
+  auto const outcome = loop.run_until_done(base::run_child(loop, {.program = perceive_program(),
+                                                                  .words = {"perceive", "--config", file, "--check"},
+                                                                  .most_memory_bytes = most_memory}));
+  if (!outcome) {
+    host::print_error({.kind = outcome.error().kind,
+                       .message = fmt::format("{} has a camera, and {} is not to be started: {}", file,
+                                              perceive_program().string(), outcome.error().message),
+                       .hint = "./lapwing perceive --help builds it; it needs OpenCV (setup/packages-vision.txt)"});
+    return false;
+  }
+  fmt::print(stderr, "{}", outcome->errors);
+  return outcome->exit_code == host::exit_done;
 }
 
 int supervise(OnboardConfig config, std::string const& file) {
@@ -130,8 +157,16 @@ int supervise(OnboardConfig config, std::string const& file) {
 }
 
 int start_onboard(OnboardArguments const& arguments) {
-  auto config = host::load_config(arguments.config, read_onboard_config, "docs/reference/onboard.md");
+  bool sees = false;
+  auto const read = [&sees](base::SourceFile const& source, base::Diagnostics& diagnostics) {
+    auto found = read_onboard_config(source, diagnostics);
+    sees = found.sees;
+    return found;
+  };
+  auto config = host::load_config(arguments.config, read, "docs/reference/onboard.md");
+  bool const is_sound = !sees || !arguments.only.empty() || is_seeing_sound(arguments.config);
   if (!config) return host::refuse(config.error());
+  if (!is_sound) return host::exit_usage;
   if (arguments.only.empty()) return supervise(*std::move(config), arguments.config);
   OwnProcess process(arguments.only, *std::move(config));
   return process.run();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/onboard/bus_config.hpp"
 #include "base/config.hpp"
 #include "base/text/spelling.hpp"
 #include "link/url.hpp"
@@ -27,14 +28,6 @@ constexpr auto usual_link = "udpin://127.0.0.1:14550";
 
 fs::path beside(base::SourceFile const& source, std::string const& path) {
   return fs::path(source.name()).parent_path() / path;
-}
-
-void read_bus(ConfigReader& root, bus::BusOptions& bus) {
-  auto table = root.table("bus");
-  if (!table) return;
-  if (auto const domain = table->integer("domain", 0, 101)) bus.domain = static_cast<std::uint32_t>(domain->value);
-  if (auto const network = table->flag("network")) bus.is_local = !network->value;
-  table->refuse_unknown();
 }
 
 void read_bridge(ConfigReader& root, Diagnostics& diagnostics, bridge::BridgeOptions& bridge) {
@@ -128,19 +121,21 @@ void read_operator(ConfigReader& root, base::SourceFile const& source, Diagnosti
   table->refuse_unknown();
 }
 
-onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics& diagnostics) {
+onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics& diagnostics, bool sees) {
   onboard::ProcessSpec spec;
   auto const name = table.value.text("name");
   if (name) spec.name = name->value;
   if (!name && !table.value.has("name"))
     diagnostics.report(invalid_value, table.span, "a process needs a name", "name = \"bridge\"");
-  bool const is_own = spec.name == bridge_process || spec.name == decide_process;
+  bool const is_within = spec.name == bridge_process || spec.name == decide_process;
   auto const command = table.value.texts("command");
   if (command)
     for (auto const& [word, span] : *command) spec.command.push_back(word);
-  if (name && is_own && command)
+  if (name && is_within && command)
     diagnostics.report(invalid_value, name->span, fmt::format("{} is in this program and takes no command", spec.name),
                        "give a process of your own another name");
+  // It has a program of its own, which is known.
+  bool const is_own = is_within || (sees && spec.name == perceive_process && !command);
   if (name && !is_own && spec.command.empty())
     diagnostics.report(invalid_value, name->span,
                        fmt::format("there is no process {} in this program, and no command for it", spec.name),
@@ -154,7 +149,7 @@ onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics
 void read_processes(ConfigReader& root, Diagnostics& diagnostics, OnboardConfig& config) {
   std::set<std::string, std::less<>> names;
   for (auto& table : root.tables("process")) {
-    auto spec = read_process(table, diagnostics);
+    auto spec = read_process(table, diagnostics, config.sees);
     if (!spec.name.empty() && !names.insert(spec.name).second)
       diagnostics.report(invalid_value, table.span, fmt::format("there are two processes {}", spec.name));
     if (spec.name == bridge_process && names.contains(decide_process))
@@ -164,7 +159,9 @@ void read_processes(ConfigReader& root, Diagnostics& diagnostics, OnboardConfig&
     config.processes.push_back(std::move(spec));
   }
   if (!config.processes.empty() || root.has("process")) return;
-  for (auto const name : {bridge_process, decide_process}) config.processes.push_back({.name = std::string(name)});
+  config.processes.push_back({.name = std::string(bridge_process)});
+  if (config.sees) config.processes.push_back({.name = std::string(perceive_process), .tells_life = true});
+  config.processes.push_back({.name = std::string(decide_process)});
 }
 
 }  // namespace
@@ -178,6 +175,12 @@ OnboardConfig read_onboard_config(base::SourceFile const& source, base::Diagnost
   read_decide(root, source, diagnostics, config.decide);
   read_operator(root, source, diagnostics, config);
   if (auto const file = root.text("health_file")) config.health_file = beside(source, file->value);
+  // What is in them lapwing-perceive reads and checks.
+  config.sees = root.has("camera");
+  for (auto const* const table : {"camera", "survey"}) (void)root.table(table);
+  if (!config.sees && root.has("survey"))
+    diagnostics.report(invalid_value, {0, 1}, "a survey needs a camera",
+                       "[camera] with kind = \"simulated\" and a world, ...");
   read_processes(root, diagnostics, config);
   root.refuse_unknown();
   return config;

@@ -16,6 +16,8 @@ namespace lapwing::apps {
 /// The processes that this program has itself.
 inline constexpr std::string_view bridge_process = "bridge";
 inline constexpr std::string_view decide_process = "decide";
+/// That of lapwing-perceive, which is in the same folder.
+inline constexpr std::string_view perceive_process = "perceive";
 
 /// A vehicle's programs as its file describes them: docs/reference/onboard.md.
 struct OnboardConfig {
@@ -25,6 +27,7 @@ struct OnboardConfig {
   std::filesystem::path token_file = {};             ///< of the operator link; empty: no token
   std::vector<onboard::ProcessSpec> processes = {};  ///< own ones have no command
   std::filesystem::path health_file = {};            ///< empty: none
+  bool sees = false;                                 ///< there is a camera, so that perceive is a process
 };
 
 /// Reads the file's text; paths in it count from the file's folder. Everything wrong is reported; the result is to be

@@ -32,6 +32,20 @@ TEST(OnboardConfig, WithoutAnythingIsBridgeAndDecideOnLoopback) {
   EXPECT_EQ(config.decide.state_folder, "/etc/lapwing/lapwing-onboard");
 }
 
+TEST(OnboardConfig, WithACameraSeesBeforeItDecides) {
+  // What is in the tables is the business of lapwing-perceive.
+  auto const [config, mistakes] = read("[camera]\nkind = \"simulated\"\n[survey]\nname = \"lot\"\n");
+  EXPECT_EQ(mistakes, "");
+  EXPECT_TRUE(config.sees);
+  ASSERT_EQ(config.processes.size(), 3U);
+  EXPECT_EQ(config.processes[1].name, "perceive");
+  EXPECT_TRUE(config.processes[1].tells_life);
+  auto const named = read("[camera]\n[[process]]\nname = \"bridge\"\n[[process]]\nname = \"perceive\"\n");
+  EXPECT_EQ(named.mistakes, "");
+  EXPECT_TRUE(named.config.processes[1].tells_life);
+  EXPECT_NE(read("[survey]\n").mistakes.find("a survey needs a camera"), std::string::npos);
+}
+
 TEST(OnboardConfig, IsReadWhole) {
   auto const [config, mistakes] = read(R"(
 health_file = "health.json"

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "autonomy/interface/heights.hpp"
 #include "autonomy/interface/said.hpp"
 #include "autonomy/interface/told.hpp"
-#include "autonomy/interface/heights.hpp"
 #include "autonomy/operator/report_text.hpp"
 #include "base/async/loop.hpp"
 #include "bus/messages/arrays.hpp"

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/time.hpp"
+#include "bus/messages/diagnostics.hpp"
+#include "perceive/surveyor.hpp"
+
+namespace lapwing::perceive {
+
+/// How the camera and who looks at its pictures have done, as far as the last report.
+struct SightRecord {
+  bool is_open = false;            ///< the camera
+  std::string fault = {};          ///< what went wrong last; empty once a picture was good
+  std::string picture_fault = {};  ///< why the last picture shows nothing
+  base::TimePoint good_at{};       ///< of the last picture that shows something; before any: of the start
+  std::uint64_t pictures = 0;      ///< taken
+  std::uint64_t failed = 0;        ///< that did not come
+  std::uint64_t blind = 0;         ///< that show nothing
+  double took_s = 0.0;             ///< to look at the last one
+  double pictures_a_s = 0.0;
+};
+
+/// And who maps and plans.
+struct ThoughtRecord {
+  std::optional<base::Duration> pose_age = {};  ///< nothing: none was heard
+  bool has_home = false;
+  std::uint64_t unplaced = 0;     ///< pictures of which it is not known where they were taken
+  std::uint64_t passed_over = 0;  ///< sights that came before the one before was on the map
+  double took_s = 0.0;            ///< the last time
+  std::string fault = {};         ///< why there is no survey
+  bool explores = false;
+  bool has_goal = false;
+  SurveyFigures figures = {};
+};
+
+[[nodiscard]] bus::DiagnosticStatus vision_health(SightRecord const& record, base::TimePoint now);
+[[nodiscard]] bus::DiagnosticStatus mapper_health(ThoughtRecord const& record);
+[[nodiscard]] bus::DiagnosticStatus planner_health(ThoughtRecord const& record);
+
+}  // namespace lapwing::perceive

@@ -1,0 +1,149 @@
+#include "perceive/lot_eye.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <opencv2/imgproc.hpp>
+
+#include "perceive/ground_picture.hpp"
+#include "vision/cars/contrast_cars.hpp"
+#include "vision/lot/occupancy.hpp"
+#include "vision/lot/seen_slots.hpp"
+
+namespace lapwing::perceive {
+
+namespace {
+
+/// Cars that are less sure say nothing of a slot.
+constexpr double least_car = 0.15;
+/// What lies nearer to the edge of the picture may be cut off.
+constexpr double clear_m = 0.5;
+
+explore::Corners on_ground(GroundPicture const& ground, auto const& corners) {
+  explore::Corners outline;
+  for (std::size_t k = 0; k < outline.size(); ++k)
+    outline[k] = ground.ground({corners[k].x * ground.metres_a_pixel, corners[k].y * ground.metres_a_pixel});
+  return outline;
+}
+
+/// All of it was really in the picture: the plan of the ground is larger where the drone leans.
+bool is_seen(explore::Corners const& outline, geo::GroundView const& view) {
+  auto const sampling = geo::ground_sampling(view, view.lens.middle);
+  double const clear_px = sampling ? clear_m / sampling->coarsest_m : 0.0;
+  return std::ranges::all_of(outline, [&](auto const& corner) {
+    auto const pixel = geo::seen_at(view, corner);
+    return pixel && pixel->x >= clear_px && pixel->y >= clear_px && pixel->x <= view.lens.width_px - clear_px &&
+           pixel->y <= view.lens.height_px - clear_px;
+  });
+}
+
+/// Two slots head to head, or one behind the other.
+bool is_behind(explore::Corners const& a, explore::Corners const& b) {
+  constexpr double most_apart = 0.3;  // of a slot's length
+  double const length_m = explore::sides_of(a).length_m;
+  double const axis_rad = explore::axis_of(a);
+  Eigen::Vector2d const way = explore::middle_of(b).v - explore::middle_of(a).v;
+  Eigen::Vector2d const axis(std::cos(axis_rad), std::sin(axis_rad));
+  double const along_m = std::abs(axis.dot(way));
+  double const aside_m = (way - axis.dot(way) * axis).norm();
+  return std::abs(along_m - length_m) < most_apart * length_m && aside_m < most_apart * length_m;
+}
+
+/// The slot with its neighbours and some ground before and behind it: by them it was told how deep it is.
+explore::Corners with_neighbours(explore::Corners const& slot) {
+  constexpr double beyond_m = 2.0;
+  auto const sides = explore::sides_of(slot);
+  double const axis_rad = explore::axis_of(slot);
+  Eigen::Vector2d const axis(std::cos(axis_rad), std::sin(axis_rad));
+  Eigen::Vector2d const along = (0.5 * sides.length_m + beyond_m) * axis;
+  Eigen::Vector2d const across = 1.5 * sides.width_m * Eigen::Vector2d(-axis.y(), axis.x());
+  auto const middle = explore::middle_of(slot);
+  auto const at = [&](double u, double v) {
+    return map::SitePoint(Eigen::Vector2d(middle.v + u * along + v * across));
+  };
+  return {at(1.0, 1.0), at(-1.0, 1.0), at(-1.0, -1.0), at(1.0, -1.0)};
+}
+
+/// Its sides run neither along the picture's sides nor across them.
+bool is_aslant(explore::Corners const& slot, geo::GroundView const& view) {
+  constexpr double most_rad = 0.12;
+  constexpr double quarter = 0.5 * std::numbers::pi;
+  auto const right = view.site_from_camera * geo::Vector3<geo::CameraFrame>(1.0, 0.0, 0.0);
+  double const off =
+      std::fmod(explore::axis_of(slot) - std::atan2(right.y(), right.x()) + 2.0 * std::numbers::pi, quarter);
+  return std::min(off, quarter - off) > most_rad;
+}
+
+/// Where a row is cut off by the edge of the picture its lines seem to end there: the slots at the edge are too short,
+/// and those behind them, which share their lines, begin too early. One that is cut off aslant ends farther in with
+/// each slot.
+std::vector<explore::SlotSight> whole_ones(std::vector<explore::SlotSight> const& slots, geo::GroundView const& view) {
+  std::vector<explore::SlotSight> whole;
+  std::vector<explore::SlotSight> cut;
+  for (auto const& slot : slots) {
+    auto const decides = is_aslant(slot.outline, view) ? with_neighbours(slot.outline) : slot.outline;
+    (is_seen(decides, view) ? whole : cut).push_back(slot);
+  }
+  std::erase_if(whole, [&cut](auto const& slot) {
+    return std::ranges::any_of(cut, [&](auto const& other) { return is_behind(slot.outline, other.outline); });
+  });
+  return whole;
+}
+
+}  // namespace
+
+base::Result<LotEye> LotEye::make(std::string const& network, explore::LotSettings settings) {
+  LotEye eye(std::move(settings));
+  if (network.empty()) return eye;
+  auto loaded = vision::CarNetwork::load(network);
+  if (!loaded) return std::unexpected(loaded.error());
+  eye.network_.emplace(*std::move(loaded));
+  return eye;
+}
+
+vision::Overhead LotEye::vehicles(cv::Mat const& pixels, double metres_a_pixel) {
+  if (network_) return network_->look(pixels, metres_a_pixel, least_car);
+  vision::Overhead seen;
+  seen.cars = vision::cars_by_contrast(pixels, metres_a_pixel);
+  std::erase_if(seen.cars, [](auto const& car) { return car.score < least_car; });
+  return seen;
+}
+
+std::optional<explore::LotSight> LotEye::look(cv::Mat const& picture, geo::GroundView const& view, base::UtcTime at) {
+  auto const ground = ground_picture(picture, view, settings_);
+  if (!ground) return std::nullopt;
+  explore::LotSight sight{.vehicle = {}, .at = at, .view = view};
+  auto const seen = vehicles(ground->pixels, ground->metres_a_pixel);
+  for (auto const& slot : vision::slots_seen(ground->pixels, seen.cars, ground->metres_a_pixel)) {
+    sight.slots.push_back({.outline = on_ground(*ground, slot.corners),
+                           .surety = slot.surety,
+                           .taken_chance = vision::occupied_chance(slot.corners, seen, ground->pixels.size())});
+  }
+  sight.slots = whole_ones(sight.slots, view);
+  for (auto const& car : seen.cars) {
+    auto const outline = on_ground(*ground, vision::corners_of(car.box));
+    if (is_seen(outline, view)) sight.cars.push_back({.outline = outline, .chance = car.score});
+  }
+  return sight;
+}
+
+std::optional<std::string> picture_fault(cv::Mat const& picture) {
+  if (picture.empty()) return "it is empty";
+  cv::Mat small;
+  cv::resize(picture, small, {64, 36}, 0.0, 0.0, cv::INTER_AREA);
+  cv::Mat shades;
+  cv::cvtColor(small, shades, cv::COLOR_BGR2GRAY);
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(shades, mean, deviation);
+  constexpr double black = 12.0;
+  constexpr double white = 250.0;
+  constexpr double flat = 1.0;
+  if (mean[0] < black) return "it is black: is the lens covered?";
+  if (mean[0] > white) return "it is white: the light is too bright for the camera";
+  if (deviation[0] < flat) return "it has one colour alone";
+  return std::nullopt;
+}
+
+}  // namespace lapwing::perceive

@@ -1,0 +1,320 @@
+#include "perceive/perceive.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include "base/files/replace_file.hpp"
+#include "base/wall_clock.hpp"
+
+namespace lapwing::perceive {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr base::Duration think_period = 200ms;
+constexpr base::Duration map_period = 1s;
+constexpr base::Duration setpoint_period = 100ms;
+constexpr base::Duration keep_period = 3s;
+constexpr base::Duration open_again_after = 3s;
+/// So long it may take until the flight controller has said where the drone was when the light fell in.
+constexpr base::Duration pose_patience = 400ms;
+constexpr base::Duration pose_lasts = 2s;
+/// Lower than that the drone stands, and the ground before its lens says nothing.
+constexpr double standing_m = 2.0;
+constexpr auto slots_file = "slots.geojson";
+
+/// What became of looking at a picture.
+struct Look {
+  std::optional<std::string> fault = {};
+  std::optional<explore::LotSight> sight = {};
+  double took_s = 0.0;
+};
+
+/// OpenCV throws on pictures that it did not expect; one of them is not to end the process.
+template <class Work>
+std::invoke_result_t<Work> without_throwing(Work const& work) {
+  try {
+    return work();
+  } catch (cv::Exception const& error) {
+    return base::fail(base::ErrorKind::io, "OpenCV cannot work on a picture: " + error.err);
+  }
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Perceive>> Perceive::open(base::Loop& loop, bus::Bus& bus, PerceiveSettings settings,
+                                                       base::Logger log) {
+  std::error_code error;
+  std::filesystem::create_directories(settings.folder, error);
+  if (error)
+    return base::fail(base::ErrorKind::io,
+                      fmt::format("{} cannot be made: {}", settings.folder.string(), error.message()));
+  auto eye = LotEye::make(settings.network, settings.order.lot);
+  if (!eye) return std::unexpected(eye.error());
+  auto topics = Topics::open(loop, bus);
+  if (!topics) return std::unexpected(topics.error());
+  std::unique_ptr<Perceive> perceive(new Perceive(loop, std::move(settings), std::move(log)));
+  perceive->topics_ = *std::move(topics);
+  perceive->eye_.emplace(loop, std::make_unique<Eye>(*std::move(eye)));
+  perceive->mind_.emplace(loop, std::make_unique<Mind>());
+  perceive->sight_.good_at = loop.now();
+  auto& scope = perceive->scope_;
+  scope.spawn(perceive->see());
+  scope.spawn(perceive->think());
+  scope.spawn(perceive->speak());
+  scope.spawn(perceive->report_health());
+  scope.spawn(perceive->keep());
+  return perceive;
+}
+
+Perceive::Perceive(base::Loop& loop, PerceiveSettings settings, base::Logger log)
+    : loop_(loop), settings_(std::move(settings)), log_(std::move(log)), seen_(loop), scope_(loop) {}
+
+double Perceive::ground_up_m() const {
+  return topics_->heard().ground->home.z() + settings_.order.ground_m;
+}
+
+// ---- seeing
+
+base::Task<> Perceive::see() {
+  auto const period = base::from_seconds(1.0 / settings_.pictures_a_s);
+  for (auto next = loop_.now();; next = std::max(next + period, loop_.now())) {
+    co_await loop_.sleep_until(next);
+    // A simulated one is to know where on the globe it is.
+    if (!sight_.is_open && topics_->heard().ground) co_await open_camera();
+    if (sight_.is_open) co_await look_once();
+  }
+}
+
+base::Task<> Perceive::open_camera() {
+  auto settings = settings_.camera;
+  settings.anchor = topics_->heard().ground->anchor;
+  auto opening = eye_->run([settings = std::move(settings)](Eye& eye) -> base::Result<> {
+    eye.camera.reset();  // the one that is gone, first
+    auto camera = video::open_camera(settings);
+    if (!camera) return std::unexpected(camera.error());
+    eye.camera = *std::move(camera);
+    return {};
+  });
+  auto const opened = co_await opening;
+  sight_.is_open = opened.has_value();
+  if (opened) {
+    log_.info("the camera is open");
+    co_return;
+  }
+  note_failure(opened.error());
+  co_await loop_.sleep(open_again_after);
+}
+
+void Perceive::note_failure(base::Error const& error) {
+  if (sight_.fault != error.message) log_.warn(error.message);
+  sight_.fault = error.message;
+  ++sight_.failed;
+}
+
+base::Task<> Perceive::look_once() {
+  auto const& heard = topics_->heard();
+  auto const* const pose = heard.track.newest();
+  bool const is_placed = pose != nullptr && loop_.now() - *heard.pose_at < pose_lasts && heard.ground;
+  if (!is_placed) co_return;
+  video::Moment const moment{.site_from_camera = video::camera_on(pose->place, settings_.camera.mount), .at = pose->at};
+  auto taking = eye_->run([moment](Eye& eye) { return without_throwing([&] { return eye.camera->take(moment); }); });
+  auto const frame = co_await taking;
+  if (!frame) {
+    note_failure(frame.error());
+    if (frame.error().kind != base::ErrorKind::lost) co_return;
+    sight_.is_open = false;
+    co_await loop_.sleep(open_again_after);
+    co_return;
+  }
+  ++sight_.pictures;
+  auto placing = place_of(*frame);
+  auto const place = co_await placing;
+  if (!place) {
+    ++thought_.unplaced;
+    sight_.fault = "nobody knows where the drone was when a picture was taken: do the clocks agree?";
+    co_return;
+  }
+  sight_.fault.clear();
+  geo::GroundView const view{.lens = frame->lens, .site_from_camera = *place, .ground_up_m = ground_up_m()};
+  if (view.height_m() < standing_m) {
+    sight_.good_at = loop_.now();
+    sight_.picture_fault.clear();
+    co_return;
+  }
+  auto looking = eye_->run([view, picture = frame->picture, at = frame->taken](Eye& eye) {
+    auto const began = std::chrono::steady_clock::now();
+    Look look{.fault = picture_fault(picture)};
+    if (!look.fault) {
+      auto sight = without_throwing(
+          [&] { return base::Result<std::optional<explore::LotSight>>(eye.looks.look(picture, view, at)); });
+      if (sight)
+        look.sight = *std::move(sight);
+      else
+        look.fault = sight.error().message;
+    }
+    look.took_s = base::to_seconds(std::chrono::steady_clock::now() - began);
+    return look;
+  });
+  auto look = co_await looking;
+  sight_.took_s = look.took_s;
+  sight_.picture_fault = look.fault.value_or("");
+  if (look.fault) {
+    ++sight_.blind;
+    co_return;
+  }
+  sight_.good_at = loop_.now();
+  if (!look.sight) co_return;
+  if (newest_) ++thought_.passed_over;
+  look.sight->vehicle = settings_.vehicle;
+  newest_ = std::move(look.sight);
+  seen_.notify_all();
+}
+
+base::Task<std::optional<geo::CameraPlace>> Perceive::place_of(video::Frame const& frame) {
+  if (frame.site_from_camera) co_return frame.site_from_camera;
+  auto const deadline = loop_.now() + pose_patience;
+  constexpr base::Duration look_again = 20ms;
+  for (;;) {
+    auto const& track = topics_->heard().track;
+    if (auto const place = track.at(frame.taken)) co_return video::camera_on(*place, settings_.camera.mount);
+    bool const may_come = track.newest() == nullptr || track.newest()->at < frame.taken;
+    if (!may_come || loop_.now() >= deadline) co_return std::nullopt;
+    co_await loop_.sleep(look_again);
+  }
+}
+
+// ---- thinking
+
+base::Task<> Perceive::think() {
+  auto map_at = loop_.now();
+  for (;;) {
+    if (!newest_) co_await seen_.wait_until(loop_.now() + think_period);
+    auto adapting = adapt_surveyor();
+    if (!co_await adapting) {
+      co_await loop_.sleep(think_period);
+      continue;
+    }
+    auto const& heard = topics_->heard();
+    News news{.now = base::wall_now(), .sight = std::exchange(newest_, std::nullopt), .explores = heard.explores};
+    bool const has_pose = heard.track.newest() != nullptr && loop_.now() - *heard.pose_at < pose_lasts;
+    if (has_pose) news.drone = heard.track.newest()->place;
+    news.speed_m_s = heard.track.speed_m_s();
+    news.wanted = topics_->take_wanted();
+    news.wants_map = loop_.now() >= map_at;
+    if (news.wants_map) map_at = loop_.now() + map_period;
+    if (news.explores && !thought_.explores) topics_->ask_for_speed(settings_.order.planner.flight.speed_m_s);
+    thought_.explores = news.explores;
+    auto const at = news.now;
+    auto const began = loop_.now();
+    auto thinking = mind_->run([news = std::move(news)](Mind& mind) { return mind.surveyor->think(news); });
+    auto const conclusion = co_await thinking;
+    thought_.took_s = base::to_seconds(loop_.now() - began);
+    carry_out(conclusion, at);
+  }
+}
+
+/// Made once it is known where the drone is on the globe, and adapted to heights and home when they change.
+base::Task<bool> Perceive::adapt_surveyor() {
+  auto const& heard = topics_->heard();
+  thought_.has_home = heard.ground.has_value();
+  if (!heard.ground) co_return false;
+  auto adapting = mind_->run(
+      [order = settings_.order, ground = *heard.ground, heights = heard.heights](Mind& mind) -> base::Result<bool> {
+        if (mind.surveyor) {
+          auto const adapted = mind.surveyor->adapt(ground.home, heights);
+          if (!adapted) return std::unexpected(adapted.error());
+          return false;
+        }
+        auto made = Surveyor::make(order, ground, heights);
+        if (!made) return std::unexpected(made.error());
+        mind.surveyor.emplace(*std::move(made));
+        return true;
+      });
+  auto const adapted = co_await adapting;
+  auto const fault = adapted ? std::string() : adapted.error().message;
+  if (!fault.empty() && fault != thought_.fault)
+    log_.error(fmt::format("no survey: {}{}{}", fault, adapted.error().hint.empty() ? "" : "; ", adapted.error().hint));
+  thought_.fault = fault;
+  if (adapted && *adapted) log_.info("the survey is ready: it begins with AutonomousExplore");
+  has_surveyor_ = has_surveyor_ || adapted;
+  co_return has_surveyor_;
+}
+
+void Perceive::carry_out(Conclusion const& conclusion, base::UtcTime at) {
+  goal_ = conclusion.goal;
+  sees_lot_ = conclusion.sees_lot;
+  thought_.has_goal = goal_.has_value();
+  if (conclusion.figures != thought_.figures) has_new_slots_ = true;
+  thought_.figures = conclusion.figures;
+  if (conclusion.is_in_lot) topics_->say_in_lot(*conclusion.is_in_lot);
+  if (conclusion.map) topics_->say_map(*conclusion.map, at);
+  if (!conclusion.report) return;
+  log_.info(*conclusion.report);
+  topics_->say_report(*conclusion.report);
+  scope_.spawn(write_slots());
+}
+
+// ---- speaking
+
+base::Task<> Perceive::speak() {
+  constexpr int sees_lot_every = 5;
+  for (int turn = 0;; ++turn) {
+    if (goal_ && topics_->heard().explores) topics_->say_goal(*goal_);
+    if (sees_lot_ && turn % sees_lot_every == 0) topics_->say_sees_lot(*sees_lot_);
+    co_await loop_.sleep(setpoint_period);
+  }
+}
+
+base::Task<> Perceive::report_health() {
+  constexpr base::Duration period = 1s;
+  auto pictures = sight_.pictures;
+  for (auto at = loop_.now();;) {
+    auto const& heard = topics_->heard();
+    thought_.pose_age.reset();
+    if (heard.pose_at) thought_.pose_age = loop_.now() - *heard.pose_at;
+    topics_->say_health(vision_health(sight_, loop_.now()), mapper_health(thought_), planner_health(thought_));
+    co_await loop_.sleep(period);
+    sight_.pictures_a_s = static_cast<double>(sight_.pictures - pictures) /
+                          base::to_seconds(loop_.now() - std::exchange(at, loop_.now()));
+    pictures = sight_.pictures;
+  }
+}
+
+// ---- what is kept
+
+base::Task<> Perceive::keep() {
+  for (;;) {
+    co_await loop_.sleep(keep_period);
+    if (!std::exchange(has_new_slots_, false)) continue;
+    auto writing = write_slots();
+    co_await writing;
+  }
+}
+
+base::Task<> Perceive::write_slots() {
+  auto writing = mind_->run([file = settings_.folder / slots_file](Mind& mind) -> base::Result<> {
+    if (!mind.surveyor) return {};
+    return base::replace_file(file, mind.surveyor->slots_text(base::wall_now()));
+  });
+  auto const written = co_await writing;
+  auto const fault = written ? std::string() : written.error().message;
+  if (!fault.empty() && fault != told_write_fault_) log_.error(fmt::format("the slots are not written: {}", fault));
+  told_write_fault_ = fault;
+}
+
+void Perceive::leave(std::function<void()> done) {
+  scope_.spawn(write_and_end(std::move(done)));
+}
+
+base::Task<> Perceive::write_and_end(std::function<void()> done) {
+  auto writing = write_slots();
+  co_await writing;
+  done();
+}
+
+}  // namespace lapwing::perceive

@@ -1,0 +1,194 @@
+#include "perceive/surveyor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/text/utc_text.hpp"
+#include "map/features/feature_json.hpp"
+
+namespace lapwing::perceive {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr double round_m = 12.0;  ///< of a fence that nobody has named
+constexpr base::Duration plan_period = 1s;
+/// Sights farther apart are two visits: what lay between them does not count as looking.
+constexpr base::Duration one_visit = 3s;
+constexpr double most_percent = 100.0;
+
+std::vector<map::SitePoint> places_to_fence(geo::Polygon<geo::SiteFrame> const& area, SurveyGround const& ground) {
+  auto places = area.rings.front();
+  places.emplace_back(ground.home.x(), ground.home.y());
+  return places;
+}
+
+}  // namespace
+
+base::Result<Surveyor> Surveyor::make(SurveyOrder order, SurveyGround const& ground, HoverHeights const& heights) {
+  auto site = geo::Site::make(order.name, ground.anchor);
+  if (!site) return std::unexpected(site.error());
+  auto lot = explore::LotMap::make(outline_of(order.area, *site), order.lot);
+  if (!lot) return std::unexpected(lot.error());
+  Surveyor surveyor(std::move(order), ground, heights, *std::move(site), *std::move(lot));
+  auto planner = surveyor.make_planner();
+  if (!planner) return std::unexpected(planner.error());
+  surveyor.planner_ = *std::move(planner);
+  return surveyor;
+}
+
+Surveyor::Surveyor(SurveyOrder order, SurveyGround const& ground, HoverHeights const& heights, geo::Site site,
+                   explore::LotMap lot)
+    : order_(std::move(order)), ground_(ground), site_(std::move(site)), lot_(std::move(lot)), heights_(heights) {}
+
+base::Result<> Surveyor::adapt(geo::Point3<geo::SiteFrame> const& home, HoverHeights const& heights) {
+  if (home == ground_.home && heights == heights_) return {};
+  auto const before = std::pair(std::exchange(ground_.home, home), std::exchange(heights_, heights));
+  auto planner = make_planner();
+  if (!planner) {
+    std::tie(ground_.home, heights_) = before;
+    return std::unexpected(planner.error());
+  }
+  planner_ = *std::move(planner);
+  goal_.reset();
+  return {};
+}
+
+/// The planner counts heights from the ground of the car park, the operator from home.
+base::Result<explore::SurveyPlanner> Surveyor::make_planner() const {
+  auto fence = order_.fence.empty() ? fence_round(places_to_fence(lot_.area(), ground_), round_m)
+                                    : outline_of(order_.fence, site_);
+  auto settings = order_.planner;
+  settings.ground_up_m = ground_.home.z() + order_.ground_m;
+  // Who decides refuses what is beyond them by a rounded digit.
+  constexpr double within_m = 0.02;
+  settings.lowest_m = heights_.lowest_m + within_m - order_.ground_m;
+  settings.desired_m = heights_.desired_m - order_.ground_m;
+  settings.highest_m = heights_.highest_m - within_m - order_.ground_m;
+  return explore::SurveyPlanner::make(std::move(fence), settings, order_.lot);
+}
+
+Conclusion Surveyor::think(News news) {
+  Conclusion conclusion;
+  if (news.sight) take(*news.sight);
+  conclusion.sees_lot = sees_lot();
+  if (news.wanted) conclusion.is_in_lot = planner_->is_in_bounds(lot_, *news.wanted, news.now);
+  lead(news, conclusion);
+  if (news.wants_map) conclusion.map = lot_.occupancy(news.now);
+  conclusion.figures = figures();
+  return conclusion;
+}
+
+void Surveyor::take(explore::LotSight const& sight) {
+  if (!lot_.add(sight)) return;
+  ++sights_;
+  if (!sight.slots.empty()) {
+    found_at_ = sight.at;
+    without_ = {};
+  } else if (looked_at_ && sight.at > *looked_at_ && sight.at - *looked_at_ < one_visit) {
+    without_ += sight.at - *looked_at_;
+  }
+  looked_at_ = sight.at;
+  auto news = lot_.take_news({.site = site_.id(), .writer = sight.vehicle});
+  for (auto& slot : news.slots) slots_.insert_or_assign(slot.id, std::move(slot));
+  for (auto const& id : news.gone) slots_.erase(id);
+}
+
+std::optional<bool> Surveyor::sees_lot() const {
+  if (without_ >= order_.lot_lost) return false;
+  if (found_at_) return true;
+  return std::nullopt;
+}
+
+double Surveyor::camera_yaw(video::BodyPlace const& drone) const {
+  return geo::wrap_pi(drone.yaw_rad() + order_.camera_yaw_rad);
+}
+
+bool Surveyor::is_there(video::BodyPlace const& drone, double speed_m_s) const {
+  constexpr double slow_m_s = 0.6;
+  constexpr double turned_rad = 0.1;
+  return goal_ && speed_m_s < slow_m_s && geo::distance_m(drone.origin(), goal_->place) <= order_.planner.arrived_m &&
+         std::abs(geo::wrap_pi(goal_->yaw_rad - camera_yaw(drone))) < turned_rad;
+}
+
+explore::SurveyStep Surveyor::next_step(video::BodyPlace const& drone, base::UtcTime now) const {
+  explore::SurveyBudget const budget{.home = {ground_.home.x(), ground_.home.y()},
+                                     .time_s = order_.most_s - base::to_seconds(now - *explores_since_)};
+  return planner_->next(lot_, {drone.origin(), camera_yaw(drone)}, budget, goal_, {}, now);
+}
+
+std::string Surveyor::end(std::string_view reason) {
+  goal_.reset();
+  ending_ = reason;
+  auto const told = figures();
+  return fmt::format("the survey is over: {}; {:.0f} % of the area seen, {} slots on the map, {} free, {} taken",
+                     reason, most_percent * told.coverage, told.slots, told.free, told.taken);
+}
+
+void Surveyor::lead(News const& news, Conclusion& conclusion) {
+  if (!news.explores) {
+    explores_since_.reset();
+    goal_.reset();
+    return;
+  }
+  if (!explores_since_) {
+    explores_since_ = news.now;
+    planned_at_ = {};
+    ending_.clear();
+  }
+  if (!ending_.empty() || !news.drone) return;
+  bool const is_at_goal = is_there(*news.drone, news.speed_m_s);
+  if (is_at_goal) goal_.reset();
+  if (!goal_ || news.now - planned_at_ >= plan_period) {
+    planned_at_ = news.now;
+    if (lot_.coverage() >= order_.enough_coverage) {
+      conclusion.report = end("as much is covered as was wanted");
+      return;
+    }
+    auto const step = next_step(*news.drone, news.now);
+    if (auto const* const over = std::get_if<explore::SurveyEnd>(&step)) {
+      conclusion.report = end(to_string(over->reason));
+      return;
+    }
+    auto const* const to = std::get_if<explore::SurveyGoal>(&step);
+    goal_ = to != nullptr ? std::optional(*to) : std::nullopt;
+  }
+  if (!goal_) return;
+  conclusion.goal = goal_;
+  conclusion.goal->yaw_rad = geo::wrap_pi(goal_->yaw_rad - order_.camera_yaw_rad);
+}
+
+SurveyFigures Surveyor::figures() const {
+  SurveyFigures told{.coverage = lot_.coverage(), .slots = slots_.size(), .sights = sights_};
+  for (auto const& [id, feature] : slots_) {
+    auto const state = std::get<map::Slot>(feature.content).state;
+    if (state == map::SlotState::taken) ++told.taken;
+    if (state == map::SlotState::free) ++told.free;
+  }
+  return told;
+}
+
+std::string Surveyor::slots_text(base::UtcTime now) {
+  using map::Json;
+  auto features = Json::array();
+  for (auto const& [id, feature] : slots_) {
+    auto json = map::feature_json(feature, site_);
+    constexpr double decimals = 10.0;
+    if (auto const& seen_at = std::get<map::Slot>(feature.content).seen_at)
+      json["properties"]["age_s"] = std::round(decimals * base::to_seconds(now - *seen_at)) / decimals;
+    features.push_back(std::move(json));
+  }
+  auto const told = figures();
+  Json const survey = {{"at", base::utc_text(now)},   {"coverage", told.coverage},
+                       {"is_over", !ending_.empty()}, {"ending", ending_.empty() ? Json() : Json(ending_)},
+                       {"slots", told.slots},         {"free", told.free},
+                       {"taken", told.taken},         {"pictures", told.sights}};
+  return Json{{"type", "FeatureCollection"}, {"survey", survey}, {"features", std::move(features)}}.dump(1) + "\n";
+}
+
+}  // namespace lapwing::perceive

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "explore/lot/lot_map.hpp"
+#include "explore/lot/survey_planner.hpp"
+#include "geo/site.hpp"
+#include "map/features/feature.hpp"
+#include "perceive/survey_order.hpp"
+#include "video/camera/camera.hpp"
+
+namespace lapwing::perceive {
+
+/// What is new to the surveyor.
+struct News {
+  base::UtcTime now;
+  std::optional<explore::LotSight> sight = {};
+  std::optional<video::BodyPlace> drone = {};  ///< nothing: it is not known where it is
+  double speed_m_s = 0.0;
+  bool explores = false;                      ///< it flies where the planner says
+  std::optional<map::SitePoint> wanted = {};  ///< is that place in the lot?
+  bool wants_map = false;
+};
+
+struct SurveyFigures {
+  double coverage = 0.0;
+  std::size_t slots = 0;  ///< on the map
+  std::size_t taken = 0;
+  std::size_t free = 0;
+  std::size_t sights = 0;  ///< that showed some of the area
+  friend bool operator==(SurveyFigures const&, SurveyFigures const&) = default;
+};
+
+/// What follows from it.
+struct Conclusion {
+  std::optional<explore::SurveyGoal> goal = {};  ///< for the drone, whose yaw it has
+  std::optional<std::string> report = {};        ///< once, when the survey is over: for the operator
+  std::optional<bool> is_in_lot = {};            ///< the wanted place
+  std::optional<bool> sees_lot = {};             ///< nothing as long as that cannot be told
+  std::optional<explore::LotOccupancy> map = {};
+  SurveyFigures figures = {};
+};
+
+/// Mapper and path planner of one survey: sights of the ground become a map, and the map tells where to fly next. It
+/// goes on mapping whatever the drone does; it leads only while the drone explores. Each time that it begins to, it
+/// flies to whatever is not known well by then.
+class Surveyor {
+ public:
+  /// Errors: those of LotMap and SurveyPlanner; invalid_input for an anchor that is no place.
+  [[nodiscard]] static base::Result<Surveyor> make(SurveyOrder order, SurveyGround const& ground,
+                                                   HoverHeights const& heights);
+
+  /// When home or heights are others from now on. Errors: those of SurveyPlanner; it goes on as before.
+  base::Result<> adapt(geo::Point3<geo::SiteFrame> const& home, HoverHeights const& heights);
+  [[nodiscard]] Conclusion think(News news);
+  /// The slots as GeoJSON, with the survey's figures.
+  [[nodiscard]] std::string slots_text(base::UtcTime now);
+
+ private:
+  Surveyor(SurveyOrder order, SurveyGround const& ground, HoverHeights const& heights, geo::Site site,
+           explore::LotMap lot);
+  [[nodiscard]] base::Result<explore::SurveyPlanner> make_planner() const;
+  void take(explore::LotSight const& sight);
+  [[nodiscard]] std::optional<bool> sees_lot() const;
+  void lead(News const& news, Conclusion& conclusion);
+  [[nodiscard]] explore::SurveyStep next_step(video::BodyPlace const& drone, base::UtcTime now) const;
+  [[nodiscard]] bool is_there(video::BodyPlace const& drone, double speed_m_s) const;
+  [[nodiscard]] std::string end(std::string_view reason);
+  [[nodiscard]] SurveyFigures figures() const;
+  [[nodiscard]] double camera_yaw(video::BodyPlace const& drone) const;
+
+  SurveyOrder order_;
+  SurveyGround ground_;
+  geo::Site site_;
+  explore::LotMap lot_;
+  HoverHeights heights_;
+  std::optional<explore::SurveyPlanner> planner_ = {};  ///< there once it is made
+  std::map<std::string, map::Feature> slots_;           ///< by their ids
+  std::size_t sights_ = 0;
+  std::optional<base::UtcTime> found_at_ = {};   ///< of the last slot
+  std::optional<base::UtcTime> looked_at_ = {};  ///< of the last sight of the area
+  base::Duration without_{};                     ///< a slot, over the area
+  std::optional<base::UtcTime> explores_since_ = {};
+  std::optional<explore::SurveyGoal> goal_ = {};
+  base::UtcTime planned_at_{};
+  std::string ending_ = {};  ///< why the survey is over; empty: it is not
+};
+
+}  // namespace lapwing::perceive
