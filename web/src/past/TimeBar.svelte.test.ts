@@ -16,7 +16,7 @@ const sessions = [
 
 async function open(answer: unknown = { sessions, frames: [], complete_to_ms: 0 }, hasPresent = true) {
   const archive = new Archive(() => Promise.resolve(Response.json(answer)));
-  const player = new Player(archive, 'yard');
+  const player = new Player(archive, { name: 'yard' });
   const comparison = new Comparison(archive, player, () => {});
   let isLive = false;
   render(TimeBar, { player, comparison, onlive: hasPresent ? () => (isLive = true) : undefined });

@@ -61,7 +61,7 @@ async function comparing(given: object = answer) {
       }),
     );
   });
-  const player = new Player(archive, 'yard');
+  const player = new Player(archive, { name: 'yard' });
   const comparison = new Comparison(archive, player, (found) => changes.show(found));
   await player.open(150_000);
   comparison.begin();

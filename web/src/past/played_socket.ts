@@ -1,5 +1,5 @@
 import type { Socket } from '../connection/connection';
-import { PROTOCOL } from '../lib/protocol';
+import { PROTOCOL, type Hello } from '../lib/protocol';
 
 /** What stands where the station's socket would: it says again what the station has said, and asks nobody anything. */
 export class PlayedSocket implements Socket {
@@ -9,12 +9,12 @@ export class PlayedSocket implements Socket {
   private runs = 0;
 
   /** As a station that has just begun: whoever listens forgets what it had. */
-  restart(site: string, frames: readonly string[]): void {
+  restart(site: Hello['site'], frames: readonly string[]): void {
     this.onopen?.();
     this.runs += 1;
     // Without the name of an operator nothing can be commanded: it would be too late.
     this.say(
-      JSON.stringify({ type: 'hello', protocol: PROTOCOL, version: '', server_time: '', site: { name: site }, run: `past ${this.runs}` }),
+      JSON.stringify({ type: 'hello', protocol: PROTOCOL, version: '', server_time: '', site, run: `past ${this.runs}` }),
     );
     this.play(frames);
   }

@@ -41,13 +41,14 @@ function frame(at_ms: number, full: boolean) {
   };
 }
 
+const YARD = { name: 'yard', origin: { lat_deg: 47.4, lon_deg: 8.5, alt_m: 420 } };
 const quiet = { beep: () => {}, speak: () => {}, wake: () => {}, isMuted: true };
 let end = (): void => {};
 afterEach(() => end());
 
 function playing() {
   const station = new KeptStation();
-  const player = new Player(new Archive(station.ask), 'yard');
+  const player = new Player(new Archive(station.ask), YARD);
   const stores = createStores(
     { open: () => player.socket, fetch: () => Promise.reject(new Error('asked')), token: undefined, keepToken: () => {} },
     quiet,
@@ -179,10 +180,16 @@ describe('looking back', () => {
     expect(player.failure).toBe('');
     const without = new Player(
       new Archive(() => Promise.resolve(Response.json({ detail: 'No history.', hint: 'Use --store.' }, { status: 404 }))),
-      '',
+      { name: '' },
     );
     await without.open();
     expect(without.failure).toBe('No history. Use --store.');
+  });
+
+  it('has the site of the station, where a map without vehicles begins', async () => {
+    const { player, stores } = playing();
+    await player.open();
+    expect(stores.session.site).toEqual(YARD);
   });
 
   it('commands nobody', async () => {

@@ -1,4 +1,5 @@
 import { NoPast, type Archive, type KeptFrame, type KeptSession } from './archive';
+import type { Hello } from '../lib/protocol';
 import { PlayedSocket } from './played_socket';
 
 export const SPEEDS = [0.5, 1, 2, 5, 10, 60] as const;
@@ -32,7 +33,7 @@ export class Player {
 
   constructor(
     private readonly archive: Archive,
-    private readonly site: string,
+    private readonly site: Hello['site'],
   ) {}
 
   get began_ms(): number {
