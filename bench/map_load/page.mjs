@@ -17,16 +17,26 @@ export const launch = () =>
     args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
 
-/** In the page: counts frames and those in which the map was drawn, and looks at one pixel of each of these, or at all. */
+/**
+ * In the page: counts frames and those in which the map was drawn, and looks at one pixel of each of these, or at all; and when one had
+ * slots and points in it: so many corners an empty map has not.
+ */
 function watch() {
   window.frames_ = [];
   window.drawn_ = 0;
-  let isDrawn = false;
+  let [isDrawn, corners] = [false, 0];
   const { drawElements } = WebGL2RenderingContext.prototype;
   WebGL2RenderingContext.prototype.drawElements = function (...what) {
     // When the map is done with its frame, and before the browser takes the picture away.
-    if (!isDrawn) queueMicrotask(() => ((isDrawn = false), (window.drawn_ += 1), window.look_?.(this)));
+    if (!isDrawn)
+      queueMicrotask(() => {
+        if (corners > 8_000) window.full_ ??= performance.now();
+        [isDrawn, corners] = [false, 0];
+        window.drawn_ += 1;
+        window.look_?.(this);
+      });
     isDrawn = true;
+    corners += what[1];
     return drawElements.apply(this, what);
   };
   const note = (now) => (window.frames_.push(now), requestAnimationFrame(note));
