@@ -18,7 +18,7 @@ namespace {
 /// Cars that are less sure say nothing of a slot.
 constexpr double least_car = 0.15;
 /// What lies nearer to the edge of the picture may be cut off.
-constexpr double clear_m = 0.5;
+constexpr double clear_m = 0.25;
 
 explore::Corners on_ground(GroundPicture const& ground, auto const& corners) {
   explore::Corners outline;
@@ -36,18 +36,6 @@ bool is_seen(explore::Corners const& outline, geo::GroundView const& view) {
     return pixel && pixel->x >= clear_px && pixel->y >= clear_px && pixel->x <= view.lens.width_px - clear_px &&
            pixel->y <= view.lens.height_px - clear_px;
   });
-}
-
-/// Two slots head to head, or one behind the other.
-bool is_behind(explore::Corners const& a, explore::Corners const& b) {
-  constexpr double most_apart = 0.3;  // of a slot's length
-  double const length_m = explore::sides_of(a).length_m;
-  double const axis_rad = explore::axis_of(a);
-  Eigen::Vector2d const way = explore::middle_of(b).v - explore::middle_of(a).v;
-  Eigen::Vector2d const axis(std::cos(axis_rad), std::sin(axis_rad));
-  double const along_m = std::abs(axis.dot(way));
-  double const aside_m = (way - axis.dot(way) * axis).norm();
-  return std::abs(along_m - length_m) < most_apart * length_m && aside_m < most_apart * length_m;
 }
 
 /// The slot with its neighbours and some ground before and behind it: by them it was told how deep it is.
@@ -75,20 +63,10 @@ bool is_aslant(explore::Corners const& slot, geo::GroundView const& view) {
   return std::min(off, quarter - off) > most_rad;
 }
 
-/// Where a row is cut off by the edge of the picture its lines seem to end there: the slots at the edge are too short,
-/// and those behind them, which share their lines, begin too early. One that is cut off aslant ends farther in with
-/// each slot.
-std::vector<explore::SlotSight> whole_ones(std::vector<explore::SlotSight> const& slots, geo::GroundView const& view) {
-  std::vector<explore::SlotSight> whole;
-  std::vector<explore::SlotSight> cut;
-  for (auto const& slot : slots) {
-    auto const decides = is_aslant(slot.outline, view) ? with_neighbours(slot.outline) : slot.outline;
-    (is_seen(decides, view) ? whole : cut).push_back(slot);
-  }
-  std::erase_if(whole, [&cut](auto const& slot) {
-    return std::ranges::any_of(cut, [&](auto const& other) { return is_behind(slot.outline, other.outline); });
-  });
-  return whole;
+/// A row that the edge of the picture cuts off aslant seems to end farther in with each of its slots, so that none of
+/// them is as deep as it is told to be: of those only what is far from the edge counts.
+bool is_whole(explore::Corners const& slot, geo::GroundView const& view) {
+  return is_seen(is_aslant(slot, view) ? with_neighbours(slot) : slot, view);
 }
 
 }  // namespace
@@ -116,11 +94,12 @@ std::optional<explore::LotSight> LotEye::look(cv::Mat const& picture, geo::Groun
   explore::LotSight sight{.vehicle = {}, .at = at, .view = view};
   auto const seen = vehicles(ground->pixels, ground->metres_a_pixel);
   for (auto const& slot : vision::slots_seen(ground->pixels, seen.cars, ground->metres_a_pixel)) {
-    sight.slots.push_back({.outline = on_ground(*ground, slot.corners),
+    auto const outline = on_ground(*ground, slot.corners);
+    if (!is_whole(outline, view)) continue;
+    sight.slots.push_back({.outline = outline,
                            .surety = slot.surety,
                            .taken_chance = vision::occupied_chance(slot.corners, seen, ground->pixels.size())});
   }
-  sight.slots = whole_ones(sight.slots, view);
   for (auto const& car : seen.cars) {
     auto const outline = on_ground(*ground, vision::corners_of(car.box));
     if (is_seen(outline, view)) sight.cars.push_back({.outline = outline, .chance = car.score});
