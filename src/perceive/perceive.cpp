@@ -297,6 +297,8 @@ base::Task<> Perceive::keep() {
 }
 
 base::Task<> Perceive::write_slots() {
+  auto telling = mind_->run([](Mind& mind) { return mind.surveyor ? mind.surveyor->slots_line() : std::string(); });
+  if (auto const line = co_await telling; !line.empty()) topics_->say_slots(line);
   auto writing = mind_->run([file = settings_.folder / slots_file](Mind& mind) -> base::Result<> {
     if (!mind.surveyor) return {};
     return base::replace_file(file, mind.surveyor->slots_text(base::wall_now()));

@@ -173,6 +173,12 @@ SurveyFigures Surveyor::figures() const {
   return told;
 }
 
+std::string Surveyor::slots_line() const {
+  auto features = map::Json::array();
+  for (auto const& [id, feature] : slots_) features.push_back(map::feature_json(feature, site_));
+  return map::Json{{"type", "FeatureCollection"}, {"features", std::move(features)}}.dump();
+}
+
 std::string Surveyor::slots_text(base::UtcTime now) {
   using map::Json;
   auto features = Json::array();

@@ -55,7 +55,9 @@ class Surveyor {
   /// When home or heights are others from now on. Errors: those of SurveyPlanner; it goes on as before.
   base::Result<> adapt(geo::Point3<geo::SiteFrame> const& home, HoverHeights const& heights);
   [[nodiscard]] Conclusion think(News news);
-  /// The slots as GeoJSON, with the survey's figures.
+  /// The slots as GeoJSON, on one line.
+  [[nodiscard]] std::string slots_line() const;
+  /// The same for people, with their ages and the survey's figures.
   [[nodiscard]] std::string slots_text(base::UtcTime now);
 
  private:

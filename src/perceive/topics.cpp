@@ -44,6 +44,7 @@ base::Result<> Topics::open_ends(bus::Bus& bus) {
   ends.say(map_, survey::occupancy_map, Profile::standard);
   ends.say(sees_lot_, survey::lot_detected, Profile::standard);
   ends.say(in_lot_, survey::place_in_lot, Profile::standard);
+  ends.say(slots_, survey::parking_slots, Profile::latched);
   ends.say(report_, survey::survey_report, Profile::standard);
   ends.say(vision_, survey::vision_health, Profile::standard);
   ends.say(mapper_, survey::mapper_health, Profile::standard);

@@ -44,6 +44,8 @@ class Topics {
   void say_map(explore::LotOccupancy const& map, base::UtcTime at);
   void say_sees_lot(bool sees) { sees_lot_->publish({sees}); }
   void say_in_lot(bool is_in_lot) { in_lot_->publish({is_in_lot}); }
+  /// GeoJSON.
+  void say_slots(std::string const& collection) { slots_->publish({collection}); }
   void say_report(std::string const& words) { report_->publish({words}); }
   void say_health(bus::DiagnosticStatus const& vision, bus::DiagnosticStatus const& mapper,
                   bus::DiagnosticStatus const& planner);
@@ -63,6 +65,7 @@ class Topics {
   std::optional<bus::Publisher<bus::OccupancyGrid>> map_;
   std::optional<bus::Publisher<bus::Bool>> sees_lot_;
   std::optional<bus::Publisher<bus::Bool>> in_lot_;
+  std::optional<bus::Publisher<bus::String>> slots_;
   std::optional<bus::Publisher<bus::String>> report_;
   std::optional<bus::Publisher<bus::DiagnosticStatus>> vision_;
   std::optional<bus::Publisher<bus::DiagnosticStatus>> mapper_;

@@ -24,6 +24,7 @@ class Operator:
         self.port, self.plain, self.name = port, plain, name
         self.heartbeats: list[dict] = []
         self.errors: list[str] = []
+        self.slots: list[dict] = []  # GeoJSON features, as they were told last
         self._changed = threading.Condition()
         self._station = Station(port, name=name, token=token)
         self._ends = False
@@ -82,6 +83,8 @@ class Operator:
         with self._changed:
             if message["Type"] == "Heartbeat":
                 self.heartbeats.append(message)
+            elif message["Type"] == "Slots":
+                self.slots = message["Features"]["features"]
             else:
                 self.errors.append(message["Message"])
             self._changed.notify_all()

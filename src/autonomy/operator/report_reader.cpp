@@ -93,18 +93,10 @@ base::Result<Report> heartbeat(Json const& object) {
   return heartbeat;
 }
 
-base::Result<Report> slot_news(Json const& object) {
+base::Result<Report> slots(Json const& object) {
   auto const features = object.find("Features");
   if (features == object.end() || !features->is_object()) return wrong("slots without Features");
-  report::SlotNews news{.features = base::to_text(*features)};
-  auto const removed = object.find("Removed");
-  if (removed == object.end()) return news;
-  if (!removed->is_array() || removed->size() > most_removed_slots) return wrong("Removed of slots is no list of ids");
-  for (auto const& id : *removed) {
-    if (!id.is_string()) return wrong("Removed of slots is no list of ids");
-    news.removed.push_back(id.get<std::string>());
-  }
-  return news;
+  return report::Slots{.features = base::to_text(*features)};
 }
 
 }  // namespace
@@ -117,7 +109,7 @@ base::Result<Report> parse_report(std::string_view text) {
   auto const& name = type->get_ref<std::string const&>();
   if (name == "Heartbeat") return heartbeat(object);
   if (name == "ErrorLog") return report::ErrorLog{words(object, "Message")};
-  if (name == "Slots") return slot_news(object);
+  if (name == "Slots") return slots(object);
   return wrong(fmt::format("a drone's message of the unknown type '{}'", base::printable(name.substr(0, 40))));
 }
 

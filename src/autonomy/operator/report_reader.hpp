@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 #include <variant>
-#include <vector>
 
 #include "autonomy/operator/report_text.hpp"
 #include "base/error.hpp"
@@ -34,19 +33,17 @@ struct ErrorLog {
   std::string message;
 };
 
-/// What has changed of the places to park: features of the layer `slots`, as GeoJSON.
-struct SlotNews {
-  std::string features;  ///< a FeatureCollection of those that are new or other than before
-  std::vector<std::string> removed = {};
+/// All places to park that the drone knows: features of the layer `slots`.
+struct Slots {
+  std::string features;  ///< a GeoJSON FeatureCollection
 };
 
 }  // namespace report
 
-using Report = std::variant<report::Heartbeat, report::ErrorLog, report::SlotNews>;
+using Report = std::variant<report::Heartbeat, report::ErrorLog, report::Slots>;
 
-/// Longer texts of one member are cut; more ids at once are refused.
+/// Longer texts of one member are cut.
 inline constexpr std::size_t longest_report_text = 1'000;
-inline constexpr std::size_t most_removed_slots = 10'000;
 
 /// Of one JSON object, of which `Type` decides. Numbers that are out of their range are as if they were not there.
 /// Errors (invalid_input): no JSON, no object, an unknown type, a map whose cells are not as many as it says or not

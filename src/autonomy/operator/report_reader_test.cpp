@@ -57,19 +57,16 @@ TEST(ReportReader, ReadsErrorLogs) {
   EXPECT_EQ(std::get<report::ErrorLog>(read.value()).message, "it is \"late\"?");
 }
 
-TEST(ReportReader, ReadsNewsOfSlots) {
-  auto const read = parse_report(
-      R"({"Type":"Slots","Features":{"type":"FeatureCollection","features":[]},"Removed":["slot 3","slot 4"]})");
-  auto const& news = std::get<report::SlotNews>(read.value());
-  EXPECT_EQ(news.features, R"({"features":[],"type":"FeatureCollection"})");
-  EXPECT_EQ(news.removed, (std::vector<std::string>{"slot 3", "slot 4"}));
+TEST(ReportReader, ReadsSlots) {
+  auto const read = parse_report(slots_message(R"({"type":"FeatureCollection","features":[]})").value());
+  EXPECT_EQ(std::get<report::Slots>(read.value()).features, R"({"features":[],"type":"FeatureCollection"})");
 }
 
 TEST(ReportReader, RefusesWhatIsNoReport) {
   for (
       auto const* const text :
       {"", "7", "[]", "{", R"({"Type":7})", R"({"Type":"Arm"})", R"({"Type":"Slots"})",
-       R"({"Type":"Slots","Features":{},"Removed":[7]})", R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1}})",
+       R"({"Type":"Slots","Features":[]})", R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1}})",
        R"({"Type":"Heartbeat","Occupancy Map":{"Columns":2,"Rows":2,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[1,2,3]}})",
        R"({"Type":"Heartbeat","Occupancy Map":{"Columns":1,"Rows":1,"Resolution":1,"Origin X":0,"Origin Y":0,"Cells":[101]}})"})
     EXPECT_FALSE(parse_report(text)) << text;

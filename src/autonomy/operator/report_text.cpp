@@ -65,6 +65,15 @@ base::Result<std::string> heartbeat_text(Said const& said, Told const& told, std
   return base::to_text(heartbeat);
 }
 
+base::Result<std::string> slots_message(std::string_view collection) {
+  if (collection.size() > longest_slots)
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("{} bytes of slots are too many for one message", collection.size()));
+  if (!nlohmann::json::parse(collection, nullptr, false).is_object())
+    return base::fail(base::ErrorKind::invalid_input, "slots that are no JSON object");
+  return fmt::format(R"({{"Type":"Slots","Features":{}}})", collection);
+}
+
 std::string error_log_text(std::string_view message) {
   auto const words = base::printable(std::string(shortened(message, longest_error_log)));
   return base::to_text(Json{{"Type", "ErrorLog"}, {"Message", words}});

@@ -32,6 +32,12 @@ inline constexpr std::size_t longest_error_log = 1'000;
 [[nodiscard]] base::Result<std::string> heartbeat_text(Said const& said, Told const& told,
                                                        std::optional<OccupancyMap> const& map = std::nullopt);
 
+/// The places to park that the drone knows, all of them: `collection` is GeoJSON. Errors (invalid_input): no JSON
+/// object, or more than `longest_slots` bytes.
+[[nodiscard]] base::Result<std::string> slots_message(std::string_view collection);
+/// With what is around them they fit into one message of the operator link, 1 MiB: some 2,000.
+inline constexpr std::size_t longest_slots = 1'040'000;
+
 /// What the operator is told in words; at most `longest_error_log` bytes of them, control characters as question marks.
 [[nodiscard]] std::string error_log_text(std::string_view message);
 /// Of an error, with its hint.

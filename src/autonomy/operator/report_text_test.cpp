@@ -68,5 +68,12 @@ TEST(ErrorLog, IsCutBetweenCharacters) {
   EXPECT_EQ(error_log_text(text + "\xC3\xA9"), R"({"Type":"ErrorLog","Message":")" + text + R"("})");
 }
 
+TEST(SlotsMessage, TakesNothingButAnObjectThatFits) {
+  EXPECT_EQ(slots_message("{}").value(), R"({"Type":"Slots","Features":{}})");
+  EXPECT_FALSE(slots_message(R"({},"Type":"Arm")"));
+  EXPECT_FALSE(slots_message("[]"));
+  EXPECT_FALSE(slots_message(std::string(longest_slots + 1, ' ')));
+}
+
 }  // namespace
 }  // namespace lapwing::autonomy

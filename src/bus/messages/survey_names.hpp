@@ -10,6 +10,8 @@ inline constexpr std::string_view place_in_lot = "/des_loc_inbound";
 inline constexpr std::string_view occupancy_map = "/occupancy_map";
 /// What the planner has to say to the operator.
 inline constexpr std::string_view survey_report = "/survey_report";
+/// The places to park that are known, all of them: a GeoJSON FeatureCollection in a text.
+inline constexpr std::string_view parking_slots = "/parking_slots";
 inline constexpr std::string_view planner_setpoint = "/path_plan_setpoint";
 inline constexpr std::string_view vision_health = "/vision_health";
 inline constexpr std::string_view mapper_health = "/mapper_health";

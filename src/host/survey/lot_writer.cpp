@@ -66,42 +66,51 @@ base::Result<> LotWriter::put_grid(autonomy::OccupancyMap const& told, base::Utc
   return {};
 }
 
-base::Result<> LotWriter::take(autonomy::report::SlotNews const& news, base::UtcTime at) {
+base::Result<> LotWriter::take(autonomy::report::Slots const& told, base::UtcTime at) {
   auto const* const site = map_.site(site_id);
   if (!site) return base::fail(base::ErrorKind::not_found, "nothing says yet where on the globe the drone is");
-  auto read =
-      ::lapwing::map::read_features(news.features, ::lapwing::map::LayerKind::slots,
-                                    [site](std::string_view id) { return id == site_id ? site : nullptr; },
-                                    {.id = {}, .site = site_id, .floor = {}, .account = {.writer = drone_, .at = at}});
+  // Whatever the drone calls its site: where it lies on the globe counts.
+  auto read = ::lapwing::map::read_features(
+      told.features, ::lapwing::map::LayerKind::slots, [site](std::string_view) { return site; },
+      {.id = {}, .site = site_id, .floor = {}, .account = {.writer = drone_, .at = at}});
   if (!read) return std::unexpected(read.error());
-  // What is in the message is its word, whoever else it names.
+  std::set<std::string> known;
   for (auto& feature : *read) {
     feature.id = id_of(feature.id);
+    feature.site = site_id;
     feature.account.writer = drone_;
-    if (auto* const slot = std::get_if<::lapwing::map::Slot>(&feature.content)) slot->seen_by = drone_;
+    std::get<::lapwing::map::Slot>(feature.content).seen_by = drone_;
+    known.insert(feature.id);
   }
   if (auto put = map_.put_all(*std::move(read)); !put) return std::unexpected(put.error());
-  for (auto const& id : news.removed) {
-    auto const gone = map_.remove(::lapwing::map::LayerKind::slots, id_of(id), {.writer = drone_, .at = at});
-    if (!gone && gone.error().kind != base::ErrorKind::not_found) return std::unexpected(gone.error());
+  for (auto const& id : slot_ids()) {
+    if (known.contains(id)) continue;
+    auto const gone = map_.remove(::lapwing::map::LayerKind::slots, id, {.writer = drone_, .at = at});
+    if (!gone) return std::unexpected(gone.error());
   }
   return {};
 }
 
-std::optional<vehicle::SlotCounts> LotWriter::slots() const {
+std::vector<std::string> LotWriter::slot_ids() const {
   constexpr auto most = std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> ids;
+  for (auto const* const record : map_.within(::lapwing::map::LayerKind::slots, site_id, std::nullopt, most))
+    if (record->feature.account.writer == drone_) ids.push_back(record->feature.id);
+  return ids;
+}
+
+std::optional<vehicle::SlotCounts> LotWriter::slots() const {
   vehicle::SlotCounts counts;
-  auto const all = map_.within(::lapwing::map::LayerKind::slots, site_id, std::nullopt, most);
-  for (auto const* const record : all) {
-    if (record->feature.account.writer != drone_) continue;
+  auto const ids = slot_ids();
+  for (auto const& id : ids) {
+    auto const* const record = map_.find(::lapwing::map::LayerKind::slots, id);
     auto const& slot = std::get<::lapwing::map::Slot>(record->feature.content);
     auto& count = slot.state == ::lapwing::map::SlotState::free    ? counts.free
                   : slot.state == ::lapwing::map::SlotState::taken ? counts.taken
                                                                    : counts.unknown;
     ++count;
   }
-  if (counts.free + counts.taken + counts.unknown == 0) return std::nullopt;
-  return counts;
+  return ids.empty() ? std::nullopt : std::optional(counts);
 }
 
 }  // namespace lapwing::host

@@ -21,8 +21,9 @@ class LotWriter {
   /// Where its local frame lies is told by the first heartbeat that has both places, and again by one that is more than
   /// `moved_m` off: it was armed elsewhere. Error: what is wrong with the map.
   [[nodiscard]] base::Result<> take(autonomy::report::Heartbeat const& heartbeat, base::UtcTime at);
-  /// Errors: those of `read_features` and `LiveMap`; what could be written then is.
-  [[nodiscard]] base::Result<> take(autonomy::report::SlotNews const& news, base::UtcTime at);
+  /// All that the drone knows: others of its slots are taken off the map. Errors: those of `read_features` and
+  /// `LiveMap`.
+  [[nodiscard]] base::Result<> take(autonomy::report::Slots const& told, base::UtcTime at);
   /// Of the drone's slots on the map; nothing before it has told of any.
   [[nodiscard]] std::optional<vehicle::SlotCounts> slots() const;
 
@@ -31,6 +32,7 @@ class LotWriter {
  private:
   void note_origin(autonomy::report::Heartbeat const& heartbeat);
   [[nodiscard]] base::Result<> put_grid(autonomy::OccupancyMap const& told, base::UtcTime at);
+  [[nodiscard]] std::vector<std::string> slot_ids() const;
   [[nodiscard]] std::string id_of(std::string const& slot) const { return drone_ + " " + slot; }
 
   ::lapwing::map::LiveMap& map_;

@@ -82,8 +82,8 @@ void SurveyDesk::take(Seat& seat, std::string const& text) {
   if (!report) return say(seat, report.error().message);
   if (auto const* const log = std::get_if<autonomy::report::ErrorLog>(&*report)) return say(seat, log->message);
   base::Result<> shown;
-  if (auto const* const news = std::get_if<autonomy::report::SlotNews>(&*report)) {
-    shown = seat.lot.take(*news, loop_.utc_now());
+  if (auto const* const slots = std::get_if<autonomy::report::Slots>(&*report)) {
+    shown = seat.lot.take(*slots, loop_.utc_now());
   } else {
     seat.heartbeat = std::get<autonomy::report::Heartbeat>(*std::move(report));
     shown = seat.lot.take(*seat.heartbeat, loop_.utc_now());

@@ -158,7 +158,8 @@ TEST_F(Desk, PutsSlotsOnTheMapAndCountsThem) {
   EXPECT_EQ(view().slots->taken, 2U);
   ASSERT_NE(map.find(LayerKind::slots, "hawk 2"), nullptr);
   EXPECT_EQ(map.find(LayerKind::slots, "hawk 2")->feature.account.writer, "hawk");
-  say(R"({"Type":"Slots","Features":{"type":"FeatureCollection","features":[]},"Removed":["2","9"]})");
+  say(fmt::format(R"({{"Type":"Slots","Features":{{"type":"FeatureCollection","features":[{},{}]}}}})", slot(1, "free"),
+                  slot(3, "taken")));
   until([&] { return view().slots->taken == 1; });
   say(R"({"Type":"Slots","Features":{"type":"Nonsense"}})");
   until([&] { return !view().words.empty(); });

@@ -125,6 +125,13 @@ void Decide::carry_out(autonomy::Said const& said, autonomy::Told const& told) {
     log_.warn(words);
     desk_->tell(words);
   }
+  if (auto const slots = processes_->take_slots()) {
+    auto text = autonomy::slots_message(*slots);
+    if (text)
+      desk_->slots(*std::move(text));
+    else
+      log_.warn(text.error().message);
+  }
   if (!said.sends_heartbeat) return;
   auto text = autonomy::heartbeat_text(said, told, processes_->map());
   if (text) desk_->heartbeat(*std::move(text));

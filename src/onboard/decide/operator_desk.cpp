@@ -30,6 +30,7 @@ void OperatorDesk::note(wire::Event const& event) {
     log_.info(text);
   else
     log_.warn(text);
+  if (event.kind == wire::EventKind::connected && !slots_.empty()) loop_.post([this] { slots(slots_); });
   if (event.kind == wire::EventKind::malformed && is_plain_) malformed_.push_back(event.text);
 }
 
@@ -67,6 +68,12 @@ autonomy::OperatorLink OperatorDesk::link() const {
 
 void OperatorDesk::heartbeat(std::string text) {
   (void)server_->send_to_all({.kind = wire::Kind::latest, .text = std::move(text), .key = "heartbeat"});
+}
+
+void OperatorDesk::slots(std::string text) {
+  if (is_plain_) return;
+  slots_ = std::move(text);
+  (void)server_->send_to_all({.kind = wire::Kind::latest, .text = slots_, .key = "slots"});
 }
 
 void OperatorDesk::tell(std::string const& words) {

@@ -31,6 +31,8 @@ class OperatorDesk {
   [[nodiscard]] autonomy::OperatorLink link() const;
 
   void heartbeat(std::string text);
+  /// To everybody, and to who connects later; not in JSON mode, whose old programs know two kinds of messages.
+  void slots(std::string text);
   /// An ErrorLog to everybody; waits for those who are away.
   void tell(std::string const& words);
   [[nodiscard]] std::uint16_t port() const { return server_->port(); }
@@ -44,6 +46,7 @@ class OperatorDesk {
   base::Logger log_;
   bool is_plain_;
   base::TimePoint began_;
+  std::string slots_;                   ///< as they were told last
   std::vector<std::string> malformed_;  ///< in JSON mode: to be answered
   std::unique_ptr<link::operator_link::Server> server_;
 };

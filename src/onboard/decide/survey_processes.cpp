@@ -90,6 +90,8 @@ base::Result<> SurveyProcesses::open_topics(bus::Bus& bus, std::vector<std::stri
                                 [this](bus::OccupancyGrid const& grid) { take(grid); });
   ends.hear<bus::String>(topics_, topics::survey_report, Profile::standard,
                          [this](bus::String const& words) { take_report(words.data); });
+  ends.hear<bus::String>(topics_, topics::parking_slots, Profile::latched,
+                         [this](bus::String const& slots) { slots_ = slots.data; });
   ends.say(heights_, topics::hover_heights, Profile::latched);
   ends.say(wanted_, topics::wanted_pose, Profile::standard);
   ends.say(state_, topics::current_state, Profile::latched);

@@ -39,6 +39,8 @@ class SurveyProcesses {
   /// Writes what they have said.
   void tell(autonomy::Told& told) const;
   [[nodiscard]] std::optional<autonomy::OccupancyMap> const& map() const { return map_; }
+  /// The places to park, as GeoJSON: what was said last and not taken yet.
+  [[nodiscard]] std::optional<std::string> take_slots() { return std::exchange(slots_, std::nullopt); }
   /// What the machine has decided.
   void hear(autonomy::Said const& said);
   /// Those in force, between which the planner is to stay.
@@ -68,6 +70,7 @@ class SurveyProcesses {
   std::optional<geo::Box<autonomy::ArmingFrame>> lot_;
   std::optional<autonomy::State> told_state_;
   std::vector<std::string> reports_;
+  std::optional<std::string> slots_;
   std::optional<autonomy::HoverHeights> told_heights_;
   std::optional<bus::Publisher<bus::Float64MultiArray>> heights_;
   std::optional<bus::Publisher<bus::PoseStamped>> wanted_;

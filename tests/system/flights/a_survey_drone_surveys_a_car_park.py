@@ -21,6 +21,8 @@ with Drone(decide='relies_on = ["vision", "mapper", "planner"]', processes=surve
     assert highest < 12.6, highest
     operator.wait(lambda o: o.last["Occupancy Map"] and any(cell >= 0 for cell in o.last["Occupancy Map"]["Cells"]), "the map", 5)
     assert operator.last["State"] == "AutonomousExplore", "it waits there for a command"
+    on_the_ground = survey.found_slots(drone.folder)["features"]
+    operator.wait(lambda o: {one["id"] for one in o.slots} == {one["id"] for one in on_the_ground}, "the slots", 5)
 
     # A place of the lot, and one beyond it, by the planner's word.
     operator.command("Autonomous Move", X=0, Y=22)
