@@ -13,9 +13,7 @@ export class PlayedSocket implements Socket {
     this.onopen?.();
     this.runs += 1;
     // Without the name of an operator nothing can be commanded: it would be too late.
-    this.say(
-      JSON.stringify({ type: 'hello', protocol: PROTOCOL, version: '', server_time: '', site, run: `past ${this.runs}` }),
-    );
+    this.say(JSON.stringify({ type: 'hello', protocol: PROTOCOL, version: '', server_time: '', site, run: `past ${this.runs}` }));
     this.play(frames);
   }
 
