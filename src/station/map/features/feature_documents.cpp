@@ -49,7 +49,9 @@ Json links_json(std::vector<Link> const& links) {
 }
 
 std::string origin_of(HttpRequest const& request) {
-  return fmt::format("http://{}", request.header("Host"));
+  // Nobody gains by a false word here: whoever sends it is the only one who gets the links.
+  bool const is_secure = equal_ignoring_case(request.header("X-Forwarded-Proto"), "https");
+  return fmt::format("{}://{}", is_secure ? "https" : "http", request.header("Host"));
 }
 
 std::string address_of(HttpRequest const& request) {

@@ -24,7 +24,8 @@ struct Link {
 };
 [[nodiscard]] Json links_json(std::vector<Link> const& links);
 
-/// "http://station:8080", as the client calls this station: links that other programs follow must be whole.
+/// "http://station:8080", as the client calls this station: links that other programs follow must be whole. A
+/// proxy before it that speaks TLS says so with `X-Forwarded-Proto`.
 [[nodiscard]] std::string origin_of(HttpRequest const& request);
 /// The request's own address.
 [[nodiscard]] std::string address_of(HttpRequest const& request);

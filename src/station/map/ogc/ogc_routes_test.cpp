@@ -74,6 +74,14 @@ TEST_F(OgcRoutes, LeadFromTheLandingPageToAFeature) {
   EXPECT_EQ(link(item, "self"), "/ogc/collections/slots/items/b");
 }
 
+TEST_F(OgcRoutes, LeadBackToAProxyThatSpeaksTls) {
+  auto const landing =
+      json::parse(testing::ask(loop, router, "GET", "/ogc", {}, {{"X-Forwarded-Proto", "https"}}).body);
+  ASSERT_FALSE(landing["links"].empty());
+  for (auto const& one : landing["links"])
+    EXPECT_TRUE(one["href"].get<std::string>().starts_with("https://station:8080/")) << one;
+}
+
 TEST_F(OgcRoutes, FollowTheIdOfAFeatureThatHoldsASlash) {
   auto const item = get("/ogc/collections/points_of_interest/items/north%2F1");
   EXPECT_EQ(item["id"], "north/1");
