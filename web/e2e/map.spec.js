@@ -51,6 +51,13 @@ test('leaves the view alone once the operator has moved it, until F', async ({ o
   await inSight(page);
 });
 
+test('goes to a survey drone where no vehicle is heard', async ({ open }) => {
+  const drone = { name: 'drone1', connected: true, words: [], state: 'Idle', position: { lat_deg: 43.2585, lon_deg: -79.9201 } };
+  const told = { type: 'survey', feed: 'survey', revision: 1, whole: true, drones: [drone] };
+  const page = await open({ station: (message) => [message.type === 'vehicles' ? told : message] });
+  await expect(page.locator('.readout')).toContainText(/43\.258\d+° N, 79\.920\d+° W/);
+});
+
 /** Coarse pages move the map at once, so a vehicle's place is right when it is asked for. */
 const clickAt = async (page, name, modifiers = []) => {
   await drawn(page, name);

@@ -39,6 +39,11 @@ export class FittedView {
     });
   }
 
+  /** What is shown need not stay in sight. */
+  forget(): void {
+    this.fitted = this.needed = undefined;
+  }
+
   /** Brings a place into the middle of what is in sight. */
   centre(map: MapLibreMap, at: LonLat): void {
     const { x, y } = map.project(at);

@@ -96,7 +96,7 @@ describe('placeText', () => {
 });
 
 it('keeps bounds on the map, however near to a pole', () => {
-  const bounds = boundsOf([{ lat_deg: 90, lon_deg: 0, alt_m: 0 }], 60);
+  const bounds = boundsOf([{ lat_deg: 90, lon_deg: 0 }], 60);
   expect(bounds?.north).toBeLessThanOrEqual(85);
   expect(bounds?.south).toBeLessThanOrEqual(bounds!.north);
 });

@@ -2,6 +2,11 @@ import { heading, latitude, longitude, metres } from '../lib/format';
 import type { Position } from '../lib/protocol';
 
 export type LonLat = [number, number];
+/** Wherever how high it is does not matter. */
+export interface Place {
+  lat_deg: number;
+  lon_deg: number;
+}
 export interface Bounds {
   west: number;
   south: number;
@@ -14,7 +19,7 @@ const METRES_PER_DEGREE = 111_319.49;
 export const MAP_END_DEG = 85;
 
 /** The smallest bounds round the positions, at least `leastSpan` metres wide and high; nothing for none. */
-export function boundsOf(positions: Position[], leastSpan: number): Bounds | undefined {
+export function boundsOf(positions: readonly Place[], leastSpan: number): Bounds | undefined {
   if (positions.length === 0) return undefined;
   const lats = positions.map((p) => p.lat_deg);
   const lons = positions.map((p) => p.lon_deg);
@@ -132,11 +137,6 @@ function degrees(value: number, step: number, positive: string, negative: string
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   if (Math.abs(value) < step / 2) return '0°';
   return `${Math.abs(value).toFixed(decimals)}° ${value < 0 ? negative : positive}`;
-}
-
-interface Place {
-  lat_deg: number;
-  lon_deg: number;
 }
 
 /** Where a place is, seen from a vehicle near it: "120 m at 045° from copter 1"; in degrees without one. */
