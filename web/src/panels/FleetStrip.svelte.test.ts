@@ -1,6 +1,8 @@
 import { render, screen, within } from '@testing-library/svelte';
 import { userEvent } from '@testing-library/user-event';
+import { flushSync } from 'svelte';
 import { describe, expect, it, vi } from 'vitest';
+import type { ServerMessage } from '../lib/protocol';
 import { copter, TestStation } from '../testing/station';
 import FleetStrip from './FleetStrip.svelte';
 
@@ -19,7 +21,15 @@ function show(station: TestStation, selected: string[] = [], isRow = false) {
 describe('the list of vehicles', () => {
   it('says that nobody has been heard yet', () => {
     show(TestStation.live());
-    expect(screen.getByText(/No vehicle has been heard yet/)).toBeVisible();
+    expect(screen.getByText(/No vehicle has been heard yet/)).not.toHaveTextContent('Survey');
+  });
+
+  it('leads to survey drones where there is nobody else', () => {
+    const station = TestStation.live([], { feeds: [{ name: 'survey', id: 1 }] });
+    show(station);
+    const told = { type: 'survey', feed: 'survey', revision: 1, whole: true, drones: [{ name: 'hawk', connected: true, words: [] }] };
+    flushSync(() => station.tell(told as unknown as ServerMessage));
+    expect(screen.getByText(/No vehicle has been heard yet/)).toHaveTextContent(/survey drones are in the tab Survey\.$/);
   });
 
   it('tells of each vehicle what matters most, by word and sign', () => {
