@@ -35,6 +35,10 @@ case $target in
     cp "$root"/examples/buildings/*.toml "$seeds"
     printf '[[wall]]\nline=[[0,0],[4,0],[4,3],[0,3]]\nclosed=true\n[[door]]\nhinge=[1,0]\nlatch=[2,0]\nsign="7\\nWC"\nopen_s=1\nclosed_s=1\n[[person]]\nat=[3,1]\nwalks=true\n[[start]]\nat=[1,1]\n' | seed small
     ;;
+  pictures)
+    printf '\377HTTP/1.1 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=p\r\n\r\n--p\r\nContent-Length: 3\r\nX-Timestamp: 1700000000.25\r\n\r\nabc\r\n--p\r\n' | seed one
+    printf '\004HTTP/1.1 404 Not Found\r\n\r\n' | seed refused
+    ;;
   car_park)
     cp "$root"/examples/car-park/*.toml "$seeds"
     printf 'anchor=[41,-8,90]\n[cars]\nstay_min=5\n[[area]]\ncorners=[[-9,-9],[9,-9],[9,9]]\n[[row]]\nat=[0,0]\ncount=3\nslant_deg=20\n[[car]]\nat=[1,1]\n[[lane]]\npoints=[[0,0],[9,0]]\n[[tree]]\nat=[5,5]\n[[building]]\ncorners=[[-9,5],[-5,5],[-5,9]]\n' | seed small

@@ -57,8 +57,15 @@ base::Result<std::unique_ptr<Perceive>> Perceive::open(base::Loop& loop, bus::Bu
   if (!eye) return std::unexpected(eye.error());
   auto topics = Topics::open(loop, bus);
   if (!topics) return std::unexpected(topics.error());
+  std::unique_ptr<LiveView> live_view;
+  if (settings.stream) {
+    auto opened = LiveView::open(loop, *settings.stream);
+    if (!opened) return std::unexpected(opened.error());
+    live_view = *std::move(opened);
+  }
   std::unique_ptr<Perceive> perceive(new Perceive(loop, std::move(settings), std::move(log)));
   perceive->topics_ = *std::move(topics);
+  perceive->live_view_ = std::move(live_view);
   perceive->eye_.emplace(loop, std::make_unique<Eye>(*std::move(eye)));
   perceive->mind_.emplace(loop, std::make_unique<Mind>());
   perceive->sight_.good_at = loop.now();
@@ -132,6 +139,7 @@ base::Task<> Perceive::look_once() {
     co_return;
   }
   ++sight_.pictures;
+  if (live_view_) live_view_->show(frame->picture, frame->taken);
   auto placing = place_of(*frame);
   auto const place = co_await placing;
   if (!place) {
@@ -144,6 +152,7 @@ base::Task<> Perceive::look_once() {
   if (view.height_m() < standing_m) {
     sight_.good_at = loop_.now();
     sight_.picture_fault.clear();
+    if (live_view_) live_view_->show(frame->picture, frame->taken, std::nullopt);
     co_return;
   }
   auto looking = eye_->run([view, picture = frame->picture, at = frame->taken](Eye& eye) {
@@ -161,6 +170,7 @@ base::Task<> Perceive::look_once() {
     return look;
   });
   auto look = co_await looking;
+  if (live_view_) live_view_->show(frame->picture, frame->taken, look.sight);
   sight_.took_s = look.took_s;
   sight_.picture_fault = look.fault.value_or("");
   if (look.fault) {

@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "bus/participant/bus.hpp"
 #include "perceive/health.hpp"
+#include "perceive/live_view.hpp"
 #include "perceive/lot_eye.hpp"
 #include "perceive/surveyor.hpp"
 #include "perceive/topics.hpp"
@@ -22,10 +23,11 @@ namespace lapwing::perceive {
 struct PerceiveSettings {
   video::CameraSettings camera = {};
   SurveyOrder order = {};
-  std::string vehicle = "drone";            ///< whose account the map is
-  std::filesystem::path folder = "survey";  ///< of what was found
-  double pictures_a_s = 4.0;                ///< at most
-  std::string network = {};                 ///< the content of models/cars.onnx; empty: vehicles by contrast
+  std::string vehicle = "drone";                             ///< whose account the map is
+  std::filesystem::path folder = "survey";                   ///< of what was found
+  double pictures_a_s = 4.0;                                 ///< at most
+  std::optional<link::pictures::ServeSettings> stream = {};  ///< where people look; none: nowhere
+  std::string network = {};  ///< the content of models/cars.onnx; empty: vehicles by contrast
 };
 
 /// The process that sees, maps and plans: an algorithm manager that has pictures taken, looked at, put on the map and
@@ -85,6 +87,7 @@ class Perceive {
   bool has_surveyor_ = false;
   bool has_new_slots_ = false;
   std::string told_write_fault_;
+  std::unique_ptr<LiveView> live_view_;  ///< null: nobody may look
   std::optional<base::SideThread<Eye>> eye_;
   std::optional<base::SideThread<Mind>> mind_;
   base::Scope scope_;

@@ -177,7 +177,7 @@ OnboardConfig read_onboard_config(base::SourceFile const& source, base::Diagnost
   if (auto const file = root.text("health_file")) config.health_file = beside(source, file->value);
   // What is in them lapwing-perceive reads and checks.
   config.sees = root.has("camera");
-  for (auto const* const table : {"camera", "survey"}) (void)root.table(table);
+  for (auto const* const table : {"camera", "survey", "stream"}) (void)root.table(table);
   if (!config.sees && root.has("survey"))
     diagnostics.report(invalid_value, {0, 1}, "a survey needs a camera",
                        "[camera] with kind = \"simulated\" and a world, ...");

@@ -71,6 +71,17 @@ void read_survey(ConfigReader& root, fs::path const& beside, Diagnostics& diagno
   table->refuse_unknown();
 }
 
+void read_stream(ConfigReader& root, perceive::PerceiveSettings& settings) {
+  auto table = root.table("stream");
+  if (!table) return;
+  auto& stream = settings.stream.emplace();
+  if (auto const address = table->text("address")) stream.address = address->value;
+  if (auto const port = table->integer("port", 0, 65535)) stream.port = static_cast<std::uint16_t>(port->value);
+  if (auto const most = table->integer("most_viewers", 1, 64))
+    stream.most_viewers = static_cast<std::size_t>(most->value);
+  table->refuse_unknown();
+}
+
 /// That a survey can be made of it: tried at the first corner, since it shows only in flight where home is.
 void try_survey(perceive::SurveyOrder const& order, Diagnostics& diagnostics) {
   auto const made = perceive::Surveyor::make(order, {.anchor = order.area.front()}, {});
@@ -92,6 +103,7 @@ PerceiveConfig read_perceive_config(base::SourceFile const& source, base::Diagno
     diagnostics.report(invalid_value, beginning, "there is no camera",
                        "[camera] with kind = \"simulated\" and a world, ...");
   read_survey(root, beside, diagnostics, settings);
+  read_stream(root, settings);
   auto& order = settings.order;
   order.planner.camera = settings.camera.lens;
   order.planner.tilt_rad = settings.camera.mount.tilt_rad;

@@ -13,8 +13,8 @@ struct PerceiveConfig {
   perceive::PerceiveSettings perceive = {};
 };
 
-/// The tables `[bus]`, `[camera]` and `[survey]`; the others are those of other programs. Paths count from the file's
-/// folder. Everything wrong is reported; the result is to be used only when nothing was.
+/// The tables `[bus]`, `[camera]`, `[survey]` and `[stream]`; the others are those of other programs. Paths count from
+/// the file's folder. Everything wrong is reported; the result is to be used only when nothing was.
 [[nodiscard]] PerceiveConfig read_perceive_config(base::SourceFile const& source, base::Diagnostics& diagnostics);
 
 }  // namespace lapwing::apps

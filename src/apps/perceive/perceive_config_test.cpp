@@ -38,6 +38,9 @@ most_min = 10
 lot_lost_s = 60
 folder = "found"
 pictures_a_s = 2
+[stream]
+port = 3090
+most_viewers = 3
 )");
   EXPECT_EQ(mistakes, "");
   auto const& order = config.perceive.order;
@@ -53,6 +56,10 @@ pictures_a_s = 2
   EXPECT_EQ(order.lot_lost, std::chrono::seconds(60));
   EXPECT_EQ(config.perceive.folder, "/etc/lapwing/found");
   EXPECT_EQ(config.perceive.pictures_a_s, 2.0);
+  ASSERT_TRUE(config.perceive.stream);
+  EXPECT_EQ(config.perceive.stream->port, 3090);
+  EXPECT_EQ(config.perceive.stream->address, "127.0.0.1");
+  EXPECT_EQ(config.perceive.stream->most_viewers, 3U);
   EXPECT_EQ(order.planner.camera.width_px, config.perceive.camera.lens.width_px);
 }
 
