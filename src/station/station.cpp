@@ -238,7 +238,7 @@ Router Station::make_router() {
   add_alarm_routes(router, options_.alarms, loop_);
   add_health_route(router, options_.modules, loop_);
   add_parameter_routes(router, options_.parameters);
-  add_survey_routes(router, options_.survey, log_);
+  add_survey_routes(router, options_.survey, log_, [this] { return loop_.utc_now(); });
   map_face_.add_routes(router);
   add_export_routes(router, loop_, options_.map ? *options_.map : *own_map_, exports_.get());
   add_base_map_routes(router, loop_, options_.base_maps);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <optional>
-
+#include "base/async/task.hpp"
 #include "base/error.hpp"
 #include "base/time.hpp"
 #include "geo/position.hpp"
@@ -44,6 +46,14 @@ struct SurveyDroneView {
   std::vector<SurveyWords> words = {};  ///< the newest last
 };
 
+/// What a drone's camera saw.
+struct DronePicture {
+  std::shared_ptr<std::string const> jpeg = {};
+  base::UtcTime taken{};     ///< by the drone's clock
+  std::uint64_t number = 0;  ///< another one for each picture of that view
+};
+enum class PictureView : std::uint8_t { raw, annotated };
+
 class SurveyDrones {
  public:
   virtual ~SurveyDrones() = default;
@@ -53,6 +63,11 @@ class SurveyDrones {
   /// drone of another name; invalid_input for what is no command; refused while it is not connected, but for Kill,
   /// which waits for a moment.
   [[nodiscard]] virtual base::Result<> command(std::string_view drone, std::string const& command) = 0;
+  /// The newest picture of the drone's camera, as soon as it is another one than `after`; the drone sends pictures
+  /// while they are asked for. Errors: not_found for a drone of another name; timed_out: NoImage, the camera gives
+  /// none; lost: FailedToSend, none can come from there.
+  [[nodiscard]] virtual base::Task<base::Result<DronePicture>> picture(std::string drone, PictureView view,
+                                                                       std::uint64_t after) = 0;
 };
 
 }  // namespace lapwing::vehicle

@@ -1,6 +1,7 @@
 #include "host/survey/survey_desk.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -18,6 +19,11 @@ namespace {
 /// A command that comes later than that was meant for another moment.
 constexpr base::Duration command_lives = 5s;
 constexpr base::Duration kill_lives = 10s;
+
+/// So long a browser may wait for a picture; then it is told that there is none.
+constexpr base::Duration picture_patience = 3s;
+/// A drone sends pictures for so long after the last one that was asked for.
+constexpr base::Duration watched_for = 5s;
 
 /// What overtakes what waits: of where to fly the last word counts, which says nothing of heights.
 std::string_view key_of(autonomy::Command const& command) {
@@ -42,6 +48,17 @@ struct SurveyDesk::Seat {
   std::string complaint = {};  ///< the last one of the map, so that it is told once
   LotWriter lot;
   std::unique_ptr<wire::Client> client = {};
+
+  /// Of one view of the camera.
+  struct Look {
+    std::shared_ptr<link::pictures::PictureClient> client = {};  ///< null: nobody looks
+    base::TimePoint asked_at{};
+    std::uint64_t before = 0;  ///< numbers of looks that are over
+    std::uint64_t newest = 0;
+  };
+  link::pictures::Source camera = {};
+  std::array<Look, 2> looks = {};
+  [[nodiscard]] Look& look_at(vehicle::PictureView view) { return looks.at(static_cast<std::size_t>(view)); }
 };
 
 SurveyDesk::SurveyDesk(base::Loop& loop, base::Logger log) : loop_(loop), log_(std::move(log)), scope_(loop) {}
@@ -52,11 +69,14 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
                                                            base::Logger log, std::vector<SurveyLink> links) {
   std::unique_ptr<SurveyDesk> desk(new SurveyDesk(loop, std::move(log)));
   std::set<std::string> names;
-  for (auto& [name, settings, token_file] : links) {
+  for (auto& link : links) {
+    auto const camera = camera_of(link);
+    auto& [name, settings, token_file, told_camera] = link;
     if (!names.insert(name).second)
       return base::fail(base::ErrorKind::invalid_input, fmt::format("two survey drones are called {}", name),
                         "give each a name of its own");
     auto seat = std::make_unique<Seat>(map, name);
+    seat->camera = camera;
     if (settings.client.end.name.empty()) settings.client.end.name = "station";
     auto client =
         wire::connect(loop, std::move(settings),
@@ -160,6 +180,42 @@ base::Result<> SurveyDesk::send(Seat& seat, autonomy::Command const& command, st
   log_.warn(fmt::format("{}: {} asked for", seat.name, autonomy::name_of(command)));
   scope_.spawn(follow(seat, *sent, std::string(autonomy::name_of(command))));
   return {};
+}
+
+base::Result<> SurveyDesk::look(Seat& seat, vehicle::PictureView view) {
+  auto& look = seat.look_at(view);
+  look.asked_at = loop_.now();
+  if (look.client) return {};
+  using link::pictures::View;
+  auto opened = link::pictures::PictureClient::open(loop_, seat.camera,
+                                                    view == vehicle::PictureView::raw ? View::raw : View::annotated);
+  if (!opened) return std::unexpected(opened.error());
+  look.client = *std::move(opened);
+  look.before = look.newest;
+  scope_.spawn(close_when_idle(seat, view));
+  return {};
+}
+
+base::Task<> SurveyDesk::close_when_idle(Seat& seat, vehicle::PictureView view) {
+  auto& look = seat.look_at(view);
+  while (loop_.now() < look.asked_at + watched_for) co_await loop_.sleep_until(look.asked_at + watched_for);
+  look.client.reset();
+}
+
+base::Task<base::Result<vehicle::DronePicture>> SurveyDesk::picture(std::string drone, vehicle::PictureView view,
+                                                                    std::uint64_t after) {
+  auto* const seat = seat_of(drone);
+  if (!seat) co_return base::fail(base::ErrorKind::not_found, fmt::format("there is no survey drone '{}'", drone));
+  if (auto const looks = look(*seat, view); !looks) co_return std::unexpected(looks.error());
+  auto& look = seat->look_at(view);
+  auto const client = look.client;  // lives as long as somebody waits for it
+  auto const before = look.before;
+  auto asking = client->next(after > before ? after - before : 0, picture_patience);
+  auto const picture = co_await asking;
+  if (!picture) co_return std::unexpected(picture.error());
+  look.newest = std::max(look.newest, before + picture->number);
+  co_return vehicle::DronePicture{
+      .jpeg = picture->picture.jpeg, .taken = picture->picture.taken, .number = before + picture->number};
 }
 
 base::Task<> SurveyDesk::follow(Seat& seat, wire::MessageId id, std::string command) {

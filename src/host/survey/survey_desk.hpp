@@ -31,6 +31,9 @@ class SurveyDesk final : public vehicle::SurveyDrones {
   [[nodiscard]] std::vector<vehicle::SurveyDroneView> drones() const override;
   [[nodiscard]] base::Result<> command(std::string_view drone, std::string const& command) override;
 
+  [[nodiscard]] base::Task<base::Result<vehicle::DronePicture>> picture(std::string drone, vehicle::PictureView view,
+                                                                        std::uint64_t after) override;
+
   /// Why nothing but Land, Disarm and Kill is handed on; empty: everything is.
   void bar(std::string reason) { barred_ = std::move(reason); }
   /// The same as `command`, whatever bars it.
@@ -49,6 +52,9 @@ class SurveyDesk final : public vehicle::SurveyDrones {
   void hear(Seat& seat);
   void take(Seat& seat, std::string const& text);
   void say(Seat& seat, std::string words);
+  /// Looks at the drone's camera until nobody has asked for a while.
+  [[nodiscard]] base::Result<> look(Seat& seat, vehicle::PictureView view);
+  [[nodiscard]] base::Task<> close_when_idle(Seat& seat, vehicle::PictureView view);
   [[nodiscard]] base::Task<> follow(Seat& seat, link::operator_link::MessageId id, std::string command);
 
   base::Loop& loop_;

@@ -8,6 +8,7 @@
 
 #include "autonomy/operator/report_text.hpp"
 #include "base/log.hpp"
+#include "link/pictures/picture_server.hpp"
 
 namespace lapwing::host {
 namespace {
@@ -164,6 +165,42 @@ TEST_F(Desk, PutsSlotsOnTheMapAndCountsThem) {
   say(R"({"Type":"Slots","Features":{"type":"Nonsense"}})");
   until([&] { return !view().words.empty(); });
   EXPECT_TRUE(view().words.back().text.starts_with("the map does not take it: ")) << view().words.back().text;
+}
+
+TEST_F(Desk, ShowsTheCameraWhileItIsAskedFor) {
+  auto const camera = link::pictures::PictureServer::open(loop, {.port = 0}).value();
+  wire::ConnectSettings const reached{.port = drone->port()};
+  SurveyLink const told{.name = "dove", .settings = reached, .camera = link::pictures::Source{.port = camera->port()}};
+  auto const seat = SurveyDesk::open(loop, map, base::Logger(hub, "survey"), {told}).value();
+  using link::pictures::View;
+  EXPECT_FALSE(camera->is_watched(View::raw));
+  auto const taken = loop.utc_now();
+  base::Scope scope(loop);
+  auto const offering = [&]() -> base::Task<> {
+    while (!camera->is_watched(View::raw)) co_await loop.sleep(2ms);
+    camera->offer(View::raw, {.jpeg = std::make_shared<std::string const>("jpeg"), .taken = taken});
+  };
+  scope.spawn(offering());
+  auto const picture = loop.run_until_done(seat->picture("dove", vehicle::PictureView::raw, 0));
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(*picture->jpeg, "jpeg");
+  EXPECT_EQ(picture->number, 1U);
+  EXPECT_LT(std::chrono::abs(picture->taken - taken), 1ms);
+  EXPECT_FALSE(camera->is_watched(View::annotated));
+  auto const none = loop.run_until_done(seat->picture("dove", vehicle::PictureView::raw, picture->number));
+  ASSERT_FALSE(none);
+  EXPECT_TRUE(none.error().message.starts_with("NoImage")) << none.error().message;
+  until([&] { return !camera->is_watched(View::raw); });
+  EXPECT_EQ(loop.run_until_done(seat->picture("crow", vehicle::PictureView::raw, 0)).error().kind,
+            base::ErrorKind::not_found);
+}
+
+TEST(CameraOf, IsBesideTheOperatorLinkUnlessItIsTold) {
+  SurveyLink link{.settings = parse_survey("drone.local:3001").value()};
+  EXPECT_EQ(camera_of(link).host, "drone.local");
+  EXPECT_EQ(camera_of(link).port, 3081);
+  link.camera = link::pictures::Source{.host = "10.0.0.7", .port = 8000};
+  EXPECT_EQ(camera_of(link).host, "10.0.0.7");
 }
 
 TEST(ParseSurvey, TakesAHostWithOrWithoutAPort) {

@@ -75,6 +75,14 @@ SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const
     else
       diagnostics.report(invalid_value, address->span, settings.error().message, settings.error().hint);
   }
+  if (auto const camera = reader.text("camera")) {
+    auto const told = parse_survey(camera->value);
+    if (told)
+      link.camera = link::pictures::Source{.host = told->host, .port = told->port};
+    else
+      diagnostics.report(invalid_value, camera->span, fmt::format("'{}' is no address of a camera", camera->value),
+                         "camera = \"127.0.0.1:3080\"");
+  }
   auto const name = reader.text("name");
   if (!name && !reader.has("name"))
     diagnostics.report(invalid_value, table.span, "a survey drone needs a name", "name = \"hawk\"");
@@ -89,6 +97,12 @@ SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const
   reader.refuse("token", "keep it in a file of its own (mode 0600): token_file = \"drone.token\"");
   reader.refuse_unknown();
   return link;
+}
+
+link::pictures::Source camera_of(SurveyLink const& link) {
+  if (link.camera) return *link.camera;
+  return {.host = link.settings.host,
+          .port = static_cast<std::uint16_t>(link.settings.port + link::pictures::ports_above_operator)};
 }
 
 base::Result<> take_token(SurveyLink& link) {

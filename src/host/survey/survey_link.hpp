@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/config.hpp"
 #include "link/operator_link/endpoints.hpp"
+#include "link/pictures/picture_client.hpp"
 
 namespace lapwing::host {
 
@@ -14,7 +16,8 @@ namespace lapwing::host {
 struct SurveyLink {
   std::string name = {};  ///< by which operators know it
   link::operator_link::ConnectSettings settings = {};
-  std::filesystem::path token_file = {};  ///< what the drone asks for; empty: it asks for none
+  std::filesystem::path token_file = {};              ///< what the drone asks for; empty: it asks for none
+  std::optional<link::pictures::Source> camera = {};  ///< its pictures; none: beside the operator link
 };
 
 /// What `--survey` says: HOST or HOST:PORT, the port of operator links where there is none. Error: invalid_input.
@@ -27,6 +30,8 @@ inline constexpr auto survey_help =
 /// One `[[survey]]` of the station's file (docs/reference/station-config.md).
 [[nodiscard]] SurveyLink read_survey(base::Placed<base::ConfigReader>& table, base::SourceFile const& source,
                                      base::Diagnostics& diagnostics);
+/// Where the drone's pictures are: as it was told, else at its operator link's host, `ports_above_operator` up.
+[[nodiscard]] link::pictures::Source camera_of(SurveyLink const& link);
 /// Reads the token's file, where there is one. Errors: those of `read_secret`.
 [[nodiscard]] base::Result<> take_token(SurveyLink& link);
 

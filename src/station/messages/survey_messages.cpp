@@ -1,5 +1,6 @@
 #include "station/messages/survey_messages.hpp"
 
+#include <charconv>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,15 +43,57 @@ std::string survey_message(std::vector<vehicle::SurveyDroneView> const& drones) 
   return dump({{"type", "survey"}, {"drones", std::move(list)}});
 }
 
-void add_survey_routes(Router& router, vehicle::SurveyDrones* drones, base::Logger const& log) {
+namespace {
+
+HttpResponse no_drones() {
+  return problem(404, "this station has no survey drones", "start it with --survey HOST:PORT");
+}
+
+/// The delay is told by whoever's clocks there are: the drone's when the light fell in, the station's when it answers.
+HttpResponse answer_with(vehicle::DronePicture const& picture, base::UtcTime now) {
+  auto const age = std::chrono::round<std::chrono::milliseconds>(now - picture.taken);
+  return {.content_type = "image/jpeg",
+          .body = *picture.jpeg,
+          .headers = {{"Lapwing-Taken", base::to_iso8601(picture.taken)},
+                      {"Lapwing-Age-Ms", std::to_string(age.count())},
+                      {"Lapwing-Number", std::to_string(picture.number)}}};
+}
+
+base::Task<HttpResponse> picture_of(vehicle::SurveyDrones& drones, std::string drone, vehicle::PictureView view,
+                                    std::uint64_t after, std::function<base::UtcTime()> now) {
+  auto asking = drones.picture(std::move(drone), view, after);
+  auto const picture = co_await asking;
+  co_return picture ? answer_with(*picture, now()) : problem(picture.error());
+}
+
+Reply give_picture(vehicle::SurveyDrones& drones, HttpRequest const& request, std::string const& drone,
+                   std::function<base::UtcTime()> const& now) {
+  auto const view = request.parameter("view").value_or("annotated");
+  if (view != "raw" && view != "annotated") return problem(400, "there is no such view", "view=raw or view=annotated");
+  auto const text = request.parameter("after").value_or("0");
+  std::uint64_t after = 0;
+  auto const [end, fault] = std::from_chars(text.data(), text.data() + text.size(), after);
+  if (fault != std::errc{} || end != text.data() + text.size())
+    return problem(400, "after is the Lapwing-Number of the picture that you have");
+  auto const wanted = view == "raw" ? vehicle::PictureView::raw : vehicle::PictureView::annotated;
+  return picture_of(drones, drone, wanted, after, now);
+}
+
+}  // namespace
+
+void add_survey_routes(Router& router, vehicle::SurveyDrones* drones, base::Logger const& log,
+                       std::function<base::UtcTime()> now) {
   router.add("GET", "/api/v1/survey", [drones](HttpRequest const&) {
     return HttpResponse{.body = survey_message(drones ? drones->drones() : std::vector<vehicle::SurveyDroneView>())};
   });
+  router.add("GET", "/api/v1/survey/{drone}/picture",
+             [drones, now = std::move(now)](HttpRequest const& request, PathArguments const& path) -> Reply {
+               return drones ? give_picture(*drones, request, path["drone"], now) : Reply(no_drones());
+             });
   router.add("POST", "/api/v1/survey/{drone}/commands",
              [drones, &log](HttpRequest const& request, PathArguments const& path) -> Reply {
                auto const& drone = path["drone"];
-               if (!drones)
-                 return problem(404, "this station has no survey drones", "start it with --survey HOST:PORT");
+               if (!drones) return no_drones();
                if (auto const sent = drones->command(drone, request.body); !sent) return problem(sent.error());
                log.info(fmt::format("a command for {} asked for over HTTP", drone));
                return HttpResponse{.status = 202, .body = "{}"};

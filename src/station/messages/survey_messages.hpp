@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace lapwing::station {
 
 [[nodiscard]] std::string survey_message(std::vector<vehicle::SurveyDroneView> const& drones);
 
-/// `drones` may be null: then there are none. It and `log` outlive the router.
-void add_survey_routes(Router& router, vehicle::SurveyDrones* drones, base::Logger const& log);
+/// `drones` may be null: then there are none. It, `log` and what `now` needs outlive the router.
+void add_survey_routes(Router& router, vehicle::SurveyDrones* drones, base::Logger const& log,
+                       std::function<base::UtcTime()> now);
 
 }  // namespace lapwing::station

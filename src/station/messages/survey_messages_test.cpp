@@ -1,8 +1,11 @@
 #include "station/messages/survey_messages.hpp"
 
+#include <map>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/async/loop.hpp"
 #include "station/feeds/survey_feed.hpp"
 #include "station/testing/fake_survey.hpp"
 
@@ -10,6 +13,9 @@ namespace lapwing::station {
 namespace {
 
 using nlohmann::json;
+
+/// A quarter of a second after the fake drone's picture.
+base::UtcTime const answered{std::chrono::milliseconds(1'700'000'000'250)};
 
 HttpResponse answer(Router const& router, std::string method, std::string const& target, std::string body = {}) {
   auto request = request_for(std::move(method), target).value();
@@ -44,7 +50,7 @@ TEST(SurveyRoutes, HandCommandsToTheDroneThatIsNamed) {
   base::Logger const log(hub, "station");
   testing::FakeSurvey survey;
   Router router;
-  add_survey_routes(router, &survey, log);
+  add_survey_routes(router, &survey, log, [] { return answered; });
   EXPECT_EQ(json::parse(answer(router, "GET", "/api/v1/survey").body)["drones"].size(), 2U);
   auto const taken = answer(router, "POST", "/api/v1/survey/hawk/commands", R"({"Type":"Arm"})");
   EXPECT_EQ(taken.status, 202);
@@ -54,11 +60,39 @@ TEST(SurveyRoutes, HandCommandsToTheDroneThatIsNamed) {
   EXPECT_EQ(json::parse(refused.body)["detail"], "dove is not connected");
 }
 
+TEST(SurveyRoutes, GiveAPictureWithItsDelay) {
+  base::LogHub hub;
+  base::Logger const log(hub, "station");
+  base::Loop loop;
+  testing::FakeSurvey survey;
+  Router router;
+  add_survey_routes(router, &survey, log, [] { return answered; });
+  auto const ask = [&](std::string const& target) {
+    auto reply = router.answer(request_for("GET", target).value());
+    if (auto* const task = std::get_if<base::Task<HttpResponse>>(&reply)) return loop.run_until_done(std::move(*task));
+    return std::get<HttpResponse>(std::move(reply));
+  };
+  auto const picture = ask("/api/v1/survey/hawk/picture?view=raw&after=6");
+  EXPECT_EQ(picture.content_type, "image/jpeg");
+  EXPECT_EQ(picture.body, "raw");
+  std::map<std::string, std::string> headers;
+  for (auto const& [name, value] : picture.headers) headers[name] = value;
+  EXPECT_EQ(headers["Lapwing-Age-Ms"], "250");
+  EXPECT_EQ(headers["Lapwing-Number"], "7");
+  EXPECT_EQ(headers["Lapwing-Taken"], "2023-11-14T22:13:20.000Z");
+  EXPECT_EQ(ask("/api/v1/survey/hawk/picture").body, "annotated");
+  auto const none = ask("/api/v1/survey/dove/picture");
+  EXPECT_EQ(none.status, 504);
+  EXPECT_EQ(json::parse(none.body)["detail"], "NoImage: no picture for 3 s");
+  EXPECT_EQ(ask("/api/v1/survey/hawk/picture?view=infrared").status, 400);
+  EXPECT_EQ(ask("/api/v1/survey/hawk/picture?after=-1").status, 400);
+}
+
 TEST(SurveyRoutes, SayWhereThereIsNone) {
   base::LogHub hub;
   base::Logger const log(hub, "station");
   Router router;
-  add_survey_routes(router, nullptr, log);
+  add_survey_routes(router, nullptr, log, [] { return answered; });
   EXPECT_EQ(answer(router, "GET", "/api/v1/survey").body, R"({"type":"survey","drones":[]})");
   EXPECT_EQ(answer(router, "POST", "/api/v1/survey/hawk/commands").status, 404);
 }

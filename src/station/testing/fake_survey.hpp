@@ -32,6 +32,15 @@ class FakeSurvey : public vehicle::SurveyDrones {
     return {};
   }
 
+  [[nodiscard]] base::Task<base::Result<vehicle::DronePicture>> picture(std::string drone, vehicle::PictureView view,
+                                                                        std::uint64_t after) override {
+    if (drone != "hawk") co_return base::fail(base::ErrorKind::timed_out, "NoImage: no picture for 3 s");
+    auto const words = view == vehicle::PictureView::raw ? "raw" : "annotated";
+    co_return vehicle::DronePicture{.jpeg = std::make_shared<std::string const>(words),
+                                    .taken = base::UtcTime(std::chrono::seconds(1'700'000'000)),
+                                    .number = after + 1};
+  }
+
   std::vector<vehicle::SurveyDroneView> list;
   std::vector<std::string> commands;
 };
