@@ -14,6 +14,7 @@
 #include "base/log.hpp"
 #include "host/files/config_file.hpp"
 #include "host/files/files.hpp"
+#include "host/files/secret_file.hpp"
 #include "host/session/signals.hpp"
 #include "onboard/life/life_line.hpp"
 
@@ -50,6 +51,13 @@ int perceive_until_stopped(PerceiveConfig config) {
       log.warn("the supervisor has gone");
       stop();
     });
+  if (!config.stream_token_file.empty()) {
+    auto token = host::read_secret({.path = config.stream_token_file.string(),
+                                    .what = "token file",
+                                    .hint = "make one: openssl rand -hex 32 > FILE; chmod 600 FILE"});
+    if (!token) return host::refuse(token.error());
+    config.perceive.stream->token = *std::move(token);
+  }
   config.bus.name = "lapwing-perceive";
   auto opened = bus::Bus::open(loop, config.bus);
   if (!opened) return host::refuse(opened.error());

@@ -71,14 +71,16 @@ void read_survey(ConfigReader& root, fs::path const& beside, Diagnostics& diagno
   table->refuse_unknown();
 }
 
-void read_stream(ConfigReader& root, perceive::PerceiveSettings& settings) {
+void read_stream(ConfigReader& root, fs::path const& beside, PerceiveConfig& config) {
   auto table = root.table("stream");
   if (!table) return;
-  auto& stream = settings.stream.emplace();
+  auto& stream = config.perceive.stream.emplace();
   if (auto const address = table->text("address")) stream.address = address->value;
   if (auto const port = table->integer("port", 0, 65535)) stream.port = static_cast<std::uint16_t>(port->value);
   if (auto const most = table->integer("most_viewers", 1, 64))
     stream.most_viewers = static_cast<std::size_t>(most->value);
+  if (auto const file = table->text("token_file")) config.stream_token_file = beside / file->value;
+  table->refuse("token", "keep it in a file of its own (mode 0600): token_file = \"camera.token\"");
   table->refuse_unknown();
 }
 
@@ -103,7 +105,7 @@ PerceiveConfig read_perceive_config(base::SourceFile const& source, base::Diagno
     diagnostics.report(invalid_value, beginning, "there is no camera",
                        "[camera] with kind = \"simulated\" and a world, ...");
   read_survey(root, beside, diagnostics, settings);
-  read_stream(root, settings);
+  read_stream(root, beside, config);
   auto& order = settings.order;
   order.planner.camera = settings.camera.lens;
   order.planner.tilt_rad = settings.camera.mount.tilt_rad;

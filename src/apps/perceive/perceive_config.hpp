@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "base/text/diagnostic.hpp"
 #include "base/text/source.hpp"
 #include "bus/participant/bus.hpp"
@@ -11,6 +13,7 @@ namespace lapwing::apps {
 struct PerceiveConfig {
   bus::BusOptions bus = {};
   perceive::PerceiveSettings perceive = {};
+  std::filesystem::path stream_token_file = {};  ///< empty: who looks at the pictures needs no token
 };
 
 /// The tables `[bus]`, `[camera]`, `[survey]` and `[stream]`; the others are those of other programs. Paths count from

@@ -41,6 +41,7 @@ pictures_a_s = 2
 [stream]
 port = 3090
 most_viewers = 3
+token_file = "camera.token"
 )");
   EXPECT_EQ(mistakes, "");
   auto const& order = config.perceive.order;
@@ -60,6 +61,7 @@ most_viewers = 3
   EXPECT_EQ(config.perceive.stream->port, 3090);
   EXPECT_EQ(config.perceive.stream->address, "127.0.0.1");
   EXPECT_EQ(config.perceive.stream->most_viewers, 3U);
+  EXPECT_EQ(config.stream_token_file.filename(), "camera.token");
   EXPECT_EQ(order.planner.camera.width_px, config.perceive.camera.lens.width_px);
 }
 

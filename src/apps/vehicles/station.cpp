@@ -62,7 +62,7 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   if (auto added = host::add_survey_links(arguments.survey, config->survey); !added)
     return std::unexpected(added.error());
   for (auto& drone : config->survey)
-    if (auto taken = host::take_token(drone); !taken) return std::unexpected(taken.error());
+    if (auto taken = host::take_tokens(drone); !taken) return std::unexpected(taken.error());
   if (config->links.empty()) config->links = {host::default_link};
   for (auto const& text : arguments.payload) {
     if (auto added = host::add_payload(text, config->payload); !added) return std::unexpected(added.error());

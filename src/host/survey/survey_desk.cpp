@@ -71,7 +71,8 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
   std::set<std::string> names;
   for (auto& link : links) {
     auto const camera = camera_of(link);
-    auto& [name, settings, token_file, told_camera] = link;
+    auto& name = link.name;
+    auto& settings = link.settings;
     if (!names.insert(name).second)
       return base::fail(base::ErrorKind::invalid_input, fmt::format("two survey drones are called {}", name),
                         "give each a name of its own");

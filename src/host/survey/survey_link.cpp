@@ -93,6 +93,8 @@ SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const
   }
   if (auto const file = reader.text("token_file"))
     link.token_file = std::filesystem::path(source.name()).parent_path() / file->value;
+  if (auto const file = reader.text("camera_token_file"))
+    link.camera_token_file = std::filesystem::path(source.name()).parent_path() / file->value;
   read_tls(reader, source, diagnostics, link.settings.tls);
   reader.refuse("token", "keep it in a file of its own (mode 0600): token_file = \"drone.token\"");
   reader.refuse_unknown();
@@ -100,18 +102,24 @@ SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const
 }
 
 link::pictures::Source camera_of(SurveyLink const& link) {
-  if (link.camera) return *link.camera;
-  return {.host = link.settings.host,
-          .port = static_cast<std::uint16_t>(link.settings.port + link::pictures::ports_above_operator)};
+  auto camera = link.camera.value_or(link::pictures::Source{
+      .host = link.settings.host,
+      .port = static_cast<std::uint16_t>(link.settings.port + link::pictures::ports_above_operator)});
+  camera.token = link.camera_token;
+  return camera;
 }
 
-base::Result<> take_token(SurveyLink& link) {
-  if (link.token_file.empty()) return {};
-  auto token = read_secret(
-      {.path = link.token_file.string(), .what = "token file", .hint = fmt::format("copy that of {}", link.name)});
-  if (!token) return std::unexpected(token.error());
-  link.settings.client.end.token = *std::move(token);
-  return {};
+base::Result<> take_tokens(SurveyLink& link) {
+  auto const take = [&link](std::filesystem::path const& file, std::string& token) -> base::Result<> {
+    if (file.empty()) return {};
+    auto read =
+        read_secret({.path = file.string(), .what = "token file", .hint = fmt::format("copy that of {}", link.name)});
+    if (!read) return std::unexpected(read.error());
+    token = *std::move(read);
+    return {};
+  };
+  if (auto taken = take(link.token_file, link.settings.client.end.token); !taken) return taken;
+  return take(link.camera_token_file, link.camera_token);
 }
 
 }  // namespace lapwing::host

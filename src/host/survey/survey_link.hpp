@@ -18,6 +18,9 @@ struct SurveyLink {
   link::operator_link::ConnectSettings settings = {};
   std::filesystem::path token_file = {};              ///< what the drone asks for; empty: it asks for none
   std::optional<link::pictures::Source> camera = {};  ///< its pictures; none: beside the operator link
+  std::filesystem::path camera_token_file = {};       ///< what its pictures ask for; never the operator link's token,
+                                                      ///< which would go over the network as it is
+  std::string camera_token = {};                      ///< as that file has it
 };
 
 /// What `--survey` says: HOST or HOST:PORT, the port of operator links where there is none. Error: invalid_input.
@@ -32,7 +35,7 @@ inline constexpr auto survey_help =
                                      base::Diagnostics& diagnostics);
 /// Where the drone's pictures are: as it was told, else at its operator link's host, `ports_above_operator` up.
 [[nodiscard]] link::pictures::Source camera_of(SurveyLink const& link);
-/// Reads the token's file, where there is one. Errors: those of `read_secret`.
-[[nodiscard]] base::Result<> take_token(SurveyLink& link);
+/// Reads the files of tokens, where there are any. Errors: those of `read_secret`.
+[[nodiscard]] base::Result<> take_tokens(SurveyLink& link);
 
 }  // namespace lapwing::host

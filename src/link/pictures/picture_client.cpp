@@ -32,8 +32,9 @@ base::Task<> PictureClient::keep_asking() {
     while (link_->state() != LinkState::open) co_await loop_.sleep(look_again);
     reader_ = {};
     fault_.clear();
+    auto const known = source_.token.empty() ? "" : fmt::format("Authorization: Bearer {}\r\n", source_.token);
     auto const request =
-        fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", path_of(view_), "localhost");
+        fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\n{}Connection: close\r\n\r\n", path_of(view_), known);
     (void)link_->send(Peer{}, {reinterpret_cast<std::uint8_t const*>(request.data()), request.size()});
     while (link_->state() == LinkState::open) co_await loop_.sleep(look_again);
   }

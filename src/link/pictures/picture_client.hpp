@@ -17,6 +17,7 @@ namespace lapwing::link::pictures {
 struct Source {
   std::string host = "127.0.0.1";
   std::uint16_t port = default_port;
+  std::string token = {};  ///< what it asks for; empty: it asks for nothing
 };
 
 /// Looks at one view of a drone's camera for as long as it lives, connects again when that ends, and has the newest

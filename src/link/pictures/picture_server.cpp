@@ -18,6 +18,8 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 
+#include "base/text/constant_time.hpp"
+
 namespace lapwing::link::pictures {
 
 namespace {
@@ -65,6 +67,11 @@ bool is_asked_by_address(std::string_view host) {
   return !fault || host == "localhost";
 }
 
+bool carries(std::string_view authorization, std::string_view token) {
+  constexpr std::string_view bearer = "Bearer ";
+  return authorization.starts_with(bearer) && base::equal_in_constant_time(authorization.substr(bearer.size()), token);
+}
+
 std::optional<View> view_at(std::string_view target) {
   for (auto const view : {View::raw, View::annotated})
     if (target == path_of(view)) return view;
@@ -75,8 +82,12 @@ std::optional<View> view_at(std::string_view target) {
 
 class PictureServer::Core : public std::enable_shared_from_this<Core> {
  public:
-  Core(base::Loop& loop, std::size_t most_viewers)
-      : io_(loop.io()), acceptor_(loop.io()), pause_(loop.io()), most_viewers_(most_viewers) {}
+  Core(base::Loop& loop, ServeSettings const& settings)
+      : io_(loop.io()),
+        acceptor_(loop.io()),
+        pause_(loop.io()),
+        most_viewers_(settings.most_viewers),
+        token_(settings.token) {}
 
   Error listen(tcp::endpoint const& at) {
     Error error;
@@ -86,6 +97,7 @@ class PictureServer::Core : public std::enable_shared_from_this<Core> {
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     return error;
   }
+  [[nodiscard]] std::string_view token() const { return token_; }
   [[nodiscard]] std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
   void accept();
   void close();
@@ -102,6 +114,7 @@ class PictureServer::Core : public std::enable_shared_from_this<Core> {
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
   std::size_t most_viewers_;
+  std::string token_;
   std::vector<std::shared_ptr<Viewer>> viewers_;
 };
 
@@ -143,6 +156,10 @@ class PictureServer::Core::Viewer : public std::enable_shared_from_this<Viewer> 
     auto const view = view_at(text(request.target()));
     if (!is_asked_by_address(text(request[http::field::host])))
       return refuse("403 Forbidden", "ask by this machine's address\n");
+    auto const core = core_.lock();
+    if (!core) return end();
+    if (!core->token().empty() && !carries(text(request[http::field::authorization]), core->token()))
+      return refuse("401 Unauthorized", "this camera asks for its token\n");
     if (request.method() != http::verb::get) return refuse("405 Method Not Allowed", "pictures are asked for by GET\n");
     if (!view) return refuse("404 Not Found", "there are /raw.mjpg and /annotated.mjpg\n");
     if (is_full) return refuse("503 Service Unavailable", "as many look at the camera as it allows\n");
@@ -235,7 +252,12 @@ void PictureServer::Core::offer(View view, Picture const& picture) {
 base::Result<std::unique_ptr<PictureServer>> PictureServer::open(base::Loop& loop, ServeSettings const& settings) {
   Error error;
   auto const address = asio::ip::make_address(settings.address, error);
-  auto core = std::make_shared<Core>(loop, settings.most_viewers);
+  if (!error && !address.is_loopback() && settings.token.empty())
+    return base::fail(
+        base::ErrorKind::invalid_input,
+        fmt::format("other machines reach {}: whoever is on the network would see the pictures", settings.address),
+        "name a token_file under [stream], or keep address = \"127.0.0.1\"");
+  auto core = std::make_shared<Core>(loop, settings);
   if (!error) error = core->listen({address, settings.port});
   if (error)
     return base::fail(

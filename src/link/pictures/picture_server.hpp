@@ -15,6 +15,7 @@ struct ServeSettings {
   std::string address = "127.0.0.1";
   std::uint16_t port = default_port;  ///< 0 picks a free one
   std::size_t most_viewers = 8;
+  std::string token = {};  ///< what viewers say to be let in; empty: everybody who reaches the port is
 };
 
 /// Offers the newest picture of each view to whoever looks: any browser, or a PictureClient. A viewer that is slow
@@ -22,7 +23,8 @@ struct ServeSettings {
 /// Thread-bound to its loop, which outlives it.
 class PictureServer {
  public:
-  /// Error (io): the port is taken, or the address is not this machine's.
+  /// Errors: invalid_input, other machines reach the address and there is no token; io, the port is taken, or the
+  /// address is not this machine's.
   [[nodiscard]] static base::Result<std::unique_ptr<PictureServer>> open(base::Loop& loop,
                                                                          ServeSettings const& settings);
   ~PictureServer();

@@ -81,6 +81,30 @@ TEST_F(Pictures, AllowSoManyViewersAndTellTheNextOne) {
   EXPECT_NE(refused.error().message.find("503"), std::string::npos) << refused.error().message;
 }
 
+TEST_F(Pictures, AreForThoseWhoKnowTheToken) {
+  server = PictureServer::open(loop, {.port = 0, .token = "swordfish"}).value();
+  auto const at = [&](std::string token) {
+    return PictureClient::open(loop, {.port = server->port(), .token = std::move(token)}, View::raw).value();
+  };
+  for (auto const* const wrong : {"", "sword", "swordfisH"}) {
+    auto const stranger = at(wrong);
+    auto const refused = next(*stranger, 0, 500ms);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("401"), std::string::npos) << refused.error().message;
+  }
+  auto const friendly = at("swordfish");
+  until([&] { return server->is_watched(View::raw); });
+  offer(View::raw, "plain");
+  EXPECT_TRUE(next(*friendly, 0));
+}
+
+TEST_F(Pictures, WantATokenWhereOtherMachinesReachThem) {
+  auto const open = PictureServer::open(loop, {.address = "0.0.0.0", .port = 0});
+  ASSERT_FALSE(open);
+  EXPECT_EQ(open.error().kind, base::ErrorKind::invalid_input);
+  EXPECT_TRUE(PictureServer::open(loop, {.address = "0.0.0.0", .port = 0, .token = "swordfish"}));
+}
+
 TEST_F(Pictures, MissWhatASlowViewerHasNoTimeFor) {
   auto const quick = look(View::annotated);
   until([&] { return server->is_watched(View::annotated); });

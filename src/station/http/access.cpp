@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 
+#include "base/text/constant_time.hpp"
+
 namespace lapwing::station {
 namespace {
 
@@ -54,24 +56,15 @@ bool is_guarded(std::string_view path) {
   return path.starts_with("/api/") || path == "/metrics" || path == "/ogc" || path.starts_with("/ogc/");
 }
 
-/// Takes as long for a nearly right token as for a wrong one: as long as `given` is, whatever `token` is.
-bool equal_in_constant_time(std::string_view given, std::string_view token) {
-  bool const same_length = given.size() == token.size();
-  auto const against = same_length ? token : given;
-  unsigned char difference = same_length ? 0 : 1;
-  for (std::size_t i = 0; i < given.size(); ++i) difference |= static_cast<unsigned char>(given[i] ^ against[i]);
-  return difference == 0;
-}
-
 bool carries_token(AccessPolicy const& policy, HttpRequest const& request) {
   constexpr std::string_view bearer = "Bearer ";
   auto const authorization = request.header("Authorization");
   if (authorization.size() > bearer.size() && equal_ignoring_case(authorization.substr(0, bearer.size()), bearer)) {
-    return equal_in_constant_time(authorization.substr(bearer.size()), policy.token);
+    return base::equal_in_constant_time(authorization.substr(bearer.size()), policy.token);
   }
   // Browsers cannot set headers on a WebSocket. Addresses end up in histories: nowhere else.
   auto const parameter = request.opens_websocket ? request.parameter("token") : std::nullopt;
-  return parameter && equal_in_constant_time(*parameter, policy.token);
+  return parameter && base::equal_in_constant_time(*parameter, policy.token);
 }
 
 }  // namespace
