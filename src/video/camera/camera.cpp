@@ -5,6 +5,7 @@
 #include "video/camera/folder_camera.hpp"
 #include "video/camera/pattern_camera.hpp"
 #include "video/camera/simulated_camera.hpp"
+#include "video/camera/video_camera.hpp"
 #include "video/files/file_bytes.hpp"
 #include "video/world/car_park_file.hpp"
 
@@ -63,6 +64,7 @@ base::Result<std::unique_ptr<Camera>> open_camera(CameraSettings const& settings
     case CameraSettings::Kind::simulated: return open_simulated(settings);
     case CameraSettings::Kind::folder: return FolderCamera::open(settings);
     case CameraSettings::Kind::pattern: return std::make_unique<PatternCamera>(settings.lens);
+    case CameraSettings::Kind::video: return VideoCamera::open(settings);
   }
   return base::fail(base::ErrorKind::invalid_input, "there is no such kind of camera");
 }

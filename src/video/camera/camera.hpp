@@ -14,8 +14,8 @@
 #include "geo/camera/lens.hpp"
 #include "geo/position.hpp"
 
-/// Pictures from a camera on a drone, whatever the camera is: one that renders a simulated car park, a folder of
-/// pictures that were taken before, or a test pattern.
+/// Pictures from a camera on a drone, whatever the camera is: a real one, one that renders a simulated car park, a
+/// folder of pictures that were taken before, or a test pattern.
 namespace lapwing::video {
 
 /// Frame of a drone's body: x ahead, y to the left, z up (REP 103).
@@ -58,8 +58,8 @@ class Camera {
   virtual ~Camera() = default;
 
   /// The newest picture. Errors, for people: timed_out: none within its time, the next call may have one; io: this
-  /// one could not be read, the next call goes on behind it; lost: the camera is gone, or a folder has come to its end:
-  /// no call will have one again.
+  /// one could not be read, the next call goes on behind it; lost: the camera is gone, or a folder or video has come to
+  /// its end: no call will have one again, and who wants more opens it anew.
   [[nodiscard]] virtual base::Result<Frame> take(Moment const& moment) = 0;
   [[nodiscard]] virtual geo::Lens const& lens() const = 0;
 };
@@ -78,7 +78,7 @@ struct CameraFaults {
 
 /// Which camera, and how good it is.
 struct CameraSettings {
-  enum class Kind : std::uint8_t { simulated, folder, pattern };
+  enum class Kind : std::uint8_t { simulated, folder, pattern, video };
   Kind kind = Kind::simulated;
   geo::Lens lens = geo::pinhole(1280, 720, 1.0821);  ///< 62 degrees across
   Mount mount = {};
@@ -86,12 +86,13 @@ struct CameraSettings {
   /// Of the frame in which the poses are told, where that is not the world file's.
   std::optional<geo::Wgs84> anchor = {};
   std::filesystem::path folder = {};  ///< folder: the pictures, and poses.csv beside them
+  std::string source = {};            ///< video: a device of V4L2, an address, or a file
   std::uint64_t seed = 1;             ///< of the faults; the world has its own
   CameraFaults faults = {};
 };
 
-/// Errors: not_found, io: a file is not there or cannot be read; invalid_input: what is wrong with it, or with the lens
-/// or another setting.
+/// Errors: not_found, io: a file or camera is not there or cannot be read; invalid_input: what is wrong with it, or
+/// with the lens or another setting.
 [[nodiscard]] base::Result<std::unique_ptr<Camera>> open_camera(CameraSettings const& settings);
 
 }  // namespace lapwing::video

@@ -1,6 +1,12 @@
 #include "video/camera/camera_settings.hpp"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
+
+#include <fmt/format.h>
+
+#include "video/camera/video_camera.hpp"
 
 namespace lapwing::video {
 
@@ -15,9 +21,10 @@ CameraSettings::Kind kind_of(ConfigReader& table) {
   auto const word = table.text("kind");
   if (word && word->value == "folder") return CameraSettings::Kind::folder;
   if (word && word->value == "pattern") return CameraSettings::Kind::pattern;
+  if (word && word->value == "video") return CameraSettings::Kind::video;
   if (word && word->value != "simulated")
     table.diagnostics().report(invalid_value, word->span, "there is no such kind of camera",
-                               "it can be simulated, folder, pattern");
+                               "it can be simulated, video, folder, pattern");
   return CameraSettings::Kind::simulated;
 }
 
@@ -87,14 +94,31 @@ CameraFaults faults_of(ConfigReader& table) {
   return faults;
 }
 
+void report_if_missing(ConfigReader& table, std::string_view key, bool is_needed) {
+  if (is_needed && !table.has(key))
+    table.diagnostics().report(invalid_value, {0, 1}, "the camera needs " + std::string(key),
+                               std::string(key) + " = \"...\" in its table");
+}
+
 std::filesystem::path path_of(ConfigReader& table, std::string_view key, bool is_needed,
                               std::filesystem::path const& beside) {
   auto const text = table.text(key);
   if (text) return beside / text->value;
-  if (is_needed && !table.has(key))
-    table.diagnostics().report(invalid_value, {0, 1}, "the camera needs " + std::string(key),
-                               std::string(key) + " = \"...\" in its table");
+  report_if_missing(table, key, is_needed);
   return {};
+}
+
+/// The library that opens addresses knows many more ways, some of which read any file or join several sources.
+std::string source_of(ConfigReader& table, bool is_needed, std::filesystem::path const& beside) {
+  constexpr std::array<std::string_view, 4> schemes = {"rtsp://", "rtsps://", "http://", "https://"};
+  auto const text = table.text("source");
+  report_if_missing(table, "source", is_needed);
+  if (!text) return {};
+  if (!is_address(text->value)) return (beside / text->value).string();
+  if (std::ranges::none_of(schemes, [&](auto scheme) { return text->value.starts_with(scheme); }))
+    table.diagnostics().report(invalid_value, text->span, "a camera's pictures do not come that way",
+                               fmt::format("an address begins with {}", fmt::join(schemes, ", ")));
+  return text->value;
 }
 
 }  // namespace
@@ -106,6 +130,7 @@ CameraSettings read_camera(ConfigReader& table, std::filesystem::path const& bes
   settings.mount = mount_of(table);
   settings.world = path_of(table, "world", settings.kind == CameraSettings::Kind::simulated, beside);
   settings.folder = path_of(table, "folder", settings.kind == CameraSettings::Kind::folder, beside);
+  settings.source = source_of(table, settings.kind == CameraSettings::Kind::video, beside);
   if (auto const seed = table.integer("seed", 0, std::numeric_limits<std::int64_t>::max()))
     settings.seed = static_cast<std::uint64_t>(seed->value);
   settings.faults = faults_of(table);

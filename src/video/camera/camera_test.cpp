@@ -263,10 +263,21 @@ faults = {noise = 3, blur_px = 1, position_m = 0.3, angle_deg = 0.5, delay_s = 0
   EXPECT_EQ(settings.seed, 9U);
 }
 
+TEST(CameraSettings, AVideoIsAnAddressADeviceOrAFileBesideTheSettings) {
+  auto const source = [](std::string const& text) { return read("kind = \"video\"\nsource = \"" + text + "\"\n"); };
+  EXPECT_EQ(source("rtsp://10.0.0.2:554/main").settings.source, "rtsp://10.0.0.2:554/main");
+  EXPECT_EQ(source("/dev/video0").settings.source, "/dev/video0");
+  EXPECT_EQ(source("flight.mp4").settings.source, "/etc/drone/flight.mp4");
+  EXPECT_EQ(source("rtsp://10.0.0.2:554/main").mistakes, "");
+  EXPECT_NE(source("concat://a|b").mistakes.find("rtsp://, rtsps://"), std::string::npos);
+}
+
 TEST(CameraSettings, WhatIsMissingOrUnknownIsTold) {
   EXPECT_NE(read("kind = \"simulated\"\n").mistakes.find("needs world"), std::string::npos);
   EXPECT_NE(read("kind = \"folder\"\n").mistakes.find("needs folder"), std::string::npos);
-  EXPECT_NE(read("kind = \"webcam\"\nworld = \"w\"\n").mistakes.find("simulated, folder, pattern"), std::string::npos);
+  EXPECT_NE(read("kind = \"video\"\n").mistakes.find("needs source"), std::string::npos);
+  EXPECT_NE(read("kind = \"webcam\"\nworld = \"w\"\n").mistakes.find("simulated, video, folder, pattern"),
+            std::string::npos);
   EXPECT_NE(read("kind = \"pattern\"\nwidht = 3\n").mistakes.find("did you mean width"), std::string::npos);
   EXPECT_NE(read("kind = \"pattern\"\ndistortion = [-5, 0, 0, 0, 0]\n").mistakes.find("no sound lens"),
             std::string::npos);
