@@ -1,0 +1,94 @@
+#include "robot/poi/tag_book.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/LU>
+
+#include "geo/position.hpp"
+
+namespace lapwing::robot {
+
+namespace {
+
+constexpr double same_within_m = 1.0;  ///< the seed's, on the same side of the wall
+constexpr double gate = 13.8;          ///< of a squared Mahalanobis distance in two dimensions: 999 of 1,000
+constexpr double least_variance_m2 = 0.02 * 0.02;  ///< views err alike by the map that all of them are placed by
+constexpr double votes_against = 0.5;
+
+Eigen::Vector2d vector_of(map::SitePoint const& point) {
+  return {point.x(), point.y()};
+}
+
+std::string most_voted(std::map<std::string, double> const& votes) {
+  if (votes.empty()) return {};
+  return std::ranges::max_element(votes, {}, [](auto const& vote) { return vote.second; })->first;
+}
+
+}  // namespace
+
+std::string TagBook::Entry::name() const {
+  return most_voted(names);
+}
+
+std::string TagBook::Entry::text() const {
+  return most_voted(texts);
+}
+
+double TagBook::Entry::confidence() const {
+  double const all = std::accumulate(names.begin(), names.end(), votes_against,
+                                     [](double sum, auto const& vote) { return sum + vote.second; });
+  auto const best = names.find(name());
+  return best == names.end() ? 0.0 : best->second / all;
+}
+
+TagBook::Entry* TagBook::nearest(TagSight const& sight) {
+  Entry* found = nullptr;
+  double least_m = same_within_m;
+  auto const& wall = sight.place.wall;
+  for (auto& tag : tags_) {
+    double const apart_m = geo::distance_m(tag.position, wall.position);
+    if (apart_m > least_m) continue;
+    if (std::abs(geo::wrap_pi(tag.facing_rad - wall.facing_rad)) > std::numbers::pi / 2.0) continue;
+    Eigen::Vector2d const apart = vector_of(wall.position) - vector_of(tag.position);
+    Eigen::Matrix2d const spread = tag.covariance_m2 + sight.place.covariance_m2;
+    // What reads alike may lie as far off as the seed says, what reads otherwise only as far as places err.
+    if (tag.name() != sight.name && apart.dot(spread.inverse() * apart) > gate) continue;
+    least_m = apart_m;
+    found = &tag;
+  }
+  return found;
+}
+
+TagBook::Entry const& TagBook::take(TagSight const& sight) {
+  auto* tag = nearest(sight);
+  if (!tag) {
+    tags_.push_back({.number = static_cast<std::uint32_t>(tags_.size()) + 1,
+                     .position = sight.place.wall.position,
+                     .covariance_m2 = sight.place.covariance_m2,
+                     .height_m = sight.place.height_m,
+                     .facing_rad = sight.place.wall.facing_rad,
+                     .sights = 0,
+                     .names = {},
+                     .texts = {}});
+    tag = &tags_.back();
+  } else {
+    Eigen::Matrix2d const gain = tag->covariance_m2 * (tag->covariance_m2 + sight.place.covariance_m2).inverse();
+    Eigen::Vector2d const at =
+        vector_of(tag->position) + gain * (vector_of(sight.place.wall.position) - vector_of(tag->position));
+    tag->position = {at.x(), at.y()};
+    Eigen::Matrix2d const left = (Eigen::Matrix2d::Identity() - gain) * tag->covariance_m2;
+    tag->covariance_m2 = (left + left.transpose()) / 2.0;
+    for (int axis = 0; axis < 2; ++axis)
+      tag->covariance_m2(axis, axis) = std::max(tag->covariance_m2(axis, axis), least_variance_m2);
+    tag->height_m += (sight.place.height_m - tag->height_m) / (tag->sights + 1);
+  }
+  ++tag->sights;
+  tag->names[sight.name] += sight.score;
+  tag->texts[sight.text] += sight.score;
+  return *tag;
+}
+
+}  // namespace lapwing::robot

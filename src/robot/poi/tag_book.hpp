@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "robot/poi/tag_place.hpp"
+
+namespace lapwing::robot {
+
+/// A name tag as it was seen once.
+struct TagSight {
+  TagPlace place;
+  std::string name;    ///< the room's number, or its kind where there is no number
+  std::string text;    ///< all that was read
+  double score = 0.0;  ///< 0..1: how sure the reader is
+};
+
+/// Keeps name tags apart while a robot drives about: the same one seen from elsewhere is merged, its place by
+/// covariance, its text by vote.
+class TagBook {
+ public:
+  struct Entry {
+    std::uint32_t number = 0;  ///< from 1, never given twice
+    map::SitePoint position;
+    Eigen::Matrix2d covariance_m2;
+    double height_m = 0.0;
+    double facing_rad = 0.0;
+    int sights = 0;
+    std::map<std::string, double> names;  ///< scores of all sights that read so
+    std::map<std::string, double> texts;  ///< likewise
+
+    [[nodiscard]] std::string name() const;
+    [[nodiscard]] std::string text() const;
+    /// That the name is right: its part of all votes, and half a one against it, so that a single sight is not sure.
+    [[nodiscard]] double confidence() const;
+  };
+
+  /// The one that it was, or a new one.
+  Entry const& take(TagSight const& sight);
+  [[nodiscard]] std::vector<Entry> const& tags() const { return tags_; }
+
+ private:
+  [[nodiscard]] Entry* nearest(TagSight const& sight);
+
+  std::vector<Entry> tags_;
+};
+
+}  // namespace lapwing::robot

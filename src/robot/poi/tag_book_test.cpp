@@ -1,0 +1,51 @@
+#include "robot/poi/tag_book.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace lapwing::robot {
+namespace {
+
+TagSight sight(double x, double y, std::string const& name, double score, double facing_rad = 0.0, double sd_m = 0.1) {
+  return {.place = {.wall = {.position = {x, y}, .range_m = 1.5, .facing_rad = facing_rad},
+                    .height_m = 1.5,
+                    .covariance_m2 = sd_m * sd_m * Eigen::Matrix2d::Identity()},
+          .name = name,
+          .text = name,
+          .score = score};
+}
+
+TEST(TagBook, MergesViewsOfOneTagAndWeighsThemByHowSureTheyAre) {
+  TagBook book;
+  auto const first = book.take(sight(1.0, 2.0, "221", 0.8, 0.0, 0.1));
+  auto const both = book.take(sight(1.3, 2.0, "221", 0.8, 0.1, 0.2));
+  ASSERT_EQ(book.tags().size(), 1U);
+  EXPECT_EQ(both.number, first.number);
+  EXPECT_EQ(both.sights, 2);
+  EXPECT_NEAR(both.position.x(), 1.06, 1e-9);  // four times as sure of the first
+  EXPECT_LT(both.covariance_m2(0, 0), first.covariance_m2(0, 0));
+  EXPECT_GT(both.confidence(), first.confidence());
+}
+
+TEST(TagBook, TakesTheNameThatMostOfTheSightsRead) {
+  TagBook book;
+  (void)book.take(sight(1.0, 2.0, "271", 0.7));
+  (void)book.take(sight(1.05, 2.0, "221", 0.6));
+  EXPECT_EQ(book.tags().front().name(), "271");
+  (void)book.take(sight(1.0, 2.05, "221", 0.6));
+  ASSERT_EQ(book.tags().size(), 1U);
+  EXPECT_EQ(book.tags().front().name(), "221");
+}
+
+TEST(TagBook, KeepsTagsApartThatHangElsewhereOrOnTheOtherSideOfTheWall) {
+  TagBook book;
+  (void)book.take(sight(1.0, 2.0, "221", 0.8));
+  (void)book.take(sight(2.2, 2.0, "221", 0.8));
+  (void)book.take(sight(1.0, 2.0, "221", 0.8, std::numbers::pi));
+  (void)book.take(sight(1.6, 2.0, "223", 0.8));
+  EXPECT_EQ(book.tags().size(), 4U) << "the last one reads otherwise and is farther off than places err";
+}
+
+}  // namespace
+}  // namespace lapwing::robot

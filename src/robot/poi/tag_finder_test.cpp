@@ -1,0 +1,97 @@
+#include "robot/poi/tag_finder.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace lapwing::robot {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A robot that stands before a wall along x at y = 2 m, with a camera that looks at it.
+struct TagFinderAtAWall : ::testing::Test {
+  void SetUp() override {
+    auto const site = geo::Site::make("site", geo::Wgs84::from_degrees(41.0, -8.0, 90.0));
+    ASSERT_TRUE(site);
+    live_map.put_site(*site);
+    map::OccupancyGrid grid(0.05);
+    for (std::int32_t x = -40; x < 160; ++x) {
+      for (std::int32_t y = -10; y < 40; ++y) grid.set({x, y}, map::Evidence::of_probability(0.1));
+      grid.set({x, 40}, map::Evidence::of_probability(0.9));
+    }
+    std::vector<map::TileKey> tiles;
+    for (auto const& [key, tile] : grid.tiles()) tiles.push_back(key);
+    ASSERT_TRUE(live_map.put_tiles({.site = "site", .floor = "", .name = "robot 1"}, grid, tiles,
+                                   {.writer = "robot1", .at = loop.utc_now()}));
+    stand_at(1.0);
+  }
+  void stand_at(double x) {
+    registry.edit({"robot1"})
+        .motion.site_pose.set({.site = "site", .floor = {}, .position = {x, 0.4, 0.0}, .yaw_rad = 0.0}, loop.now());
+  }
+  /// Sees what `look` is now, in the middle of its picture.
+  Eye eye() {
+    return {.mount = {.x_m = 0.0, .yaw_rad = std::numbers::pi / 2.0},
+            .look = [this]() -> base::Task<std::optional<Look>> { co_return look; }};
+  }
+  std::unique_ptr<TagFinder> finder() {
+    return std::make_unique<TagFinder>(loop, registry, live_map,
+                                       TagFinder::Setup{.vehicle = "robot1", .grid = "robot 1", .eyes = {eye()}},
+                                       base::Logger(hub, "test"));
+  }
+  void pass(base::Duration time) {
+    loop.run_until_done(
+        [](base::Loop& on, base::Duration for_s) -> base::Task<> { co_await on.sleep(for_s); }(loop, time));
+  }
+  [[nodiscard]] std::vector<map::FeatureRecord const*> on_map() const {
+    return live_map.within(map::LayerKind::points_of_interest, "site", std::nullopt, 100);
+  }
+
+  base::LogHub hub;
+  base::Loop loop{base::Loop::Pace{.unpaced = true, .begins_at = base::UtcTime(std::chrono::hours(24 * 365 * 30))}};
+  vehicle::Registry registry{loop};
+  map::LiveMap live_map{[this] { return loop.utc_now(); }};
+  Look look{.found = {{.category = "sign",
+                       .box = {.x = 460.0, .y = 350.0, .width = 40.0, .height = 20.0},
+                       .score = 0.8,
+                       .text = "221",
+                       .kind = "office"}}};
+};
+
+TEST_F(TagFinderAtAWall, PutsWhatIsReadThereOnTheMap) {
+  auto const finds = finder();
+  pass(3s);
+  ASSERT_EQ(on_map().size(), 1U);
+  auto const& point = std::get<map::PointOfInterest>(on_map().front()->feature.content);
+  EXPECT_EQ(point.kind, "name tag");
+  EXPECT_EQ(point.name, "221");
+  EXPECT_EQ(point.text, "221 office");
+  EXPECT_NEAR(point.position.x(), 1.0, 0.05);
+  EXPECT_NEAR(point.position.y(), 2.0, 0.05);
+  EXPECT_TRUE(point.covariance_m2);
+}
+
+TEST_F(TagFinderAtAWall, LooksAtAPieceOfWallTwiceAndOnceMoreWhenThatWasBlurred) {
+  auto const finds = finder();
+  pass(5s);
+  EXPECT_EQ(finds->pictures(), 2);
+  look.is_sharp = false;
+  stand_at(3.0);
+  pass(5s);
+  EXPECT_EQ(finds->pictures(), 5);
+}
+
+TEST_F(TagFinderAtAWall, ForgetsWhatTheRobotFoundAnotherTime) {
+  {
+    auto const earlier = finder();
+    pass(3s);
+  }
+  ASSERT_EQ(on_map().size(), 1U);
+  look.found.clear();
+  auto const later = finder();
+  EXPECT_TRUE(on_map().empty());
+}
+
+}  // namespace
+}  // namespace lapwing::robot

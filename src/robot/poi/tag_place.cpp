@@ -1,0 +1,99 @@
+#include "robot/poi/tag_place.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "geo/position.hpp"
+
+namespace lapwing::robot {
+
+namespace {
+
+using geo::SiteFrame;
+using map::SitePoint;
+
+constexpr double taken = 0.6;        ///< probability from which on a cell is a wall's
+constexpr double beside_m = 0.25;    ///< how far from a point of a wall its direction is looked for
+constexpr double lowest_m = 0.8;     ///< nobody hangs name tags below
+constexpr double highest_m = 2.3;    ///< nor above
+constexpr double bearing_sd = 0.02;  ///< of pose, mount and box together
+constexpr double place_sd_m = 0.05;  ///< of the robot's place and its map's cells
+
+SitePoint ahead_of(SitePoint const& from, double way_rad, double by_m) {
+  return {from.x() + by_m * std::cos(way_rad), from.y() + by_m * std::sin(way_rad)};
+}
+
+SitePoint camera_place(geo::Pose<SiteFrame> const& body, CameraMount const& mount) {
+  auto const ahead = ahead_of(body.position, body.yaw_rad, mount.x_m);
+  return ahead_of(ahead, body.yaw_rad + std::numbers::pi / 2.0, mount.y_m);
+}
+
+std::optional<double> range_to_wall(map::OccupancyGrid const& grid, SitePoint const& from, double way_rad) {
+  auto const grid_from_site = grid.site_from_grid().inverse();
+  double const step_m = grid.resolution_m() / 2.0;
+  for (double range_m = step_m; range_m <= most_range_m; range_m += step_m) {
+    auto const evidence = grid.at(grid.cell_at(grid_from_site * ahead_of(from, way_rad, range_m)));
+    if (!evidence.is_seen()) return std::nullopt;
+    if (evidence.probability() >= taken) return range_m;
+  }
+  return std::nullopt;
+}
+
+/// Beside a doorway one of the neighbours is the next room's wall: the nearer one belongs to the same wall.
+std::optional<SitePoint> neighbour(map::OccupancyGrid const& grid, SitePoint const& from, double way_rad,
+                                   SitePoint const& met, double range_m) {
+  std::optional<SitePoint> nearest;
+  double const aside_rad = std::atan2(beside_m, range_m);
+  for (double const turn_rad : {-aside_rad, aside_rad}) {
+    auto const range = range_to_wall(grid, from, way_rad + turn_rad);
+    if (!range) continue;
+    auto const point = ahead_of(from, way_rad + turn_rad, *range);
+    if (!nearest || geo::distance_m(point, met) < geo::distance_m(*nearest, met)) nearest = point;
+  }
+  return nearest;
+}
+
+double facing_of(SitePoint const& met, SitePoint const& beside, double way_rad) {
+  double const along_rad = std::atan2(beside.y() - met.y(), beside.x() - met.x());
+  double const normal_rad = along_rad + std::numbers::pi / 2.0;
+  return geo::wrap_pi(std::cos(normal_rad - way_rad) < 0.0 ? normal_rad : normal_rad + std::numbers::pi);
+}
+
+/// Along the line of sight a wall that is seen aslant is the less sure.
+Eigen::Matrix2d covariance_of(WallPoint const& wall, double way_rad) {
+  double const across_m = wall.range_m * bearing_sd;
+  double const slant_rad = std::min(std::abs(geo::wrap_pi(wall.facing_rad + std::numbers::pi - way_rad)), 1.3);
+  double const along_m = across_m * std::tan(slant_rad);
+  Eigen::Vector2d const ahead(std::cos(way_rad), std::sin(way_rad));
+  Eigen::Vector2d const aside(-ahead.y(), ahead.x());
+  return along_m * along_m * ahead * ahead.transpose() + across_m * across_m * aside * aside.transpose() +
+         place_sd_m * place_sd_m * Eigen::Matrix2d::Identity();
+}
+
+}  // namespace
+
+std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<SiteFrame> const& body,
+                                   CameraMount const& mount, double bearing_rad) {
+  auto const from = camera_place(body, mount);
+  double const way_rad = body.yaw_rad + bearing_rad;
+  auto const range_m = range_to_wall(grid, from, way_rad);
+  if (!range_m) return std::nullopt;
+  auto const met = ahead_of(from, way_rad, *range_m);
+  auto const beside = neighbour(grid, from, way_rad, met, *range_m);
+  if (!beside) return std::nullopt;
+  return WallPoint{.position = met, .range_m = *range_m, .facing_rad = facing_of(met, *beside, way_rad)};
+}
+
+std::optional<TagPlace> tag_place(map::OccupancyGrid const& grid, geo::Pose<SiteFrame> const& body,
+                                  CameraMount const& mount, vision::Box const& tag) {
+  auto const line = sight_line(mount, {.x = tag.x + tag.width / 2.0, .y = tag.y + tag.height / 2.0});
+  auto const wall = wall_seen(grid, body, mount, line.bearing_rad);
+  if (!wall) return std::nullopt;
+  double const height_m = mount.up_m + wall->range_m * line.slope;
+  if (height_m < lowest_m || height_m > highest_m) return std::nullopt;
+  return TagPlace{
+      .wall = *wall, .height_m = height_m, .covariance_m2 = covariance_of(*wall, body.yaw_rad + line.bearing_rad)};
+}
+
+}  // namespace lapwing::robot

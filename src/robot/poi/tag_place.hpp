@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "map/features/geometry.hpp"
+#include "map/grid/occupancy_grid.hpp"
+#include "robot/poi/camera_mount.hpp"
+
+namespace lapwing::robot {
+
+/// Where a wall is met, in the site's frame.
+struct WallPoint {
+  map::SitePoint position;
+  double range_m = 0.0;     ///< along the floor, from the camera
+  double facing_rad = 0.0;  ///< the way that the wall looks there: to the side that it is seen from
+};
+
+/// The first thing on a robot's map that a camera's line meets; nothing where what lies between is not known, or where
+/// nothing is met within `most_range_m`.
+[[nodiscard]] std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<geo::SiteFrame> const& body,
+                                                 CameraMount const& mount, double bearing_rad);
+inline constexpr double most_range_m = 4.0;
+
+/// Where a name tag hangs.
+struct TagPlace {
+  WallPoint wall;
+  double height_m = 0.0;  ///< above the floor
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+};
+
+/// Of a tag in a picture: by its direction and the wall that the map has there. Nothing where the map has none, or
+/// where the tag would hang at a height at which nobody hangs one: then it is seen through a gap of the map.
+[[nodiscard]] std::optional<TagPlace> tag_place(map::OccupancyGrid const& grid, geo::Pose<geo::SiteFrame> const& body,
+                                                CameraMount const& mount, vision::Box const& tag);
+
+}  // namespace lapwing::robot
