@@ -226,7 +226,7 @@ void RobotPlatform::write(RobotSpec const& spec, map::OccupancyGrid const& grid,
 
 void RobotPlatform::write_walls(RobotSpec const& spec, WallBook::Changes const& changes) {
   map::Account const account{.writer = spec.id, .at = around_.loop.utc_now()};
-  auto const& site_from_map = spec.mapping.site_from_map;
+  geo::Transform<geo::SiteFrame, map::GridFrame> const site_from_map{spec.start.position, spec.start.yaw_rad};
   std::vector<map::Feature> walls;
   for (auto const& [number, line] : changes.put)
     walls.push_back({.id = wall_id(spec, number),

@@ -52,6 +52,24 @@ TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
   for (auto const& [from, to] : testing::small_office()) EXPECT_LT(from_walls_m(0.5 * (from + to)), 0.1) << from << to;
 }
 
+TEST_F(RobotPlatformTest, PutsWallsWhereTheRobotStartsInItsSite) {
+  RobotSpec spec{.id = "robot2", .name = "robot 2", .site = "office", .start = {{50.0, -30.0}, 1.0}};
+  spec.planning.side_m = 40.0;
+  auto const turned = platform.add(
+      spec, std::make_unique<testing::SimpleBody>(loop, testing::small_office(), testing::SimpleBodyOptions{}));
+  ASSERT_TRUE(turned);
+  ASSERT_TRUE(run_until([&] { return (*turned)->here().has_value(); }, 5s));
+  auto const run = start({ExploreStep{"nearest"}}, "robot2");
+  run_for(20s);
+  geo::Transform<geo::SiteFrame, map::GridFrame> const site_from_map(spec.start.position, spec.start.yaw_rad);
+  int found = 0;
+  for (auto const& [from, to] : testing::small_office()) {
+    Eigen::Vector2d const middle = 0.5 * (from + to);
+    found += from_walls_m((site_from_map * Place(middle.x(), middle.y())).v) < 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(found, 1) << "those that it has seen by now";
+}
+
 TEST_F(RobotPlatformTest, ShowsWhereItIsAndHowSureOfIt) {
   auto const run = start({ExploreStep{"nearest"}});
   run_for(20s);
