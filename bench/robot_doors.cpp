@@ -1,0 +1,260 @@
+// A robot maps a simulated building by itself and looks for name tags with four cameras that look to its sides; what it
+// has put on the map is held against the truth, a row a seed.
+// usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE]
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "base/async/pool.hpp"
+#include "host/session/session.hpp"
+#include "robot/poi/tag_finder.hpp"
+#include "vision/image/sharpness.hpp"
+#include "vision/signs/sign_finder.hpp"
+
+namespace {
+
+using namespace lapwing;
+using namespace std::chrono_literals;
+namespace building = sim::building;
+
+struct Options {
+  std::string file;
+  std::string to;  ///< a place to drive to before it comes home; empty: none
+  std::vector<std::uint64_t> seeds;
+};
+
+base::Result<std::unique_ptr<vision::SignFinder>> sign_finder() {
+  std::vector<std::unique_ptr<vision::LineReader>> readers;
+  auto tesseract = vision::make_tesseract_reader();
+  if (!tesseract) return std::unexpected(tesseract.error());
+  readers.push_back(*std::move(tesseract));
+  return std::make_unique<vision::SignFinder>(std::move(readers));
+}
+
+/// What a job beside the loop takes and gives back.
+struct Looked {
+  robot::Look look;
+  std::unique_ptr<vision::SignFinder> signs;
+};
+
+Looked look_at(building::Shot shot, std::unique_ptr<vision::SignFinder> signs) {
+  auto picture = develop(shot);
+  cv::Mat const rgb(picture.height, picture.width, CV_8UC3, picture.rgb.data());
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  Looked looked{.look = {.found = signs->find(bgr)}, .signs = std::move(signs)};
+  for (auto const& sign : looked.look.found) {
+    cv::Rect const box(cv::Rect2d(sign.box.x, sign.box.y, sign.box.width, sign.box.height));
+    auto const seen = bgr(box & cv::Rect(0, 0, bgr.cols, bgr.rows));
+    looked.look.is_sharp = looked.look.is_sharp && is_sharp(vision::sharpness(seen));
+  }
+  return looked;
+}
+
+/// One run in one building.
+class Trial {
+ public:
+  Trial(Options const& options, std::uint64_t seed, std::unique_ptr<vision::SignFinder> signs)
+      : options_(options),
+        session_({.speedup = 0.0, .log_level = base::LogLevel::error, .seed = seed}),
+        signs_(std::move(signs)) {}
+
+  base::Result<> run() {
+    auto const anywhere = geo::Wgs84::from_degrees(41.178, -8.598, 90.0);
+    if (auto added = session_.add_robots({"sim:" + options_.file}, anywhere); !added) return added;
+    start_ = truth().robot(0).body().pose().position;
+    auto const& spec = session_.robots.robots().front()->spec();
+    tags_ = std::make_unique<robot::TagFinder>(
+        session_.loop, session_.ground.registry, session_.live_map,
+        robot::TagFinder::Setup{
+            .vehicle = spec.id, .grid = spec.name, .eyes = {eye(0.87), eye(-0.87), eye(1.8), eye(-1.8)}},
+        session_.log);
+    auto const there = options_.to.empty() ? "" : fmt::format("driveTo '{}'; ", options_.to);
+    auto const started = session_.host.start(
+        "floor.dolphin", fmt::format("robot = pick {{ id 'robot1'; timeout 60.seconds }}\n"
+                                     "execute robot: drive {{ name 'Floor'; explore(); {}returnToStart() }}\n",
+                                     there));
+    if (!started) return base::fail(base::ErrorKind::invalid_input, session_.host.rendered_diagnostics());
+    session_.run_to_end(4h);
+    return {};
+  }
+
+  /// `wall_s`: how long it took.
+  void tell(std::uint64_t seed, double wall_s) const {
+    auto const& drive = *session_.robots.robots().front()->drives().back();
+    double const off_m = geo::distance_m(truth().robot(0).body().pose().position, start_);
+    bool const is_home = drive.outcome == robot::DriveRecord::Outcome::done && off_m < 0.6;
+    auto const walls = wall_errors();
+    auto const within = std::ranges::count_if(walls, [](double error_m) { return error_m <= 0.1; });
+    auto const doors = judge_doors();
+    fmt::print("| {} | {} | {:.3f} m | {:.3f} | {} of {} | {} | {} | {} | {:.0f} m | {} | {:.0f} s | {}| {} |\n", seed,
+               is_home ? "home" : "not home", walls.empty() ? 0.0 : walls[walls.size() * 95 / 100],
+               walls.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(walls.size()), doors.right,
+               doors.all, doors.misread, doors.wrong, truth().collisions().size(),
+               session_.robots.robots().front()->state().motion.track_m, tags_->pictures(), wall_s, doors.missing,
+               drive.error.empty() ? drive.remark : drive.error);
+    std::fflush(stdout);
+  }
+
+ private:
+  struct Doors {
+    int all = 0;               ///< with a sign
+    int right = 0;             ///< have their number on the map
+    int misread = 0;           ///< have another one instead
+    int wrong = 0;             ///< tags on the map that are no door's
+    std::string missing = {};  ///< the numbers that are not on the map
+  };
+
+  [[nodiscard]] building::Building& truth() const { return *session_.buildings.front()->building; }
+  [[nodiscard]] building::Place on_floor(map::SitePoint const& point) const {
+    return session_.buildings.front()->site_from_floor.inverse() * point;
+  }
+
+  robot::Eye eye(double yaw_rad) {
+    auto settings = truth().robot(0).settings().camera;
+    settings.yaw_rad = yaw_rad;
+    return {.mount = {.width_px = settings.width,
+                      .height_px = settings.height,
+                      .view_rad = settings.view_rad,
+                      .x_m = settings.x_m,
+                      .y_m = settings.y_m,
+                      .up_m = settings.up_m,
+                      .yaw_rad = settings.yaw_rad,
+                      .pitch_rad = settings.pitch_rad},
+            .look = [this, settings] { return look(settings); }};
+  }
+
+  base::Task<std::optional<robot::Look>> look(building::CameraSettings settings) {
+    auto shot = truth().shoot(0);
+    if (!shot) co_return std::nullopt;
+    shot->settings = settings;
+    shot->pose = camera_on(truth().robot(0).body().pose(), settings);
+    auto looked = co_await session_.loop.on_pool(&look_at, *std::move(shot), std::move(signs_));
+    signs_ = std::move(looked.signs);
+    co_return std::move(looked.look);
+  }
+
+  /// Of points along the walls on the map, every 5 cm, to the nearest face of the building; in order.
+  [[nodiscard]] std::vector<double> wall_errors() const {
+    std::vector<double> errors;
+    auto const layer = map::LayerKind::walls;
+    for (auto const* record : session_.live_map.within(layer, "default", std::nullopt, session_.live_map.size(layer))) {
+      auto const& points = std::get<map::Wall>(record->feature.content).line.points;
+      auto const from = on_floor(points.front());
+      auto const to = on_floor(points.back());
+      int const steps = std::max(1, static_cast<int>(geo::distance_m(from, to) / 0.05));
+      for (int i = 0; i <= steps; ++i)
+        errors.push_back(error_at(from + (i / static_cast<double>(steps)) * (to - from)));
+    }
+    std::ranges::sort(errors);
+    return errors;
+  }
+
+  [[nodiscard]] double error_at(building::Place const& place) const {
+    constexpr double reach_m = 1.0;
+    double least_m = reach_m;
+    auto const around = truth().surroundings();
+    auto const look = [&](building::Face const& face) {
+      least_m = std::min(least_m, geo::distance_m(nearest_point(face, place), place));
+    };
+    around.fixed.near(place, reach_m, look);
+    std::ranges::for_each(around.moving, look);
+    return least_m;
+  }
+
+  /// A tag is a door's that hangs within reach of its middle, on its front.
+  [[nodiscard]] Doors judge_doors() const {
+    constexpr double reach_m = 1.2;
+    Doors doors;
+    auto const layer = map::LayerKind::points_of_interest;
+    auto const tags = session_.live_map.within(layer, "default", std::nullopt, session_.live_map.size(layer));
+    std::vector<bool> is_a_doors(tags.size(), false);
+    for (auto const& door : truth().true_doors()) {
+      if (door.text.empty()) continue;
+      ++doors.all;
+      auto const number = door.text.substr(0, door.text.find('\n'));
+      bool has_right = false;
+      bool has_any = false;
+      for (std::size_t i = 0; i < tags.size(); ++i) {
+        auto const& tag = std::get<map::PointOfInterest>(tags[i]->feature.content);
+        if (geo::distance_m(on_floor(tag.position), door.middle) > reach_m) continue;
+        has_any = true;
+        has_right = has_right || tag.name == number;
+        is_a_doors[i] = is_a_doors[i] || tag.name == number;
+      }
+      doors.right += has_right ? 1 : 0;
+      if (!has_right) doors.missing += number + " ";
+      doors.misread += has_any && !has_right ? 1 : 0;
+    }
+    doors.wrong = static_cast<int>(std::ranges::count(is_a_doors, false));
+    return doors;
+  }
+
+  Options const& options_;
+  host::Session session_;
+  std::unique_ptr<vision::SignFinder> signs_;  ///< null while it looks
+  building::Place start_;
+  std::unique_ptr<robot::TagFinder> tags_;
+};
+
+std::optional<Options> options_of(std::vector<std::string_view> const& words) {
+  Options options;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    bool const has_next = i + 1 < words.size();
+    std::uint64_t seed = 0;
+    if (words[i] == "--to" && has_next) {
+      options.to = words[++i];
+    } else if (options.file.empty()) {
+      options.file = words[i];
+    } else if (std::from_chars(words[i].data(), words[i].data() + words[i].size(), seed).ec == std::errc()) {
+      options.seeds.push_back(seed);
+    } else {
+      return std::nullopt;
+    }
+  }
+  return options.seeds.empty() ? std::nullopt : std::optional(std::move(options));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Tesseract's threads wait for each other on a busy machine, as src/apps/vision/main.cpp says.
+  if (std::getenv("OMP_THREAD_LIMIT") == nullptr && setenv("OMP_THREAD_LIMIT", "1", 1) == 0)
+    execv("/proc/self/exe", argv);
+  auto const options = options_of({argv + 1, argv + argc});
+  if (!options) {
+    fmt::print(stderr, "usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE]\n");
+    return 2;
+  }
+  fmt::print(
+      "| seed | end | walls p95 | within 0.1 m | doors right | misread | wrong | collisions | travel | pictures | took "
+      "| said |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (auto const seed : options->seeds) {
+    auto const began = std::chrono::steady_clock::now();
+    auto signs = sign_finder();
+    if (!signs) {
+      fmt::print(stderr, "{}\n", signs.error().message);
+      return 1;
+    }
+    Trial trial(*options, seed, *std::move(signs));
+    if (auto const ran = trial.run(); !ran) {
+      fmt::print(stderr, "{}\n", ran.error().message);
+      return 1;
+    }
+    trial.tell(seed, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  }
+  return 0;
+}
