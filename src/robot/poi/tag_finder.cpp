@@ -13,9 +13,10 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr base::Duration look_period = 300ms;
-constexpr double nearest_m = 0.6;      ///< nearer, a tag is out of the picture
-constexpr double farthest_m = 3.0;     ///< farther, its letters are too small
-constexpr double most_turn_rad = 0.1;  ///< in a period: more, and pictures are smeared
+constexpr double nearest_m = 0.6;       ///< nearer, a tag is out of the picture
+constexpr double farthest_m = 3.0;      ///< farther, its letters are too small
+constexpr double most_slant_rad = 1.0;  ///< more, and its letters are too narrow
+constexpr double most_turn_rad = 0.1;   ///< in a period: more, and pictures are smeared
 constexpr double patch_m = 0.4;
 constexpr int looks_a_patch = 6;
 constexpr int sharp_look = 3;    ///< two sharp looks are enough
@@ -95,6 +96,8 @@ std::optional<TagFinder::Patch> TagFinder::patch_before(Eye const& eye, vehicle:
   if (!grid) return std::nullopt;
   auto const wall = wall_seen(*grid, level(pose), eye.mount, eye.mount.yaw_rad);
   if (!wall || wall->range_m < nearest_m || wall->range_m > farthest_m) return std::nullopt;
+  double const straight_rad = wall->facing_rad + std::numbers::pi;
+  if (std::abs(geo::wrap_pi(pose.yaw_rad + eye.mount.yaw_rad - straight_rad)) > most_slant_rad) return std::nullopt;
   return Patch{static_cast<int>(std::floor(wall->position.x() / patch_m)),
                static_cast<int>(std::floor(wall->position.y() / patch_m)),
                static_cast<int>(std::lround(wall->facing_rad / (std::numbers::pi / 2.0)))};
