@@ -78,11 +78,15 @@ base::Result<std::unique_ptr<Camera>> VideoCamera::open(CameraSettings const& se
     return base::fail(base::ErrorKind::io, fmt::format("no pictures can be had from {}", name),
                       origin == Origin::device ? "is it another program's, or is the user not in the group `video`?"
                                                : "try the same source in a player such as ffplay or VLC");
-  return std::unique_ptr<Camera>(new VideoCamera(std::move(name), origin, settings.lens, std::move(capture)));
+  return std::unique_ptr<Camera>(new VideoCamera(std::move(name), origin, settings, std::move(capture)));
 }
 
-VideoCamera::VideoCamera(std::string name, Origin origin, geo::Lens const& lens, cv::VideoCapture capture)
-    : capture_(std::move(capture)), name_(std::move(name)), origin_(origin), lens_(lens) {
+VideoCamera::VideoCamera(std::string name, Origin origin, CameraSettings const& settings, cv::VideoCapture capture)
+    : capture_(std::move(capture)),
+      name_(std::move(name)),
+      origin_(origin),
+      lens_(settings.lens),
+      delay_(settings.faults.delay) {
   thread_ = std::jthread([this](std::stop_token const& stop) { read(stop); });
 }
 
@@ -109,7 +113,7 @@ void VideoCamera::read(std::stop_token const& stop) {
   while (!stop.stop_requested() && capture_.grab()) {
     auto const position = position_of(capture_);
     if (origin_ == Origin::file && !keep_pace(position, stop)) return;
-    auto const taken = time_of(position);
+    auto const taken = time_of(position) - delay_;
     {
       std::scoped_lock const lock(mutex_);
       if (!is_asked_ || frame_) continue;

@@ -35,7 +35,7 @@ class VideoCamera final : public Camera {
  private:
   enum class Origin : std::uint8_t { file, device, address };
 
-  VideoCamera(std::string name, Origin origin, geo::Lens const& lens, cv::VideoCapture capture);
+  VideoCamera(std::string name, Origin origin, CameraSettings const& settings, cv::VideoCapture capture);
   [[nodiscard]] static Origin origin_of(std::string const& source);
   [[nodiscard]] static std::optional<base::Error> why_absent(std::string const& source, Origin origin);
   void read(std::stop_token const& stop);
@@ -53,6 +53,7 @@ class VideoCamera final : public Camera {
   std::string const name_;
   Origin const origin_;
   geo::Lens const lens_;
+  base::Duration const delay_;  ///< that no source tells: of the camera, the way and the decoder
 
   std::mutex mutex_;
   std::condition_variable_any changed_;

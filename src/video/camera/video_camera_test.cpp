@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/testing/temporary_folder.hpp"
+#include "base/wall_clock.hpp"
 
 namespace lapwing::video {
 namespace {
@@ -76,6 +77,19 @@ TEST(VideoCamera, PicturesOfAnotherSizeThanTheLensAreAnError) {
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.error().kind, base::ErrorKind::io);
   EXPECT_NE(frame.error().message.find("160 by 120"), std::string::npos) << frame.error().message;
+}
+
+TEST(VideoCamera, TheDelayThatPeopleHaveMeasuredIsTakenOff) {
+  TemporaryFolder const folder;
+  auto settings = video_of(written_video(folder));
+  settings.faults.delay = 10min;
+  auto const before = base::wall_now();
+  auto const camera = open_camera(settings);
+  ASSERT_TRUE(camera);
+  auto const frame = first_of(**camera);
+  ASSERT_TRUE(frame);
+  EXPECT_LT(frame->taken, before);
+  EXPECT_GE(frame->taken, before - 10min);
 }
 
 TEST(VideoCamera, ThatIsClosedWhileItPlaysEndsAtOnce) {
