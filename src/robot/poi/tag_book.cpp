@@ -30,7 +30,7 @@ std::string most_voted(std::map<std::string, double> const& votes) {
 }  // namespace
 
 std::string TagBook::Entry::name() const {
-  return most_voted(names);
+  return names.empty() ? text() : most_voted(names);
 }
 
 std::string TagBook::Entry::text() const {
@@ -38,10 +38,11 @@ std::string TagBook::Entry::text() const {
 }
 
 double TagBook::Entry::confidence() const {
-  double const all = std::accumulate(names.begin(), names.end(), votes_against,
+  auto const& votes = names.empty() ? texts : names;
+  double const all = std::accumulate(votes.begin(), votes.end(), votes_against,
                                      [](double sum, auto const& vote) { return sum + vote.second; });
-  auto const best = names.find(name());
-  return best == names.end() ? 0.0 : best->second / all;
+  auto const best = votes.find(name());
+  return best == votes.end() ? 0.0 : best->second / all;
 }
 
 TagBook::Entry* TagBook::nearest(TagSight const& sight) {
@@ -86,7 +87,7 @@ TagBook::Entry const& TagBook::take(TagSight const& sight) {
     tag->height_m += (sight.place.height_m - tag->height_m) / (tag->sights + 1);
   }
   ++tag->sights;
-  tag->names[sight.name] += sight.score;
+  if (!sight.name.empty()) tag->names[sight.name] += sight.score;
   tag->texts[sight.text] += sight.score;
   return *tag;
 }

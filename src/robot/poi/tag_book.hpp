@@ -12,8 +12,8 @@ namespace lapwing::robot {
 /// A name tag as it was seen once.
 struct TagSight {
   TagPlace place;
-  std::string name;    ///< the room's number, or its kind where there is no number
-  std::string text;    ///< all that was read
+  std::string name;    ///< the room's number; empty: none was read
+  std::string text;    ///< all that was read, its kind among it
   double score = 0.0;  ///< 0..1: how sure the reader is
 };
 
@@ -31,6 +31,7 @@ class TagBook {
     std::map<std::string, double> names;  ///< scores of all sights that read so
     std::map<std::string, double> texts;  ///< likewise
 
+    /// What most sights with a number read; without any, what is written there.
     [[nodiscard]] std::string name() const;
     [[nodiscard]] std::string text() const;
     /// That the name is right: its part of all votes, and half a one against it, so that a single sight is not sure.

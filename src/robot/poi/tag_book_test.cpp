@@ -38,6 +38,18 @@ TEST(TagBook, TakesTheNameThatMostOfTheSightsRead) {
   EXPECT_EQ(book.tags().front().name(), "221");
 }
 
+TEST(TagBook, IsNamedByANumberHoweverOftenTheKindOfRoomAloneWasRead) {
+  TagBook book;
+  auto kind_alone = sight(1.0, 2.0, "", 0.9);
+  kind_alone.text = "meeting room";
+  (void)book.take(kind_alone);
+  EXPECT_EQ(book.tags().front().name(), "meeting room");
+  (void)book.take(sight(1.0, 2.0, "223", 0.6));
+  (void)book.take(kind_alone);
+  ASSERT_EQ(book.tags().size(), 1U);
+  EXPECT_EQ(book.tags().front().name(), "223");
+}
+
 TEST(TagBook, KeepsTagsApartThatHangElsewhereOrOnTheOtherSideOfTheWall) {
   TagBook book;
   (void)book.take(sight(1.0, 2.0, "221", 0.8));

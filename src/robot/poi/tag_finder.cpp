@@ -36,7 +36,7 @@ std::optional<TagSight> sight_of(vision::Detection const& sign, TagPlace const& 
   auto const kind = sign.kind.value_or("");
   if (number.empty() && kind.empty()) return std::nullopt;
   auto const all = number.empty() || kind.empty() ? number + kind : fmt::format("{} {}", number, kind);
-  return TagSight{.place = place, .name = number.empty() ? kind : number, .text = all, .score = sign.score};
+  return TagSight{.place = place, .name = number, .text = all, .score = sign.score};
 }
 
 }  // namespace
