@@ -1,10 +1,15 @@
-"""Print ctest's outcome as one line, "N passed, N failed, N skipped". usage: summarise.py JUNIT_XML
+"""Print ctest's outcome: what was skipped and why, how each failed test ended, and "N passed, N failed, N skipped".
+
+usage: summarise.py JUNIT_XML
 
 Exits 1 when a test failed or none ran.
 """
 
 import sys
 import xml.etree.ElementTree as ElementTree
+
+# Of a failed test's output: what it printed first lies far above, but a reader of the end alone shall know what failed.
+LAST_LINES = 30
 
 
 def main() -> int:
@@ -23,9 +28,11 @@ def main() -> int:
             print(f"skipped: {case.get('name')}: disabled, a known limit")
         else:
             counts["failed"] += 1
-            failed.append(case.get("name"))
-    for name in failed:
-        print(f"failed: {name}")
+            failed.append(case)
+    for case in failed:
+        print(f"failed: {case.get('name')}")
+        for line in (case.findtext("system-out") or "").rstrip().splitlines()[-LAST_LINES:]:
+            print(f"    {line}")
     print(", ".join(f"{number} {word}" for word, number in counts.items()))
     return 1 if counts["failed"] or not counts["passed"] else 0
 
