@@ -121,10 +121,26 @@ TEST_F(DoubtTest, WhatHadNoWayIsTriedAgainButNotForEver) {
   Frontiers frontiers(*known);
   look({}, 20);
   int rounds = 0;
-  for (auto found = open(frontiers); !found.empty() && rounds < 100; found = open(frontiers), ++rounds) {
+  for (double now_s = 0.0; now_s < 3600.0; now_s += 1.0) {
+    frontiers.set_moment(now_s);
+    auto const found = open(frontiers);
+    if (!found.empty()) ++rounds;
     for (auto const& frontier : found) frontiers.put_off(frontier);
   }
   EXPECT_EQ(rounds, FrontierSettings().most_put_off);
+  EXPECT_FALSE(frontiers.is_any_put_off(*known));
+}
+
+TEST_F(DoubtTest, WhatHadNoWayIsNotTriedAgainAtOnce) {
+  Frontiers frontiers(*known);
+  look({}, 20);
+  auto const found = open(frontiers);
+  ASSERT_FALSE(found.empty());
+  for (auto const& frontier : found) frontiers.put_off(frontier);
+  EXPECT_TRUE(open(frontiers).empty()) << "whoever stands in the way is still there";
+  EXPECT_TRUE(frontiers.is_any_put_off(*known)) << "and so it is not the end";
+  frontiers.set_moment(FrontierSettings().again_after_s);
+  EXPECT_EQ(open(frontiers).size(), found.size());
 }
 
 }  // namespace

@@ -113,13 +113,31 @@ bool Frontiers::find_stand(KnownMap const& map, RoadMap const& roads, RoadMap::T
   return false;
 }
 
+float Frontiers::again_s(int times) const {
+  return static_cast<float>(time_s_ + std::min(settings_.most_again_s, settings_.again_after_s * times));
+}
+
+void Frontiers::note_put_off(Cell middle) {
+  std::erase_if(put_off_, [&](PutOff const& other) { return other.middle == middle; });
+  put_off_.push_back({middle, static_cast<double>(marks_[middle].again_s)});
+}
+
 void Frontiers::give_up(KnownMap const& map, Frontier const& frontier) {
+  auto const middle = map.middle(frontier.middle);
+  auto const near = std::ranges::count_if(
+      robots_, [&](Place const& robot) { return distance_m(robot, middle) < settings_.bars_view_m; });
+  if (near > 1) {
+    put_off(frontier);
+    return;
+  }
   for (auto const cell : frontier.cells) {
     if (length_of(map.cell_of(cell) - frontier.middle) * map.cell_m() > settings_.looked_at_m) continue;
     auto& mark = marks_.at_index(cell);
     mark.is_left = 1;
     ++mark.looks;
+    mark.again_s = again_s(mark.looks);
   }
+  if (map.has_seen_movement() && marks_[frontier.middle].looks < settings_.most_looks) note_put_off(frontier.middle);
 }
 
 void Frontiers::put_off(Frontier const& frontier) {
@@ -127,7 +145,17 @@ void Frontiers::put_off(Frontier const& frontier) {
     auto& mark = marks_.at_index(cell);
     mark.is_left = 1;
     ++mark.put_off;
+    mark.again_s = again_s(mark.put_off);
   }
+  if (marks_[frontier.middle].put_off < settings_.most_put_off) note_put_off(frontier.middle);
+}
+
+bool Frontiers::is_any_put_off(KnownMap const& map) const {
+  // Robots look for what is open every few seconds only.
+  constexpr double look_within_s = 5.0;
+  return std::ranges::any_of(put_off_, [&](PutOff const& piece) {
+    return time_s_ < piece.again_s + look_within_s && (map.is_frontier(piece.middle) || map.is_doubtful(piece.middle));
+  });
 }
 
 bool Frontiers::take_up_again(KnownMap const& map) {
@@ -136,6 +164,7 @@ bool Frontiers::take_up_again(KnownMap const& map) {
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     auto& mark = marks_.at_index(i);
     if (mark.is_left == 0 || mark.looks >= most_looks || mark.put_off >= settings_.most_put_off) continue;
+    if (time_s_ < static_cast<double>(mark.again_s)) continue;
     mark.is_left = 0;
     has_some = true;
   }

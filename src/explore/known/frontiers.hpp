@@ -20,9 +20,12 @@ struct FrontierSettings {
   double least_m = 0.3;  ///< shorter ones are gaps between beams
   double most_m = 2.5;   ///< longer ones are divided
   double stand_within_m = 12.0;
-  int most_looks = 3;        ///< at what remains, where things move; else one
-  int most_put_off = 12;     ///< times that there was no way
-  double looked_at_m = 0.6;  ///< of a frontier, around its middle, when it is given up
+  int most_looks = 3;           ///< at what remains, where things move; else one
+  int most_put_off = 12;        ///< times that there was no way
+  double again_after_s = 10.0;  ///< it is tried again, and after each time by so much later,
+  double most_again_s = 30.0;   ///< but no later than this
+  double bars_view_m = 2.5;     ///< whoever is nearer to a frontier than this may have stood before it
+  double looked_at_m = 0.6;     ///< of a frontier, around its middle, when it is given up
   double least_person_m = 0.2;
   double person_m = 1.5;  ///< a piece of wall that is longer was none
 };
@@ -35,6 +38,12 @@ class Frontiers {
  public:
   explicit Frontiers(KnownMap const& map, FrontierSettings const& settings = {});
 
+  /// When all that is asked from now on happens, and where the robots are then.
+  void set_moment(double time_s, std::vector<Place> robots = {}) {
+    time_s_ = time_s;
+    robots_ = std::move(robots);
+  }
+
   /// Those to which there is a way in `reach`, in order of their cells.
   [[nodiscard]] std::vector<Frontier> find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
   /// All that are open and were not given up, also those to which there is no way; without where to stand.
@@ -44,18 +53,27 @@ class Frontiers {
     return map.is_frontier(frontier.middle) || map.is_doubtful(frontier.middle);
   }
   /// It was looked at from where one can stand, and remained. Its ends are still open: the place was chosen for its
-  /// middle.
+  /// middle. Where another robot may have stood before it, and where things move, it is looked at again later.
   void give_up(KnownMap const& map, Frontier const& frontier);
-  /// There was no way to it.
+  /// There was no way to it. It is tried again, but not at once: whoever stands in the way needs time to leave.
   void put_off(Frontier const& frontier);
+  /// Something open is to be tried again later: nothing is explored before that.
+  [[nodiscard]] bool is_any_put_off(KnownMap const& map) const;
 
  private:
   struct Mark {
     std::uint8_t is_left = 0;  ///< alone, for now
     std::uint8_t looks = 0;
     std::uint8_t put_off = 0;
+    float again_s = 0.0F;  ///< not tried before
+  };
+  struct PutOff {
+    Cell middle = {};
+    double again_s = 0.0;
   };
 
+  [[nodiscard]] float again_s(int times) const;
+  void note_put_off(Cell middle);
   [[nodiscard]] bool take_up_again(KnownMap const& map);
   [[nodiscard]] std::vector<Frontier> find_open(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach);
   [[nodiscard]] std::vector<Frontier> find_doubtful(KnownMap const& map, RoadMap const& roads,
@@ -69,6 +87,9 @@ class Frontiers {
   DenseGrid<Mark> marks_;
   DenseGrid<std::uint32_t> seen_by_;  ///< the number of the search
   std::uint32_t searches_ = 0;
+  std::vector<PutOff> put_off_;  ///< not yet tried again
+  std::vector<Place> robots_;
+  double time_s_ = 0.0;
 };
 
 }  // namespace lapwing::explore

@@ -137,6 +137,7 @@ TEST_F(KnownMapTest, FrontiersAreFoundWithAPlaceToStandUntilGivenUp) {
   EXPECT_TRUE(frontiers.find(map, roads, reach).empty());
   Frontiers others(map);
   others.put_off(found[0]);
+  others.set_moment(FrontierSettings().again_after_s);
   EXPECT_EQ(others.find(map, roads, reach).size(), 1U) << "nothing else is left";
 }
 

@@ -41,6 +41,9 @@ void Explorer::update(KnownMap& map, double time_s, std::span<RobotNow const> ro
     members_[i].driven_m = robots[i].driven_m;
     members_[i].sides = robots[i].sides;
   }
+  std::vector<Place> places;
+  for (auto const& member : members_) places.push_back(member.pose.position);
+  frontiers_.set_moment(time_s, std::move(places));
   roads_.update(map, map.take_changes());
   mind_standing();
   mind_news(map);
@@ -73,8 +76,11 @@ void Explorer::give_orders(KnownMap const& map) {
     if (members_[i].is_out) continue;
     if (orders[i].kind != Order::Kind::keep) follow(map, members_[i], orders[i]);
   }
-  is_explored_ = std::ranges::all_of(
-      members_, [](Member const& member) { return member.is_out || member.order.kind == Order::Kind::home; });
+  bool const are_all_out = std::ranges::all_of(members_, &Member::is_out);
+  is_explored_ =
+      (are_all_out || !frontiers_.is_any_put_off(map)) && std::ranges::all_of(members_, [](Member const& member) {
+        return member.is_out || member.order.kind == Order::Kind::home;
+      });
 }
 
 std::vector<Place> Explorer::way_of(KnownMap const& map, Member const& member) const {

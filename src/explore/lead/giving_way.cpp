@@ -159,6 +159,50 @@ void GivingWay::end_those_passed(Scene const& scene) {
   }
 }
 
+void GivingWay::back_off(Scene const& scene) {
+  if (scene.time_s < next_back_off_s_) return;
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    auto const& member = scene.members[i];
+    if (member.way.empty() || aside_[i] || member.stood_s < stalls_s) continue;
+    std::vector<std::size_t> group;
+    for (std::size_t j = 0; j < scene.members.size(); ++j) {
+      if (distance_m(scene.members[j].at, member.at) < before_m) group.push_back(j);
+    }
+    if (group.size() < 2) continue;
+    next_back_off_s_ = scene.time_s + back_off_every_s;
+    auto const who = group[back_offs_ % group.size()];
+    auto const refuge = refuge_far_off(scene, group, who, 1.0 + static_cast<double>(back_offs_ / group.size() % 4));
+    ++back_offs_;
+    if (!refuge) return;
+    // What was decided before did not help: all others of them are free to go on.
+    for (auto const each : group) aside_[each].reset();
+    auto const first = who != i ? i : group[group.front() == who ? 1 : 0];
+    double const until_s = scene.time_s + at_least_s + length_m(refuge->way) / slow_m_s;
+    aside_[who] = Aside{refuge->cell, first, scene.members[who].at, until_s};
+    return;
+  }
+}
+
+std::optional<GivingWay::Refuge> GivingWay::refuge_far_off(Scene const& scene, std::span<std::size_t const> group,
+                                                           std::size_t who, double far_m) {
+  std::vector<Place> ways;
+  std::vector<Disc> closed;
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    if (i != who) closed.push_back({scene.members[i].at, scene.apart_m});
+  }
+  for (auto const each : group) {
+    if (each == who) continue;
+    auto const way = filled(scene.members[each].way, scene.apart_m / 2.0);
+    ways.insert(ways.end(), way.begin(), way.end());
+  }
+  constexpr std::size_t most_tried = 400;
+  auto found = refuges(scene, who, ways, closed, most_tried);
+  if (found.empty()) found = refuges(scene, who, {}, closed, most_tried);
+  if (found.empty()) return std::nullopt;
+  auto const far = std::ranges::find_if(found, [&](Refuge const& each) { return length_m(each.way) >= far_m; });
+  return far == found.end() ? found.back() : *far;
+}
+
 std::vector<std::optional<Cell>> GivingWay::decide(KnownMap const& map, RoadMap const& roads,
                                                    std::span<Member const> members, double radius_m, double time_s) {
   aside_.resize(members.size());
@@ -183,6 +227,7 @@ std::vector<std::optional<Cell>> GivingWay::decide(KnownMap const& map, RoadMap 
     if (aside_[leader] || !lead(scene, leader)) continue;
     ++led_[leader];
   }
+  back_off(scene);
   std::vector<std::optional<Cell>> cells;
   for (auto const& aside : aside_) cells.push_back(aside ? std::optional(aside->to) : std::nullopt);
   return cells;

@@ -12,7 +12,8 @@ namespace lapwing::explore {
 
 /// Robots that stand before each other where there is no way around: one goes on, and whoever stands in its way makes
 /// room, and whoever stands in the way of those (priority inheritance). Where that cannot be, because the only way out
-/// leads past the one that wants on, that one makes room for the other first. They take turns in going first.
+/// leads past the one that wants on, that one makes room for the other first. They take turns in going first. Where
+/// they still stand after a minute, ways that seemed free are not: then each in turn backs off, every round farther.
 class GivingWay {
  public:
   struct Member {
@@ -27,6 +28,9 @@ class GivingWay {
   /// Nothing is to be decided before a robot has stood for so long beside another.
   static constexpr double stands_s = 4.0;
   static constexpr double before_m = 1.5;
+  /// Whoever was to go first and has stood for so long gets nowhere like this.
+  static constexpr double stalls_s = 60.0;
+  static constexpr double back_off_every_s = 20.0;
 
   /// For each robot the cell to go to instead of where it wants, nothing for those that may go on.
   [[nodiscard]] std::vector<std::optional<Cell>> decide(KnownMap const& map, RoadMap const& roads,
@@ -66,10 +70,16 @@ class GivingWay {
   [[nodiscard]] static std::vector<Refuge> refuges(Scene const& scene, std::size_t who,
                                                    std::vector<Place> const& kept_clear,
                                                    std::vector<Disc> const& closed, std::size_t most);
+  void back_off(Scene const& scene);
+  /// The nearest that is so far away, off the ways of the others of `group` if there is one; or the farthest.
+  [[nodiscard]] static std::optional<Refuge> refuge_far_off(Scene const& scene, std::span<std::size_t const> group,
+                                                            std::size_t who, double far_m);
   [[nodiscard]] static bool can_pass(Scene const& scene, Place const& from, Place const& to, Place const& standing);
 
   std::vector<std::optional<Aside>> aside_;
   std::vector<std::uint32_t> led_;  ///< how often each went first
+  std::size_t back_offs_ = 0;
+  double next_back_off_s_ = 0.0;
 };
 
 }  // namespace lapwing::explore

@@ -94,5 +94,19 @@ TEST_F(GivingWayTest, DoesNotWaitForEverForOneThatDoesNotCome) {
   EXPECT_FALSE(decide(members, 600.0)[1]);
 }
 
+TEST_F(GivingWayTest, WhereNobodyGetsOnEachBacksOffInTurn) {
+  auto members = std::vector{robot(5.6, 11.0), robot(6.05, 0.7)};
+  for (auto& member : members) member.stood_s = 2.0 * GivingWay::stalls_s;
+  auto const first = decide(members);
+  ASSERT_TRUE(first[0]);
+  EXPECT_FALSE(first[1]) << "that one goes on";
+  EXPECT_GT(distance_m(*first[0], members[0].at), 0.9);
+  EXPECT_GT(distance_m(*first[0], members[1].at), distance_m(members[0].at, members[1].at)) << "not past the other";
+  auto const next = decide(members, GivingWay::back_off_every_s);
+  EXPECT_FALSE(next[0]);
+  ASSERT_TRUE(next[1]);
+  EXPECT_GT(distance_m(*next[1], members[1].at), 0.9);
+}
+
 }  // namespace
 }  // namespace lapwing::explore

@@ -186,7 +186,9 @@ void Exploration::drive() {
         others.push_back({place, settings_.carrier.radius_m + apart_m});
     }
     double const wanted_m = settings_.carrier.radius_m + settings_.carrier.safe_distance_m;
-    double const kept_m = map_->has_room(pose.position, wanted_m) ? wanted_m : settings_.carrier.radius_m + 0.01;
+    // Ways out of where nobody may stand lead over what the robot fits on, even where it has all its room now.
+    bool const may_stand = map_->is_standable(map_->cell_at(pose.position));
+    double const kept_m = may_stand ? wanted_m : settings_.carrier.radius_m + 0.01;
     auto const wanted = explorer_->motion(*map_, i, pose);
     robot.carrier.drive(wanted, step_s, [&](Place const& place) {
       // Whoever stands too near to something already may go where it just fits.

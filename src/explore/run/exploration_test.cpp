@@ -98,11 +98,14 @@ INSTANTIATE_TEST_SUITE_P(People, ExplorationTest,
                                            Case{"dead_ends", &testing::dead_ends, "right-hand", 1, 4},
                                            Case{"narrow", &testing::narrow, "nearest", 1, 4}));
 
-// Known limits: from some starts these end with a robot that is not home, or with a few percent unseen.
+// Robots that push one another back in doorways and corridors.
+INSTANTIATE_TEST_SUITE_P(InOneAnothersWay, ExplorationTest,
+                         ::testing::Values(Case{"dead_ends", &testing::dead_ends, "nearest", 3, 0},
+                                           Case{"narrow", &testing::narrow, "nearest", 4, 0}));
+
+// Known limits: from one start each these leave a percent unseen, or look again for an hour.
 INSTANTIATE_TEST_SUITE_P(DISABLED_NotFromEveryStart, ExplorationTest,
                          ::testing::Values(Case{"narrow", &testing::narrow, "right-hand", 3, 0},
-                                           Case{"dead_ends", &testing::dead_ends, "nearest", 3, 0},
-                                           Case{"narrow", &testing::narrow, "nearest", 4, 0},
                                            Case{"dead_ends", &testing::dead_ends, "tour", 1, 6}));
 
 TEST(Exploration, TheSameSeedGivesTheSameRun) {

@@ -196,8 +196,9 @@ Order RightHand::order_for(Situation const& situation, RobotView const& view, Ro
     case Robot::Mode::to_hall: return on_the_way(situation, view, robot);
     case Robot::Mode::done: break;
   }
-  // Others may have shown more since.
-  return robots_.size() > 1 ? next_hall(situation, view, robot) : Order{.kind = Order::Kind::home};
+  // Others may have shown more since, or gone out of the way.
+  bool const is_more_to_come = robots_.size() > 1 || situation.frontiers.is_any_put_off(situation.map);
+  return is_more_to_come ? next_hall(situation, view, robot) : Order{.kind = Order::Kind::home};
 }
 
 std::vector<Order> RightHand::decide(Situation const& situation) {

@@ -261,6 +261,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
                                 .is_blocked = has_stood || navigator_.state() == explore::Navigator::State::blocked,
                                 .is_out = false,
                                 .driven_m = situation.driven_m};
+  frontiers_->set_moment(situation.time_s);
   auto const orders = strategy_->decide({*known_, *roads_, *frontiers_, {&view, 1}, situation.time_s});
   auto const& order = orders.front();
   if (order.kind != explore::Order::Kind::keep) order_ = order;
@@ -270,8 +271,13 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
       navigator_.go_to(order.goal);
       break;
     case explore::Order::Kind::steer: navigator_.stop(); break;
-    case explore::Order::Kind::home: return {.state = Plan::State::done, .reason = what_is_left()};
+    case explore::Order::Kind::home: navigator_.stop(); break;
     case explore::Order::Kind::keep: break;
+  }
+  if (order_.kind == explore::Order::Kind::home) {
+    // Whoever stood in the way may leave it: it waits for that where it is.
+    if (frontiers_->is_any_put_off(*known_)) return {.state = Plan::State::under_way};
+    return {.state = Plan::State::done, .reason = what_is_left()};
   }
   if (order_.kind == explore::Order::Kind::steer) {
     bool const is_near = known_->is_near_wall(known_->cell_at(pose.position));
