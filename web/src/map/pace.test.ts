@@ -1,5 +1,5 @@
-import { describe, expect, it } from 'vitest';
-import { Pace } from './pace';
+import { describe, expect, it, vi } from 'vitest';
+import { Pace, whenDrawn } from './pace';
 
 /** A pace whose time goes by when it is told. */
 function paced() {
@@ -99,5 +99,50 @@ describe('what is drawn again and again', () => {
     end();
     pass(5000);
     expect(done).toEqual([]);
+  });
+});
+
+describe('when a picture is drawn', () => {
+  /** A context that has drawn, or not yet, and frames that come when they are told. */
+  function drawing() {
+    const context = {
+      SIGNALED: 1,
+      isDrawn: false,
+      isLost: false,
+      fenceSync: (): object | null => ({}),
+      flush: vi.fn(),
+      deleteSync: vi.fn(),
+      getSyncParameter: (): number => (context.isDrawn ? 1 : 0),
+      isContextLost: (): boolean => context.isLost,
+    };
+    const frames: (() => void)[] = [];
+    const drawn = vi.fn();
+    const begin = (): void => whenDrawn(context as unknown as WebGL2RenderingContext, drawn, (look) => frames.push(look));
+    const frame = (): void => frames.splice(0).forEach((look) => look());
+    return { context, frames, drawn, begin, frame };
+  }
+
+  it('is told in the first frame after that, however many come before', () => {
+    const { context, drawn, begin, frame, frames } = drawing();
+    begin();
+    frame();
+    frame();
+    expect(drawn).not.toHaveBeenCalled();
+    context.isDrawn = true;
+    frame();
+    expect(drawn).toHaveBeenCalledOnce();
+    expect(frames).toEqual([]);
+    expect(context.deleteSync).toHaveBeenCalledOnce();
+  });
+
+  it('is not waited for where the context is lost, or has no fences', () => {
+    const { context, drawn, begin, frame } = drawing();
+    begin();
+    context.isLost = true;
+    frame();
+    expect(drawn).toHaveBeenCalledTimes(1);
+    context.fenceSync = () => null;
+    begin();
+    expect(drawn).toHaveBeenCalledTimes(2);
   });
 });

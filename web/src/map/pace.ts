@@ -1,5 +1,5 @@
 /** When the picture of a map takes no longer than that, nothing has to wait. */
-const QUICK_MS = 50;
+const QUICK_MS = 20;
 /** Between two turns, in pictures: the page has to get on meanwhile. */
 const PICTURES = 2;
 const MOST_MS = 2000;
@@ -76,4 +76,24 @@ export class Pace {
     this.turn = this.now() + (this.isSlow ? Math.min(PICTURES * this.picture_ms, MOST_MS) : 0);
     for (const work of works) work();
   }
+}
+
+/**
+ * Calls `drawn` when what was given to be drawn so far is drawn. The browser hands a picture to a process that draws, and takes the next one
+ * meanwhile: how soon the page may go on says little about how long a picture takes. A context that is lost draws nothing more.
+ */
+export function whenDrawn(
+  gl: WebGL2RenderingContext,
+  drawn: () => void,
+  nextFrame: (look: () => void) => void = requestAnimationFrame,
+): void {
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!fence) return drawn();
+  gl.flush();
+  const look = (): void => {
+    if (!gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) return nextFrame(look);
+    gl.deleteSync(fence);
+    drawn();
+  };
+  nextFrame(look);
 }
