@@ -45,7 +45,7 @@ const atItem = async (page, items) => {
   await page.locator('#selected .drawer', { hasText: items }).waitFor({ timeout: 180_000 });
 };
 const guide = readFileSync(path.join(root, 'docs/guide/first-mission.md'), 'utf8');
-const script = guide.match(/```(?:dolphin)?\n([\s\S]*?)```/)[1];
+const script = guide.match(/```dolphin[^\n]*\n([\s\S]*?)```/)[1];
 const folder = mkdtempSync(path.join(tmpdir(), 'lapwing-guide-'));
 /** The demo's map, and parameters. */
 async function demo() {
@@ -104,7 +104,7 @@ async function ground() {
     const [drawer, dock] = [await page.locator('#selected').boundingBox(), await page.locator('#dock').boundingBox()];
     const middle = { x: (map.x + drawer.x) / 2, y: (map.y + dock.y) / 2 };
     const on = await sheet.boundingBox();
-    const places = [[[0.01, 0.02], [-118, -60]], [[0.99, 0.02], [118, -60]], [[0.99, 0.98], [120, 82]]]; // prettier-ignore
+    const places = [[[0.01, 0.02], [-78, -48]], [[0.99, 0.02], [118, -48]], [[0.99, 0.98], [119, 69]]]; // prettier-ignore
     for (const [[u, v], [dx, dy]] of places) {
       await sheet.click({ position: { x: u * on.width, y: v * on.height } });
       await page.getByText(/^Now click the same place/).waitFor();

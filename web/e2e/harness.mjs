@@ -9,7 +9,7 @@ import { chromium } from '@playwright/test';
 import config from '../playwright.config.js';
 
 const web = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
-const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'dev');
+const build = process.env.LAPWING_BUILD ?? path.join(web, '..', 'build', 'release');
 
 /** Where a station keeps its map: no test may find there what another one has left. */
 function dataHome() {
