@@ -28,6 +28,19 @@ std::vector<map::SitePoint> places_to_fence(geo::Polygon<geo::SiteFrame> const& 
   return places;
 }
 
+/// How far a survey is, for other programs.
+map::Json json_of(SurveyFigures const& told) {
+  using map::Json;
+  return {{"coverage", told.coverage},
+          {"begun", told.begun ? Json(base::utc_text(*told.begun)) : Json()},
+          {"is_over", !told.ending.empty()},
+          {"ending", told.ending.empty() ? Json() : Json(told.ending)},
+          {"slots", told.slots},
+          {"free", told.free},
+          {"taken", told.taken},
+          {"pictures", told.sights}};
+}
+
 }  // namespace
 
 base::Result<Surveyor> Surveyor::make(SurveyOrder order, SurveyGround const& ground, HoverHeights const& heights) {
@@ -137,7 +150,7 @@ void Surveyor::lead(News const& news, Conclusion& conclusion) {
     return;
   }
   if (!explores_since_) {
-    explores_since_ = news.now;
+    explores_since_ = begun_ = news.now;
     planned_at_ = {};
     ending_.clear();
   }
@@ -164,7 +177,8 @@ void Surveyor::lead(News const& news, Conclusion& conclusion) {
 }
 
 SurveyFigures Surveyor::figures() const {
-  SurveyFigures told{.coverage = lot_.coverage(), .slots = slots_.size(), .sights = sights_};
+  SurveyFigures told{
+      .coverage = lot_.coverage(), .slots = slots_.size(), .sights = sights_, .begun = begun_, .ending = ending_};
   for (auto const& [id, feature] : slots_) {
     auto const state = std::get<map::Slot>(feature.content).state;
     if (state == map::SlotState::taken) ++told.taken;
@@ -176,7 +190,8 @@ SurveyFigures Surveyor::figures() const {
 std::string Surveyor::slots_line() const {
   auto features = map::Json::array();
   for (auto const& [id, feature] : slots_) features.push_back(map::feature_json(feature, site_));
-  return map::Json{{"type", "FeatureCollection"}, {"features", std::move(features)}}.dump();
+  return map::Json{{"type", "FeatureCollection"}, {"survey", json_of(figures())}, {"features", std::move(features)}}
+      .dump();
 }
 
 std::string Surveyor::slots_text(base::UtcTime now) {
@@ -189,12 +204,10 @@ std::string Surveyor::slots_text(base::UtcTime now) {
       json["properties"]["age_s"] = std::round(decimals * base::to_seconds(now - *seen_at)) / decimals;
     features.push_back(std::move(json));
   }
-  auto const told = figures();
-  Json const survey = {{"at", base::utc_text(now)},   {"coverage", told.coverage},
-                       {"is_over", !ending_.empty()}, {"ending", ending_.empty() ? Json() : Json(ending_)},
-                       {"slots", told.slots},         {"free", told.free},
-                       {"taken", told.taken},         {"pictures", told.sights}};
-  return Json{{"type", "FeatureCollection"}, {"survey", survey}, {"features", std::move(features)}}.dump(1) + "\n";
+  auto survey = json_of(figures());
+  survey["at"] = base::utc_text(now);
+  return Json{{"type", "FeatureCollection"}, {"survey", std::move(survey)}, {"features", std::move(features)}}.dump(1) +
+         "\n";
 }
 
 }  // namespace lapwing::perceive

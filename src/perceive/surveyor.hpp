@@ -29,7 +29,9 @@ struct SurveyFigures {
   std::size_t slots = 0;  ///< on the map
   std::size_t taken = 0;
   std::size_t free = 0;
-  std::size_t sights = 0;  ///< that showed some of the area
+  std::size_t sights = 0;                   ///< that showed some of the area
+  std::optional<base::UtcTime> begun = {};  ///< when the drone began to explore, the last time
+  std::string ending = {};                  ///< why that is over; empty: it is not
   friend bool operator==(SurveyFigures const&, SurveyFigures const&) = default;
 };
 
@@ -55,7 +57,7 @@ class Surveyor {
   /// When home or heights are others from now on. Errors: those of SurveyPlanner; it goes on as before.
   base::Result<> adapt(geo::Point3<geo::SiteFrame> const& home, HoverHeights const& heights);
   [[nodiscard]] Conclusion think(News news);
-  /// The slots as GeoJSON, on one line.
+  /// The slots as GeoJSON, on one line, and how far the survey is as its member `survey`.
   [[nodiscard]] std::string slots_line() const;
   /// The same for people, with their ages and the survey's figures.
   [[nodiscard]] std::string slots_text(base::UtcTime now);
@@ -85,6 +87,7 @@ class Surveyor {
   std::optional<base::UtcTime> looked_at_ = {};  ///< of the last sight of the area
   base::Duration without_{};                     ///< a slot, over the area
   std::optional<base::UtcTime> explores_since_ = {};
+  std::optional<base::UtcTime> begun_ = {};  ///< the same, and kept when it does no more
   std::optional<explore::SurveyGoal> goal_ = {};
   base::UtcTime planned_at_{};
   std::string ending_ = {};  ///< why the survey is over; empty: it is not

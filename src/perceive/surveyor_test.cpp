@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/text/utc_text.hpp"
 #include "explore/simulated/car_park.hpp"
 
 namespace lapwing::perceive {
@@ -165,6 +166,10 @@ TEST(Surveyor, WritesWhatItFound) {
   ASSERT_GT(json["features"].size(), 20U);
   EXPECT_EQ(json["survey"]["slots"], json["features"].size());
   EXPECT_EQ(json["survey"]["is_over"], false);
+  auto const line = nlohmann::json::parse(surveyor.slots_line());
+  EXPECT_EQ(line["features"].size(), json["features"].size());
+  EXPECT_GT(line["survey"]["coverage"], 0.3);
+  EXPECT_EQ(line["survey"]["begun"], base::utc_text(at(0.0)));
   auto const& slot = json["features"][0];
   EXPECT_EQ(slot["geometry"]["type"], "Polygon");
   EXPECT_NEAR(slot["geometry"]["coordinates"][0][0][0].get<double>(), anchor.lon_deg(), 0.005);

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/time.hpp"
 #include "geo/position.hpp"
+#include "vehicle/slot_counts.hpp"
 
 /// Drones that survey by themselves, as they tell of it over their operator link, for whoever shows and commands them
 /// (docs/reference/operation-states.md).
@@ -20,13 +21,6 @@ namespace lapwing::vehicle {
 struct SurveyWords {
   base::UtcTime at{};
   std::string text = {};
-};
-
-/// Of the places to park that it has found.
-struct SlotCounts {
-  std::size_t free = 0;
-  std::size_t taken = 0;
-  std::size_t unknown = 0;
 };
 
 struct SurveyDroneView {
@@ -43,6 +37,7 @@ struct SurveyDroneView {
   std::optional<geo::Wgs84> position = {};
   std::optional<double> battery = {};  ///< 0..1
   std::optional<SlotCounts> slots = {};
+  std::optional<double> coverage = {};  ///< 0..1: what it has seen of the area that it surveys
   std::vector<SurveyWords> words = {};  ///< the newest last
 };
 

@@ -93,10 +93,33 @@ base::Result<Report> heartbeat(Json const& object) {
   return heartbeat;
 }
 
+std::optional<vehicle::SlotCounts> slot_counts(Json const& survey) {
+  constexpr double most = 1e6;
+  auto const all = number(survey, "slots", 0, most);
+  auto const free = number(survey, "free", 0, most);
+  auto const taken = number(survey, "taken", 0, most);
+  if (!all || !free || !taken || *free + *taken > *all) return std::nullopt;
+  return vehicle::SlotCounts{.free = static_cast<std::size_t>(*free),
+                             .taken = static_cast<std::size_t>(*taken),
+                             .unknown = static_cast<std::size_t>(*all - *free - *taken)};
+}
+
+std::optional<report::Survey> survey(Json const& features) {
+  auto const found = features.find("survey");
+  if (found == features.end() || !found->is_object()) return std::nullopt;
+  auto const coverage = number(*found, "coverage", 0.0, 1.0);
+  if (!coverage) return std::nullopt;
+  return report::Survey{.coverage = *coverage,
+                        .begun = words(*found, "begun"),
+                        .is_over = found->value("is_over", Json(false)) == Json(true),
+                        .ending = words(*found, "ending"),
+                        .slots = slot_counts(*found)};
+}
+
 base::Result<Report> slots(Json const& object) {
   auto const features = object.find("Features");
   if (features == object.end() || !features->is_object()) return wrong("slots without Features");
-  return report::Slots{.features = base::to_text(*features)};
+  return report::Slots{.features = base::to_text(*features), .survey = survey(*features)};
 }
 
 }  // namespace

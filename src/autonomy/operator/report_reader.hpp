@@ -9,6 +9,7 @@
 #include "autonomy/operator/report_text.hpp"
 #include "base/error.hpp"
 #include "geo/position.hpp"
+#include "vehicle/slot_counts.hpp"
 
 namespace lapwing::autonomy {
 
@@ -33,9 +34,20 @@ struct ErrorLog {
   std::string message;
 };
 
+/// How far the drone's survey is.
+struct Survey {
+  double coverage = 0.0;    ///< 0..1, of the area
+  std::string begun = {};   ///< when it began to explore, the last time, as the drone writes times; empty: never
+  bool is_over = false;     ///< there is nothing more to explore
+  std::string ending = {};  ///< why, in words
+  std::optional<vehicle::SlotCounts> slots = {};
+  friend bool operator==(Survey const&, Survey const&) = default;
+};
+
 /// All places to park that the drone knows: features of the layer `slots`.
 struct Slots {
-  std::string features;  ///< a GeoJSON FeatureCollection
+  std::string features;               ///< a GeoJSON FeatureCollection
+  std::optional<Survey> survey = {};  ///< nothing where the drone does not tell
 };
 
 }  // namespace report

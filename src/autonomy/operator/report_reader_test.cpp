@@ -1,5 +1,6 @@
 #include "autonomy/operator/report_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -55,6 +56,25 @@ TEST(ReportReader, TakesWhatIsNotKnownForNotKnown) {
 TEST(ReportReader, ReadsErrorLogs) {
   auto const read = parse_report(error_log_text("it is \"late\"\n"));
   EXPECT_EQ(std::get<report::ErrorLog>(read.value()).message, "it is \"late\"?");
+}
+
+TEST(ReportReader, ReadsHowFarASurveyIs) {
+  auto const read = [](std::string_view survey) {
+    auto const text = fmt::format(R"({{"Type":"Slots","Features":{{"features":[],"survey":{}}}}})", survey);
+    return std::get<report::Slots>(parse_report(text).value()).survey;
+  };
+  report::Survey const wanted{.coverage = 0.75,
+                              .begun = "2026-11-24T10:00:00Z",
+                              .is_over = true,
+                              .ending = "nothing more to learn",
+                              .slots = vehicle::SlotCounts{.free = 3, .taken = 4, .unknown = 1}};
+  EXPECT_EQ(read(R"({"coverage":0.75,"begun":"2026-11-24T10:00:00Z","is_over":true,"ending":"nothing more to learn",)"
+                 R"("slots":8,"free":3,"taken":4})"),
+            wanted);
+  EXPECT_EQ(read(R"({"coverage":0.5,"begun":null,"is_over":1,"slots":2,"free":3,"taken":4})"),
+            report::Survey{.coverage = 0.5});
+  for (auto const* const text : {"null", "7", "{}", R"({"coverage":1.5})", R"({"coverage":"all"})"})
+    EXPECT_FALSE(read(text)) << text;
 }
 
 TEST(ReportReader, ReadsSlots) {

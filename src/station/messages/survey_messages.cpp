@@ -30,6 +30,7 @@ Json to_json(vehicle::SurveyDroneView const& drone) {
   if (drone.position)
     json["position"] = {{"lat_deg", rounded(drone.position->lat_deg(), 8)},
                         {"lon_deg", rounded(drone.position->lon_deg(), 8)}};
+  if (drone.coverage) json["coverage"] = rounded(*drone.coverage, 3);
   if (auto const& slots = drone.slots)
     json["slots"] = {{"free", slots->free}, {"taken", slots->taken}, {"unknown", slots->unknown}};
   return json;

@@ -31,7 +31,7 @@ TEST(SurveyMessages, TellWhatEachDroneSaysAndLeaveOutWhatItDoesNot) {
       "words": [{"at": "2023-11-14T22:13:20.000Z", "text": "it climbs"}],
       "state": "AutonomousExplore", "mode": "GUIDED", "armed": true, "healthy": true,
       "user_error": "No_Lot_Detected", "height_m": 12.35, "battery": 0.812,
-      "position": {"lat_deg": 43.2585, "lon_deg": -79.9201}, "slots": {"free": 3, "taken": 4, "unknown": 1}})"));
+      "position": {"lat_deg": 43.2585, "lon_deg": -79.9201}, "coverage": 0.813, "slots": {"free": 3, "taken": 4, "unknown": 1}})"));
   EXPECT_EQ(message["drones"].at(1),
             json::parse(R"({"name": "dove", "connected": false, "trouble": "connection refused", "words": []})"));
 }

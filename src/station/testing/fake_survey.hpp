@@ -22,6 +22,7 @@ class FakeSurvey : public vehicle::SurveyDrones {
              .position = geo::Wgs84::from_degrees(43.2585, -79.9201),
              .battery = 0.81234,
              .slots = vehicle::SlotCounts{.free = 3, .taken = 4, .unknown = 1},
+             .coverage = 0.8125,
              .words = {{.at = base::UtcTime(std::chrono::seconds(1'700'000'000)), .text = "it climbs"}}},
             {.name = "dove", .trouble = "connection refused"}};
   }

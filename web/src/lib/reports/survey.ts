@@ -33,6 +33,8 @@ export interface SurveyDrone {
   battery?: number;
   position?: { lat_deg: number; lon_deg: number };
   slots?: SlotCounts;
+  /** 0 to 1: what it has seen of the area that it surveys. */
+  coverage?: number;
 }
 
 const words = textUpTo(1000);
@@ -51,6 +53,7 @@ const drone = object<SurveyDrone>(
     height_m: metres,
     battery: share,
     position: object({ lat_deg: number(-90, 90), lon_deg: number(-180, 180) }, ['lat_deg', 'lon_deg']),
+    coverage: share,
     slots: object<SlotCounts>({ free: count, taken: count, unknown: count }, ['free', 'taken', 'unknown']),
   },
   ['name', 'connected', 'words'],
