@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "autonomy/words/vocabulary.hpp"
 #include "base/assert.hpp"
 #include "missions/vocabulary.hpp"
 #include "robot/words/vocabulary.hpp"
@@ -10,8 +11,9 @@ namespace lapwing::host {
 
 tasks::Vocabulary vocabulary(plan::plausibility::Settings settings) {
   auto words = missions::vocabulary(std::move(settings));
-  auto const fits = tasks::join(words, robot::vocabulary());
-  LAPWING_ASSERT(fits);  // no word of one is a word of the other
+  auto const robots_fit = tasks::join(words, robot::vocabulary());
+  auto const survey_fits = tasks::join(words, autonomy::vocabulary());
+  LAPWING_ASSERT(robots_fit && survey_fits);  // no word of one is a word of the other
   return words;
 }
 

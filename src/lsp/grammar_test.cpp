@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "autonomy/words/vocabulary.hpp"
 #include "dolphin/services/vocabulary.hpp"
 #include "dolphin/syntax/lexer.hpp"
 #include "missions/vocabulary.hpp"
@@ -64,6 +65,7 @@ struct List {
 std::vector<List> lists() {
   tasks::Vocabulary added = missions::vocabulary();
   EXPECT_TRUE(tasks::join(added, robot::vocabulary()));
+  EXPECT_TRUE(tasks::join(added, autonomy::vocabulary()));
   dolphin::Vocabulary const vocabulary(added);
   auto const is_block = [](auto const& one) { return one.block != BlockKind::none && one.name != "move"; };
   auto const is_plain = [&](auto const& one) { return !is_block(one); };

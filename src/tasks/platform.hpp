@@ -13,6 +13,7 @@
 #include "base/time.hpp"
 #include "geo/position.hpp"
 #include "tasks/vocabulary.hpp"
+#include "vehicle/slot_counts.hpp"
 #include "vehicle/vehicle_id.hpp"
 
 /// The seam between the mission language and whatever can carry out tasks. The language knows this header and never a
@@ -35,8 +36,9 @@ struct VehicleInfo {
   base::Duration connection_timeout{};
   bool battery_is_awaited = false;  ///< it has not reported on its battery yet, not even that it does not know
   std::string mode = {};            ///< the flight mode by the autopilot's own name; empty while unknown
-  std::optional<double> relative_alt_m = {};  ///< above its home; nothing while unknown
-  std::optional<double> coverage = {};  ///< 0..1: what it has seen of the floor that it maps; nothing while unknown
+  std::optional<double> relative_alt_m = {};      ///< above its home; nothing while unknown
+  std::optional<double> coverage = {};            ///< 0..1: what it has seen of what it maps; nothing while unknown
+  std::optional<vehicle::SlotCounts> slots = {};  ///< of a survey drone that has found some
   std::string conflict = {};  ///< which platforms each have a vehicle of this id; empty: it is one vehicle's alone
 };
 

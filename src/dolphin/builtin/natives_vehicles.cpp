@@ -207,11 +207,27 @@ Checked<Value> relative_height(Runtime& runtime, Fiber& /*fiber*/, Arguments arg
   return Value::real(info->relative_alt_m.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
-/// What a robot has seen of its floor; of whoever maps none it is not known.
+/// What a robot has seen of its floor, or a survey drone of its car park; of whoever maps nothing it is not known.
 Checked<Value> coverage(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const info = single_vehicle(runtime, arguments[0], "coverage");
   if (!info) return std::unexpected(info.error());
   return Value::real(info->coverage.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+/// Of the places to park that a survey drone has found; none before the first.
+Checked<Value> slots_of(Runtime& runtime, Value const& vehicle, std::string_view what,
+                        std::size_t vehicle::SlotCounts::* count) {
+  auto const info = single_vehicle(runtime, vehicle, what);
+  if (!info) return std::unexpected(info.error());
+  return Value::integer(info->slots ? static_cast<std::int64_t>((*info->slots).*count) : 0);
+}
+
+Checked<Value> free_slots(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  return slots_of(runtime, arguments[0], "freeSlots", &vehicle::SlotCounts::free);
+}
+
+Checked<Value> taken_slots(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  return slots_of(runtime, arguments[0], "takenSlots", &vehicle::SlotCounts::taken);
 }
 
 Checked<Value> mode(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
@@ -344,11 +360,22 @@ std::vector<InstructionSpec> vehicle_words() {
       {.name = "coverage",
        .signatures = {takes({plain("vehicle", vehicles)})},
        .result = number,
-       .doc = "What the one vehicle of the set, a robot, has seen of the floor that it maps, 0 to 1: of what there "
-              "seems to be. Unknown: NaN, and every comparison is false.",
+       .doc = "What the one vehicle of the set has seen of what it maps, 0 to 1: a robot of its floor, as far as there "
+              "seems to be one, a survey drone of its car park. Unknown: NaN, and every comparison is false.",
        .dimension = Dimension::ratio,
        .example = "v = pick {}\nexecute waitFor { coverage(v) >= 90.percent } then idle(1)",
        .call = coverage},
+      {.name = "freeSlots",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = number,
+       .doc = "How many free places to park the one vehicle of the set, a survey drone, has found.",
+       .example = "v = pick {}\nexecute waitFor { freeSlots(v) >= 10 } then idle(1)",
+       .call = free_slots},
+      {.name = "takenSlots",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = number,
+       .doc = "How many places to park with a car on them the one vehicle of the set, a survey drone, has found.",
+       .call = taken_slots},
       {.name = "mode",
        .signatures = {takes({plain("vehicle", vehicles)})},
        .result = text,

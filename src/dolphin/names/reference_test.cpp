@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "autonomy/words/vocabulary.hpp"
 #include "dolphin/services/describe.hpp"
 #include "dolphin/services/vocabulary.hpp"
 #include "dolphin/syntax/ast_printer.hpp"
@@ -288,6 +289,7 @@ std::string chains() {
 tasks::Vocabulary all_words() {
   auto words = missions::vocabulary();
   EXPECT_TRUE(tasks::join(words, robot::vocabulary()));
+  EXPECT_TRUE(tasks::join(words, autonomy::vocabulary()));
   return words;
 }
 
@@ -402,7 +404,8 @@ std::string reference_text() {
   return by_hand("introduction") + "\n## Operators\n\n" + by_hand("precedence") + "\n" + precedence() + "\n" +
          by_hand("operators") + "\n" + operator_table() + unit_table() + all_instructions(vocabulary) + chains() +
          block_commands(vocabulary, "mission", "Missions") + block_commands(vocabulary, "drive", "Drives") +
-         all_methods() + names("Constants", constants()) + names("Types and exceptions", types()) + limits();
+         block_commands(vocabulary, "lot", "Lots") + all_methods() + names("Constants", constants()) +
+         names("Types and exceptions", types()) + limits();
 }
 
 TEST(LanguageReference, HasTypesAmongComparisons) {

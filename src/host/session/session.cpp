@@ -85,6 +85,7 @@ Session::Session(Options const& options)
       robots({loop, ground.registry, ground.authority, live_map}, log.named("robots")),
       robot_control(robots, {loop, ground.authority}, log),
       robot_modules(robots),
+      survey(loop, log.named("survey")),
       platforms(loop, log.named("platforms")),
       console(make_console(loop, log)),
       host(
@@ -97,9 +98,10 @@ Session::Session(Options const& options)
       seed_(options.seed.value_or(1)) {
   hub.add_sink(terminal_sink(options.log_level));
   auto const fleet_fits = join("MAVLink", {platform, &control, &parameters});
-  // Their words are there without robots, too: a script that waits for one checks.
+  // Their words are there without robots and survey drones, too: a script that waits for one checks.
   auto const robots_fit = join("robots", {robots});
-  LAPWING_ASSERT(fleet_fits && robots_fit);  // no word of one is a word of the other
+  auto const survey_fits = join("survey drones", {survey});
+  LAPWING_ASSERT(fleet_fits && robots_fit && survey_fits);  // no word of one is a word of the other
   control.set_on_latched([this](std::string const& reason) { host.halt_for_operator(reason); });
   host.set_bar([this] { return ground.authority.barred(); });
   bool const is_real_time = options.speedup == 1.0 && !options.seed && !options.begins_at;
@@ -140,8 +142,8 @@ base::Result<> Session::open_survey(std::vector<SurveyLink> links) {
   if (links.empty()) return {};
   auto opened = SurveyDesk::open(loop, live_map, log.named("survey"), std::move(links));
   if (!opened) return std::unexpected(opened.error());
-  survey = *std::move(opened);
-  survey_control = std::make_unique<SurveyControl>(loop, *survey, emergency_action_, log.named("survey"));
+  survey.open(*std::move(opened));
+  survey_control = std::make_unique<SurveyControl>(loop, *survey.desk(), emergency_action_, log.named("survey"));
   all_control.add("survey drones", *survey_control);
   return {};
 }
@@ -228,7 +230,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
     options.exporter = map_exports.get();
   }
   options.map = &live_map;
-  options.survey = survey.get();
+  options.survey = survey.desk();
   if (!robots.robots().empty()) {
     options.feeds.push_back(std::make_unique<RobotsFeed>(robots, live_map));
     options.modules = &robot_modules;
@@ -267,12 +269,17 @@ base::Task<> Session::finish(std::optional<base::Duration> timeout) {
   scope.spawn(tell_while_interrupted());
   scope.spawn(tell_while_nobody_is_heard());
   co_await host.ended();
-  bool const is_alone = ground.registry.all().empty();
+  bool const is_alone = is_nobody_heard();
   bool const is_done = host.outcome() && host.outcome()->kind == dolphin::Outcome::Kind::done;
   if (is_alone && !is_done) log.error(fmt::format("no vehicle was heard on {}", links_text()));
   robots.end_drives("the program ends");
   co_await platform.make_safe(on_stop_);
   co_await robots.settle();
+  co_await survey.settle();
+}
+
+bool Session::is_nobody_heard() const {
+  return ground.registry.all().empty() && survey.vehicles().empty();
 }
 
 std::string Session::links_text() const {
@@ -288,7 +295,7 @@ base::Task<> Session::tell_while_nobody_is_heard() {
   auto const since = loop.now();
   for (base::Duration wait = 3s;; wait = 10s) {
     co_await loop.sleep(wait);
-    if (!ground.registry.all().empty()) co_return;
+    if (!is_nobody_heard()) co_return;
     log.info(
         fmt::format("no vehicle heard yet for {:.0f} s on {}", base::to_seconds(loop.now() - since), links_text()));
   }

@@ -24,6 +24,7 @@
 #include "host/station/station_config.hpp"
 #include "host/station/web_access.hpp"
 #include "host/survey/survey_control.hpp"
+#include "host/survey/survey_platform.hpp"
 #include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
 #include "robot/platform/robot_control.hpp"
@@ -79,8 +80,8 @@ class Session {
   /// `anchor`. Call it before links and the map are opened. Errors: those of `make_robots` and `RobotPlatform::add`.
   [[nodiscard]] base::Result<> add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor);
 
-  /// Connects to survey drones and goes on trying; the station shows and commands them. Call it before the map is
-  /// opened. Errors: those of `SurveyDesk::open`.
+  /// Connects to survey drones and goes on trying; scripts fly them, and the station shows and commands them. Call it
+  /// before the map is opened. Errors: those of `SurveyDesk::open`.
   [[nodiscard]] base::Result<> open_survey(std::vector<SurveyLink> links);
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
@@ -116,7 +117,8 @@ class Session {
   robot::RobotPlatform robots;
   robot::RobotControl robot_control;   ///< what operators do with the robots
   robot::RobotModules robot_modules;   ///< how the robots' modules do
-  tasks::Platforms platforms;          ///< the fleet, the robots and what has joined them, for scripts
+  SurveyPlatform survey;               ///< survey drones
+  tasks::Platforms platforms;          ///< the fleet, the robots, survey drones and what has joined them, for scripts
   vehicle::JoinedControl all_control;  ///< the same for operators
   vehicle::JoinedParameters all_parameters;
   std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
@@ -127,8 +129,7 @@ class Session {
   std::unique_ptr<sim::World> world;
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
   std::unique_ptr<MapExports> map_exports;
-  std::unique_ptr<SurveyDesk> survey;             ///< where there are survey drones
-  std::unique_ptr<SurveyControl> survey_control;  ///< their emergency stop
+  std::unique_ptr<SurveyControl> survey_control;  ///< the emergency stop of survey drones, where there are some
   std::unique_ptr<TrackWriter> tracks;            ///< where there is a station to show them
   std::unique_ptr<station::Station> map;
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
@@ -137,6 +138,7 @@ class Session {
   base::Task<> finish(std::optional<base::Duration> timeout);
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();
+  [[nodiscard]] bool is_nobody_heard() const;
   [[nodiscard]] std::string links_text() const;
   void note(tasks::TaskEvent const& event);
 

@@ -44,6 +44,7 @@ struct SurveyDesk::Seat {
 
   std::string name;
   std::optional<autonomy::report::Heartbeat> heartbeat = {};
+  std::optional<autonomy::report::Survey> survey = {};
   std::deque<vehicle::SurveyWords> words = {};
   std::string complaint = {};  ///< the last one of the map, so that it is told once
   LotWriter lot;
@@ -61,7 +62,8 @@ struct SurveyDesk::Seat {
   [[nodiscard]] Look& look_at(vehicle::PictureView view) { return looks.at(static_cast<std::size_t>(view)); }
 };
 
-SurveyDesk::SurveyDesk(base::Loop& loop, base::Logger log) : loop_(loop), log_(std::move(log)), scope_(loop) {}
+SurveyDesk::SurveyDesk(base::Loop& loop, base::Logger log)
+    : loop_(loop), log_(std::move(log)), heard_(loop), scope_(loop) {}
 
 SurveyDesk::~SurveyDesk() = default;
 
@@ -86,6 +88,7 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
                            [raw = desk.get(), one = seat.get()](wire::Event const& event) {
                              auto const text = event.text.empty() ? "" : ": " + event.text;
                              raw->log_.info(fmt::format("{}: {}{}", one->name, wire::to_string(event.kind), text));
+                             raw->heard_.notify_all();
                            }});
     if (!client) return std::unexpected(client.error());
     seat->client = *std::move(client);
@@ -96,6 +99,7 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
 
 void SurveyDesk::hear(Seat& seat) {
   while (auto const message = seat.client->session().take()) take(seat, message->text);
+  heard_.notify_all();
 }
 
 void SurveyDesk::take(Seat& seat, std::string const& text) {
@@ -104,6 +108,7 @@ void SurveyDesk::take(Seat& seat, std::string const& text) {
   if (auto const* const log = std::get_if<autonomy::report::ErrorLog>(&*report)) return say(seat, log->message);
   base::Result<> shown;
   if (auto const* const slots = std::get_if<autonomy::report::Slots>(&*report)) {
+    if (slots->survey) seat.survey = slots->survey;
     shown = seat.lot.take(*slots, loop_.utc_now());
   } else {
     seat.heartbeat = std::get<autonomy::report::Heartbeat>(*std::move(report));
@@ -137,7 +142,8 @@ std::vector<vehicle::SurveyDroneView> SurveyDesk::drones() const {
                      .height_m = told.height_m,
                      .position = told.position,
                      .battery = told.battery,
-                     .slots = seat->lot.slots(),
+                     .slots = seat->survey && seat->survey->slots ? seat->survey->slots : seat->lot.slots(),
+                     .coverage = seat->survey ? std::optional(seat->survey->coverage) : std::nullopt,
                      .words = {seat->words.begin(), seat->words.end()}});
   }
   return views;
@@ -153,7 +159,22 @@ std::optional<autonomy::report::Heartbeat> SurveyDesk::heartbeat(std::string_vie
   return seat ? seat->heartbeat : std::nullopt;
 }
 
+bool SurveyDesk::is_connected(std::string_view drone) const {
+  auto const* const seat = seat_of(drone);
+  return seat && seat->client->is_connected();
+}
+
+std::optional<autonomy::report::Survey> SurveyDesk::survey(std::string_view drone) const {
+  auto const* const seat = seat_of(drone);
+  return seat ? seat->survey : std::nullopt;
+}
+
 base::Result<> SurveyDesk::command(std::string_view drone, std::string const& command) {
+  if (seat_of(drone) && autonomy::parse_command(command) && on_operator_) on_operator_(drone);
+  return order(drone, command);
+}
+
+base::Result<> SurveyDesk::order(std::string_view drone, std::string const& command) {
   auto const read = autonomy::parse_command(command);
   if (!barred_.empty() && read && !stops(*read))
     return base::fail(base::ErrorKind::refused, barred_, "release it first; Land, Disarm and Kill are taken");

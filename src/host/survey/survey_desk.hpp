@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "autonomy/interface/command.hpp"
 #include "base/async/loop.hpp"
+#include "base/async/notifier.hpp"
 #include "base/async/scope.hpp"
 #include "base/log.hpp"
 #include "host/survey/lot_writer.hpp"
@@ -29,17 +31,28 @@ class SurveyDesk final : public vehicle::SurveyDrones {
   ~SurveyDesk() override;
 
   [[nodiscard]] std::vector<vehicle::SurveyDroneView> drones() const override;
+  /// By an operator, to whom a script loses the drone.
   [[nodiscard]] base::Result<> command(std::string_view drone, std::string const& command) override;
+  /// By a script: the same, but that it takes the drone from nobody.
+  [[nodiscard]] base::Result<> order(std::string_view drone, std::string const& command);
+  /// Told which drone an operator has commanded, before it is.
+  void set_on_operator(std::function<void(std::string_view drone)> told) { on_operator_ = std::move(told); }
 
   [[nodiscard]] base::Task<base::Result<vehicle::DronePicture>> picture(std::string drone, vehicle::PictureView view,
                                                                         std::uint64_t after) override;
 
   /// Why nothing but Land, Disarm and Kill is handed on; empty: everything is.
   void bar(std::string reason) { barred_ = std::move(reason); }
-  /// The same as `command`, whatever bars it.
+  [[nodiscard]] std::string const& barred() const { return barred_; }
+  /// The same as `order`, whatever bars it.
   [[nodiscard]] base::Result<> stop(std::string_view drone, std::string const& command);
   /// The last one, without its map; nothing for a drone that has said none or is not there.
   [[nodiscard]] std::optional<autonomy::report::Heartbeat> heartbeat(std::string_view drone) const;
+  [[nodiscard]] bool is_connected(std::string_view drone) const;
+  /// How far its survey is; nothing for a drone that has not told or is not there.
+  [[nodiscard]] std::optional<autonomy::report::Survey> survey(std::string_view drone) const;
+  /// Whenever a drone has said something, is reached or is lost.
+  [[nodiscard]] base::Notifier& heard() { return heard_; }
 
   static constexpr std::size_t words_kept = 20;
 
@@ -60,6 +73,8 @@ class SurveyDesk final : public vehicle::SurveyDrones {
   base::Loop& loop_;
   base::Logger log_;
   std::string barred_;
+  std::function<void(std::string_view drone)> on_operator_;
+  base::Notifier heard_;
   std::vector<std::unique_ptr<Seat>> seats_;
   base::Scope scope_;
 };

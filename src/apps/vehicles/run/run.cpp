@@ -42,6 +42,7 @@ struct RunOptions {
   std::vector<std::string> payload;
   std::vector<std::string> forward;
   std::vector<std::string> robots;
+  std::vector<std::string> survey;
   std::optional<double> swap_batteries_s;
   host::PlausibilityArguments plausibility;
 
@@ -79,8 +80,8 @@ base::Result<host::Equipment> equipment_for(RunOptions const& options, std::opti
 base::Result<> connect(host::Session& session, RunOptions const& options, std::optional<sim::WorldOptions> world) {
   auto programs = host::forward_to(options.forward);
   if (!programs) return std::unexpected(programs.error());
-  // Who names robots alone wants no vehicles on the default link.
-  bool const wants_default = options.links.empty() && !world && options.robots.empty();
+  // Who names robots or survey drones alone wants no vehicles on the default link.
+  bool const wants_default = options.links.empty() && !world && options.robots.empty() && options.survey.empty();
   auto const links = wants_default ? std::vector<std::string>{host::default_link} : options.links;
   if (auto opened = session.open_links(links); !opened) return opened;
   if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return forwarded;
@@ -114,7 +115,8 @@ int run_script(host::Session& session, RunOptions const& options, host::ScriptTe
 /// So that nothing real is outrun by its clock.
 bool is_all_simulated(RunOptions const& options) {
   auto const is_simulated = [](std::string const& robot) { return robot.starts_with("sim:"); };
-  bool const is_linked = options.simulated.empty() && (options.robots.empty() || !options.links.empty());
+  bool const is_linked =
+      !options.survey.empty() || (options.simulated.empty() && (options.robots.empty() || !options.links.empty()));
   return !is_linked && std::ranges::all_of(options.robots, is_simulated);
 }
 
@@ -150,6 +152,9 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
   }
   auto const anchor = world ? world->home : needs.home.value_or(sim::WorldOptions{}.home);
   if (auto added = session.add_robots(options.robots, anchor); !added) return host::refuse(added.error());
+  std::vector<host::SurveyLink> survey;
+  if (auto named = host::add_survey_links(options.survey, survey); !named) return host::refuse(named.error());
+  if (auto opened = session.open_survey(std::move(survey)); !opened) return host::refuse(opened.error());
   if (auto connected = connect(session, options, std::move(world)); !connected) return host::refuse(connected.error());
   int code = host::exit_done;
   for (auto script = scripts.begin(); script != scripts.end() && code == host::exit_done; ++script)
@@ -175,7 +180,8 @@ bool rest_checks(std::vector<host::ScriptText> const& scripts) {
 /// What means nothing to the test platform, and so is a mistake beside it.
 base::Result<> check_combination(RunOptions const& options) {
   if (options.platform != "test") return {};
-  std::array<std::pair<std::string_view, bool>, 11> const given{{{"--robot", !options.robots.empty()},
+  std::array<std::pair<std::string_view, bool>, 12> const given{{{"--robot", !options.robots.empty()},
+                                                                 {"--survey", !options.survey.empty()},
                                                                  {"--link", !options.links.empty()},
                                                                  {"--sim", !options.simulated.empty()},
                                                                  {"--home", !options.home.empty()},
@@ -218,6 +224,10 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--forward", options.forward, host::forward_help)->allow_extra_args(false);
   verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
   verb.add_option("--robot", options.robots, host::robot_help)->allow_extra_args(false);
+  verb.add_option("--survey", options.survey,
+                  "A survey drone's operator link (may be repeated): HOST[:PORT]; those with a token or TLS are for "
+                  "scripts of a station")
+      ->allow_extra_args(false);
   verb.add_option("--home", options.home,
                   "Where the simulated vehicles stand: LAT,LON,ALT[,HEADING] in degrees and metres; default: the "
                   "script's first home");
