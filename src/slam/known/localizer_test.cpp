@@ -53,8 +53,10 @@ TEST(Localizer, FollowsFromAKnownStart) {
 }
 
 TEST(Localizer, FindsItsStartOnTheWholeMap) {
-  auto const drive = another_drive();
-  auto const done = localized(map_of(an_office()), drive.log);
+  // In that of the other tests rooms are so much alike that a third of all drives do not tell where they began.
+  auto const office = testing::office(20.0, 12.0, 4.0, 1.0, 6);
+  auto const drive = testing::drive(office, {{0, 6}, {0, 12}, {20, 12}, {20, 4}}, {.beams = 91, .seed = 3});
+  auto const done = localized(map_of(office), drive.log);
   ASSERT_TRUE(done.start);
   EXPECT_EQ(lost(done), 0);
   EXPECT_LT(greatest_error_m(done, drive), 0.12);
