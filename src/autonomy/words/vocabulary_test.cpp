@@ -43,8 +43,10 @@ TEST(LotBlock, BuildsTheStepsInTheirOrder) {
 TEST(LotBlock, CountsThoseWithoutAName) {
   Block block;
   ASSERT_TRUE(block.add("explore"));
-  EXPECT_EQ((*block.session->finish())->name(), "Lot_1");
-  EXPECT_EQ((*block.session->finish())->reference_position(), std::nullopt);
+  auto const built = block.session->finish();
+  ASSERT_TRUE(built);
+  EXPECT_EQ((*built)->name(), "Lot_1");
+  EXPECT_EQ((*built)->reference_position(), std::nullopt);
 }
 
 TEST(LotBlock, RefusesWhatNobodyCanFly) {
