@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -31,12 +32,10 @@ struct StepCommand {
   Apply apply;
 };
 
-/// The command `name s`; `whom` for the doc: "the drive".
+/// The command `name s`; `doc` says what it names. Texts of a vocabulary are literals: it keeps views of them.
 template <class Step>
-StepCommand<Step> name_command(std::string_view whom) {
-  return {{"name",
-           {{{{.name = "s", .type = Type::text, .doc = fmt::format("what views and reports call {}", whom)}}}},
-           fmt::format("Names {}.", whom)},
+StepCommand<Step> name_command(std::string_view doc) {
+  return {{"name", {{{{.name = "s", .type = Type::text, .doc = "what views and reports call it"}}}}, doc},
           [](StepDraft<Step>& draft, std::size_t, std::span<Argument const> arguments) -> base::Result<> {
             draft.name = std::get<std::string>(arguments[0]);
             return {};
@@ -45,10 +44,8 @@ StepCommand<Step> name_command(std::string_view whom) {
 
 /// The command `wait secs`, which is a `WaitStep`; `doc` says what the vehicle does meanwhile.
 template <class Step, class WaitStep>
-StepCommand<Step> wait_command(std::string doc) {
-  return {{"wait",
-           {{{{.name = "secs", .type = Type::number, .dimension = Dimension::time, .doc = "how long"}}}},
-           std::move(doc)},
+StepCommand<Step> wait_command(std::string_view doc) {
+  return {{"wait", {{{{.name = "secs", .type = Type::number, .dimension = Dimension::time, .doc = "how long"}}}}, doc},
           [](StepDraft<Step>& draft, std::size_t, std::span<Argument const> arguments) -> base::Result<> {
             auto const* const whole = std::get_if<std::int64_t>(&arguments.front());
             double const seconds = whole ? static_cast<double>(*whole) : std::get<double>(arguments[0]);
@@ -59,13 +56,13 @@ StepCommand<Step> wait_command(std::string doc) {
           }};
 }
 
-/// What a block word is called, and what it says.
+/// What a block word is called, and what it says, in literals.
 struct StepBlockWords {
-  std::string name;  ///< "drive"
-  std::string doc;
-  std::string unnamed;       ///< "Drive": a task without a name is called Drive_N
-  std::string without_step;  ///< the error of a block that does nothing,
-  std::string example;       ///< and its hint
+  std::string_view name;  ///< "drive"
+  std::string_view doc;
+  std::string_view unnamed;       ///< "Drive": a task without a name is called Drive_N
+  std::string_view without_step;  ///< the error of a block that does nothing,
+  std::string_view example;       ///< and its hint
 };
 
 /// A vocabulary with this one block word. It builds tasks `Task(name, steps)`; N counts those that it has built.
@@ -87,7 +84,8 @@ Vocabulary step_block(StepBlockWords words, std::vector<StepCommand<Step>> comma
     base::Result<std::shared_ptr<PlatformTask const>> finish() override {
       ++workshop_->built;
       auto const& words = workshop_->words;
-      if (draft_.steps.empty()) return base::fail(base::ErrorKind::invalid_input, words.without_step, words.example);
+      if (draft_.steps.empty())
+        return base::fail(base::ErrorKind::invalid_input, std::string(words.without_step), std::string(words.example));
       if (draft_.name.empty()) draft_.name = fmt::format("{}_{}", words.unnamed, workshop_->built);
       return std::make_shared<Task const>(std::move(draft_.name), std::move(draft_.steps));
     }
@@ -97,8 +95,8 @@ Vocabulary step_block(StepBlockWords words, std::vector<StepCommand<Step>> comma
     StepDraft<Step> draft_;
   };
 
-  auto const workshop = std::make_shared<Workshop>(Workshop{.words = std::move(words)});
-  BuilderSpec spec{.name = workshop->words.name, .commands = {}, .doc = workshop->words.doc, .begin = [workshop] {
+  auto const workshop = std::make_shared<Workshop>(Workshop{.words = words});
+  BuilderSpec spec{.name = words.name, .commands = {}, .doc = words.doc, .begin = [workshop] {
                      return std::make_unique<Session>(workshop);
                    }};
   for (auto& command : commands) {

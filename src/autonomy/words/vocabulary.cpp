@@ -42,7 +42,7 @@ tasks::Vocabulary vocabulary() {
        .unnamed = "Lot",
        .without_step = "a lot needs a command that flies",
        .example = "as lot { explore(); comeHome() }"},
-      {tasks::name_command<Step>("it"),
+      {tasks::name_command<Step>("Names the flight."),
        {{"explore", {{}}, "Surveys the car park until the drone has nothing more to learn there."}, explore},
        {{"moveTo",
          {{{{.name = "pos", .type = Type::position, .doc = "within the lot; its altitude does not count"}}}},

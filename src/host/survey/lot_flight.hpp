@@ -48,8 +48,8 @@ class LotFlight {
   [[nodiscard]] base::Task<base::Result<>> wait(base::Duration time);
   [[nodiscard]] base::Task<base::Result<>> come_home();
 
-  /// Tells the drone something that brings it from `from` into one of `into`, as its heartbeat shows within `at_most`: it
-  /// comes twice a second, and when the state has changed.
+  /// Tells the drone something that brings it from `from` into one of `into`, as its heartbeat shows within `at_most`:
+  /// it comes twice a second, and when the state has changed.
   [[nodiscard]] base::Task<base::Result<>> ask(std::string command, autonomy::States from, autonomy::States into,
                                                base::Duration at_most = std::chrono::seconds(5));
   /// Until `is_there`, as long as the drone is in one of `states`; `what` it does meanwhile is for people. Errors: lost

@@ -48,7 +48,7 @@ tasks::Vocabulary vocabulary() {
        .unnamed = "Drive",
        .without_step = "a drive needs a command that drives",
        .example = "as drive { explore(); returnToStart() }"},
-      {tasks::name_command<Step>("the drive"),
+      {tasks::name_command<Step>("Names the drive."),
        {{"explore",
          {{{strategy}}},
          "Drives about and maps the floor until nothing open is left that the robot can reach."},
