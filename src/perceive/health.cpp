@@ -36,10 +36,10 @@ struct Verdict {
 Verdict verdict_on(SightRecord const& record, base::TimePoint now) {
   bool const is_late = now - record.good_at > longest_blind;
   auto const level = is_late ? DiagnosticStatus::error : DiagnosticStatus::warn;
-  if (!record.is_open)
-    return {level,
-            record.fault.empty() ? "the camera is not open: it is not known yet where the drone is" : record.fault};
-  if (!record.fault.empty()) return {level, record.fault};
+  auto const& film = record.film;
+  if (!film.fault.empty()) return {level, film.fault};
+  if (!film.is_open) return {level, "the camera is not open: it is not known yet where the drone is"};
+  if (!record.place_fault.empty()) return {level, record.place_fault};
   if (!record.picture_fault.empty()) return {level, fmt::format("a picture shows nothing: {}", record.picture_fault)};
   if (is_late) return {level, "no picture comes"};
   if (record.took_s > slow_s)
@@ -63,10 +63,11 @@ Verdict verdict_on_mapping(ThoughtRecord const& record) {
 DiagnosticStatus vision_health(SightRecord const& record, base::TimePoint now) {
   auto [level, words] = verdict_on(record, now);
   auto told = status("vision", level, std::move(words));
-  add(told, "pictures", record.pictures);
-  add(told, "pictures_failed", record.failed);
+  add(told, "pictures", record.film.pictures);
+  add(told, "pictures_failed", record.film.failed);
+  add(told, "pictures_looked_at", record.looked_at);
   add(told, "pictures_blind", record.blind);
-  told.values.push_back({"pictures_a_second", fmt::format("{:.2f}", record.pictures_a_s)});
+  told.values.push_back({"looks_a_second", fmt::format("{:.2f}", record.looks_a_s)});
   add_ms(told, "look_ms", record.took_s);
   return told;
 }

@@ -6,21 +6,21 @@
 
 #include "base/time.hpp"
 #include "bus/messages/diagnostics.hpp"
+#include "perceive/filming.hpp"
 #include "perceive/surveyor.hpp"
 
 namespace lapwing::perceive {
 
 /// How the camera and who looks at its pictures have done, as far as the last report.
 struct SightRecord {
-  bool is_open = false;            ///< the camera
-  std::string fault = {};          ///< what went wrong last; empty once a picture was good
+  FilmRecord film = {};
+  std::string place_fault = {};    ///< why it is not known where the last picture was taken
   std::string picture_fault = {};  ///< why the last picture shows nothing
   base::TimePoint good_at{};       ///< of the last picture that shows something; before any: of the start
-  std::uint64_t pictures = 0;      ///< taken
-  std::uint64_t failed = 0;        ///< that did not come
+  std::uint64_t looked_at = 0;     ///< pictures
   std::uint64_t blind = 0;         ///< that show nothing
   double took_s = 0.0;             ///< to look at the last one
-  double pictures_a_s = 0.0;
+  double looks_a_s = 0.0;
 };
 
 /// And who maps and plans.

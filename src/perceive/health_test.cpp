@@ -13,7 +13,7 @@ using bus::DiagnosticStatus;
 constexpr base::TimePoint begin{};
 
 SightRecord good() {
-  return {.is_open = true, .good_at = begin + 10s, .pictures = 40, .took_s = 0.1, .pictures_a_s = 4.0};
+  return {.film = {.is_open = true, .pictures = 40}, .good_at = begin + 10s, .took_s = 0.1, .looks_a_s = 4.0};
 }
 
 std::string value_of(DiagnosticStatus const& status, std::string const& key) {
@@ -25,14 +25,14 @@ TEST(VisionHealth, IsWellWithPicturesAndTellsItsFigures) {
   auto const told = vision_health(good(), begin + 10s);
   EXPECT_EQ(told.level, DiagnosticStatus::ok);
   EXPECT_EQ(told.message, "");
-  EXPECT_EQ(value_of(told, "pictures_a_second"), "4.00");
+  EXPECT_EQ(value_of(told, "looks_a_second"), "4.00");
   EXPECT_EQ(value_of(told, "look_ms"), "100");
 }
 
 TEST(VisionHealth, WarnsOfWhatPassesAndFailsWithWhatStays) {
   auto gone = good();
-  gone.is_open = false;
-  gone.fault = "the camera is gone";
+  gone.film.is_open = false;
+  gone.film.fault = "the camera is gone";
   EXPECT_EQ(vision_health(gone, begin + 11s).level, DiagnosticStatus::warn);
   auto const later = vision_health(gone, begin + 13s);
   EXPECT_EQ(later.level, DiagnosticStatus::error);

@@ -80,6 +80,10 @@ LiveView::LiveView(base::Loop& loop, std::unique_ptr<link::pictures::PictureServ
   scope_.spawn(work());
 }
 
+bool LiveView::is_watched() const {
+  return is_watched(View::raw) || is_watched(View::annotated);
+}
+
 void LiveView::show(cv::Mat picture, base::UtcTime taken) {
   put(View::raw, raw_, {.picture = std::move(picture), .taken = taken});
 }

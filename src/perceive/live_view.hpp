@@ -30,6 +30,8 @@ class LiveView {
 
   void show(cv::Mat picture, base::UtcTime taken);
   void show(cv::Mat picture, base::UtcTime taken, std::optional<explore::LotSight> sight);
+  [[nodiscard]] bool is_watched(link::pictures::View view) const { return server_->is_watched(view); }
+  [[nodiscard]] bool is_watched() const;
   [[nodiscard]] std::uint16_t port() const { return server_->port(); }
 
  private:

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/core.hpp>
 
 #include "base/files/replace_file.hpp"
 #include "base/wall_clock.hpp"
+#include "perceive/without_throwing.hpp"
 
 namespace lapwing::perceive {
 
@@ -19,10 +19,11 @@ constexpr base::Duration think_period = 200ms;
 constexpr base::Duration map_period = 1s;
 constexpr base::Duration setpoint_period = 100ms;
 constexpr base::Duration keep_period = 3s;
-constexpr base::Duration open_again_after = 3s;
 /// So long it may take until the flight controller has said where the drone was when the light fell in.
 constexpr base::Duration pose_patience = 400ms;
 constexpr base::Duration pose_lasts = 2s;
+/// What was found is drawn into the pictures that come after it, for a while.
+constexpr base::Duration findings_last = 2s;
 /// Lower than that the drone stands, and the ground before its lens says nothing.
 constexpr double standing_m = 2.0;
 constexpr auto slots_file = "slots.geojson";
@@ -33,16 +34,6 @@ struct Look {
   std::optional<explore::LotSight> sight = {};
   double took_s = 0.0;
 };
-
-/// OpenCV throws on pictures that it did not expect; one of them is not to end the process.
-template <class Work>
-std::invoke_result_t<Work> without_throwing(Work const& work) {
-  try {
-    return work();
-  } catch (cv::Exception const& error) {
-    return base::fail(base::ErrorKind::io, "OpenCV cannot work on a picture: " + error.err);
-  }
-}
 
 }  // namespace
 
@@ -66,11 +57,13 @@ base::Result<std::unique_ptr<Perceive>> Perceive::open(base::Loop& loop, bus::Bu
   std::unique_ptr<Perceive> perceive(new Perceive(loop, std::move(settings), std::move(log)));
   perceive->topics_ = *std::move(topics);
   perceive->live_view_ = std::move(live_view);
-  perceive->eye_.emplace(loop, std::make_unique<Eye>(*std::move(eye)));
+  perceive->film_.emplace(loop, perceive->director(), perceive->log_);
+  perceive->eye_.emplace(loop, std::make_unique<LotEye>(*std::move(eye)));
   perceive->mind_.emplace(loop, std::make_unique<Mind>());
   perceive->sight_.good_at = loop.now();
   auto& scope = perceive->scope_;
   scope.spawn(perceive->see());
+  if (perceive->live_view_) scope.spawn(perceive->show());
   scope.spawn(perceive->think());
   scope.spawn(perceive->speak());
   scope.spawn(perceive->report_health());
@@ -87,80 +80,73 @@ double Perceive::ground_up_m() const {
 
 // ---- seeing
 
-base::Task<> Perceive::see() {
-  auto const period = base::from_seconds(1.0 / settings_.pictures_a_s);
-  for (auto next = loop_.now();; next = std::max(next + period, loop_.now())) {
-    co_await loop_.sleep_until(next);
-    // A simulated one is to know where on the globe it is.
-    if (!sight_.is_open && topics_->heard().ground) co_await open_camera();
-    if (sight_.is_open) co_await look_once();
-  }
+/// A simulated camera is to know where on the globe it is, and from where it looks; real ones know.
+Filming::Director Perceive::director() {
+  bool const needs_place = settings_.camera.kind == video::CameraSettings::Kind::simulated;
+  return {
+      .camera = [this, needs_place]() -> std::optional<video::CameraSettings> {
+        auto const& ground = topics_->heard().ground;
+        if (needs_place && !ground) return std::nullopt;
+        auto settings = settings_.camera;
+        if (ground) settings.anchor = ground->anchor;
+        return settings;
+      },
+      .moment = [this, needs_place]() -> std::optional<video::Moment> {
+        if (!is_placed()) return needs_place ? std::nullopt : std::optional(video::Moment{.at = base::wall_now()});
+        auto const& pose = *topics_->heard().track.newest();
+        return video::Moment{.site_from_camera = video::camera_on(pose.place, settings_.camera.mount), .at = pose.at};
+      },
+      .pictures_a_s =
+          [this] {
+            bool const is_watched = live_view_ && live_view_->is_watched();
+            return is_watched ? std::max(settings_.shown_a_s, settings_.looks_a_s) : settings_.looks_a_s;
+          },
+  };
 }
 
-base::Task<> Perceive::open_camera() {
-  auto settings = settings_.camera;
-  settings.anchor = topics_->heard().ground->anchor;
-  auto opening = eye_->run([settings = std::move(settings)](Eye& eye) -> base::Result<> {
-    eye.camera.reset();  // the one that is gone, first
-    auto camera = video::open_camera(settings);
-    if (!camera) return std::unexpected(camera.error());
-    eye.camera = *std::move(camera);
-    return {};
-  });
-  auto const opened = co_await opening;
-  sight_.is_open = opened.has_value();
-  if (opened) {
-    log_.info("the camera is open");
-    co_return;
-  }
-  note_failure(opened.error());
-  co_await loop_.sleep(open_again_after);
-}
-
-void Perceive::note_failure(base::Error const& error) {
-  if (sight_.fault != error.message) log_.warn(error.message);
-  sight_.fault = error.message;
-  ++sight_.failed;
-}
-
-base::Task<> Perceive::look_once() {
+bool Perceive::is_placed() const {
   auto const& heard = topics_->heard();
-  auto const* const pose = heard.track.newest();
-  bool const is_placed = pose != nullptr && loop_.now() - *heard.pose_at < pose_lasts && heard.ground;
-  if (!is_placed) co_return;
-  video::Moment const moment{.site_from_camera = video::camera_on(pose->place, settings_.camera.mount), .at = pose->at};
-  auto taking = eye_->run([moment](Eye& eye) { return without_throwing([&] { return eye.camera->take(moment); }); });
-  auto const frame = co_await taking;
-  if (!frame) {
-    note_failure(frame.error());
-    if (frame.error().kind != base::ErrorKind::lost) co_return;
-    sight_.is_open = false;
-    co_await loop_.sleep(open_again_after);
-    co_return;
+  return heard.ground && heard.track.newest() != nullptr && loop_.now() - *heard.pose_at < pose_lasts;
+}
+
+/// The picture that has just come each time, as soon as one is due.
+base::Task<> Perceive::see() {
+  auto const period = base::from_seconds(1.0 / settings_.looks_a_s);
+  // Pictures do not come at the very moment: one that is a little early is looked at, not the one after it.
+  auto const early = period / 5;
+  std::uint64_t last = 0;
+  for (auto due = loop_.now();;) {
+    auto shooting = film_->next(last);
+    auto shot = co_await shooting;
+    last = shot.number;
+    if (loop_.now() + early < due || !is_placed()) continue;
+    due = std::max(due, loop_.now() - early) + period;
+    auto looking = look_at(std::move(shot.frame));
+    co_await looking;
   }
-  ++sight_.pictures;
-  if (live_view_) live_view_->show(frame->picture, frame->taken);
-  auto placing = place_of(*frame);
+}
+
+base::Task<> Perceive::look_at(video::Frame frame) {
+  auto placing = place_of(frame);
   auto const place = co_await placing;
   if (!place) {
     ++thought_.unplaced;
-    sight_.fault = "nobody knows where the drone was when a picture was taken: do the clocks agree?";
+    sight_.place_fault = "nobody knows where the drone was when a picture was taken: do the clocks agree?";
     co_return;
   }
-  sight_.fault.clear();
-  geo::GroundView const view{.lens = frame->lens, .site_from_camera = *place, .ground_up_m = ground_up_m()};
+  sight_.place_fault.clear();
+  geo::GroundView const view{.lens = frame.lens, .site_from_camera = *place, .ground_up_m = ground_up_m()};
   if (view.height_m() < standing_m) {
     sight_.good_at = loop_.now();
     sight_.picture_fault.clear();
-    if (live_view_) live_view_->show(frame->picture, frame->taken, std::nullopt);
     co_return;
   }
-  auto looking = eye_->run([view, picture = frame->picture, at = frame->taken](Eye& eye) {
+  auto looking = eye_->run([view, picture = frame.picture, at = frame.taken](LotEye& eye) {
     auto const began = std::chrono::steady_clock::now();
     Look look{.fault = picture_fault(picture)};
     if (!look.fault) {
-      auto sight = without_throwing(
-          [&] { return base::Result<std::optional<explore::LotSight>>(eye.looks.look(picture, view, at)); });
+      auto sight =
+          without_throwing([&] { return base::Result<std::optional<explore::LotSight>>(eye.look(picture, view, at)); });
       if (sight)
         look.sight = *std::move(sight);
       else
@@ -170,7 +156,7 @@ base::Task<> Perceive::look_once() {
     return look;
   });
   auto look = co_await looking;
-  if (live_view_) live_view_->show(frame->picture, frame->taken, look.sight);
+  ++sight_.looked_at;
   sight_.took_s = look.took_s;
   sight_.picture_fault = look.fault.value_or("");
   if (look.fault) {
@@ -181,6 +167,7 @@ base::Task<> Perceive::look_once() {
   if (!look.sight) co_return;
   if (newest_) ++thought_.passed_over;
   look.sight->vehicle = settings_.vehicle;
+  seen_last_ = look.sight;
   newest_ = std::move(look.sight);
   seen_.notify_all();
 }
@@ -196,6 +183,33 @@ base::Task<std::optional<geo::CameraPlace>> Perceive::place_of(video::Frame cons
     if (!may_come || loop_.now() >= deadline) co_return std::nullopt;
     co_await loop_.sleep(look_again);
   }
+}
+
+// ---- showing
+
+base::Task<> Perceive::show() {
+  std::uint64_t last = 0;
+  for (;;) {
+    auto shooting = film_->next(last);
+    auto shot = co_await shooting;
+    last = shot.number;
+    live_view_->show(shot.frame.picture, shot.frame.taken);
+    if (live_view_->is_watched(link::pictures::View::annotated)) scope_.spawn(show_findings(std::move(shot.frame)));
+  }
+}
+
+/// What was found last, as it lies in this picture.
+base::Task<> Perceive::show_findings(video::Frame frame) {
+  std::optional<explore::LotSight> sight;
+  if (is_placed() && seen_last_ && frame.taken - seen_last_->at < findings_last) {
+    auto placing = place_of(frame);
+    if (auto const place = co_await placing) {
+      sight = seen_last_;
+      sight->view = {.lens = frame.lens, .site_from_camera = *place, .ground_up_m = ground_up_m()};
+      if (sight->view.height_m() < standing_m) sight.reset();
+    }
+  }
+  live_view_->show(frame.picture, frame.taken, std::move(sight));
 }
 
 // ---- thinking
@@ -282,16 +296,17 @@ base::Task<> Perceive::speak() {
 
 base::Task<> Perceive::report_health() {
   constexpr base::Duration period = 1s;
-  auto pictures = sight_.pictures;
+  auto looked_at = sight_.looked_at;
   for (auto at = loop_.now();;) {
     auto const& heard = topics_->heard();
+    sight_.film = film_->record();
     thought_.pose_age.reset();
     if (heard.pose_at) thought_.pose_age = loop_.now() - *heard.pose_at;
     topics_->say_health(vision_health(sight_, loop_.now()), mapper_health(thought_), planner_health(thought_));
     co_await loop_.sleep(period);
-    sight_.pictures_a_s = static_cast<double>(sight_.pictures - pictures) /
-                          base::to_seconds(loop_.now() - std::exchange(at, loop_.now()));
-    pictures = sight_.pictures;
+    sight_.looks_a_s = static_cast<double>(sight_.looked_at - looked_at) /
+                       base::to_seconds(loop_.now() - std::exchange(at, loop_.now()));
+    looked_at = sight_.looked_at;
   }
 }
 

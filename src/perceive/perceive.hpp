@@ -11,6 +11,7 @@
 #include "base/async/side_thread.hpp"
 #include "base/log.hpp"
 #include "bus/participant/bus.hpp"
+#include "perceive/filming.hpp"
 #include "perceive/health.hpp"
 #include "perceive/live_view.hpp"
 #include "perceive/lot_eye.hpp"
@@ -25,14 +26,15 @@ struct PerceiveSettings {
   SurveyOrder order = {};
   std::string vehicle = "drone";                             ///< whose account the map is
   std::filesystem::path folder = "survey";                   ///< of what was found
-  double pictures_a_s = 4.0;                                 ///< at most
+  double looks_a_s = 4.0;                                    ///< pictures that are looked at, at most
   std::optional<link::pictures::ServeSettings> stream = {};  ///< where people look; none: nowhere
+  double shown_a_s = 10.0;                                   ///< pictures for them, while somebody looks
   std::string network = {};  ///< the content of models/cars.onnx; empty: vehicles by contrast
 };
 
 /// The process that sees, maps and plans: an algorithm manager that has pictures taken, looked at, put on the map and
-/// thought about, one after the other, each on a thread beside the loop, so that bus and life line go on meanwhile.
-/// What is newest counts: a picture that comes before the one before was thought about takes its place.
+/// thought about, each on a thread beside the loop, so that bus and life line go on meanwhile. What is newest counts: a
+/// picture that comes before the one before was looked at or thought about takes its place.
 class Perceive {
  public:
   /// `bus` outlives it. Errors: those of the bus, of the network's file, and of the folder. A camera that does not open
@@ -46,23 +48,20 @@ class Perceive {
   void leave(std::function<void()> done);
 
  private:
-  /// On the thread that sees.
-  struct Eye {
-    LotEye looks;
-    std::unique_ptr<video::Camera> camera = {};
-  };
   /// On the thread that thinks.
   struct Mind {
     std::optional<Surveyor> surveyor = {};
   };
   Perceive(base::Loop& loop, PerceiveSettings settings, base::Logger log);
 
+  [[nodiscard]] Filming::Director director();
+  [[nodiscard]] bool is_placed() const;
   base::Task<> see();
-  base::Task<> open_camera();
-  base::Task<> look_once();
+  base::Task<> look_at(video::Frame frame);
+  base::Task<> show();
+  base::Task<> show_findings(video::Frame frame);
   /// Waits for the pose after the picture, for a while.
   base::Task<std::optional<geo::CameraPlace>> place_of(video::Frame const& frame);
-  void note_failure(base::Error const& error);
   base::Task<> think();
   /// Whether there is one.
   base::Task<bool> adapt_surveyor();
@@ -87,8 +86,10 @@ class Perceive {
   bool has_surveyor_ = false;
   bool has_new_slots_ = false;
   std::string told_write_fault_;
-  std::unique_ptr<LiveView> live_view_;  ///< null: nobody may look
-  std::optional<base::SideThread<Eye>> eye_;
+  std::unique_ptr<LiveView> live_view_;         ///< null: nobody may look
+  std::optional<explore::LotSight> seen_last_;  ///< drawn into what comes after it
+  std::optional<Filming> film_;
+  std::optional<base::SideThread<LotEye>> eye_;
   std::optional<base::SideThread<Mind>> mind_;
   base::Scope scope_;
 };

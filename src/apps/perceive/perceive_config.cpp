@@ -67,7 +67,7 @@ void read_survey(ConfigReader& root, fs::path const& beside, Diagnostics& diagno
   read_limits(*table, order);
   if (auto const name = table->text("name")) order.name = name->value;
   if (auto const folder = table->text("folder")) settings.folder = beside / folder->value;
-  if (auto const pictures = table->number("pictures_a_s", 0.2, 30.0)) settings.pictures_a_s = pictures->value;
+  if (auto const pictures = table->number("pictures_a_s", 0.2, 30.0)) settings.looks_a_s = pictures->value;
   table->refuse_unknown();
 }
 
@@ -75,6 +75,7 @@ void read_stream(ConfigReader& root, fs::path const& beside, PerceiveConfig& con
   auto table = root.table("stream");
   if (!table) return;
   auto& stream = config.perceive.stream.emplace();
+  if (auto const pictures = table->number("pictures_a_s", 0.2, 60.0)) config.perceive.shown_a_s = pictures->value;
   if (auto const address = table->text("address")) stream.address = address->value;
   if (auto const port = table->integer("port", 0, 65535)) stream.port = static_cast<std::uint16_t>(port->value);
   if (auto const most = table->integer("most_viewers", 1, 64))

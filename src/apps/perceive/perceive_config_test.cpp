@@ -40,6 +40,7 @@ folder = "found"
 pictures_a_s = 2
 [stream]
 port = 3090
+pictures_a_s = 15
 most_viewers = 3
 token_file = "camera.token"
 )");
@@ -56,9 +57,10 @@ token_file = "camera.token"
   EXPECT_EQ(order.most_s, 600.0);
   EXPECT_EQ(order.lot_lost, std::chrono::seconds(60));
   EXPECT_EQ(config.perceive.folder, "/etc/lapwing/found");
-  EXPECT_EQ(config.perceive.pictures_a_s, 2.0);
+  EXPECT_EQ(config.perceive.looks_a_s, 2.0);
   ASSERT_TRUE(config.perceive.stream);
   EXPECT_EQ(config.perceive.stream->port, 3090);
+  EXPECT_EQ(config.perceive.shown_a_s, 15.0);
   EXPECT_EQ(config.perceive.stream->address, "127.0.0.1");
   EXPECT_EQ(config.perceive.stream->most_viewers, 3U);
   EXPECT_EQ(config.stream_token_file.filename(), "camera.token");
