@@ -42,6 +42,9 @@ struct GlobalSetpoint {
 using Request = std::variant<request::Mode, request::Arm, request::Takeoff, request::ReturnAltitude,
                              request::LocalSetpoint, request::GlobalSetpoint>;
 
+/// How the ErrorLog begins that says that the drone has tried to arm, and does not any more.
+inline constexpr std::string_view arming_given_up = "arming was given up";
+
 /// All that the machine says in one frame.
 struct Said {
   State state{};

@@ -66,7 +66,7 @@ std::string_view missing_for_arming(Situation const& s) {
 }
 
 void give_up_arming(Situation& s) {
-  tell(s, fmt::format("arming was given up: {}", missing_for_arming(s)));
+  tell(s, fmt::format("{}: {}", arming_given_up, missing_for_arming(s)));
   begin_disarming(s);
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/interface/said.hpp"
 #include "geo/site.hpp"
 
 namespace lapwing::host {
@@ -21,7 +22,8 @@ namespace {
 
 constexpr base::Duration look_every = 200ms;
 constexpr base::Duration arming_shows_within = 2s;
-constexpr base::Duration longest_refusal = 60s;
+/// ArduPilot takes a minute or more until it knows where it is.
+constexpr base::Duration longest_refusal = 2min;
 /// The drone gives up by itself after 20 s.
 constexpr base::Duration longest_arming = 25s;
 /// By itself after 15 s and 2 s a metre.
@@ -84,20 +86,29 @@ base::Task<base::Result<>> LotFlight::carry_out(autonomy::Step step) {
   co_return co_await exploring;
 }
 
+/// A flight controller that was just switched on refuses for a while, some of them after their checks have passed.
+base::Task<base::Result<>> LotFlight::arm() {
+  record_->progress = "arm";
+  auto const deadline = loop_.now() + longest_refusal;
+  for (;;) {
+    auto asking = ask(simple("Arm"), on_ground, State::arm, arming_shows_within);
+    auto asked = co_await asking;
+    if (asked) {
+      auto arming = until([](Heartbeat const& drone) { return drone.is_armed && drone.mode == "GUIDED"; }, State::arm,
+                          longest_arming, "arms");
+      asked = co_await arming;
+    }
+    bool const may_go_well = !asked && (asked.error().kind == ErrorKind::timed_out || has_given_up_arming());
+    if (!may_go_well || loop_.now() >= deadline) co_return asked;
+    auto resting = until([](Heartbeat const& drone) { return !drone.is_armed; }, on_ground, arming_shows_within,
+                         "does not come to rest, and");
+    if (auto rests = co_await resting; !rests) co_return rests;
+  }
+}
+
 base::Task<base::Result<>> LotFlight::take_off() {
   if (is_in(on_ground)) {
-    record_->progress = "arm";
-    // A flight controller that was just switched on refuses for a while.
-    auto const deadline = loop_.now() + longest_refusal;
-    for (bool is_arming = false; !is_arming;) {
-      auto asking = ask(simple("Arm"), on_ground, State::arm, arming_shows_within);
-      auto asked = co_await asking;
-      is_arming = asked.has_value();
-      bool const may_go_well = !is_arming && asked.error().kind == ErrorKind::timed_out && loop_.now() < deadline;
-      if (!is_arming && !may_go_well) co_return asked;
-    }
-    auto arming = until([](Heartbeat const& drone) { return drone.is_armed && drone.mode == "GUIDED"; }, State::arm,
-                        longest_arming, "arms");
+    auto arming = arm();
     if (auto armed = co_await arming; !armed) co_return armed;
   }
   if (is_in(State::arm)) {
@@ -218,14 +229,24 @@ base::Result<geo::Point<autonomy::ArmingFrame>> LotFlight::local_place(geo::Wgs8
   return geo::Point<autonomy::ArmingFrame>(heartbeat->local->x() + way.x(), heartbeat->local->y() + way.y());
 }
 
-std::string LotFlight::said() const {
-  std::string words;
+std::vector<std::string> LotFlight::words_since_told() const {
+  std::vector<std::string> words;
   for (auto const& drone : desk_.drones()) {
     if (drone.name != drone_) continue;
     for (auto const& [at, text] : drone.words)
-      if (at >= told_at_) words = ": " + text;
+      if (at >= told_at_) words.push_back(text);
   }
   return words;
+}
+
+std::string LotFlight::said() const {
+  auto const words = words_since_told();
+  return words.empty() ? std::string() : ": " + words.back();
+}
+
+bool LotFlight::has_given_up_arming() const {
+  return std::ranges::any_of(words_since_told(),
+                             [](auto const& text) { return text.starts_with(autonomy::arming_given_up); });
 }
 
 }  // namespace lapwing::host

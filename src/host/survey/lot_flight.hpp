@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "autonomy/interface/state.hpp"
 #include "autonomy/words/lot_task.hpp"
@@ -42,6 +43,7 @@ class LotFlight {
   using Looks = std::function<bool(Heartbeat const&)>;
 
   [[nodiscard]] base::Task<base::Result<>> carry_out(autonomy::Step step);
+  [[nodiscard]] base::Task<base::Result<>> arm();
   [[nodiscard]] base::Task<base::Result<>> take_off();
   [[nodiscard]] base::Task<base::Result<>> explore();
   [[nodiscard]] base::Task<base::Result<>> move(autonomy::MoveStep step);
@@ -60,7 +62,10 @@ class LotFlight {
   /// Where the drone would be if it were there: in the frame of where it was armed. Error: it does not tell where it
   /// is.
   [[nodiscard]] base::Result<geo::Point<autonomy::ArmingFrame>> local_place(geo::Wgs84 const& place) const;
-  /// ": " and what the drone has said since it was told something; empty: nothing.
+  /// What the drone has said since it was told something.
+  [[nodiscard]] std::vector<std::string> words_since_told() const;
+  [[nodiscard]] bool has_given_up_arming() const;
+  /// ": " and the last that the drone has said since it was told something; empty: nothing.
   [[nodiscard]] std::string said() const;
 
   base::Loop& loop_;
