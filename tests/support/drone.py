@@ -1,4 +1,7 @@
-"""A simulated survey drone with its onboard programs, and its operator in plain Python. Not a test itself."""
+"""A survey drone with its onboard programs, and its operator in plain Python. Not a test itself.
+
+Its flight controller is simulated; with `LAPWING_FLIGHT_CONTROLLER=ardupilot` in the environment it is an ArduPilot in the loop (`LAPWING_SITL`).
+"""
 
 import contextlib
 import json
@@ -12,9 +15,12 @@ import threading
 import time
 
 import harness
+from ardupilot import in_the_loop
 from operator_link import COMMAND, Station
 
 HOME = (43.2585, -79.9201)
+IS_ARDUPILOT = os.environ.get("LAPWING_FLIGHT_CONTROLLER") == "ardupilot"
+READY_S = 150 if IS_ARDUPILOT else 40  # from switching on until it may be armed
 
 
 class Operator:
@@ -118,8 +124,24 @@ class Operator:
         return next(one for one in self.errors if words in one)
 
 
+@contextlib.contextmanager
+def flight_controller(port: int):
+    """The process of a copter that sends to that UDP port."""
+    if IS_ARDUPILOT:
+        with in_the_loop.started("copter", port, speedup=1, home=(*HOME, 100)) as process:
+            yield process
+        return
+    words = ["sim", "--vehicles", "copter:1", "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{port}"]
+    process = subprocess.Popen([harness.LAPWING, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(timeout=10)
+
+
 class Drone:
-    """`lapwing sim` and `lapwing onboard`, ended with the block."""
+    """A flight controller and `lapwing onboard`, ended with the block."""
 
     def __init__(self, mode: str = "framed", decide: str = "", desk: str = "", processes: str = ""):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lapwing-drone-"))
@@ -140,11 +162,11 @@ mode = "{mode}"
 {desk}
 {processes}
 """)
-        self._sim_words = ["sim", "--vehicles", "copter:1", "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{self.link}"]
         self.log: list[str] = []
 
     def __enter__(self):
-        self.simulator = subprocess.Popen([harness.LAPWING, *self._sim_words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self._flight_controller = flight_controller(self.link)
+        self.simulator = self._flight_controller.__enter__()
         self.start()
         return self
 
@@ -161,17 +183,18 @@ mode = "{mode}"
     def __exit__(self, kind, *_):
         if kind is not None:
             print("\n".join(self.log[-80:]))
-        if self.onboard.poll() is None:
-            self.onboard.send_signal(signal.SIGTERM)
-            try:
-                self.onboard.wait(timeout=30)
-            except subprocess.TimeoutExpired:
-                self.onboard.kill()
-                self.onboard.wait()
-                if kind is None:
-                    raise
-        self.simulator.send_signal(signal.SIGINT)
-        self.simulator.wait(timeout=10)
+        try:
+            if self.onboard.poll() is None:
+                self.onboard.send_signal(signal.SIGTERM)
+                try:
+                    self.onboard.wait(timeout=30)
+                except subprocess.TimeoutExpired:
+                    self.onboard.kill()
+                    self.onboard.wait()
+                    if kind is None:
+                        raise
+        finally:
+            self._flight_controller.__exit__(None, None, None)
 
     def health(self) -> dict[str, dict]:
         with contextlib.suppress(OSError, ValueError):
@@ -186,10 +209,10 @@ mode = "{mode}"
         return next(line for line in self.log if words in line)
 
 
-def take_off(operator: Operator, ready_s: float = 40) -> None:
+def take_off(operator: Operator, ready_s: float = READY_S) -> None:
     """From the ground to Hover. A drone that has just been switched on needs a while until it may be armed."""
     deadline = time.monotonic() + ready_s
-    operator.wait(lambda o: o.last, "the first heartbeat", 20)
+    operator.wait(lambda o: o.last, "the first heartbeat", READY_S)
     while True:
         operator.command("Arm")
         with contextlib.suppress(AssertionError):

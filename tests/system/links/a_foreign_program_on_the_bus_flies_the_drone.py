@@ -5,7 +5,7 @@ import math
 import time
 
 import ros_robot
-from drone import HOME, Drone
+from drone import HOME, READY_S, Drone
 from ros_drone import GeoPoint, GeoPose, GeoPoseStamped, PoseStamped, RosDrone, integer
 from ros_robot import Header, Point, Pose, Quaternion
 
@@ -18,13 +18,13 @@ def header() -> Header:
 
 with Drone(processes='[[process]]\nname = "bridge"\n') as drone:
     ros = RosDrone(drone.domain)
-    ros.wait(lambda r: r.state and r.state.connected and r.pose and r.fix and r.home and r.battery and r.system_status and r.height, "every topic", 40)
+    ros.wait(lambda r: r.state and r.state.connected and r.pose and r.fix and r.home and r.battery and r.system_status and r.height, "every topic", READY_S)
+    ros.wait(lambda r: r.system_status.sensors_health & 1 << 28, "its checks pass", READY_S)
     assert not ros.state.armed and ros.state.mode == "STABILIZE", ros.state
     assert abs(ros.fix.latitude - HOME[0]) < 1e-4 and abs(ros.fix.longitude - HOME[1]) < 1e-4 and ros.fix.status.status == 0, ros.fix
     assert abs(ros.fix.altitude - 100) < 1, ros.fix
     assert abs(time.time() - ros.fix.header.stamp.sec) < 5, ros.fix
     assert 0.5 < ros.battery.percentage <= 1 and 10 < ros.battery.voltage < 20 and ros.battery.present, ros.battery
-    assert ros.system_status.sensors_health & 1 << 28, "its checks pass"
     assert abs(math.hypot(ros.pose.pose.orientation.z, ros.pose.pose.orientation.w) - 1) < 0.01, ros.pose
 
     assert not ros.set_mode(0, "NO SUCH MODE").mode_sent
@@ -32,7 +32,7 @@ with Drone(processes='[[process]]\nname = "bridge"\n') as drone:
     told = ros.set_parameter(False, "RTL_ALT", integer(1200))
     assert told.success and told.value.integer_value == 1200, told
 
-    deadline = time.monotonic() + 40
+    deadline = time.monotonic() + READY_S
     assert ros.set_mode(0, "GUIDED").mode_sent
     ros.wait(lambda r: r.state.mode == "GUIDED", "GUIDED")
     while not ros.arming(True).success:
