@@ -3,8 +3,6 @@
 #include "base/async/child_program.hpp"
 
 #include <fcntl.h>
-#include <spawn.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,6 +19,7 @@
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include "base/async/internal/spawn_child.hpp"
 #include "base/async/notifier.hpp"
 
 namespace lapwing::base {
@@ -31,8 +30,6 @@ using boost::asio::posix::stream_descriptor;
 using Code = boost::system::error_code;
 
 constexpr std::size_t most_kept_bytes = 16 * 1024;
-constexpr int niceness = 10;
-constexpr char const* prlimit = "/usr/bin/prlimit";
 
 /// Both ends, closed with this unless they were given away.
 struct Pipe {
@@ -59,49 +56,6 @@ Error system_error(std::string_view what) {
   return {.kind = ErrorKind::io, .message = fmt::format("{}: {}", what, std::strerror(errno))};
 }
 
-/// The command line of util-linux's prlimit, which limits itself and then becomes the program. Limits that were set on
-/// the running program from here could come after it has written or asked for what they forbid.
-std::vector<std::string> limited(ChildProgram const& child) {
-  std::vector<std::string> words{prlimit,
-                                 fmt::format("--as={}", child.most_memory_bytes),
-                                 fmt::format("--fsize={}", child.most_file_bytes),
-                                 fmt::format("--cpu={}", child.longest.count() + 1),
-                                 "--core=0",
-                                 "--",
-                                 child.program.string()};
-  words.insert(words.end(), child.words.begin(), child.words.end());
-  return words;
-}
-
-/// Starts it within its limits, with its output in the two pipes, no other file, no signal held back, and in a group of
-/// its own: a Ctrl+C for this program is none for it.
-int spawn(ChildProgram const& child, Pipe const& out, Pipe const& errors, pid_t& pid) {
-  auto spelt = limited(child);
-  std::vector<char*> words;
-  for (auto& word : spelt) words.push_back(word.data());
-  words.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawnattr_t how;
-  ::posix_spawn_file_actions_init(&files);
-  ::posix_spawnattr_init(&how);
-  ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  ::posix_spawn_file_actions_adddup2(&files, out.write_end, STDOUT_FILENO);
-  ::posix_spawn_file_actions_adddup2(&files, errors.write_end, STDERR_FILENO);
-  ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-  sigset_t none;
-  sigset_t all;
-  ::sigemptyset(&none);
-  ::sigfillset(&all);
-  ::posix_spawnattr_setsigmask(&how, &none);
-  ::posix_spawnattr_setsigdefault(&how, &all);
-  ::posix_spawnattr_setpgroup(&how, 0);
-  ::posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  int const error = ::posix_spawn(&pid, prlimit, &files, &how, words.data(), environ);
-  ::posix_spawnattr_destroy(&how);
-  ::posix_spawn_file_actions_destroy(&files);
-  return error;
-}
-
 /// One that runs. Its end is waited for on a descriptor of the process, its output on two pipes.
 class Running {
  public:
@@ -121,11 +75,13 @@ class Running {
 
   void start(std::chrono::seconds longest) {
     process_.async_wait(stream_descriptor::wait_read, guarded([this] { reap(0); }));
-    deadline_.expires_after(longest);
-    deadline_.async_wait(guarded([this] {
-      is_late_ = true;
-      ::kill(-pid_, SIGKILL);
-    }));
+    if (longest.count() > 0) {
+      deadline_.expires_after(longest);
+      deadline_.async_wait(guarded([this] {
+        is_late_ = true;
+        ::kill(-pid_, SIGKILL);
+      }));
+    }
     read(out_, [this] { tell_lines(); });
     read(errors_, [this] {
       if (errors_.text.size() > most_kept_bytes) errors_.text.erase(0, errors_.text.size() - most_kept_bytes);
@@ -220,9 +176,9 @@ Task<Result<ChildOutcome>> run_child(Loop& loop, ChildProgram child, std::functi
     Pipe errors;
     pid_t pid = 0;
     if (!out.open() || !errors.open()) co_return std::unexpected(system_error("no pipe to another program"));
-    if (int const error = spawn(child, out, errors, pid); error != 0)
+    internal::ChildFiles const files{.out = out.write_end, .errors = errors.write_end};
+    if (int const error = internal::spawn_child(child, files, pid); error != 0)
       co_return fail(ErrorKind::io, fmt::format("{} does not start: {}", child.program.string(), std::strerror(error)));
-    (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), niceness);
     auto const process = static_cast<int>(::syscall(SYS_pidfd_open, pid, 0));
     if (process < 0) {
       auto const error = system_error("a program that was started cannot be waited for");

@@ -18,7 +18,7 @@ namespace lapwing::base {
 struct ChildProgram {
   std::filesystem::path program;
   std::vector<std::string> words = {};                        ///< after its name
-  std::chrono::seconds longest{60};                           ///< of wall time, whatever the loop's pace
+  std::chrono::seconds longest{60};                           ///< of wall time, whatever the loop's pace; 0: no limit
   std::uint64_t most_memory_bytes = std::uint64_t{2} << 30U;  ///< of address space
   std::uint64_t most_file_bytes = std::uint64_t{256} << 20U;  ///< of each file that it writes
 };

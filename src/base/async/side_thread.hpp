@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <type_traits>
@@ -9,6 +10,7 @@
 
 #include "base/async/internal/job_thread.hpp"
 #include "base/async/notifier.hpp"
+#include "base/async/pool.hpp"
 
 namespace lapwing::base {
 
@@ -16,9 +18,10 @@ namespace lapwing::base {
 /// called from one thread. `auto rows = co_await side.run(job);` calls `job(state)` there, one job after the other in
 /// the order of the calls, and brings back what it returns.
 ///
-/// For pure functions there is the pool (`Loop::on_pool`), which is ordered for simulated time; time does not wait for
-/// what runs here. A job owns what it captures. Whoever awaits it may go away: what was asked for is done all the same.
-/// How many jobs wait is bounded by the coroutines that await them. Thread-bound to the loop, which outlives it.
+/// For pure functions there is the pool (`Loop::on_pool`), which is ordered for simulated time; time waits for what
+/// runs here only where `run_in_time` says so. A job owns what it captures. Whoever awaits it may go away: what was
+/// asked for is done all the same. How many jobs wait is bounded by the coroutines that await them. Thread-bound to the
+/// loop, which outlives it.
 template <class State>
 class SideThread {
  public:
@@ -36,7 +39,21 @@ class SideThread {
     while (!answer->is_there) co_await answer->arrived.wait();
     co_return std::move(*answer->result);
   }
-  /// The same for who wants no answer.
+  /// The same for who needs the answer at the moment at which he asked, in a run that is to repeat: it comes in the
+  /// order of the pool's results, and time waits for it as it does for them (`Loop::on_pool`). So does the pool: at the
+  /// wall's pace, where time goes on, use `run`.
+  template <class Job>
+  [[nodiscard]] Task<std::invoke_result_t<Job&, State&>> run_in_time(Job job) {
+    using Result = std::invoke_result_t<Job&, State&>;
+    std::promise<Result> promise;
+    auto answer = promise.get_future();
+    thread_.submit([&state = *state_, job = std::move(job), promise = std::move(promise)]() mutable {
+      promise.set_value(job(state));
+    });
+    auto const wait = [](std::future<Result> coming) { return coming.get(); };
+    co_return co_await loop_.on_pool(wait, std::move(answer));
+  }
+  /// The same as `run` for who wants no answer.
   template <class Job>
   void give(Job job) {
     thread_.submit([&state = *state_, job = std::move(job)]() mutable { job(state); });

@@ -64,6 +64,30 @@ TEST(SideThread, DoesWhatItWasAskedForBeforeItEnds) {
   EXPECT_EQ(done, 10);
 }
 
+TEST(SideThread, HasTimeWaitForWhatIsNeededInTime) {
+  Loop loop(Loop::Pace{.unpaced = true});
+  SideThread<Diary> side(loop, std::make_unique<Diary>());
+  std::vector<int> order;
+  auto ask = [&](int number) -> Task<> {
+    auto const asked_at = loop.now();
+    auto work = side.run_in_time([number](Diary&) {
+      std::this_thread::sleep_for(10ms);  // longer than the hour below
+      return number;
+    });
+    order.push_back(co_await std::move(work));
+    EXPECT_EQ(loop.now(), asked_at);
+  };
+  auto all = [&]() -> Task<> {
+    Scope scope(loop);
+    for (int number = 0; number < 3; ++number) scope.spawn(ask(number));
+    order.push_back(co_await loop.on_pool([] { return 3; }));
+    co_await scope.join();
+    co_await loop.sleep(1h);
+  };
+  loop.run_until_done(all());
+  EXPECT_EQ(order, std::vector<int>({0, 1, 2, 3}));
+}
+
 TEST(SideThread, FinishesAJobWhoseAwaiterIsGone) {
   std::atomic<bool> may_go_on = false;
   Loop loop;
