@@ -45,6 +45,10 @@ case $target in
     printf 'file,time,east_m,north_m,up_m,yaw_deg,tilt_deg,roll_deg\na.png,2026-11-21T10:00:00Z,1,2,30,0,0,0\nb.png,2026-11-21T10:00:01Z,,,,,,\n' | seed poses
     options=(-max_len=8192)
     ;;
+  look)
+    printf '\004{"look":"signs","width":2,"height":1,"bytes":6}\nrgbrgb{"look":"signs","bytes":3}\njpg' | seed requests
+    printf '\377{"signs":[{"box":[1,2,3,4],"score":0.5,"text":"221","kind":"office","crop_bytes":4}],"is_sharp":true,"bytes":4}\ncrop{"error":"it is black"}\n' | seed answers
+    ;;
   floor_plan)
     printf 'P2\n# a room\n9 9 1\n%s' "$(for y in 0 1 1 1 1 1 1 1 0; do for x in 0 1 1 1 1 1 1 1 0; do printf '%d ' $((x * y)); done; done)" | seed plain
     printf 'P5\n3 2\n255\n\000\376\376\000\376\315' | seed binary

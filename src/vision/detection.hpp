@@ -37,7 +37,8 @@ struct Detection {
   double score = 0.0;                 ///< 0 to 1, more is surer
   std::optional<std::string> text{};  ///< what is written there: the room's number, if there is one
   std::optional<std::string> kind{};  ///< what kind of room it says: "office", "stairs", ...
-  /// Of a door: upper left, upper right, lower right, lower left, as it is seen. Of a car or a slot: in order round it.
+  /// Of a door or a sign: upper left, upper right, lower right, lower left, as it is seen. Of a car or a slot: in order
+  /// round it.
   std::optional<std::array<Point, 4>> corners{};
   std::optional<double> occupied_chance{};  ///< of a slot: that a vehicle stands there; none where that is not seen
   std::optional<geo::Wgs84> place{};        ///< of its middle, on the ground

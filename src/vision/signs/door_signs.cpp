@@ -70,6 +70,12 @@ std::vector<Detection> signs_of_door(SignFinder& signs, cv::Mat const& pixels, D
                 .y = top,
                 .width = std::clamp<double>(x1.x, 0.0, pixels.cols) - left,
                 .height = std::clamp<double>(y1.y, 0.0, pixels.rows) - top};
+    if (sign.corners) {
+      for (auto& corner : *sign.corners) {
+        auto const there = mapped(view.to_picture, corner.x, corner.y);
+        corner = {there.x, there.y};
+      }
+    }
     // What lies beyond the picture is its edge, repeated.
     if (sign.box.area() > 0.0) found.push_back(std::move(sign));
   }

@@ -1,8 +1,10 @@
 #include "vision/signs/sign_finder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <opencv2/imgproc.hpp>
 
@@ -21,6 +23,7 @@ constexpr double least_confidence = 0.25;
 
 /// What one row says.
 struct ReadLine {
+  Quadrilateral corners;
   cv::Rect2d box;
   double letter_height = 0.0;
   std::optional<Vote> number{};
@@ -45,7 +48,7 @@ std::vector<cv::Mat> crops_of(cv::Mat const& pixels, TextLine const& line) {
 
 ReadLine read_line(cv::Mat const& pixels, TextLine const& line,
                    std::vector<std::unique_ptr<LineReader>> const& readers) {
-  ReadLine read{.box = line.box(), .letter_height = line.letter_height};
+  ReadLine read{.corners = line.corners, .box = line.box(), .letter_height = line.letter_height};
   std::vector<Reading> readings;
   for (auto const& crop : crops_of(pixels, line)) {
     for (auto const& reader : readers) readings.push_back(reader->read(crop));
@@ -84,9 +87,31 @@ bool are_side_by_side(cv::Rect2d const& a, cv::Rect2d const& b) {
 struct Sign {
   Detection detection;
   ReadLine number;
+  std::vector<Quadrilateral> rows;
 };
 
+/// Round all rows, in the directions of the first: what leans is not taken for perspective, which a single row is too
+/// low to show.
+std::array<Point, 4> corners_of(std::vector<Quadrilateral> const& rows) {
+  auto const& first = rows.front();
+  auto const width = static_cast<float>(cv::norm(first[1] - first[0]));
+  auto const height = static_cast<float>(cv::norm(first[3] - first[0]));
+  std::array<cv::Point2f, 3> const seen{first[0], first[1], first[3]};
+  std::array<cv::Point2f, 3> const level{cv::Point2f(0.0F, 0.0F), cv::Point2f(width, 0.0F), cv::Point2f(0.0F, height)};
+  std::vector<cv::Point2f> points;
+  for (auto const& row : rows) points.insert(points.end(), row.begin(), row.end());
+  cv::transform(points, points, cv::getAffineTransform(seen.data(), level.data()));
+  auto const [left, right] = std::ranges::minmax(points, {}, &cv::Point2f::x);
+  auto const [top, bottom] = std::ranges::minmax(points, {}, &cv::Point2f::y);
+  std::vector<cv::Point2f> round{{left.x, top.y}, {right.x, top.y}, {right.x, bottom.y}, {left.x, bottom.y}};
+  cv::transform(round, round, cv::getAffineTransform(level.data(), seen.data()));
+  std::array<Point, 4> corners;
+  std::ranges::transform(round, corners.begin(), [](cv::Point2f const& point) { return Point{point.x, point.y}; });
+  return corners;
+}
+
 void take_in(Sign& sign, ReadLine const& line) {
+  sign.rows.push_back(line.corners);
   auto& whole = sign.detection;
   auto const row = detection_of(line);
   double const right = std::max(whole.box.x + whole.box.width, row.box.x + row.box.width);
@@ -149,15 +174,17 @@ std::vector<Detection> SignFinder::find(cv::Mat const& pixels) {
     auto const other =
         std::ranges::find_if(signs, [&](auto const& sign) { return belong_together(sign.detection.box, read); });
     if (other == signs.end()) {
-      signs.push_back({detection_of(read), read});
+      signs.push_back({detection_of(read), read, {read.corners}});
     } else {
       take_in(*other, read);
     }
   }
   std::vector<Detection> found;
-  for (auto& [sign, number] : signs) {
+  for (auto& [sign, number, rows] : signs) {
     clip(sign.box, small.size());
     sign.box = {sign.box.x / scale, sign.box.y / scale, sign.box.width / scale, sign.box.height / scale};
+    sign.corners = corners_of(rows);
+    for (auto& corner : *sign.corners) corner = {corner.x / scale, corner.y / scale};
     found.push_back(sign);
   }
   return found;

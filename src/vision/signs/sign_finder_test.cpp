@@ -36,6 +36,13 @@ TEST(SignFinder, ReadersVoteOnTheNumber) {
   EXPECT_EQ(signs.front().category, "sign");
   EXPECT_EQ(signs.front().text, "ITB-221");
   EXPECT_GT(overlap(signs.front().box, {190, 140, 260, 70}), 0.5);
+  ASSERT_TRUE(signs.front().corners);
+  auto const& box = signs.front().box;
+  auto const& corners = *signs.front().corners;
+  EXPECT_NEAR(corners[0].x, box.x, 6.0) << "upper left";
+  EXPECT_NEAR(corners[0].y, box.y, 6.0);
+  EXPECT_NEAR(corners[2].x, box.x + box.width, 6.0) << "lower right";
+  EXPECT_NEAR(corners[2].y, box.y + box.height, 6.0);
 }
 
 TEST(SignFinder, RowsWithoutMeaningAreNoSigns) {
