@@ -36,8 +36,9 @@ void add_onboard(CLI::App& program, int& exit_code);
 // That of lapwing-perceive:
 void add_perceive(CLI::App& program, int& exit_code);
 
-// That of lapwing-vision:
+// Those of lapwing-vision:
 void add_detect(CLI::App& program, int& exit_code);
+void add_look(CLI::App& program, int& exit_code);
 
 // Those of lapwing-vehicles:
 void add_run(CLI::App& program, int& exit_code);

@@ -14,6 +14,7 @@
 
 #include "apps/verb.hpp"
 #include "apps/vision/detect.hpp"
+#include "apps/vision/sign_readers.hpp"
 #include "apps/vision/truth.hpp"
 #include "host/files/files.hpp"
 #include "vision/doors/classic.hpp"
@@ -55,26 +56,6 @@ std::optional<vision::DoorColour> colour_of(std::string_view text) {
   }
   if (at != end) return std::nullopt;
   return vision::DoorColour{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
-}
-
-/// Tesseract, and the recogniser where set-up has made it: without it blurred signs are read less often, which is said.
-base::Result<std::vector<std::unique_ptr<vision::LineReader>>> readers() {
-  std::vector<std::unique_ptr<vision::LineReader>> all;
-  auto tesseract = vision::make_tesseract_reader();
-  if (!tesseract) return std::unexpected(tesseract.error());
-  all.push_back(*std::move(tesseract));
-  auto const folder = host::home_directory() / "build/models";
-  auto const network = folder / "text-recogniser.onnx";
-  if (!std::filesystem::exists(network)) {
-    fmt::print(stderr,
-               "signs are read by Tesseract alone; with {}, which ./lapwing makes, blurred ones are read better\n",
-               network.string());
-    return all;
-  }
-  auto recogniser = vision::make_recogniser(content_of(network), content_of(folder / "text-recogniser.txt"));
-  if (!recogniser) return std::unexpected(recogniser.error());
-  all.push_back(*std::move(recogniser));
-  return all;
 }
 
 using DoorFinder = std::function<std::vector<vision::Detection>(cv::Mat const& upright)>;
@@ -158,7 +139,7 @@ int doors(DoorOptions const& options) {
   if (!find) return host::refuse(find.error());
   std::optional<vision::SignFinder> signs;
   if (!options.without_signs) {
-    auto all = readers();
+    auto all = sign_readers();
     if (!all) return host::refuse(all.error());
     signs.emplace(*std::move(all));
   }

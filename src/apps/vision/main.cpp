@@ -12,6 +12,6 @@ int main(int argc, char** argv) {
   // seconds. OpenMP reads its limit when the program is loaded: so it is loaded again, which costs a millisecond.
   if (std::getenv("OMP_THREAD_LIMIT") == nullptr && setenv("OMP_THREAD_LIMIT", "1", 1) == 0)
     execv("/proc/self/exe", argv);  // NOLINT(clang-analyzer-optin.taint.GenericTaint): with the words that it has
-  OwnVerb const own[] = {{"detect", add_detect}};
+  OwnVerb const own[] = {{"detect", add_detect}, {"look", add_look}};
   return run_program("lapwing-vision", own, argc, argv);
 }

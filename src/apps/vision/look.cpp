@@ -1,0 +1,142 @@
+// `lapwing look`: looks at pictures for programs that do without OpenCV, one request after the other, until its
+// standard input ends. src/host/eyes/look_frame.hpp says what goes back and forth.
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/verb.hpp"
+#include "apps/vision/sign_readers.hpp"
+#include "base/descriptor.hpp"
+#include "host/eyes/sign_look.hpp"
+#include "vision/image/image.hpp"
+#include "vision/image/rectify.hpp"
+#include "vision/image/sharpness.hpp"
+#include "vision/signs/sign_finder.hpp"
+
+namespace lapwing::apps {
+
+namespace {
+
+using host::LookFrame;
+
+/// As people see it, BGR.
+base::Result<cv::Mat> pixels_of(host::LookPicture& picture) {
+  if (picture.width == 0) {
+    auto const image = vision::decode_image(std::as_bytes(std::span(picture.bytes)));
+    if (!image) return std::unexpected(image.error());
+    return image->upright();
+  }
+  cv::Mat const rgb(picture.height, picture.width, CV_8UC3, picture.bytes.data());
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
+/// From the front, with some of the plate round the letters.
+std::string crop_of(cv::Mat const& pixels, vision::Detection const& sign) {
+  constexpr double more = 1.3;
+  constexpr int longest = 480;
+  auto const& corners = *sign.corners;
+  vision::Point middle;
+  for (auto const& corner : corners) middle = {middle.x + corner.x / 4.0, middle.y + corner.y / 4.0};
+  vision::Quadrilateral wider;
+  std::ranges::transform(corners, wider.begin(), [&](vision::Point const& corner) {
+    return cv::Point2f(static_cast<float>(middle.x + more * (corner.x - middle.x)),
+                       static_cast<float>(middle.y + more * (corner.y - middle.y)));
+  });
+  return vision::encode_jpeg(vision::rectified(pixels, wider, longest));
+}
+
+bool is_sharp_at(cv::Mat const& pixels, vision::Box const& box) {
+  cv::Rect const part(cv::Rect2d(box.x, box.y, box.width, box.height));
+  return is_sharp(vision::sharpness(pixels(part & cv::Rect(0, 0, pixels.cols, pixels.rows))));
+}
+
+LookFrame look_for_signs(vision::SignFinder& signs, cv::Mat const& pixels) {
+  host::SignsSeen seen;
+  for (auto& sign : signs.find(pixels)) {
+    seen.is_sharp = seen.is_sharp && is_sharp_at(pixels, sign.box);
+    auto crop = crop_of(pixels, sign);
+    seen.signs.push_back({.sign = std::move(sign), .crop = std::move(crop)});
+  }
+  return host::sign_answer(std::move(seen));
+}
+
+/// What a request's `look` can name, and what looks for it.
+struct Kind {
+  std::string name;
+  std::function<base::Result<LookFrame>(LookFrame& request)> answer;
+};
+
+base::Result<std::vector<Kind>> kinds() {
+  auto readers = detect::sign_readers();
+  if (!readers) return std::unexpected(readers.error());
+  auto const signs = std::make_shared<vision::SignFinder>(*std::move(readers));
+  return std::vector<Kind>{{host::sign_look, [signs](LookFrame& request) -> base::Result<LookFrame> {
+                              auto picture = host::take_picture(request);
+                              if (!picture) return std::unexpected(picture.error());
+                              auto const pixels = pixels_of(*picture);
+                              if (!pixels) return std::unexpected(pixels.error());
+                              return look_for_signs(*signs, *pixels);
+                            }}};
+}
+
+LookFrame answer_to(LookFrame request, std::vector<Kind> const& kinds) {
+  auto const look = request.head.find("look");
+  auto const kind = std::ranges::find_if(
+      kinds, [&](Kind const& one) { return look != request.head.end() && look->is_string() && *look == one.name; });
+  if (kind == kinds.end()) return host::refusal("it is not known what to look for");
+  try {
+    auto answer = kind->answer(request);
+    return answer ? *std::move(answer) : host::refusal(answer.error().message);
+  } catch (cv::Exception const& error) {
+    return host::refusal(error.what());
+  }
+}
+
+/// False at the end of what comes in.
+bool take_some(host::LookFrameReader& reader) {
+  std::array<char, 65'536> piece{};
+  for (;;) {
+    auto const count = ::read(STDIN_FILENO, piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    reader.take(std::string_view(piece.data(), static_cast<std::size_t>(count)));
+    return true;
+  }
+}
+
+int look() {
+  auto const all = kinds();
+  if (!all) return host::refuse(all.error());
+  base::Descriptor const out(::dup(STDOUT_FILENO));
+  host::LookFrameReader reader;
+  for (;;) {
+    auto request = reader.next();
+    if (!request) return host::refuse(request.error());
+    if (*request) {
+      if (!out.write_all(host::to_bytes(answer_to(**std::move(request), *all)))) return host::exit_failed;
+    } else if (!take_some(reader)) {
+      return reader.is_empty() ? host::exit_done : host::exit_usage;
+    }
+  }
+}
+
+}  // namespace
+
+void add_look(CLI::App& program, int& exit_code) {
+  auto* const verb = begin_verb(program, "look");
+  verb->footer("Reads requests, each a line of JSON and the picture's bytes, and answers each in the same way.");
+  verb->callback([&exit_code] { exit_code = look(); });
+}
+
+}  // namespace lapwing::apps
