@@ -33,7 +33,8 @@ void add_map(CLI::App& program, int& exit_code);
 // That of lapwing-onboard:
 void add_onboard(CLI::App& program, int& exit_code);
 
-// That of lapwing-perceive:
+// Those of lapwing-perceive:
+void add_overlook(CLI::App& program, int& exit_code);
 void add_perceive(CLI::App& program, int& exit_code);
 
 // Those of lapwing-vision:

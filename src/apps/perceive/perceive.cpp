@@ -9,6 +9,7 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "apps/perceive/car_network.hpp"
 #include "apps/perceive/perceive_config.hpp"
 #include "apps/verb.hpp"
 #include "base/log.hpp"
@@ -26,14 +27,6 @@ struct PerceiveArguments {
   std::string config;
   bool only_checks = false;
 };
-
-/// Empty when it is not there: vehicles are looked for by their contrast then.
-std::string car_network(base::Logger const& log) {
-  auto const name = host::home_directory() / "models/cars.onnx";
-  std::ifstream file(name, std::ios::binary);
-  if (!file) log.warn(name.string() + " is not there: cars are looked for by their contrast alone");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 int perceive_until_stopped(PerceiveConfig config) {
   base::LogHub hub;

@@ -1,21 +1,14 @@
 // `lapwing look`: looks at pictures for programs that do without OpenCV, one request after the other, until its
 // standard input ends. src/host/eyes/look_frame.hpp says what goes back and forth.
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <functional>
-#include <memory>
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/verb.hpp"
 #include "apps/vision/sign_readers.hpp"
-#include "base/descriptor.hpp"
+#include "host/eyes/look_server.hpp"
 #include "host/eyes/sign_look.hpp"
 #include "vision/image/image.hpp"
 #include "vision/image/rectify.hpp"
@@ -71,64 +64,17 @@ LookFrame look_for_signs(vision::SignFinder& signs, cv::Mat const& pixels) {
   return host::sign_answer(std::move(seen));
 }
 
-/// What a request's `look` can name, and what looks for it.
-struct Kind {
-  std::string name;
-  std::function<base::Result<LookFrame>(LookFrame& request)> answer;
-};
-
-base::Result<std::vector<Kind>> kinds() {
-  auto readers = detect::sign_readers();
-  if (!readers) return std::unexpected(readers.error());
-  auto const signs = std::make_shared<vision::SignFinder>(*std::move(readers));
-  return std::vector<Kind>{{host::sign_look, [signs](LookFrame& request) -> base::Result<LookFrame> {
-                              auto picture = host::take_picture(request);
-                              if (!picture) return std::unexpected(picture.error());
-                              auto const pixels = pixels_of(*picture);
-                              if (!pixels) return std::unexpected(pixels.error());
-                              return look_for_signs(*signs, *pixels);
-                            }}};
-}
-
-LookFrame answer_to(LookFrame request, std::vector<Kind> const& kinds) {
-  auto const look = request.head.find("look");
-  auto const kind = std::ranges::find_if(
-      kinds, [&](Kind const& one) { return look != request.head.end() && look->is_string() && *look == one.name; });
-  if (kind == kinds.end()) return host::refusal("it is not known what to look for");
-  try {
-    auto answer = kind->answer(request);
-    return answer ? *std::move(answer) : host::refusal(answer.error().message);
-  } catch (cv::Exception const& error) {
-    return host::refusal(error.what());
-  }
-}
-
-/// False at the end of what comes in.
-bool take_some(host::LookFrameReader& reader) {
-  std::array<char, 65'536> piece{};
-  for (;;) {
-    auto const count = ::read(STDIN_FILENO, piece.data(), piece.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    reader.take(std::string_view(piece.data(), static_cast<std::size_t>(count)));
-    return true;
-  }
-}
-
 int look() {
-  auto const all = kinds();
-  if (!all) return host::refuse(all.error());
-  base::Descriptor const out(::dup(STDOUT_FILENO));
-  host::LookFrameReader reader;
-  for (;;) {
-    auto request = reader.next();
-    if (!request) return host::refuse(request.error());
-    if (*request) {
-      if (!out.write_all(host::to_bytes(answer_to(**std::move(request), *all)))) return host::exit_failed;
-    } else if (!take_some(reader)) {
-      return reader.is_empty() ? host::exit_done : host::exit_usage;
-    }
-  }
+  auto readers = detect::sign_readers();
+  if (!readers) return host::refuse(readers.error());
+  vision::SignFinder signs(*std::move(readers));
+  return host::serve_looks({{host::sign_look, [&signs](LookFrame& request) -> base::Result<LookFrame> {
+                               auto picture = host::take_picture(request);
+                               if (!picture) return std::unexpected(picture.error());
+                               auto const pixels = pixels_of(*picture);
+                               if (!pixels) return std::unexpected(pixels.error());
+                               return look_for_signs(signs, *pixels);
+                             }}});
 }
 
 }  // namespace

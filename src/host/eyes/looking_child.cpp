@@ -67,11 +67,10 @@ class LookingChild::Talk {
   LookFrameReader reader_;
 };
 
-base::ChildProgram LookingChild::usual_program() {
+base::ChildProgram LookingChild::program_beside_us(std::string const& name, std::string const& word) {
   std::error_code error;
   auto const folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  return {
-      .program = folder / "lapwing-vision", .words = {"look"}, .longest = 0s, .most_memory_bytes = most_memory_bytes};
+  return {.program = folder / name, .words = {word}, .longest = 0s, .most_memory_bytes = most_memory_bytes};
 }
 
 LookingChild::LookingChild(base::Loop& loop, Settings settings, base::Logger log)

@@ -21,7 +21,7 @@ namespace lapwing::host {
 class LookingChild {
  public:
   struct Settings {
-    base::ChildProgram program = usual_program();
+    base::ChildProgram program = program_beside_us("lapwing-vision", "look");
     /// Time stands until the answer is there, so that a run repeats; for every pace but the wall's.
     bool time_waits = true;
     std::chrono::seconds longest_look{30};  ///< of the wall's time; longer, and it hangs
@@ -31,8 +31,8 @@ class LookingChild {
   LookingChild& operator=(LookingChild const&) = delete;
   ~LookingChild();
 
-  /// Beside the program that runs, with the words that it is to be started with.
-  [[nodiscard]] static base::ChildProgram usual_program();
+  /// That of the folder of the one that runs, with the word that it is to be started with.
+  [[nodiscard]] static base::ChildProgram program_beside_us(std::string const& name, std::string const& word);
 
   /// Worth a picture: not when there is no such program, nor just after it has died.
   [[nodiscard]] bool may_be_asked() const { return !is_missing_ && loop_.now() >= not_before_; }
