@@ -22,6 +22,7 @@ struct DemoOptions {
   std::string record;
   std::string vehicles = "copter:2,rover:1";
   std::vector<std::string> robots;
+  std::string car_park;
   std::string on_stop = "loiter";
   host::WebArguments web;
   std::optional<double> speedup;
@@ -65,6 +66,12 @@ base::Result<> furnish(host::Session& session, DemoOptions const& options, geo::
   return options.headless ? base::Result<>() : open_map(session, options.web, home);
 }
 
+/// The usual script flies over one.
+std::filesystem::path car_park_of(DemoOptions const& options) {
+  if (!options.car_park.empty() || !options.script.empty()) return options.car_park;
+  return host::home_directory() / "examples/car-park/world.toml";
+}
+
 int demo(DemoOptions const& options) {
   constexpr auto example = "examples/demo.dolphin";
   auto const script = options.script.empty() ? std::string(example) : options.script;
@@ -87,6 +94,8 @@ int demo(DemoOptions const& options) {
                          .payload = host::equipped(world, host::payload_for(needs))});
   if (auto furnished = furnish(session, options, world.home); !furnished) return host::refuse(furnished.error());
   if (auto simulated = session.simulate(std::move(world)); !simulated) return host::refuse(simulated.error());
+  if (auto const car_park = car_park_of(options); !car_park.empty())
+    if (auto watched = session.watch_car_park(car_park); !watched) return host::refuse(watched.error());
   auto const started = session.host.start(script, *source);
   fmt::print(stderr, "{}", session.host.rendered_diagnostics());
   if (!started) return host::exit_usage;
@@ -111,6 +120,8 @@ void add_demo(CLI::App& program, int& exit_code) {
   verb->add_option("--robot", options->robots,
                    std::string(host::robot_help) + "; default, without --script: the office beside the car park")
       ->allow_extra_args(false);
+  verb->add_option("--car-park", options->car_park,
+                   std::string(host::car_park_help) + "; default, without --script: the demo's");
   verb->add_option("--report", options->report, "Write what happened to this file as JSON");
   verb->add_option("--forward", options->forward, host::forward_help);
   verb->add_option("--record", options->record, host::record_help);

@@ -61,6 +61,18 @@ json to_json_value(VehicleReport const& vehicle) {
   return value;
 }
 
+json to_json_value(CarParkReport const& report) {
+  json value{{"pictures", report.pictures},
+             {"coverage", report.coverage},
+             {"free", report.free},
+             {"taken", report.taken},
+             {"unknown", report.unknown}};
+  if (auto const& score = report.score)
+    value["score"] = {{"true_slots", score->true_slots}, {"found", score->found},       {"told", score->told},
+                      {"right", score->right},           {"invented", score->invented}, {"off_m", score->off_m}};
+  return value;
+}
+
 }  // namespace
 
 std::string to_json(RunReport const& report) {
@@ -70,6 +82,7 @@ std::string to_json(RunReport const& report) {
              {"ended", base::to_iso8601(report.ended)}};
   auto& vehicles = value["vehicles"] = json::array();
   for (auto const& vehicle : report.vehicles) vehicles.push_back(to_json_value(vehicle));
+  if (report.car_park) value["car_park"] = to_json_value(*report.car_park);
   auto& tasks = value["tasks"] = json::array();
   for (auto const& task : report.tasks) tasks.push_back(to_json_value(task));
   auto& errors = value["errors"] = json::array();

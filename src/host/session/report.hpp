@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/time.hpp"
 #include "fleet/mission/fleet_platform.hpp"
+#include "host/car_park/lot_score.hpp"
 #include "tasks/task_view.hpp"
 
 namespace lapwing::host {
@@ -36,6 +37,16 @@ struct VehicleReport {
   std::optional<RobotReport> robot = {};  ///< of robots
 };
 
+/// What simulated drones have seen of a simulated car park, and how it compares with the truth.
+struct CarParkReport {
+  int pictures = 0;
+  double coverage = 0.0;  ///< 0..1, of the slots and some metres round them
+  int free = 0;           ///< slots on the map
+  int taken = 0;
+  int unknown = 0;
+  std::optional<LotScore> score = {};
+};
+
 struct ErrorReport {
   std::string file;
   int line = 0;
@@ -49,6 +60,7 @@ struct RunReport {
   base::UtcTime started{};
   base::UtcTime ended{};
   std::vector<VehicleReport> vehicles;
+  std::optional<CarParkReport> car_park = {};  ///< where one was watched
   std::vector<tasks::TaskView> tasks;
   std::vector<ErrorReport> errors;
 };

@@ -94,5 +94,20 @@ TEST(Report, SurvivesTextThatIsNoUtf8) {
   EXPECT_EQ(json::parse(to_json(report))["errors"][0]["message"], "bad \xEF\xBF\xBD byte");
 }
 
+TEST(RunReport, TellsWhatWasSeenOfACarParkAndHowTrueThatIs) {
+  auto report = example();
+  EXPECT_FALSE(json::parse(to_json(report)).contains("car_park"));
+  report.car_park = {
+      .pictures = 7,
+      .coverage = 0.75,
+      .free = 3,
+      .taken = 4,
+      .unknown = 1,
+      .score = LotScore{.true_slots = 10, .found = 8, .told = 7, .right = 6, .invented = 1, .off_m = 0.25}};
+  EXPECT_EQ(json::parse(to_json(report))["car_park"],
+            json::parse(R"({"pictures": 7, "coverage": 0.75, "free": 3, "taken": 4,
+      "unknown": 1, "score": {"true_slots": 10, "found": 8, "told": 7, "right": 6, "invented": 1, "off_m": 0.25}})"));
+}
+
 }  // namespace
 }  // namespace lapwing::host

@@ -41,6 +41,25 @@ base::Loop::Pace pace_of(Session::Options const& options) {
   return pace;
 }
 
+std::vector<DroneInTheAir> drones_in_the_air(sim::World const& world) {
+  std::vector<DroneInTheAir> drones;
+  for (auto const& vehicle : world.vehicles()) {
+    if (!vehicle->running() || vehicle->autopilot().body().on_ground) continue;
+    drones.push_back({.vehicle = {std::to_string(vehicle->options().system_id)},
+                      .place = vehicle->place(),
+                      .heading_rad = vehicle->autopilot().body().attitude.yaw_rad});
+  }
+  return drones;
+}
+
+CarParkReport car_park_report(LotWatch const& watch, std::optional<LotScore> const& score) {
+  using ::lapwing::map::SlotState;
+  CarParkReport report{.pictures = watch.pictures(), .coverage = watch.coverage(), .score = score};
+  for (auto const& slot : watch.on_the_map())
+    ++(slot.state == SlotState::free ? report.free : slot.state == SlotState::taken ? report.taken : report.unknown);
+  return report;
+}
+
 /// Nothing for what is no robot.
 std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehicle::VehicleId const& id) {
   auto const* const robot = robots.robot(id);
@@ -95,6 +114,7 @@ Session::Session(Options const& options)
       emergency_action_(options.emergency_action),
       interrupted_(loop),
       events_(options.events),
+      speedup_(options.speedup),
       seed_(options.seed.value_or(1)) {
   hub.add_sink(terminal_sink(options.log_level));
   auto const fleet_fits = join("MAVLink", {platform, &control, &parameters});
@@ -152,6 +172,31 @@ base::Result<> Session::simulate(sim::WorldOptions options) {
   auto started = start_simulation(ground, std::move(options), log);
   if (!started) return std::unexpected(started.error());
   world = std::move(*started);
+  return {};
+}
+
+base::Result<> Session::watch_car_park(std::filesystem::path const& world_file) {
+  using base::ErrorKind;
+  if (!world)
+    return base::fail(ErrorKind::invalid_input, "a car park is shown to simulated vehicles, and there are none");
+  std::error_code error;
+  auto const file = std::filesystem::canonical(world_file, error);
+  if (error) return base::fail(ErrorKind::not_found, fmt::format("{}: {}", world_file.string(), error.message()));
+  auto program = LookingChild::program_beside_us("lapwing-perceive", "overlook");
+  overlook = std::make_unique<LookingChild>(
+      loop, LookingChild::Settings{.program = std::move(program), .time_waits = speedup_ != 1.0},
+      log.named("car park"));
+  lot_watch =
+      std::make_unique<LotWatch>(loop, live_map,
+                                 LotWatch::Setup{.world = file,
+                                                 .ask =
+                                                     [this](LookFrame request) {
+                                                       return overlook->ask([request = std::move(request)]() mutable {
+                                                         return std::move(request);
+                                                       });
+                                                     },
+                                                 .drones = [this] { return drones_in_the_air(*world); }},
+                                 log.named("car park"));
   return {};
 }
 
@@ -276,6 +321,9 @@ base::Task<> Session::finish(std::optional<base::Duration> timeout) {
   co_await platform.make_safe(on_stop_);
   co_await robots.settle();
   co_await survey.settle();
+  if (!lot_watch) co_return;
+  auto judging = lot_watch->judge();
+  if (auto const score = co_await std::move(judging)) lot_score_ = *score;
 }
 
 bool Session::is_nobody_heard() const {
@@ -341,6 +389,7 @@ RunReport Session::report() const {
     auto& told = report.vehicles.back();
     if (told.robot) told.robot->collisions = collisions_of(buildings, told.id);
   }
+  if (lot_watch) report.car_park = car_park_report(*lot_watch, lot_score_);
   report.tasks = host.task_trees();
   if (auto const& outcome = host.outcome(); outcome && outcome->kind != dolphin::Outcome::Kind::done) {
     report.errors.push_back({outcome->file, outcome->line, outcome->message});

@@ -10,6 +10,8 @@
 #include "fleet/control/fleet_control.hpp"
 #include "fleet/control/fleet_parameters.hpp"
 #include "fleet/mission/fleet_platform.hpp"
+#include "host/car_park/lot_watch.hpp"
+#include "host/eyes/looking_child.hpp"
 #include "host/files/event_file.hpp"
 #include "host/files/plans.hpp"
 #include "host/links/equipment.hpp"
@@ -86,6 +88,9 @@ class Session {
 
   [[nodiscard]] base::Result<> open_links(std::vector<std::string> const& urls);
   [[nodiscard]] base::Result<> simulate(sim::WorldOptions options);
+  /// Has the simulated drones look down at a simulated car park, whose slots they then put on the map; call after
+  /// `simulate`. Errors, invalid_input: there are no simulated vehicles; not_found: there is no such file.
+  [[nodiscard]] base::Result<> watch_car_park(std::filesystem::path const& world_file);
   /// Joins other programs with the vehicles, for as long as the session lives; call after `open_links`. Errors:
   /// invalid_input for a network that no link belongs to, and those of `route::Router::open`.
   [[nodiscard]] base::Result<> forward(std::vector<Forward> programs);
@@ -127,6 +132,8 @@ class Session {
   std::unique_ptr<dolphin::Output> console;
   ScriptHost host;
   std::unique_ptr<sim::World> world;
+  std::unique_ptr<LookingChild> overlook;  ///< shows simulated drones a simulated car park
+  std::unique_ptr<LotWatch> lot_watch;
   std::unique_ptr<StationMap> station_map;  ///< where there is a station to show it
   std::unique_ptr<MapExports> map_exports;
   std::unique_ptr<SurveyControl> survey_control;  ///< the emergency stop of survey drones, where there are some
@@ -146,6 +153,8 @@ class Session {
   vehicle::StopAction emergency_action_;
   base::Notifier interrupted_;  ///< by Ctrl-C
   EventFile const* events_;
+  double speedup_;
+  std::optional<LotScore> lot_score_;  ///< once the script has ended
   std::string record_folder_;
   std::uint64_t seed_;
 };

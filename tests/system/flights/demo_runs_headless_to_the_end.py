@@ -1,5 +1,5 @@
-"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP, a robot maps the office, and the report
-says so."""
+"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP and see a car park, a robot maps the office, and
+the report says so."""
 
 import json
 import pathlib
@@ -32,6 +32,15 @@ assert 0 < mapped["coverage"] <= 1, mapped
 assert 50 < mapped["free_m2"] < 48 * 24, mapped
 assert mapped["collisions"] == 0, mapped
 assert robot["track_m"] > 20, robot
+
+
+# What the copters saw, where the program is built that shows them the car park.
+if pathlib.Path(harness.LAPWING).with_name("lapwing-perceive").exists():
+    park, score = report["car_park"], report["car_park"]["score"]
+    assert park["pictures"] > 50 and park["coverage"] > 0.95, park
+    assert score["true_slots"] == 432 and score["found"] > 0.8 * 432, park
+    assert score["invented"] < 0.03 * 432 and score["off_m"] < 0.6, park
+    assert score["told"] > 0.9 * score["found"] and score["right"] > 0.97 * score["told"], park
 
 
 def leaves(task):

@@ -43,6 +43,7 @@ struct RunOptions {
   std::vector<std::string> forward;
   std::vector<std::string> robots;
   std::vector<std::string> survey;
+  std::string car_park;
   std::optional<double> swap_batteries_s;
   host::PlausibilityArguments plausibility;
 
@@ -85,7 +86,9 @@ base::Result<> connect(host::Session& session, RunOptions const& options, std::o
   auto const links = wants_default ? std::vector<std::string>{host::default_link} : options.links;
   if (auto opened = session.open_links(links); !opened) return opened;
   if (auto forwarded = session.forward(*std::move(programs)); !forwarded) return forwarded;
-  return world ? session.simulate(*std::move(world)) : base::Result<>{};
+  if (world)
+    if (auto simulated = session.simulate(*std::move(world)); !simulated) return simulated;
+  return options.car_park.empty() ? base::Result<>{} : session.watch_car_park(options.car_park);
 }
 
 /// To the user's file and beside the recording, if there is one.
@@ -180,7 +183,8 @@ bool rest_checks(std::vector<host::ScriptText> const& scripts) {
 /// What means nothing to the test platform, and so is a mistake beside it.
 base::Result<> check_combination(RunOptions const& options) {
   if (options.platform != "test") return {};
-  std::array<std::pair<std::string_view, bool>, 12> const given{{{"--robot", !options.robots.empty()},
+  std::array<std::pair<std::string_view, bool>, 13> const given{{{"--robot", !options.robots.empty()},
+                                                                 {"--car-park", !options.car_park.empty()},
                                                                  {"--survey", !options.survey.empty()},
                                                                  {"--link", !options.links.empty()},
                                                                  {"--sim", !options.simulated.empty()},
@@ -224,6 +228,7 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--forward", options.forward, host::forward_help)->allow_extra_args(false);
   verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
   verb.add_option("--robot", options.robots, host::robot_help)->allow_extra_args(false);
+  verb.add_option("--car-park", options.car_park, host::car_park_help);
   verb.add_option("--survey", options.survey,
                   "A survey drone's operator link (may be repeated): HOST[:PORT]; those with a token or TLS are for "
                   "scripts of a station")
