@@ -36,7 +36,9 @@ Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
     frame = frame_of(scan, sensor, options_.frame);
     odometry_ = scan_odometry_.follow(*frame, scan.time);
   }
-  has_leapt_ = has_leapt_ || (scans_ > 1 && is_leap(between(last_odometry, odometry_), scan.time - time_));
+  constexpr LogTime unknown(1.0);
+  auto const elapsed = kind_.has_times ? scan.time - time_ : unknown;
+  has_leapt_ = has_leapt_ || (scans_ > 1 && is_leap(between(last_odometry, odometry_), elapsed));
   time_ = scan.time;
   if (kind_.is_sparse) {
     gatherer_.add(scan, sensor, odometry_);

@@ -5,7 +5,7 @@
 namespace lapwing::slam {
 
 RobotKind kind_of(ScanLog const& log, GatherOptions const& options) {
-  RobotKind kind{.has_odometry = log.has_odometry};
+  RobotKind kind{.has_odometry = log.has_odometry, .has_times = log.has_times};
   std::vector<std::ptrdiff_t> counts;
   for (auto const& scan : log.scans) {
     auto const no_return = log.sensors[scan.sensor].no_return_m;

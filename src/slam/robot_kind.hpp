@@ -7,6 +7,7 @@ namespace lapwing::slam {
 /// What a robot brings along.
 struct RobotKind {
   bool has_odometry = true;  ///< without, the scans alone say how it moves
+  bool has_times = true;     ///< without, nobody knows how fast it went
   bool is_sparse = false;    ///< so few readings a scan that several are joined into one
 };
 

@@ -31,6 +31,7 @@ struct ScanLog {
   std::vector<Sensor> sensors;
   std::vector<Scan> scans;
   bool has_odometry = true;  ///< without, each scan's odometry is the origin
+  bool has_times = true;     ///< without, a scan counts a tenth of a second
 };
 
 }  // namespace lapwing::slam

@@ -1,5 +1,6 @@
 #include "slam/readers/carmen.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace lapwing::slam {
@@ -25,6 +26,30 @@ TEST(Carmen, ReadsScansInOrderOfTimeWhateverTheirOrderInTheFile) {
   ASSERT_EQ(log->sensors.size(), 1U);
   EXPECT_FLOAT_EQ(log->sensors[0].mount_m.x(), 0.25F);
   EXPECT_TRUE(log->has_odometry);
+}
+
+/// One scan a line, at these stamps; the first reading is its number.
+ScanLog stamped(std::vector<std::string> const& stamps) {
+  std::string text;
+  for (std::size_t i = 0; i < stamps.size(); ++i)
+    text += fmt::format("FLASER 1 {} {} 0 0 {} 0 0 {} h {}\n", i + 1, i, i, stamps[i], stamps[i]);
+  return *read_carmen(text);
+}
+
+TEST(Carmen, KeepsTheOrderOfTheFileWhereStampsAreEqual) {
+  auto const log = stamped({"-0.4", "-0.9", "4.29e9", "4.29e9", "4.29e9", "4.29e9", "4.29e9"});
+  EXPECT_FALSE(log.has_times);
+  for (std::size_t i = 0; i < log.scans.size(); ++i)
+    EXPECT_EQ(log.scans[i].ranges_m[0], static_cast<float>(i + 1)) << i;
+  EXPECT_EQ(log.scans[6].time, LogTime(0.6));
+  EXPECT_TRUE(stamped({"1", "1", "2", "3", "4"}).has_times);
+}
+
+TEST(Carmen, GoesOnWhereTheClockBeginsAnew) {
+  auto const log = stamped({"100", "101", "0", "0.5"});
+  for (std::size_t i = 0; i < log.scans.size(); ++i)
+    EXPECT_EQ(log.scans[i].ranges_m[0], static_cast<float>(i + 1)) << i;
+  EXPECT_NEAR(log.scans[3].time.count(), 101.6, 1e-9);
 }
 
 TEST(Carmen, KnowsTheAnglesOfScannersByTheirBeams) {

@@ -28,6 +28,33 @@ void find_no_return(Sensor& sensor, int number, std::vector<Scan> const& scans) 
     sensor.no_return_m = same * largest;
 }
 
+/// Whether the stamps say when scans were taken. Logs that were corrected afterwards often have one for all, or so few
+/// digits that most are equal.
+bool tell_time(std::vector<Scan> const& scans) {
+  std::size_t equal = 0;
+  for (std::size_t i = 1; i < scans.size(); ++i) equal += scans[i].time == scans[i - 1].time ? 1 : 0;
+  return 2 * equal <= scans.size();
+}
+
+void number(std::vector<Scan>& scans) {
+  constexpr double scans_per_s = 10.0;
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].time = LogTime(static_cast<double>(i) / scans_per_s);
+}
+
+/// Recordings of several processes are out of order by moments; where stamps go back by more, a clock has begun anew,
+/// and what follows was taken after what stands before it.
+void go_on_where_clocks_begin_anew(std::vector<Scan>& scans) {
+  constexpr LogTime out_of_order(60.0);
+  constexpr LogTime pause(0.1);
+  LogTime shift(0.0);
+  auto last = scans.empty() ? LogTime(0.0) : scans.front().time;
+  for (auto& scan : scans) {
+    if (scan.time + shift < last - out_of_order) shift = last + pause - scan.time;
+    scan.time += shift;
+    last = scan.time;
+  }
+}
+
 }  // namespace
 
 std::optional<int> LogBuilder::sensor(Sensor const& sensor) {
@@ -46,7 +73,9 @@ bool LogBuilder::add(Scan scan) {
 }
 
 ScanLog LogBuilder::finish() && {
-  // Recordings of several processes are not in order; what has one time stays in the order of the file.
+  log_.has_times = tell_time(log_.scans);
+  log_.has_times ? go_on_where_clocks_begin_anew(log_.scans) : number(log_.scans);
+  // What has one time stays in the order of the file.
   std::ranges::stable_sort(log_.scans, {}, &Scan::time);
   for (int s = 0; s < static_cast<int>(log_.sensors.size()); ++s) find_no_return(log_.sensors[s], s, log_.scans);
   log_.has_odometry =

@@ -20,7 +20,8 @@ class LogBuilder {
   [[nodiscard]] bool add(Scan scan);
   [[nodiscard]] bool is_empty() const { return log_.scans.empty(); }
 
-  /// Sorted; where a log's largest reading comes again and again it is what the sensor says when nothing came back.
+  /// Sorted by time, or as they were added where most stamps are equal; where a log's largest reading comes again and
+  /// again it is what the sensor says when nothing came back.
   [[nodiscard]] ScanLog finish() &&;
 
  private:
