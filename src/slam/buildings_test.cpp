@@ -33,6 +33,24 @@ TEST(Buildings, OfficesThatAreAllAlikeAreNotTakenForEachOther) {
   EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.5);
 }
 
+TEST(Buildings, ScansAMetreApartCloseTheLoopOfAnOffice) {
+  auto const building = testing::office(20.0, 12.0, 4.0, 1.0, 5);
+  auto drive = testing::drive(building, {{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {20, 0}, {20, 6}},
+                              {.beams = 181, .turn_bias_per_m = 0.02});
+  testing::Drive thinned;
+  thinned.log.sensors = drive.log.sensors;
+  for (std::size_t i = 0; i < drive.truth.size(); ++i) {
+    auto const is_far = thinned.truth.empty() || distance_m(thinned.truth.back(), drive.truth[i]) > 0.95 ||
+                        turn_rad(thinned.truth.back(), drive.truth[i]) > 0.5;
+    if (!is_far) continue;
+    thinned.log.scans.push_back(drive.log.scans[i]);
+    thinned.truth.push_back(drive.truth[i]);
+  }
+  auto const mapping = mapped(thinned.log);
+  EXPECT_GT(mapping.loops.closures, 12);
+  EXPECT_LT(testing::greatest_error_m(mapping.trajectory, thinned.truth), 0.25);
+}
+
 TEST(Buildings, AFewRangersCloseTheLoopOfAnOffice) {
   auto const building = testing::office(20.0, 12.0, 4.0, 1.0, 5);
   auto const drive = testing::drive(building, {{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {20, 0}, {20, 6}},

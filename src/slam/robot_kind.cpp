@@ -1,25 +1,59 @@
 #include "slam/robot_kind.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lapwing::slam {
+namespace {
+
+double middle_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+double scan_step_m(std::vector<Scan> const& scans) {
+  constexpr double still_m = 0.02;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    auto const step = distance_m(scans[i - 1].odometry, scans[i].odometry);
+    if (step > still_m) steps.push_back(step);
+  }
+  return middle_of(std::move(steps));
+}
+
+/// As long a stretch of the way in fewer key frames.
+void count_by_way(MapperOptions& options, double share) {
+  auto const fewer = [&](int& count, int least) {
+    count = std::max(std::min(least, count), static_cast<int>(std::lround(share * count)));
+  };
+  fewer(options.loops.submap_frames, options.gather.submap_frames);
+  fewer(options.loops.query_frames, options.gather.query_frames);
+  fewer(options.loops.near_submaps, 1);
+  fewer(options.loops.step_frames, 1);
+  fewer(options.joint.in_time, 1);
+}
+
+}  // namespace
 
 RobotKind kind_of(ScanLog const& log, GatherOptions const& options) {
   RobotKind kind{.has_odometry = log.has_odometry, .has_times = log.has_times};
-  std::vector<std::ptrdiff_t> counts;
+  std::vector<double> counts;
   for (auto const& scan : log.scans) {
     auto const no_return = log.sensors[scan.sensor].no_return_m;
-    counts.push_back(
-        std::ranges::count_if(scan.ranges_m, [&](float range) { return range > 0.0F && range < no_return; }));
+    counts.push_back(static_cast<double>(
+        std::ranges::count_if(scan.ranges_m, [&](float range) { return range > 0.0F && range < no_return; })));
   }
-  if (counts.empty()) return kind;
-  auto const middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::ranges::nth_element(counts, middle);
-  kind.is_sparse = *middle < options.few_readings;
+  kind.is_sparse = !counts.empty() && middle_of(std::move(counts)) < options.few_readings;
+  kind.scan_step_m = scan_step_m(log.scans);
   return kind;
 }
 
 MapperOptions options_for(RobotKind const& kind, MapperOptions options) {
+  // A laser's key frames are about so far apart on the way, those of turns on the spot among them.
+  constexpr double usual_step_m = 0.3;
+  if (!kind.is_sparse && kind.scan_step_m > usual_step_m) count_by_way(options, usual_step_m / kind.scan_step_m);
   if (!kind.is_sparse) return options;
   auto& loops = options.loops;
   loops.submap_frames = options.gather.submap_frames;
