@@ -73,8 +73,11 @@ bool LoopCloser::is_believed(Group const& group) const {
     window_m = std::max(window_m, closure.window_m);
   }
   constexpr double wide_m = 4.0;
+  auto const is_wide = window_m > wide_m;
+  // Along a corridor any number of claims agree on a wrong place, for each sees what the last one saw.
+  if (is_wide && unmistakable == 0) return false;
   auto needed = 1 + options_.witnesses;
-  if (window_m > wide_m) ++needed;
+  if (is_wide) ++needed;
   if (unmistakable == 0) needed += 2;
   return static_cast<int>(queries.size()) >= needed;
 }

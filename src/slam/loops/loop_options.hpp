@@ -13,7 +13,7 @@ struct LoopOptions {
   double window_m = 0.6;  ///< least search window; beyond, `window_sigmas` of the drift
   double window_rad = 0.08;
   double window_sigmas = 2.5;
-  double most_window_m = 15.0;
+  double most_window_m = 40.0;
   double most_window_rad = 0.6;
   int most_candidates = 4;        ///< places looked at in one search
   int least_matches = 120;        ///< points of the query on the target's lines
@@ -24,7 +24,7 @@ struct LoopOptions {
   int small_batch = 5;  ///< so many of these are taken in at once
   int witnesses = 2;    ///< other closures that must agree with a large correction
   /// Of the points of other passes that a closure brings into sight, the share in free space.
-  double most_contradiction = 0.25;
+  double most_contradiction = 0.12;
   double late_sigmas = 4.0;  ///< of the drift, when everything is looked for again after the last scan
   int late_rounds = 3;
   int least_points = 60;  ///< of the query; with fewer nothing is looked for

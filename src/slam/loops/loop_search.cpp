@@ -14,6 +14,20 @@ std::vector<int> joined_with(Graph const& graph, int query, int frames) {
   return targets;
 }
 
+/// The score of the best match that puts the query elsewhere than this one, whichever place it was found at.
+double rival_elsewhere(std::vector<std::optional<LoopMatch>> const& matches, std::vector<Pose2> const& claimed,
+                       std::size_t own) {
+  constexpr double same_m = 1.0;
+  constexpr double same_rad = 0.15;
+  auto rival = 0.0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (i == own || !matches[i]) continue;
+    auto const is_same = distance_m(claimed[i], claimed[own]) < same_m && turn_rad(claimed[i], claimed[own]) < same_rad;
+    if (!is_same) rival = std::max(rival, matches[i]->score);
+  }
+  return rival;
+}
+
 }  // namespace
 
 std::string_view to_string(LoopRecord::Verdict verdict) {
@@ -47,6 +61,7 @@ std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, in
     return std::min(options_.most_window_m, options_.window_m + scope.window_sigmas * drift.shift_m);
   };
   constexpr double sight_m = 3.0;  // a query sees so far into its neighbours
+  constexpr double narrow_m = 4.0;
   for (int s = 0; s < static_cast<int>(submaps_.size()); ++s) {
     auto const reference = submaps_[s].reference;
     if (graph.frames[query].path_m - graph.frames[reference].path_m < options_.least_gap_m) continue;
@@ -61,7 +76,9 @@ std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, in
     auto const reference = submaps_[n.submap].reference;
     auto const& pose = graph.poses[reference];
     auto const is_known = [&](Candidate const& c) {
-      return std::abs(c.submap - n.submap) < options_.near_submaps ||
+      // Neighbours see the same, as long as it is known about which of them the query is at.
+      auto const is_near = std::abs(c.submap - n.submap) < options_.near_submaps;
+      return (is_near && window_of(drifts[reference]) < narrow_m) ||
              distance_m(graph.poses[submaps_[c.submap].reference], pose) < 1.0;
     };
     if (std::ranges::any_of(chosen, is_known)) continue;
@@ -73,7 +90,9 @@ std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, in
           .reach_rad = std::min(options_.most_window_rad, options_.window_rad + scope.window_sigmas * drift.turn_rad),
           .sigma_m = options_.window_m + drift.shift_m,
           .sigma_rad = options_.window_rad + drift.turn_rad}});
-    if (static_cast<int>(chosen.size()) >= scope.most_places) break;
+    // The less is known of where the query is, the more places it may be at.
+    auto const most = std::max(1.0, window_of(drift) / narrow_m) * scope.most_places;
+    if (static_cast<double>(chosen.size()) >= most) break;
   }
   return chosen;
 }
@@ -91,13 +110,17 @@ std::vector<Closure> LoopSearch::look(Graph const& graph, int query, Scope const
       found[i] = make_closure(graph, submaps_[submap], query, *matches[i], options_);
     if (found[i]) found[i]->window_m = window.reach_m;
   });
+  std::vector<Pose2> claimed(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (matches[i]) claimed[i] = graph.poses[submaps_[places[i].submap].reference] * matches[i]->pose;
   std::vector<Closure> closures;
   for (std::size_t i = 0; i < places.size(); ++i) {
+    if (found[i]) found[i]->rival = std::max(found[i]->rival, rival_elsewhere(matches, claimed, i));
     records_.push_back({.query = query,
                         .target = submaps_[places[i].submap].reference,
                         .window = places[i].window,
                         .score = matches[i] ? matches[i]->score : 0.0,
-                        .rival = matches[i] ? matches[i]->rival : 0.0,
+                        .rival = found[i] ? found[i]->rival : 0.0,
                         .is_late = scope.skips_joined});
     if (matches[i]) records_.back().verdict = LoopRecord::Verdict::mismatched;
     if (!found[i]) continue;
