@@ -57,12 +57,14 @@ bool FrontEnd::wants(Pose2 const& odometry) const {
          turn_rad(*last_odometry_, odometry) >= options_.key_turn_rad;
 }
 
-Correlation FrontEnd::search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
-                             Guess const& guess) {
+FrontEnd::Found FrontEnd::search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                 Frame const& frame, Guess const& guess) {
   auto const count = static_cast<int>(frames.size());
   grid_.move_to(guess.pose);
   for (auto k = std::max(0, count - options_.grid_frames); k < count; ++k) grid_.add(frames[k].frame, poses[k]);
-  return correlate(grid_, frame, guess.pose, window_of(guess.spread));
+  auto const found = correlate(grid_, frame, guess.pose, window_of(guess.spread));
+  auto const slid = options_.may_slip ? correlate_along(grid_, frame, found) : std::nullopt;
+  return slid ? Found{slid->pose, true} : Found{found.pose, false};
 }
 
 FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
@@ -81,10 +83,14 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   // Counters that began anew: what is seen is what was seen just now, so it went on as before. After a gap in the
   // recording something else is seen, and odometry is right.
   constexpr double farthest_m = 3.0;  // that a robot may have gone while nothing was recorded
-  auto const is_misled =
-      has_leapt && (std::hypot(driven.x, driven.y) > farthest_m || look_alike(frame, frames.back().frame));
-  if (is_misled) guess = {.pose = poses.back() * last_motion_, .spread = {.shift_m = 0.3, .turn_rad = 0.2}};
+  constexpr OdometryNoise::Spread unknown{.shift_m = 0.3, .turn_rad = 0.2};
+  auto is_misled = has_leapt && (std::hypot(driven.x, driven.y) > farthest_m || look_alike(frame, frames.back().frame));
+  if (is_misled) guess = {.pose = poses.back() * last_motion_, .spread = unknown};
   auto const found = search(frames, poses, frame, guess);
+  if (found.has_slipped) {
+    guess = {.pose = found.pose, .spread = unknown};
+    is_misled = true;
+  }
 
   std::vector<Target> targets;
   for (int const back : {1, 2, 3, 5, 8})

@@ -17,6 +17,7 @@ struct FrontEndOptions {
   /// odometry that is out of step in turns outweighed the scans of a small room.
   double point_information = 250.0;
   double odometry_spread = 1.0;  ///< times what is usual
+  bool may_slip = true;          ///< what fits clearly better farther along the way speaks against the wheels
   double edge_share =
       0.1;  ///< of a key frame's information that its edge to the last one has, as neighbours err together
 };
@@ -45,8 +46,12 @@ class FrontEnd {
     Pose2 pose;
     OdometryNoise::Spread spread;
   };
-  [[nodiscard]] Correlation search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
-                                   Frame const& frame, Guess const& guess);
+  struct Found {
+    Pose2 pose;
+    bool has_slipped;  ///< far from where odometry has it
+  };
+  [[nodiscard]] Found search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
+                             Guess const& guess);
 
   FrontEndOptions options_;
   OdometryNoise noise_;

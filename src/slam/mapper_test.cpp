@@ -60,6 +60,21 @@ TEST(Mapper, IsNotCarriedAwayByAJumpOfOdometry) {
   EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.15);
 }
 
+TEST(Mapper, IsNotCarriedAwayByWheelsThatSlip) {
+  auto drive = round_the_office(1.0);
+  constexpr std::size_t every = 90;
+  constexpr std::size_t slipping = 8;  // scans, over which the robot goes 0.8 m and the wheels tell a tenth of it
+  auto& scans = drive.log.scans;
+  std::vector<Pose2> told{scans[0].odometry};
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    auto step = between(scans[i - 1].odometry, scans[i].odometry);
+    if (i % every < slipping) step.x *= 0.1;
+    told.push_back(told.back() * step);
+  }
+  for (std::size_t i = 0; i < scans.size(); ++i) scans[i].odometry = told[i];
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.6);
+}
+
 TEST(Mapper, MapsByScansAloneWhereThereIsNoOdometry) {
   auto drive = round_the_office(1.0);
   for (auto& scan : drive.log.scans) scan.odometry = {};

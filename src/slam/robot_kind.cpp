@@ -66,6 +66,7 @@ MapperOptions options_for(RobotKind const& kind, MapperOptions options) {
   constexpr double drifts_more = 2.0;
   loops.rates.shift_per_sqrt_m *= drifts_more;
   loops.rates.turn_per_sqrt_m *= drifts_more;
+  options.front_end.may_slip = false;
   options.front_end.odometry_spread = options.gather.odometry_spread;
   options.front_end.point_information = options.gather.point_information;
   options.joint.in_time = 1;

@@ -120,4 +120,31 @@ Correlation correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& gu
   return {best, best_score};
 }
 
+std::optional<Correlation> correlate_along(LocalGrid const& grid, Frame const& frame, Correlation const& found) {
+  constexpr double step_m = 0.1;
+  constexpr int nearest = 3;  // steps; nearer ones were looked at
+  constexpr int farthest = 15;
+  constexpr double between_steps = 0.1;  // of the score may be lost
+  constexpr double cost_per_m2 = 0.02;
+  constexpr double clearly = 0.06;
+  Pose2 best;
+  auto best_value = found.score - between_steps;
+  auto is_any = false;
+  for (int i = -farthest; i <= farthest; ++i) {
+    if (std::abs(i) < nearest) continue;
+    auto const tried = found.pose * Pose2{i * step_m, 0.0, 0.0};
+    auto const value = score(grid, frame, tried, 1) - cost_per_m2 * (i * step_m) * (i * step_m);
+    if (value <= best_value) continue;
+    best_value = value;
+    best = tried;
+    is_any = true;
+  }
+  if (!is_any) return std::nullopt;
+  constexpr SearchWindow around{.reach_m = 0.1, .reach_rad = 0.05, .cost_per_m2 = 0.0, .cost_per_rad2 = 0.0};
+  auto const refined = correlate(grid, frame, best, around);
+  auto const apart = distance_m(refined.pose, found.pose);
+  if (refined.score - cost_per_m2 * apart * apart < found.score + clearly) return std::nullopt;
+  return refined;
+}
+
 }  // namespace lapwing::slam

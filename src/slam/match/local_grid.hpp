@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "slam/pose2.hpp"
@@ -54,5 +55,10 @@ struct Correlation {
 /// of 0.1 m and 1 degree with some of the points, then downhill in smaller steps with all of them.
 [[nodiscard]] Correlation correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess,
                                     SearchWindow const& window);
+
+/// What fits clearly better some way ahead of `found` or behind it than there, if anything does: up to 1.5 m along the
+/// way that the robot looks. Wheels that spin, lock or are lifted err so.
+[[nodiscard]] std::optional<Correlation> correlate_along(LocalGrid const& grid, Frame const& frame,
+                                                         Correlation const& found);
 
 }  // namespace lapwing::slam
