@@ -13,8 +13,6 @@ namespace {
 using internal::LineRow;
 using internal::Tooth;
 
-/// Sides longer than this are two rows', head to head.
-constexpr double deepest_slot = 7.6;
 constexpr double narrowest_slot = 2.0;
 constexpr double widest_slot = 4.3;
 
@@ -31,9 +29,8 @@ struct Depth {
 };
 
 std::vector<Depth> depths_of(LineRow const& row) {
-  double const middle = row.teeth[row.teeth.size() / 2].at;
-  if (row.end(middle) - row.begin(middle) < deepest_slot) return {{0.0, 1.0}};
-  return {{0.0, 0.5}, {0.5, 1.0}};
+  if (!row.head) return {{0.0, 1.0}};
+  return {{0.0, *row.head}, {*row.head, 1.0}};
 }
 
 bool is_on_car(PaintedLine const& line, std::span<TurnedBox const> cars) {

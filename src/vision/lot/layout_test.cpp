@@ -49,6 +49,37 @@ TEST(Layout, LongSidesAreTwoRowsHeadToHead) {
   EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 11.5));
 }
 
+TEST(Layout, TheLineAlongTheHeadsSaysWhereRowsMeetAndHowDeepTheyAre) {
+  // Joints of the ground go on where the paint ends, each as far as it likes.
+  std::vector<double> const joints{0.0, 1.9, 1.1, 3.1, 2.6, 3.6};
+  std::vector<PaintedLine> lines{{{10.0, 4.0 + depth}, {10.0 + 5 * pitch, 4.0 + depth}}};
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    double const x = 10.0 + static_cast<double>(k) * pitch;
+    lines.push_back({{x, 4.0}, {x, 4.0 + 2.0 * depth + joints[k]}});
+  }
+  auto const slots = slots_between(lines, {});
+  ASSERT_EQ(slots.size(), 10U);
+  for (double const y : {6.5, 11.5}) EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, y)) << y;
+}
+
+TEST(Layout, WhatMostSidesShowIsTheirEndThoughCarsHideSome) {
+  std::vector<double> const hidden{0.0, 1.4, 0.0, 2.2, 0.0, 1.8, 0.0};
+  std::vector<PaintedLine> lines;
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    double const x = 10.0 + static_cast<double>(k) * pitch;
+    lines.push_back({{x, 4.0 + hidden[k]}, {x, 4.0 + depth}});
+  }
+  auto const slots = slots_between(lines, {});
+  ASSERT_EQ(slots.size(), 6U);
+  EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 6.5));
+}
+
+TEST(Layout, AKerbBesideTheRowIsNoSideOfIt) {
+  std::vector<PaintedLine> lines{side(0), side(1), side(2), side(3)};
+  lines.push_back({{10.0 + 4.05 * pitch, 5.5}, {10.0 + 4.05 * pitch, 12.0}});
+  EXPECT_EQ(slots_between(lines, {}).size(), 3U);
+}
+
 TEST(Layout, HiddenSidesAreCompletedWhereCarsStand) {
   std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(5), side(6)};
   EXPECT_EQ(slots_between(lines, {}).size(), 3U) << "nothing says that between the second and the fifth are slots";

@@ -13,7 +13,8 @@ constexpr double narrowest_pitch = 2.1;
 constexpr double widest_pitch = 3.4;
 constexpr double farthest_neighbour = 10.5;  // some lines between are hidden
 constexpr double shallowest = 3.2;
-constexpr double deepest = 14.0;  // two slots head to head
+constexpr double deepest = 14.0;      // two slots head to head
+constexpr double deepest_slot = 7.6;  // what is deeper is two slots head to head
 constexpr double shortest_side = 1.8;
 constexpr double same_direction = 0.1;  // radians
 constexpr double same_tooth = 0.6;      // both lines of a hairpin
@@ -133,36 +134,36 @@ std::vector<Tooth> on_comb(std::span<Tooth const> teeth, double pitch) {
   return kept;
 }
 
-/// Those whose ends are their own: what is much shorter than others is hidden in part.
-std::vector<Tooth> whole_ones(std::span<Tooth const> teeth) {
-  std::vector<double> lengths;
-  for (auto const& tooth : teeth) lengths.push_back(tooth.length());
-  std::ranges::sort(lengths);
-  constexpr double long_enough = 0.75;
-  double const least = long_enough * lengths[lengths.size() * 4 / 5];
-  std::vector<Tooth> whole;
-  std::ranges::copy_if(teeth, std::back_inserter(whole), [&](auto const& tooth) { return tooth.length() >= least; });
-  return whole;
-}
+/// Where many sides begin or end, of what `values` says of each: cars hide some ends, joints of the ground prolong
+/// others, and neither by the same length everywhere.
+struct Common {
+  double at = 0.0;
+  std::size_t count = 0;
+};
 
-/// By how much both ends shift from place to place, in the median (Theil 1950, Sen 1968): none but in slanted rows.
-double slope_of(std::span<Tooth const> teeth) {
-  std::vector<double> slopes;
-  for (std::size_t a = 0; a < teeth.size(); ++a) {
-    for (std::size_t b = a + 1; b < teeth.size(); ++b) {
-      double const apart = teeth[b].at - teeth[a].at;
-      if (apart <= 1.0) continue;
-      slopes.push_back((teeth[b].begin - teeth[a].begin) / apart);
-      slopes.push_back((teeth[b].end - teeth[a].end) / apart);
+Common common_of(std::span<double const> values) {
+  constexpr double same_place = 0.3;
+  Common best;
+  for (double const value : values) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (double const other : values) {
+      if (std::abs(other - value) > same_place) continue;
+      sum += other;
+      ++count;
     }
+    if (count > best.count) best = {.at = sum / static_cast<double>(count), .count = count};
   }
-  return slopes.empty() ? 0.0 : median(std::move(slopes));
+  return best;
 }
 
+/// Where both ends of the sides lie if they shift by `slope` from place to place.
 struct Ends {
-  Linear begin;
-  Linear end;
-  double off = 0.0;  ///< how far the ends are from them, in all
+  double slope = 0.0;
+  Common begin;
+  Common end;
+
+  [[nodiscard]] std::size_t agreed() const { return begin.count + end.count; }
 };
 
 Ends ends_with(double slope, std::span<Tooth const> teeth) {
@@ -172,22 +173,82 @@ Ends ends_with(double slope, std::span<Tooth const> teeth) {
     begins.push_back(tooth.begin - slope * tooth.at);
     ends.push_back(tooth.end - slope * tooth.at);
   }
-  Ends fit{.begin = {slope, median(begins)}, .end = {slope, median(ends)}};
-  for (auto const& tooth : teeth)
-    fit.off += std::abs(tooth.begin - fit.begin(tooth.at)) + std::abs(tooth.end - fit.end(tooth.at));
-  return fit;
+  return {.slope = slope, .begin = common_of(begins), .end = common_of(ends)};
 }
 
-/// Most rows go straight across their sides; what is hidden of some must not slant them.
+/// Most rows go straight across their sides. Slanted ones shift as some two of their sides do, and most others agree.
 Ends ends_of(std::span<Tooth const> teeth) {
-  auto const whole = whole_ones(teeth);
-  auto const straight = ends_with(0.0, whole);
-  auto const slanted = ends_with(slope_of(whole), whole);
-  constexpr double much_better = 0.75;
-  return slanted.off < much_better * straight.off ? slanted : straight;
+  auto const straight = ends_with(0.0, teeth);
+  auto best = straight;
+  constexpr double steepest = 1.2;
+  for (std::size_t a = 0; a < teeth.size(); ++a) {
+    for (std::size_t b = a + 1; b < teeth.size(); ++b) {
+      double const apart = teeth[b].at - teeth[a].at;
+      if (apart <= 1.0) continue;
+      for (double const shift : {teeth[b].begin - teeth[a].begin, teeth[b].end - teeth[a].end}) {
+        if (std::abs(shift) > steepest * apart) continue;
+        auto const slanted = ends_with(shift / apart, teeth);
+        if (slanted.agreed() > best.agreed()) best = slanted;
+      }
+    }
+  }
+  constexpr double clearly = 1.3;
+  return static_cast<double>(best.agreed()) > clearly * static_cast<double>(straight.agreed()) ? best : straight;
 }
 
-std::optional<LineRow> row_of(std::span<PaintedLine const> family) {
+/// Kerbs and walls beside the row are parallel to its sides, too, but go beyond them at one end and not to the other.
+void drop_beside(LineRow& row) {
+  constexpr double beyond = 0.8;
+  constexpr double short_of = 0.5;
+  auto const is_beside = [&](Tooth const& tooth) {
+    double const before = row.begin(tooth.at) - tooth.begin;
+    double const after = tooth.end - row.end(tooth.at);
+    return (before > beyond && std::abs(after) > short_of) || (after > beyond && std::abs(before) > short_of);
+  };
+  while (row.teeth.size() > 3 && is_beside(row.teeth.front())) row.teeth.erase(row.teeth.begin());
+  while (row.teeth.size() > 3 && is_beside(row.teeth.back())) row.teeth.pop_back();
+}
+
+/// A line along the row, where heads meet: by its place at the row's `begin` 0 and at its `end` 1. None if nothing is
+/// painted there.
+std::optional<double> spine_of(LineRow const& row, std::span<PaintedLine const> lines) {
+  auto const way = row.across + row.begin.slope * row.along;
+  double const first = row.teeth.front().at;
+  double const last = row.teeth.back().at;
+  std::vector<double> places;
+  double covered = 0.0;
+  for (auto const& line : lines) {
+    auto const direction = direction_of(line);
+    if (std::abs(direction.x * way.y - direction.y * way.x) > std::sin(same_direction) * cv::norm(way)) continue;
+    auto const middle = 0.5 * (line.from + line.to);
+    double const at = middle.dot(row.across);
+    double const share = (middle.dot(row.along) - row.begin(at)) / (row.end(at) - row.begin(at));
+    constexpr double outermost = 0.35;
+    if (at < first || at > last || share < outermost || share > 1.0 - outermost) continue;
+    places.push_back(share);
+    covered += line.length();
+  }
+  constexpr double least_share = 0.2;
+  if (covered < least_share * (last - first)) return std::nullopt;
+  return median(std::move(places));
+}
+
+/// Two rows head to head are equally deep: where the sides say otherwise, what more of them agree on tells the other.
+void even_out(LineRow& row, Ends const& ends, double head_share) {
+  double const whole = row.end.offset - row.begin.offset;
+  double const head = row.begin.offset + head_share * whole;
+  constexpr double as_deep = 0.4;
+  if (std::abs((1.0 - 2.0 * head_share) * whole) > as_deep) {
+    if (ends.begin.count > ends.end.count) {
+      row.end.offset = 2.0 * head - row.begin.offset;
+    } else if (ends.end.count > ends.begin.count) {
+      row.begin.offset = 2.0 * head - row.end.offset;
+    }
+  }
+  row.head = (head - row.begin.offset) / (row.end.offset - row.begin.offset);
+}
+
+std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<PaintedLine const> lines) {
   LineRow row;
   row.along = common_direction(family);
   row.across = {-row.along.y, row.along.x};
@@ -198,11 +259,15 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family) {
   row.teeth = on_comb(row.teeth, row.pitch);
   if (row.teeth.size() < 3) return std::nullopt;
   auto const ends = ends_of(row.teeth);
-  row.begin = ends.begin;
-  row.end = ends.end;
-  double const middle = row.teeth[row.teeth.size() / 2].at;
-  double const depth = row.end(middle) - row.begin(middle);
+  row.begin = {.slope = ends.slope, .offset = ends.begin.at};
+  row.end = {.slope = ends.slope, .offset = ends.end.at};
+  double const depth = row.end.offset - row.begin.offset;
   if (depth < shallowest || depth > deepest) return std::nullopt;
+  drop_beside(row);
+  if (depth >= deepest_slot) {
+    row.head = 0.5;
+    if (auto const head = spine_of(row, lines)) even_out(row, ends, *head);
+  }
   return row;
 }
 
@@ -215,7 +280,7 @@ std::vector<LineRow> rows_of(std::span<PaintedLine const> lines) {
   });
   std::vector<LineRow> rows;
   for (auto const& family : families(sides)) {
-    if (auto row = row_of(family)) rows.push_back(*std::move(row));
+    if (auto row = row_of(family, lines)) rows.push_back(*std::move(row));
   }
   return rows;
 }

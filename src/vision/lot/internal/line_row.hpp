@@ -33,6 +33,7 @@ struct LineRow {
   double pitch = 0.0;
   Linear begin;  ///< where sides begin and end, by place along the row: slanted rows shift
   Linear end;
+  std::optional<double> head;  ///< of two rows head to head: where they meet, 0 at `begin` and 1 at `end`
 
   [[nodiscard]] cv::Point2d point(double place, double share) const {
     return place * across + (begin(place) + share * (end(place) - begin(place))) * along;
