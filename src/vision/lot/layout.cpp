@@ -20,6 +20,7 @@ constexpr double widest_slot = 4.3;
 struct Side {
   double at = 0.0;
   std::optional<Tooth> painted{};
+  bool is_lone_gap = false;  ///< the only one that is missing between two that are painted
 };
 
 /// The part of the sides that one slot takes.
@@ -75,7 +76,8 @@ std::vector<Side> comb_of(LineRow const& row, std::span<Depth const> depths, std
       double const gap = tooth.at - last;
       int const steps = static_cast<int>(std::lround(gap / row.pitch));
       bool const fits = std::abs(gap - steps * row.pitch) < 0.12 * steps * row.pitch + 0.2;
-      for (int k = 1; fits && steps <= most_hidden && k < steps; ++k) comb.push_back({.at = last + gap * k / steps});
+      for (int k = 1; fits && steps <= most_hidden && k < steps; ++k)
+        comb.push_back({.at = last + gap * k / steps, .is_lone_gap = steps == 2});
     }
     comb.push_back({.at = tooth.at, .painted = tooth});
   }
@@ -119,15 +121,23 @@ bool is_hatched(SlotShape const& slot, std::span<PaintedLine const> lines) {
   return count >= 3;
 }
 
-/// How sure a slot is by its sides, none if it is none.
-std::optional<double> surety_of(bool first, bool second, bool has_car, bool is_long_row) {
+/// What speaks for a slot.
+struct Signs {
+  int painted_sides = 0;
+  bool has_car = false;
+  bool is_lone_gap = false;  ///< of its other side
+  bool is_long_row = false;
+};
+
+/// How sure a slot is, none if it is none.
+std::optional<double> surety_of(Signs const& signs) {
   constexpr double painted = 0.95;
   constexpr double half_painted = 0.8;
-  constexpr double by_car = 0.6;
-  if (first && second) return painted;
-  if (!has_car) return std::nullopt;
-  if (first || second) return half_painted;
-  return is_long_row ? std::optional(by_car) : std::nullopt;
+  constexpr double by_rest = 0.6;
+  if (signs.painted_sides == 2) return painted;
+  if (signs.painted_sides == 1 && signs.has_car) return half_painted;
+  if (signs.painted_sides == 1 && signs.is_lone_gap && signs.is_long_row) return by_rest;
+  return signs.has_car && signs.is_long_row ? std::optional(by_rest) : std::nullopt;
 }
 
 void add_slots(LineRow const& row, std::span<TurnedBox const> cars, std::vector<SlotShape>& slots) {
@@ -139,8 +149,11 @@ void add_slots(LineRow const& row, std::span<TurnedBox const> cars, std::vector<
     auto const& second = comb[k];
     if (second.at - first.at < narrowest_slot || second.at - first.at > widest_slot) continue;
     for (auto const& depth : depths) {
-      auto const surety = surety_of(is_painted(row, first, depth), is_painted(row, second, depth),
-                                    has_car(row, first.at, second.at, depth, cars), comb.size() > long_row);
+      int const painted = (is_painted(row, first, depth) ? 1 : 0) + (is_painted(row, second, depth) ? 1 : 0);
+      auto const surety = surety_of({.painted_sides = painted,
+                                     .has_car = has_car(row, first.at, second.at, depth, cars),
+                                     .is_lone_gap = first.is_lone_gap || second.is_lone_gap,
+                                     .is_long_row = comb.size() > long_row});
       if (!surety) continue;
       slots.push_back({.corners = {row.point(first.at, depth.begin), row.point(second.at, depth.begin),
                                    row.point(second.at, depth.end), row.point(first.at, depth.end)},

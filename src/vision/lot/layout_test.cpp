@@ -89,6 +89,19 @@ TEST(Layout, HiddenSidesAreCompletedWhereCarsStand) {
   for (int const k : {0, 1, 2, 4, 5, 6}) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
 }
 
+TEST(Layout, OneSideThatIsMissingInALongRowIsCompleted) {
+  std::vector<PaintedLine> const lines{side(0), side(1), side(3), side(4), side(5), side(6)};
+  auto const slots = slots_between(lines, {});
+  EXPECT_EQ(slots.size(), 6U);
+  for (int k = 0; k < 6; ++k) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
+}
+
+TEST(Layout, PaintThatShowsFartherOutIsTheEndThoughMoreSidesAreHidden) {
+  std::vector<PaintedLine> lines;
+  for (int k = 0; k < 9; ++k) lines.push_back({{10.0 + k * pitch, k < 4 ? 4.0 : 5.2}, {10.0 + k * pitch, 4.0 + depth}});
+  EXPECT_TRUE(has_slot_at(slots_between(lines, {}), 10.0 + 0.5 * pitch, 6.5));
+}
+
 TEST(Layout, WhatIsHatchedIsNoSlot) {
   std::vector<PaintedLine> lines{side(0), side(1), side(2), side(3)};
   for (int k = 0; k < 4; ++k) {

@@ -134,27 +134,31 @@ std::vector<Tooth> on_comb(std::span<Tooth const> teeth, double pitch) {
   return kept;
 }
 
-/// Where many sides begin or end, of what `values` says of each: cars hide some ends, joints of the ground prolong
-/// others, and neither by the same length everywhere.
+/// Where many sides begin or end.
 struct Common {
   double at = 0.0;
   std::size_t count = 0;
 };
 
-Common common_of(std::span<double const> values) {
+/// `values`: where each side ends, `outward` 1 or -1. Cars hide some ends, joints of the ground prolong others, mostly
+/// each by a length of its own: of the places where many agree the outermost is the paint's end.
+Common common_of(std::span<double const> values, double outward) {
   constexpr double same_place = 0.3;
-  Common best;
+  std::vector<Common> places;
   for (double const value : values) {
-    double sum = 0.0;
-    std::size_t count = 0;
+    auto& place = places.emplace_back();
     for (double const other : values) {
       if (std::abs(other - value) > same_place) continue;
-      sum += other;
-      ++count;
+      place.at += other;
+      ++place.count;
     }
-    if (count > best.count) best = {.at = sum / static_cast<double>(count), .count = count};
+    place.at /= static_cast<double>(place.count);
   }
-  return best;
+  auto const most = std::ranges::max(places, {}, &Common::count).count;
+  constexpr std::size_t at_least = 3;
+  auto const enough = std::min(most, std::max(at_least, 2 * most / 5));
+  std::erase_if(places, [&](auto const& place) { return place.count < enough; });
+  return std::ranges::max(places, {}, [&](auto const& place) { return outward * place.at; });
 }
 
 /// Where both ends of the sides lie if they shift by `slope` from place to place.
@@ -173,7 +177,7 @@ Ends ends_with(double slope, std::span<Tooth const> teeth) {
     begins.push_back(tooth.begin - slope * tooth.at);
     ends.push_back(tooth.end - slope * tooth.at);
   }
-  return {.slope = slope, .begin = common_of(begins), .end = common_of(ends)};
+  return {.slope = slope, .begin = common_of(begins, -1.0), .end = common_of(ends, 1.0)};
 }
 
 /// Most rows go straight across their sides. Slanted ones shift as some two of their sides do, and most others agree.
