@@ -67,6 +67,18 @@ cv::Mat covered_of_answer(cv::Mat const& answer) {
   return plane(answer, planes - 1);
 }
 
+void confirm(cv::Mat& answer, cv::Mat const& mirror) {
+  check_shape(answer);
+  check_shape(mirror);
+  for (int const which : {0, planes - 1}) {
+    cv::Mat own = plane(answer, which);
+    cv::Mat back;
+    constexpr int left_to_right = 1;
+    cv::flip(plane(mirror, which), back, left_to_right);
+    cv::addWeighted(own, 0.5, back, 0.5, 0.0, own);
+  }
+}
+
 std::vector<SeenCar> each_once(std::vector<SeenCar> cars) {
   std::ranges::stable_sort(cars, std::ranges::greater(), &SeenCar::score);
   std::vector<SeenCar> kept;

@@ -27,6 +27,10 @@ struct SeenCar {
 /// The last plane of it: a view, as long as the answer lives.
 [[nodiscard]] cv::Mat covered_of_answer(cv::Mat const& answer);
 
+/// `mirror`: the answer to the mirror image of the same square. Both chances become the mean of what the two say: what
+/// one of them alone shows is less sure.
+void confirm(cv::Mat& answer, cv::Mat const& mirror);
+
 /// Each vehicle once, the surest first: what lies within half a width of a surer one is that one.
 [[nodiscard]] std::vector<SeenCar> each_once(std::vector<SeenCar> cars);
 

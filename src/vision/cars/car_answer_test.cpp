@@ -66,6 +66,21 @@ TEST(CarAnswer, NoNumberOfTheNetworkMakesAVehicleOfNoSize) {
   EXPECT_GT(cars[0].box.width, 4.0);
 }
 
+TEST(CarAnswer, WhatTheMirrorImageDoesNotShowIsLessSure) {
+  auto answer = nothing();
+  auto mirror = nothing();
+  say(answer, 10, 20, 3.0F, 0.0);
+  say(answer, 40, 20, 3.0F, 0.0);
+  say(mirror, 10, places - 1 - 20, 1.0F, 0.0);
+  confirm(answer, mirror);
+  auto const cars = cars_of_answer(answer, 0.5);
+  ASSERT_EQ(cars.size(), 1U);
+  EXPECT_NEAR(cars[0].box.middle.y, 42.0, 1e-6);
+  EXPECT_NEAR(cars[0].score, 1.0 / (1.0 + std::exp(-2.0)), 1e-6);
+  EXPECT_FLOAT_EQ(covered_of_answer(answer).at<float>(10, 20), 1.0F);
+  EXPECT_FLOAT_EQ(covered_of_answer(answer).at<float>(40, 20), 0.5F);
+}
+
 TEST(CarAnswer, AnAnswerOfAnotherShapeIsRefused) {
   int const shape[] = {1, 5, 20, 20};
   EXPECT_THROW((void)cars_of_answer(cv::Mat(4, shape, CV_32F, cv::Scalar(0.0)), 0.5), cv::Exception);

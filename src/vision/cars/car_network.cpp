@@ -74,6 +74,16 @@ cv::Mat CarNetwork::answer_to(cv::Mat const& square) {
   return net_.forward();
 }
 
+cv::Mat CarNetwork::confirmed_answer_to(cv::Mat const& square) {
+  // The network's own memory, which the mirror image overwrites.
+  cv::Mat answer = answer_to(square).clone();
+  cv::Mat mirrored;
+  constexpr int left_to_right = 1;
+  cv::flip(square, mirrored, left_to_right);
+  confirm(answer, answer_to(mirrored));
+  return answer;
+}
+
 std::vector<SeenCar> CarNetwork::look_at_square(cv::Mat const& pixels, double least_score) {
   return cars_of_answer(answer_to(squared(pixels)), least_score);
 }
@@ -89,8 +99,7 @@ Overhead CarNetwork::look(cv::Mat const& pixels, double metres_a_pixel, double l
   for (int const top : beginnings(scaled.rows)) {
     for (int const left : beginnings(scaled.cols)) {
       cv::Rect const tile(left, top, std::min(car_input, scaled.cols - left), std::min(car_input, scaled.rows - top));
-      // The network's own memory, which the next tile overwrites.
-      auto const answer = answer_to(squared(scaled(tile)));
+      auto const answer = confirmed_answer_to(squared(scaled(tile)));
       for (auto car : cars_of_answer(answer, least_score)) {
         car.box.middle.x += left;
         car.box.middle.y += top;

@@ -34,6 +34,8 @@ class CarNetwork {
  private:
   explicit CarNetwork(cv::dnn::Net const& net) : net_(net) {}  // which is a handle
   [[nodiscard]] cv::Mat answer_to(cv::Mat const& square);
+  /// Of the square and its mirror image.
+  [[nodiscard]] cv::Mat confirmed_answer_to(cv::Mat const& square);
 
   cv::dnn::Net net_;
 };
