@@ -120,6 +120,10 @@ case $target in
       printf '\1\1\1\2\0\5'; head -c 25 /dev/zero
       printf '\2\0\1\1\0\4\6\1\1\0\0\0{}\1\1\1\4\5\0zerofive'; } | seed archive
     ;;
+  jpeg)
+    # Grey, eight pixels a side: all that a decoder wants.
+    python3 "$root/fuzz/video/jpeg_seed.py" | seed grey
+    ;;
   picture)
     # A grey PNG of one pixel, and the beginnings of a JPEG with EXIF and of a WebP.
     { printf '\211PNG\r\n\032\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\10\0\0\0\0:~\233U\0\0\0\nIDATx\234c`\0\0\0\2\0\1H\257\244q\0\0\0\0IEND\256B`\202'; } | seed png
