@@ -15,6 +15,7 @@ constexpr std::string_view slam = "lapwing-slam";
 constexpr std::string_view eyes = "lapwing-vision";
 constexpr std::string_view aboard = "lapwing-onboard";
 constexpr std::string_view seeing = "lapwing-perceive";
+constexpr std::string_view showing = "lapwing-stream";
 
 /// In the order in which help shows them.
 constexpr std::array table{
@@ -30,6 +31,7 @@ constexpr std::array table{
     Verb{"station", "Ground station with the map; scripts start from the browser", vehicles},
     Verb{"onboard", "The programs on a survey drone: flight bridge and decisions, started and watched", aboard},
     Verb{"perceive", "What a survey drone sees, maps and plans, as lapwing onboard starts it", seeing},
+    Verb{"stream", "A survey drone's pictures as H.264 over RTSP, as lapwing onboard starts it", showing},
     Verb{"explore", "Let simulated robots explore a floor plan: travel, time and coverage", maps},
     Verb{"map", "Make a floor map of what a robot's laser and wheels recorded", slam},
     Verb{"store", "What the map's store holds: list, verify, compact, export, import, copy", maps},

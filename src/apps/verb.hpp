@@ -37,6 +37,9 @@ void add_onboard(CLI::App& program, int& exit_code);
 void add_overlook(CLI::App& program, int& exit_code);
 void add_perceive(CLI::App& program, int& exit_code);
 
+// That of lapwing-stream:
+void add_stream(CLI::App& program, int& exit_code);
+
 // Those of lapwing-vision:
 void add_detect(CLI::App& program, int& exit_code);
 void add_look(CLI::App& program, int& exit_code);

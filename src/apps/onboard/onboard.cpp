@@ -102,34 +102,54 @@ class OwnProcess {
   base::Scope scope_{loop_};
 };
 
-std::filesystem::path perceive_program() {
+/// A process that has a program of its own, in the folder of this one, which reads the same file.
+struct Beside {
+  std::string_view process;  ///< also the program's verb
+  std::string_view program;
+  std::string_view what_needs_it;
+  std::string_view what_it_needs;
+};
+constexpr Beside perceive{.process = perceive_process,
+                          .program = "lapwing-perceive",
+                          .what_needs_it = "a camera",
+                          .what_it_needs = "OpenCV (setup/packages-vision.txt)"};
+constexpr Beside stream{.process = stream_process,
+                        .program = "lapwing-stream",
+                        .what_needs_it = "[rtsp]",
+                        .what_it_needs = "GStreamer (setup/packages-stream.txt)"};
+
+std::filesystem::path this_program() {
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "lapwing-perceive";
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+std::filesystem::path path_of(Beside const& beside) {
+  return this_program().parent_path() / beside.program;
 }
 
-/// What starts the processes of this program: itself, with another word.
+/// What starts the processes: this program with another word, or one beside it.
 void complete_commands(OnboardConfig& config, std::string const& file) {
-  std::error_code error;
-  auto const program = std::filesystem::read_symlink("/proc/self/exe", error).string();
-  for (auto& process : config.processes)
-    if (process.command.empty() && process.name == perceive_process)
-      process.command = {perceive_program().string(), "perceive", "--config", file};
-    else if (process.command.empty())
-      process.command = {program, "onboard", "--config", file, "--only", process.name};
+  for (auto& [name, command, tells_life] : config.processes) {
+    if (!command.empty()) continue;
+    command = {this_program().string(), "onboard", "--config", file, "--only", name};
+    for (auto const& beside : {perceive, stream})
+      if (name == beside.process) command = {path_of(beside).string(), name, "--config", file};
+  }
 }
 
-/// Camera and survey are checked by the program that has them, before anything is started.
-bool is_seeing_sound(std::string const& file) {
+/// Its part of the file is checked by the program that has it, before anything is started.
+bool is_sound(Beside const& beside, std::string const& file) {
   constexpr std::uint64_t most_memory = std::uint64_t{16} << 30U;  // of address space, for libraries alone
   base::Loop loop;
-  auto const outcome = loop.run_until_done(base::run_child(loop, {.program = perceive_program(),
-                                                                  .words = {"perceive", "--config", file, "--check"},
-                                                                  .most_memory_bytes = most_memory}));
+  auto const outcome =
+      loop.run_until_done(base::run_child(loop, {.program = path_of(beside),
+                                                 .words = {std::string(beside.process), "--config", file, "--check"},
+                                                 .most_memory_bytes = most_memory}));
   if (!outcome) {
-    host::print_error({.kind = outcome.error().kind,
-                       .message = fmt::format("{} has a camera, and {} is not to be started: {}", file,
-                                              perceive_program().string(), outcome.error().message),
-                       .hint = "./lapwing perceive --help builds it; it needs OpenCV (setup/packages-vision.txt)"});
+    host::print_error(
+        {.kind = outcome.error().kind,
+         .message = fmt::format("{} has {}, and {} is not to be started: {}", file, beside.what_needs_it,
+                                path_of(beside).string(), outcome.error().message),
+         .hint = fmt::format("./lapwing {} --help builds it; it needs {}", beside.process, beside.what_it_needs)});
     return false;
   }
   fmt::print(stderr, "{}", outcome->errors);
@@ -157,16 +177,19 @@ int supervise(OnboardConfig config, std::string const& file) {
 }
 
 int start_onboard(OnboardArguments const& arguments) {
-  bool sees = false;
-  auto const read = [&sees](base::SourceFile const& source, base::Diagnostics& diagnostics) {
-    auto found = read_onboard_config(source, diagnostics);
-    sees = found.sees;
+  OnboardConfig found;
+  auto const read = [&found](base::SourceFile const& source, base::Diagnostics& diagnostics) {
+    found = read_onboard_config(source, diagnostics);
     return found;
   };
   auto config = host::load_config(arguments.config, read, "docs/reference/onboard.md");
-  bool const is_sound = !sees || !arguments.only.empty() || is_seeing_sound(arguments.config);
+  bool are_sound = true;
+  if (arguments.only.empty()) {
+    if (found.sees) are_sound &= is_sound(perceive, arguments.config);
+    if (found.shows) are_sound &= is_sound(stream, arguments.config);
+  }
   if (!config) return host::refuse(config.error());
-  if (!is_sound) return host::exit_usage;
+  if (!are_sound) return host::exit_usage;
   if (arguments.only.empty()) return supervise(*std::move(config), arguments.config);
   OwnProcess process(arguments.only, *std::move(config));
   return process.run();

@@ -121,7 +121,8 @@ void read_operator(ConfigReader& root, base::SourceFile const& source, Diagnosti
   table->refuse_unknown();
 }
 
-onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics& diagnostics, bool sees) {
+onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics& diagnostics,
+                                  OnboardConfig const& config) {
   onboard::ProcessSpec spec;
   auto const name = table.value.text("name");
   if (name) spec.name = name->value;
@@ -135,7 +136,9 @@ onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics
     diagnostics.report(invalid_value, name->span, fmt::format("{} is in this program and takes no command", spec.name),
                        "give a process of your own another name");
   // It has a program of its own, which is known.
-  bool const is_own = is_within || (sees && spec.name == perceive_process && !command);
+  bool const is_beside =
+      (config.sees && spec.name == perceive_process) || (config.shows && spec.name == stream_process);
+  bool const is_own = is_within || (is_beside && !command);
   if (name && !is_own && spec.command.empty())
     diagnostics.report(invalid_value, name->span,
                        fmt::format("there is no process {} in this program, and no command for it", spec.name),
@@ -149,7 +152,7 @@ onboard::ProcessSpec read_process(base::Placed<ConfigReader>& table, Diagnostics
 void read_processes(ConfigReader& root, Diagnostics& diagnostics, OnboardConfig& config) {
   std::set<std::string, std::less<>> names;
   for (auto& table : root.tables("process")) {
-    auto spec = read_process(table, diagnostics, config.sees);
+    auto spec = read_process(table, diagnostics, config);
     if (!spec.name.empty() && !names.insert(spec.name).second)
       diagnostics.report(invalid_value, table.span, fmt::format("there are two processes {}", spec.name));
     if (spec.name == bridge_process && names.contains(decide_process))
@@ -160,7 +163,8 @@ void read_processes(ConfigReader& root, Diagnostics& diagnostics, OnboardConfig&
   }
   if (!config.processes.empty() || root.has("process")) return;
   config.processes.push_back({.name = std::string(bridge_process)});
-  if (config.sees) config.processes.push_back({.name = std::string(perceive_process), .tells_life = true});
+  if (config.sees) config.processes.push_back({.name = std::string(perceive_process)});
+  if (config.shows) config.processes.push_back({.name = std::string(stream_process)});
   config.processes.push_back({.name = std::string(decide_process)});
 }
 
@@ -175,11 +179,15 @@ OnboardConfig read_onboard_config(base::SourceFile const& source, base::Diagnost
   read_decide(root, source, diagnostics, config.decide);
   read_operator(root, source, diagnostics, config);
   if (auto const file = root.text("health_file")) config.health_file = beside(source, file->value);
-  // What is in them lapwing-perceive reads and checks.
+  // What is in them lapwing-perceive and lapwing-stream read and check.
   config.sees = root.has("camera");
-  for (auto const* const table : {"camera", "survey", "stream"}) (void)root.table(table);
+  config.shows = root.has("rtsp");
+  for (auto const* const table : {"camera", "survey", "stream", "rtsp"}) (void)root.table(table);
   if (!config.sees && root.has("survey"))
     diagnostics.report(invalid_value, {0, 1}, "a survey needs a camera",
+                       "[camera] with kind = \"simulated\" and a world, ...");
+  if (config.shows && !config.sees)
+    diagnostics.report(invalid_value, {0, 1}, "[rtsp] shows what a camera sees, and there is none",
                        "[camera] with kind = \"simulated\" and a world, ...");
   read_processes(root, diagnostics, config);
   root.refuse_unknown();

@@ -16,8 +16,9 @@ namespace lapwing::apps {
 /// The processes that this program has itself.
 inline constexpr std::string_view bridge_process = "bridge";
 inline constexpr std::string_view decide_process = "decide";
-/// That of lapwing-perceive, which is in the same folder.
+/// Those of lapwing-perceive and lapwing-stream, which are in the same folder.
 inline constexpr std::string_view perceive_process = "perceive";
+inline constexpr std::string_view stream_process = "stream";
 
 /// A vehicle's programs as its file describes them: docs/reference/onboard.md.
 struct OnboardConfig {
@@ -28,6 +29,7 @@ struct OnboardConfig {
   std::vector<onboard::ProcessSpec> processes = {};  ///< own ones have no command
   std::filesystem::path health_file = {};            ///< empty: none
   bool sees = false;                                 ///< there is a camera, so that perceive is a process
+  bool shows = false;                                ///< its pictures go over RTSP, so that stream is one
 };
 
 /// Reads the file's text; paths in it count from the file's folder. Everything wrong is reported; the result is to be

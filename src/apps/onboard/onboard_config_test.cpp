@@ -46,6 +46,20 @@ TEST(OnboardConfig, WithACameraSeesBeforeItDecides) {
   EXPECT_NE(read("[survey]\n").mistakes.find("a survey needs a camera"), std::string::npos);
 }
 
+TEST(OnboardConfig, ShowsWhatItSeesOverRtsp) {
+  auto const [config, mistakes] = read("[camera]\n[stream]\n[rtsp]\nport = 1\n");
+  EXPECT_EQ(mistakes, "");
+  EXPECT_TRUE(config.shows);
+  ASSERT_EQ(config.processes.size(), 4U);
+  EXPECT_EQ(config.processes[1].name, "perceive");
+  EXPECT_EQ(config.processes[2].name, "stream") << "who has the pictures is there first";
+  EXPECT_TRUE(config.processes[2].tells_life);
+  EXPECT_FALSE(read("[camera]\n[stream]\n").config.shows);
+  EXPECT_EQ(read("[camera]\n[rtsp]\n[[process]]\nname = \"stream\"\n").mistakes, "");
+  EXPECT_NE(read("[camera]\n[[process]]\nname = \"stream\"\n").mistakes.find("no process stream"), std::string::npos);
+  EXPECT_NE(read("[rtsp]\n").mistakes.find("there is none"), std::string::npos);
+}
+
 TEST(OnboardConfig, IsReadWhole) {
   auto const [config, mistakes] = read(R"(
 health_file = "health.json"

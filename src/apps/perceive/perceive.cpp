@@ -9,13 +9,13 @@
 
 #include <opencv2/core/utility.hpp>
 
+#include "apps/onboard/stream_config.hpp"
 #include "apps/perceive/car_network.hpp"
 #include "apps/perceive/perceive_config.hpp"
 #include "apps/verb.hpp"
 #include "base/log.hpp"
 #include "host/files/config_file.hpp"
 #include "host/files/files.hpp"
-#include "host/files/secret_file.hpp"
 #include "host/session/signals.hpp"
 #include "onboard/life/life_line.hpp"
 
@@ -45,9 +45,7 @@ int perceive_until_stopped(PerceiveConfig config) {
       stop();
     });
   if (!config.stream_token_file.empty()) {
-    auto token = host::read_secret({.path = config.stream_token_file.string(),
-                                    .what = "token file",
-                                    .hint = "make one: openssl rand -hex 32 > FILE; chmod 600 FILE"});
+    auto token = stream_token(config.stream_token_file);
     if (!token) return host::refuse(token.error());
     config.perceive.stream->token = *std::move(token);
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/onboard/bus_config.hpp"
+#include "apps/onboard/stream_config.hpp"
 #include "base/config.hpp"
 #include "video/camera/camera_settings.hpp"
 
@@ -71,20 +72,6 @@ void read_survey(ConfigReader& root, fs::path const& beside, Diagnostics& diagno
   table->refuse_unknown();
 }
 
-void read_stream(ConfigReader& root, fs::path const& beside, PerceiveConfig& config) {
-  auto table = root.table("stream");
-  if (!table) return;
-  auto& stream = config.perceive.stream.emplace();
-  if (auto const pictures = table->number("pictures_a_s", 0.2, 60.0)) config.perceive.shown_a_s = pictures->value;
-  if (auto const address = table->text("address")) stream.address = address->value;
-  if (auto const port = table->integer("port", 0, 65535)) stream.port = static_cast<std::uint16_t>(port->value);
-  if (auto const most = table->integer("most_viewers", 1, 64))
-    stream.most_viewers = static_cast<std::size_t>(most->value);
-  if (auto const file = table->text("token_file")) config.stream_token_file = beside / file->value;
-  table->refuse("token", "keep it in a file of its own (mode 0600): token_file = \"camera.token\"");
-  table->refuse_unknown();
-}
-
 /// That a survey can be made of it: tried at the first corner, since it shows only in flight where home is.
 void try_survey(perceive::SurveyOrder const& order, Diagnostics& diagnostics) {
   auto const made = perceive::Surveyor::make(order, {.anchor = order.area.front()}, {});
@@ -106,7 +93,11 @@ PerceiveConfig read_perceive_config(base::SourceFile const& source, base::Diagno
     diagnostics.report(invalid_value, beginning, "there is no camera",
                        "[camera] with kind = \"simulated\" and a world, ...");
   read_survey(root, beside, diagnostics, settings);
-  read_stream(root, beside, config);
+  if (auto const stream = read_stream(root, beside)) {
+    settings.stream = stream->serve;
+    settings.shown_a_s = stream->pictures_a_s;
+    config.stream_token_file = stream->token_file;
+  }
   auto& order = settings.order;
   order.planner.camera = settings.camera.lens;
   order.planner.tilt_rad = settings.camera.mount.tilt_rad;

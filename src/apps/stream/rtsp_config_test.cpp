@@ -1,0 +1,65 @@
+#include "apps/stream/rtsp_config.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace lapwing::apps {
+namespace {
+
+struct Read {
+  RtspConfig config;
+  std::string mistakes;
+};
+
+Read read(std::string text) {
+  base::SourceFile const source("/etc/lapwing/onboard.toml", std::move(text));
+  base::Diagnostics diagnostics(source);
+  auto config = read_rtsp_config(source, diagnostics);
+  return {std::move(config), base::render(diagnostics)};
+}
+
+TEST(RtspConfig, IsReadWhole) {
+  auto const [config, mistakes] = read(R"(
+[camera]
+kind = "is read by others"
+[stream]
+address = "0.0.0.0"
+port = 3090
+token_file = "camera.token"
+pictures_a_s = 12.2
+[rtsp]
+address = "0.0.0.0"
+port = 9554
+most_viewers = 3
+kbit_a_s = 500
+)");
+  EXPECT_EQ(mistakes, "");
+  EXPECT_EQ(config.rtsp.address, "0.0.0.0");
+  EXPECT_EQ(config.rtsp.port, 9554);
+  EXPECT_EQ(config.rtsp.most_viewers, 3U);
+  EXPECT_EQ(config.rtsp.kbit_a_s, 500U);
+  EXPECT_EQ(config.rtsp.pictures_a_group, 25U) << "two seconds";
+  EXPECT_EQ(config.pictures.host, "127.0.0.1") << "on the same machine";
+  EXPECT_EQ(config.pictures.port, 3090);
+  EXPECT_EQ(config.token_file, "/etc/lapwing/camera.token");
+}
+
+TEST(RtspConfig, NeedsPictures) {
+  EXPECT_EQ(read("[stream]\n[rtsp]\n").mistakes, "");
+  EXPECT_NE(read("[rtsp]\n").mistakes.find("no pictures to be handed on"), std::string::npos);
+  EXPECT_NE(read("[stream]\n").mistakes.find("nothing is to be served"), std::string::npos);
+  EXPECT_NE(read("[stream]\nport = 0\n[rtsp]\n").mistakes.find("no port"), std::string::npos);
+  EXPECT_NE(read("[stream]\n[rtsp]\ntoken_file = \"x\"\n").mistakes.find("[stream] token_file"), std::string::npos);
+  EXPECT_NE(read("[stream]\n[rtsp]\nkbit_a_s = 1\n").mistakes.find("kbit_a_s"), std::string::npos);
+}
+
+TEST(RtspConfig, WantsATokenWhereOtherMachinesReachIt) {
+  EXPECT_NE(read("[stream]\n[rtsp]\naddress = \"0.0.0.0\"\n").mistakes.find("whoever is on the network"),
+            std::string::npos);
+  EXPECT_EQ(read("[stream]\ntoken_file = \"t\"\n[rtsp]\naddress = \"0.0.0.0\"\n").mistakes, "");
+  EXPECT_EQ(read("[stream]\n[rtsp]\naddress = \"127.0.0.2\"\n").mistakes, "");
+}
+
+}  // namespace
+}  // namespace lapwing::apps
