@@ -1,7 +1,5 @@
 #include "apps/stream/rtsp_config.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "apps/onboard/stream_config.hpp"
@@ -13,9 +11,6 @@ namespace lapwing::apps {
 using base::config_kinds::invalid_value;
 
 namespace {
-
-/// Who has lost a picture sees again after so long.
-constexpr double group_s = 2.0;
 
 /// Of what is missing: it has no place of its own.
 constexpr base::Span beginning{0, 1};
@@ -55,7 +50,7 @@ RtspConfig read_rtsp_config(base::SourceFile const& source, base::Diagnostics& d
     diagnostics.report(invalid_value, beginning, "the pictures have no port that others know", "[stream] port = 3080");
   config.pictures = {.host = reached_at(stream->serve.address), .port = stream->serve.port};
   config.token_file = stream->token_file;
-  config.rtsp.pictures_a_group = static_cast<unsigned>(std::ceil(group_s * stream->pictures_a_s));
+  config.rtsp.pictures_a_s = stream->pictures_a_s;
   if (config.token_file.empty() && !link::operator_link::is_loopback(config.rtsp.address))
     diagnostics.report(
         invalid_value, beginning,

@@ -39,7 +39,7 @@ kbit_a_s = 500
   EXPECT_EQ(config.rtsp.port, 9554);
   EXPECT_EQ(config.rtsp.most_viewers, 3U);
   EXPECT_EQ(config.rtsp.kbit_a_s, 500U);
-  EXPECT_EQ(config.rtsp.pictures_a_group, 25U) << "two seconds";
+  EXPECT_EQ(config.rtsp.pictures_a_s, 12.2);
   EXPECT_EQ(config.pictures.host, "127.0.0.1") << "on the same machine";
   EXPECT_EQ(config.pictures.port, 3090);
   EXPECT_EQ(config.token_file, "/etc/lapwing/camera.token");

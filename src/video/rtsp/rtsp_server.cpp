@@ -1,6 +1,7 @@
 #include "video/rtsp/rtsp_server.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -28,6 +29,8 @@ constexpr unsigned connections_a_viewer = 4;
 /// A player whose network has gone keeps its place for so long. Players say at half that time that they are there.
 constexpr guint session_s = 30;
 constexpr guint cleanup_s = 5;
+/// Who has lost a picture sees again after so long.
+constexpr double group_s = 2.0;
 
 /// Zero latency: neither the encoder nor what packs holds back a picture for the ones behind it. Sides are
 /// even, as the profile that every player knows demands.
@@ -39,7 +42,7 @@ std::string pipeline(RtspSettings const& settings) {
       "{} name=encoder tune=zerolatency speed-preset=ultrafast threads=1 bitrate={} key-int-max={} "
       "min-force-key-unit-interval=500000000 ! video/x-h264,profile=constrained-baseline ! "
       "rtph264pay name=pay0 pt=96 config-interval=-1 aggregate-mode=zero-latency )",
-      encoder, settings.kbit_a_s, settings.pictures_a_group);
+      encoder, settings.kbit_a_s, static_cast<unsigned>(std::ceil(group_s * settings.pictures_a_s)));
 }
 
 bool is_loopback(std::string const& address) {
@@ -113,7 +116,7 @@ class RtspServer::Core {
     Owned<GstRTSPMountPoints> const mounts(gst_rtsp_server_get_mount_points(server_.get()));
     auto const* const role = settings_.token.empty() ? nullptr : user;
     for (auto const& path : paths) {
-      streams_.push_back(std::make_unique<RtspStream>(loop, [this] { changed_.notify_all(); }));
+      streams_.push_back(std::make_unique<RtspStream>(loop, [this] { changed_.notify_all(); }, settings_.pictures_a_s));
       streams_.back()->mount(mounts.get(), path, pipeline(settings_), role);
     }
   }

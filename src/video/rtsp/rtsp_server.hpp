@@ -15,12 +15,11 @@ namespace lapwing::video {
 
 struct RtspSettings {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8554;  ///< 0 picks a free one
-  unsigned most_viewers = 8;  ///< of all streams together
-  unsigned kbit_a_s = 2000;   ///< of each stream, about
-  /// One of so many stands alone: who has lost one sees again from the next of these on.
-  unsigned pictures_a_group = 20;
-  std::string token = {};  ///< what viewers give as the password of the user "viewer"; empty: nothing is asked
+  std::uint16_t port = 8554;   ///< 0 picks a free one
+  unsigned most_viewers = 8;   ///< of all streams together
+  unsigned kbit_a_s = 2000;    ///< of each stream, about
+  double pictures_a_s = 10.0;  ///< at most, about; one in two seconds stands alone, so that who has lost one sees again
+  std::string token = {};      ///< what viewers give as the password of the user "viewer"; empty: nothing is asked
 };
 
 /// Pictures as H.264 over RTSP (RFC 2326), one stream a path: each is encoded once for all who look at it, and only

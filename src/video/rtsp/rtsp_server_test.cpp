@@ -67,11 +67,20 @@ TEST_F(Rtsp, GivesEveryPlayerThePicturesOfItsPathAsTheyChange) {
 }
 
 TEST_F(Rtsp, BeginsForALatecomerWithAPictureThatStandsAlone) {
-  open({.pictures_a_group = 100'000});
+  open({.pictures_a_s = 5000});
   Player first(server->port(), "/plain");
   sees(first, true, plain, white);
   Player second(server->port(), "/plain");
   sees(second, true, plain, white);
+}
+
+TEST_F(Rtsp, KeepsNoPictureUntilTheNextOneComes) {
+  open();
+  Player player(server->port(), "/plain");
+  sees(player, false, plain, black);
+  loop.run_until_done(a_while());
+  server->offer(plain, white);
+  sees(player, true, plain, {});
 }
 
 TEST_F(Rtsp, IsWatchedWhileSomebodyLooks) {

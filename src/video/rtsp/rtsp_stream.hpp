@@ -17,7 +17,7 @@ namespace lapwing::video {
 class RtspStream {
  public:
   /// `changed`: somebody has begun to look, or nobody does any more.
-  RtspStream(base::Loop& loop, std::function<void()> changed);
+  RtspStream(base::Loop& loop, std::function<void()> changed, double pictures_a_s);
   RtspStream(RtspStream const&) = delete;
   RtspStream& operator=(RtspStream const&) = delete;
 
@@ -42,6 +42,7 @@ class RtspStream {
   void take(News news);
 
   std::function<void()> changed_;
+  int pictures_a_s_;
   std::shared_ptr<GstElement> source_;
   GstRTSPMedia const* media_ = nullptr;
   base::Inbox<News> inbox_;
