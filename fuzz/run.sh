@@ -49,6 +49,14 @@ case $target in
     printf '\004{"look":"signs","width":2,"height":1,"bytes":6}\nrgbrgb{"look":"signs","bytes":3}\njpg' | seed requests
     printf '\377{"signs":[{"box":[1,2,3,4],"score":0.5,"text":"221","kind":"office","crop_bytes":4}],"is_sharp":true,"bytes":4}\ncrop{"error":"it is black"}\n' | seed answers
     ;;
+  overlook)
+    where='"world":"a.toml","at":"2026-01-01T00:00:00Z","anchor":[41,-8,90]'
+    printf '{"look":"car park",%s,"width":96,"height":72,"view_rad":1.0,"pose":[1,2,30,0.5]}\n' "$where" | seed look
+    printf '{"look":"car park'"'"'s truth",%s}\n' "$where" | seed question
+    outline='"outline":[[0,0],[2.5,0],[2.5,5],[0,5]]'
+    printf '{"slots":[{%s,"surety":0.9,"taken":0.1}],"cars":[{%s,"chance":0.8}]}\n' "$outline" "$outline" | seed sight
+    printf '{"anchor":[41,-8,90],"ground_m":0,"slots":[{%s,"is_taken":true}]}\n' "$outline" | seed truth
+    ;;
   floor_plan)
     printf 'P2\n# a room\n9 9 1\n%s' "$(for y in 0 1 1 1 1 1 1 1 0; do for x in 0 1 1 1 1 1 1 1 0; do printf '%d ' $((x * y)); done; done)" | seed plain
     printf 'P5\n3 2\n255\n\000\376\376\000\376\315' | seed binary
