@@ -67,8 +67,10 @@ Eigen::Matrix2d covariance_of(WallPoint const& wall, double way_rad) {
   double const along_m = across_m * std::tan(slant_rad);
   Eigen::Vector2d const ahead(std::cos(way_rad), std::sin(way_rad));
   Eigen::Vector2d const aside(-ahead.y(), ahead.x());
-  return along_m * along_m * ahead * ahead.transpose() + across_m * across_m * aside * aside.transpose() +
-         place_sd_m * place_sd_m * Eigen::Matrix2d::Identity();
+  Eigen::Matrix2d const sum = along_m * along_m * ahead * ahead.transpose() +
+                              across_m * across_m * aside * aside.transpose() +
+                              place_sd_m * place_sd_m * Eigen::Matrix2d::Identity();
+  return (sum + sum.transpose()) / 2.0;  // the map takes no other, and rounding makes some
 }
 
 }  // namespace

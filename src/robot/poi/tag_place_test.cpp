@@ -63,6 +63,17 @@ TEST(TagPlace, IsLessSureAlongAWallThatIsSeenAslant) {
   EXPECT_GT(aslant->covariance_m2(0, 0), straight->covariance_m2(0, 0));
 }
 
+TEST(TagPlace, HasACovarianceThatTheMapTakes) {
+  auto const grid = hall();
+  CameraMount const mount{.yaw_rad = std::numbers::pi / 2.0};
+  for (double yaw_rad = -0.5; yaw_rad < 0.5; yaw_rad += 0.01) {
+    Body const body{{1.0, 0.4}, yaw_rad};
+    auto const place = tag_place(grid, body, mount, box_of(body, mount, 1.2, 2.0, 1.5));
+    ASSERT_TRUE(place) << yaw_rad;
+    EXPECT_EQ(place->covariance_m2(0, 1), place->covariance_m2(1, 0)) << yaw_rad;
+  }
+}
+
 TEST(TagPlace, IsNoneThroughAGapOfTheMapNorAtAHeightWhereNobodyHangsOne) {
   auto const grid = hall();
   CameraMount const mount{.yaw_rad = std::numbers::pi / 2.0};
