@@ -21,6 +21,7 @@ struct ChildProgram {
   std::chrono::seconds longest{60};                           ///< of wall time, whatever the loop's pace; 0: no limit
   std::uint64_t most_memory_bytes = std::uint64_t{2} << 30U;  ///< of address space
   std::uint64_t most_file_bytes = std::uint64_t{256} << 20U;  ///< of each file that it writes
+  int niceness = 10;                                          ///< to whoever else wants the processor
 };
 
 /// How it ended by itself.
@@ -29,8 +30,8 @@ struct ChildOutcome {
   std::string errors = {};  ///< the last of what it wrote to standard error
 };
 
-/// Starts the program with nothing to read, nice to whoever else wants the processor, and waits for its end; `heard` is
-/// given each line that it writes to standard output, on the loop. Whoever lets go of the task ends the program.
+/// Starts the program with nothing to read and waits for its end; `heard` is given each line that it writes to standard
+/// output, on the loop. Whoever lets go of the task ends the program.
 /// Errors: not_found when there is no such program; io; timed_out.
 [[nodiscard]] Task<Result<ChildOutcome>> run_child(Loop& loop, ChildProgram child,
                                                    std::function<void(std::string_view line)> heard = {});

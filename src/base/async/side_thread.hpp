@@ -39,17 +39,18 @@ class SideThread {
     while (!answer->is_there) co_await answer->arrived.wait();
     co_return std::move(*answer->result);
   }
-  /// The same for who needs the answer at the moment at which he asked, in a run that is to repeat: it comes in the
-  /// order of the pool's results, and time waits for it as it does for them (`Loop::on_pool`). So does the pool: at the
-  /// wall's pace, where time goes on, use `run`.
+  /// The same in a run that is to repeat: the answer comes `after` later, however long it really takes. Time waits for
+  /// it there if it has to, as it does for results of the pool (`Loop::on_pool`), in whose order it comes. So does the
+  /// pool: at the wall's pace, where time goes on, use `run`.
   template <class Job>
-  [[nodiscard]] Task<std::invoke_result_t<Job&, State&>> run_in_time(Job job) {
+  [[nodiscard]] Task<std::invoke_result_t<Job&, State&>> run_in_time(Job job, Duration after) {
     using Result = std::invoke_result_t<Job&, State&>;
     std::promise<Result> promise;
     auto answer = promise.get_future();
     thread_.submit([&state = *state_, job = std::move(job), promise = std::move(promise)]() mutable {
       promise.set_value(job(state));
     });
+    if (after > Duration::zero()) co_await loop_.sleep(after);
     auto const wait = [](std::future<Result> coming) { return coming.get(); };
     co_return co_await loop_.on_pool(wait, std::move(answer));
   }

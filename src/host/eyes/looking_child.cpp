@@ -75,7 +75,7 @@ base::ChildProgram LookingChild::program_beside_us(std::string const& name, std:
 
 LookingChild::LookingChild(base::Loop& loop, Settings settings, base::Logger log)
     : loop_(loop),
-      time_waits_(settings.time_waits),
+      takes_(settings.takes),
       log_(std::move(log)),
       stop_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_(std::make_unique<base::SideThread<Talk>>(loop, std::make_unique<Talk>(settings, stop_.get()))) {}
@@ -89,7 +89,7 @@ base::Task<base::Result<LookFrame>> LookingChild::ask(Request request) {
   if (!may_be_asked())
     co_return base::fail(is_missing_ ? ErrorKind::not_found : ErrorKind::lost, "nobody looks at pictures now");
   auto job = [request = std::move(request)](Talk& talk) mutable { return talk.ask(to_bytes(request())); };
-  auto talk = time_waits_ ? thread_->run_in_time(std::move(job)) : thread_->run(std::move(job));
+  auto talk = takes_ ? thread_->run_in_time(std::move(job), *takes_) : thread_->run(std::move(job));
   auto answer = co_await std::move(talk);
   note(answer);
   co_return answer;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/async/child_program.hpp"
@@ -22,8 +23,9 @@ class LookingChild {
  public:
   struct Settings {
     base::ChildProgram program = program_beside_us("lapwing-vision", "look");
-    /// Time stands until the answer is there, so that a run repeats; for every pace but the wall's.
-    bool time_waits = true;
+    /// What a look takes in time that is not the wall's, which waits if it takes longer, so that a run repeats;
+    /// nothing: for the wall's, which goes on.
+    std::optional<base::Duration> takes = std::chrono::milliseconds(400);
     std::chrono::seconds longest_look{30};  ///< of the wall's time; longer, and it hangs
   };
   LookingChild(base::Loop& loop, Settings settings, base::Logger log);
@@ -49,7 +51,7 @@ class LookingChild {
   void note(base::Result<LookFrame> const& answer);
 
   base::Loop& loop_;
-  bool time_waits_;
+  std::optional<base::Duration> takes_;
   base::Logger log_;
   bool is_missing_ = false;
   int failures_ = 0;  ///< one after the other

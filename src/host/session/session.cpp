@@ -183,8 +183,10 @@ base::Result<> Session::watch_car_park(std::filesystem::path const& world_file) 
   auto const file = std::filesystem::canonical(world_file, error);
   if (error) return base::fail(ErrorKind::not_found, fmt::format("{}: {}", world_file.string(), error.message()));
   auto program = LookingChild::program_beside_us("lapwing-perceive", "overlook");
+  // Drawing and looking take some 100 ms of a core.
+  auto const takes = speedup_ == 1.0 ? std::nullopt : std::optional<base::Duration>(std::chrono::milliseconds(200));
   overlook = std::make_unique<LookingChild>(
-      loop, LookingChild::Settings{.program = std::move(program), .time_waits = speedup_ != 1.0},
+      loop, LookingChild::Settings{.program = std::move(program), .takes = takes},
       log.named("car park"));
   lot_watch =
       std::make_unique<LotWatch>(loop, live_map,

@@ -15,7 +15,6 @@ namespace lapwing::base::internal {
 
 namespace {
 
-constexpr int niceness = 10;
 constexpr char const* prlimit = "/usr/bin/prlimit";
 
 /// The command line of util-linux's prlimit, which limits itself and then becomes the program. Limits that were set on
@@ -59,7 +58,7 @@ int spawn_child(ChildProgram const& child, ChildFiles const& ours, pid_t& pid) {
   int const error = ::posix_spawn(&pid, prlimit, &files, &how, words.data(), environ);
   ::posix_spawnattr_destroy(&how);
   ::posix_spawn_file_actions_destroy(&files);
-  if (error == 0) (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), niceness);
+  if (error == 0) (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), child.niceness);
   return error;
 }
 

@@ -13,8 +13,8 @@ struct ChildFiles {
   int errors = -1;
 };
 
-/// Starts it within its limits, nice to whoever else wants the processor, with no other file, no signal held back, and
-/// in a group of its own: a Ctrl+C for this program is none for it. Gives 0, or the system's number of what went wrong.
+/// Starts it within its limits, with no other file, no signal held back, and in a group of its own: a Ctrl+C for this
+/// program is none for it. Gives 0, or the system's number of what went wrong.
 [[nodiscard]] int spawn_child(ChildProgram const& child, ChildFiles const& files, pid_t& pid);
 
 }  // namespace lapwing::base::internal
