@@ -228,10 +228,13 @@ std::vector<Surface> Building::moving_surfaces(std::optional<std::size_t> withou
 }
 
 std::optional<Shot> Building::shoot(std::size_t robot) {
+  return shoot(robot, robots_[robot]->settings().camera);
+}
+
+std::optional<Shot> Building::shoot(std::size_t robot, CameraSettings settings) {
   auto const& one = *robots_[robot];
   auto const number = pictures_taken_[robot]++;
   if (one.fault(Fault::Kind::camera_silent)) return std::nullopt;
-  auto settings = one.settings().camera;
   if (auto const* dark = one.fault(Fault::Kind::camera_dark)) settings.light *= dark->amount.value_or(0.1);
   if (auto const* blurred = one.fault(Fault::Kind::camera_blurred)) settings.defocus_px = blurred->amount.value_or(3.0);
   constexpr std::uint64_t most_pictures = 1'000'000'007;

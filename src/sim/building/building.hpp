@@ -55,8 +55,10 @@ class Building {
   [[nodiscard]] Robot& robot(std::size_t number) { return *robots_[number]; }
   [[nodiscard]] Robot const& robot(std::size_t number) const { return *robots_[number]; }
 
-  /// Of what a robot's camera sees now; `develop` makes the picture. Nothing while it has the fault that it is silent.
+  /// Of what a camera on a robot sees now, the one that looks ahead or another; `develop` makes the picture. Nothing
+  /// while it has the fault that its cameras are silent.
   [[nodiscard]] std::optional<Shot> shoot(std::size_t robot);
+  [[nodiscard]] std::optional<Shot> shoot(std::size_t robot, CameraSettings settings);
   /// Of what any camera would see, from anywhere.
   [[nodiscard]] Shot shoot_from(CameraPose const& pose, CameraSettings const& settings) const;
 

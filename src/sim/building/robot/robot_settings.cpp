@@ -21,6 +21,16 @@ std::vector<SonarSettings> RobotSettings::seed_sonars() {
   return sonars;
 }
 
+std::vector<CameraSettings> RobotSettings::seed_side_cameras() {
+  std::vector<CameraSettings> cameras;
+  for (double const yaw_rad : {0.87, -0.87, 1.8, -1.8}) {
+    cameras.emplace_back();
+    cameras.back().yaw_rad = yaw_rad;
+    cameras.back().pitch_rad = 0.35;
+  }
+  return cameras;
+}
+
 firmware::Description description_of(RobotSettings const& settings) {
   auto const number = [](double value) { return static_cast<float>(value); };
   firmware::Description body;

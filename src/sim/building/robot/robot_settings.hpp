@@ -18,7 +18,8 @@ struct RobotSettings {
   double sonar_period_s = 0.02;  ///< they fire in turn, so that none hears another
   LaserSettings laser;
   ImuSettings imu;
-  CameraSettings camera;
+  CameraSettings camera;  ///< that looks ahead
+  std::vector<CameraSettings> side_cameras = seed_side_cameras();
   double top_speed_m_s = 0.3;  ///< as the board's description has it
   double braking_m_s2 = 1.0;   ///< likewise
   double battery_full_v = 12.6;
@@ -27,6 +28,9 @@ struct RobotSettings {
 
   /// Ahead up to 7.5 m, 30 and 90 degrees to both sides up to 5 m; from the hull's rim.
   [[nodiscard]] static std::vector<SonarSettings> seed_sonars();
+  /// Four like the one that looks ahead, to the sides: 50 degrees off straight ahead, which see walls early and aslant,
+  /// and 103 degrees, which see them when the robot has come past.
+  [[nodiscard]] static std::vector<CameraSettings> seed_side_cameras();
 };
 
 /// What the board of such a robot says of it.
