@@ -1,13 +1,9 @@
-// A robot maps a simulated building by itself and looks for name tags with four cameras that look to its sides; what it
-// has put on the map is held against the truth, a row a seed.
+// A robot maps a simulated building by itself and looks for name tags with the cameras at its sides, as it does in the
+// verbs; what it has put on the map is held against the truth, a row a seed.
 // usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE]
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cstdlib>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,13 +11,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
-#include "base/async/pool.hpp"
 #include "host/session/session.hpp"
-#include "robot/poi/tag_finder.hpp"
-#include "vision/image/sharpness.hpp"
-#include "vision/signs/sign_finder.hpp"
 
 namespace {
 
@@ -35,52 +26,16 @@ struct Options {
   std::vector<std::uint64_t> seeds;
 };
 
-base::Result<std::unique_ptr<vision::SignFinder>> sign_finder() {
-  std::vector<std::unique_ptr<vision::LineReader>> readers;
-  auto tesseract = vision::make_tesseract_reader();
-  if (!tesseract) return std::unexpected(tesseract.error());
-  readers.push_back(*std::move(tesseract));
-  return std::make_unique<vision::SignFinder>(std::move(readers));
-}
-
-/// What a job beside the loop takes and gives back.
-struct Looked {
-  robot::Look look;
-  std::unique_ptr<vision::SignFinder> signs;
-};
-
-Looked look_at(building::Shot shot, std::unique_ptr<vision::SignFinder> signs) {
-  auto picture = develop(shot);
-  cv::Mat const rgb(picture.height, picture.width, CV_8UC3, picture.rgb.data());
-  cv::Mat bgr;
-  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  Looked looked{.look = {.found = signs->find(bgr)}, .signs = std::move(signs)};
-  for (auto const& sign : looked.look.found) {
-    cv::Rect const box(cv::Rect2d(sign.box.x, sign.box.y, sign.box.width, sign.box.height));
-    auto const seen = bgr(box & cv::Rect(0, 0, bgr.cols, bgr.rows));
-    looked.look.is_sharp = looked.look.is_sharp && is_sharp(vision::sharpness(seen));
-  }
-  return looked;
-}
-
 /// One run in one building.
 class Trial {
  public:
-  Trial(Options const& options, std::uint64_t seed, std::unique_ptr<vision::SignFinder> signs)
-      : options_(options),
-        session_({.speedup = 0.0, .log_level = base::LogLevel::error, .seed = seed}),
-        signs_(std::move(signs)) {}
+  Trial(Options const& options, std::uint64_t seed)
+      : options_(options), session_({.speedup = 0.0, .log_level = base::LogLevel::warn, .seed = seed}) {}
 
   base::Result<> run() {
     auto const anywhere = geo::Wgs84::from_degrees(41.178, -8.598, 90.0);
     if (auto added = session_.add_robots({"sim:" + options_.file}, anywhere); !added) return added;
     start_ = truth().robot(0).body().pose().position;
-    auto const& spec = session_.robots.robots().front()->spec();
-    tags_ = std::make_unique<robot::TagFinder>(
-        session_.loop, session_.ground.registry, session_.live_map,
-        robot::TagFinder::Setup{
-            .vehicle = spec.id, .grid = spec.name, .eyes = {eye(0.87), eye(-0.87), eye(1.8), eye(-1.8)}},
-        session_.log);
     auto const there = options_.to.empty() ? "" : fmt::format("driveTo '{}'; ", options_.to);
     auto const started = session_.host.start(
         "floor.dolphin", fmt::format("robot = pick {{ id 'robot1'; timeout 60.seconds }}\n"
@@ -103,7 +58,8 @@ class Trial {
                is_home ? "home" : "not home", walls.empty() ? 0.0 : walls[walls.size() * 95 / 100],
                walls.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(walls.size()), doors.right,
                doors.all, doors.misread, doors.wrong, truth().collisions().size(),
-               session_.robots.robots().front()->state().motion.track_m, tags_->pictures(), wall_s, doors.missing,
+               session_.robots.robots().front()->state().motion.track_m,
+               session_.robots.tags_of({"robot1"})->pictures(), wall_s, doors.missing,
                drive.error.empty() ? drive.remark : drive.error);
     std::fflush(stdout);
   }
@@ -120,30 +76,6 @@ class Trial {
   [[nodiscard]] building::Building& truth() const { return *session_.buildings.front()->building; }
   [[nodiscard]] building::Place on_floor(map::SitePoint const& point) const {
     return session_.buildings.front()->site_from_floor.inverse() * point;
-  }
-
-  robot::Eye eye(double yaw_rad) {
-    auto settings = truth().robot(0).settings().camera;
-    settings.yaw_rad = yaw_rad;
-    return {.mount = {.width_px = settings.width,
-                      .height_px = settings.height,
-                      .view_rad = settings.view_rad,
-                      .x_m = settings.x_m,
-                      .y_m = settings.y_m,
-                      .up_m = settings.up_m,
-                      .yaw_rad = settings.yaw_rad,
-                      .pitch_rad = settings.pitch_rad},
-            .look = [this, settings] { return look(settings); }};
-  }
-
-  base::Task<std::optional<robot::Look>> look(building::CameraSettings settings) {
-    auto shot = truth().shoot(0);
-    if (!shot) co_return std::nullopt;
-    shot->settings = settings;
-    shot->pose = camera_on(truth().robot(0).body().pose(), settings);
-    auto looked = co_await session_.loop.on_pool(&look_at, *std::move(shot), std::move(signs_));
-    signs_ = std::move(looked.signs);
-    co_return std::move(looked.look);
   }
 
   /// Of points along the walls on the map, every 5 cm, to the nearest face of the building; in order.
@@ -204,9 +136,7 @@ class Trial {
 
   Options const& options_;
   host::Session session_;
-  std::unique_ptr<vision::SignFinder> signs_;  ///< null while it looks
   building::Place start_;
-  std::unique_ptr<robot::TagFinder> tags_;
 };
 
 std::optional<Options> options_of(std::vector<std::string_view> const& words) {
@@ -230,9 +160,6 @@ std::optional<Options> options_of(std::vector<std::string_view> const& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Tesseract's threads wait for each other on a busy machine, as src/apps/vision/main.cpp says.
-  if (std::getenv("OMP_THREAD_LIMIT") == nullptr && setenv("OMP_THREAD_LIMIT", "1", 1) == 0)
-    execv("/proc/self/exe", argv);
   auto const options = options_of({argv + 1, argv + argc});
   if (!options) {
     fmt::print(stderr, "usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE]\n");
@@ -244,12 +171,7 @@ int main(int argc, char** argv) {
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (auto const seed : options->seeds) {
     auto const began = std::chrono::steady_clock::now();
-    auto signs = sign_finder();
-    if (!signs) {
-      fmt::print(stderr, "{}\n", signs.error().message);
-      return 1;
-    }
-    Trial trial(*options, seed, *std::move(signs));
+    Trial trial(*options, seed);
     if (auto const ran = trial.run(); !ran) {
       fmt::print(stderr, "{}\n", ran.error().message);
       return 1;

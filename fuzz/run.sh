@@ -47,7 +47,7 @@ case $target in
     ;;
   look)
     printf '\004{"look":"signs","width":2,"height":1,"bytes":6}\nrgbrgb{"look":"signs","bytes":3}\njpg' | seed requests
-    printf '\377{"signs":[{"box":[1,2,3,4],"score":0.5,"text":"221","kind":"office","crop_bytes":4}],"is_sharp":true,"bytes":4}\ncrop{"error":"it is black"}\n' | seed answers
+    printf '\377{"signs":[{"box":[1,2,3,4],"score":0.5,"text":"221","kind":"office","crop_bytes":4}],"is_sharp":true,"bytes":4}\ncrop{"error":"it is black"}\n{"width":9,"height":9,"jpeg_bytes":3,"bytes":5}\nallsm' | seed answers
     ;;
   overlook)
     where='"world":"a.toml","at":"2026-01-01T00:00:00Z","anchor":[41,-8,90]'

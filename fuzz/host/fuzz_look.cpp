@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "host/eyes/photograph_look.hpp"
 #include "host/eyes/sign_look.hpp"
 #include "require.hpp"
 
@@ -26,6 +27,13 @@ void read_request(LookFrame frame) {
   if (!picture) return fuzz::require(!picture.error().message.empty());
   auto const pixels = 3 * static_cast<std::size_t>(picture->width) * static_cast<std::size_t>(picture->height);
   fuzz::require(picture->bytes.size() == bytes && (pixels == 0 || pixels == bytes));
+}
+
+void read_photograph(LookFrame const& frame) {
+  auto const picture = photograph_in(frame);
+  if (!picture) return fuzz::require(!picture.error().message.empty());
+  auto const again = photograph_in(photograph_answer(*picture));
+  fuzz::require(again && again->jpeg == picture->jpeg && again->thumbnail == picture->thumbnail);
 }
 
 void read_answer(LookFrame const& frame) {
@@ -56,6 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
       if (!*frame) break;
       require_same_frame(**frame);
       read_answer(**frame);
+      read_photograph(**frame);
       read_request(**frame);
     }
   }

@@ -39,6 +39,7 @@ struct VehicleInfo {
   std::optional<double> relative_alt_m = {};      ///< above its home; nothing while unknown
   std::optional<double> coverage = {};            ///< 0..1: what it has seen of what it maps; nothing while unknown
   std::optional<vehicle::SlotCounts> slots = {};  ///< of a survey drone that has found some
+  std::size_t doors = 0;                          ///< that a robot has found by their signs
   std::string conflict = {};  ///< which platforms each have a vehicle of this id; empty: it is one vehicle's alone
 };
 

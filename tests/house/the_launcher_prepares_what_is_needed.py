@@ -88,6 +88,15 @@ with tempfile.TemporaryDirectory() as folder:
         calls = here.run(word)
         assert calls[-1] == f"lapwing {word}" and not called(calls, "npm"), calls  # the page is there already
 
+    # What looks at what robots see is made for those that have some, and they go on without it.
+    (here.root / "built").unlink()
+    calls = here.run("run", "a.dolphin")
+    assert not any("lapwing-vision" in call for call in calls), calls
+    for words in (("demo",), ("run", "a.dolphin", "--robot", "sim:b.toml"), ("station", "--robot=sim:b.toml")):
+        (here.root / "built").unlink()
+        calls = here.run(*words)
+        assert any("--target lapwing-vision" in call for call in calls) and calls[-1] == f"lapwing {' '.join(words)}", calls
+
     (here.root / "build/release/build.ninja").write_text("bin/lapwing-vision")
     calls = here.run("detect", "doors", "a.jpg", "--out", "o")
     assert calls[-1] == "lapwing detect doors a.jpg --out o" and not called(calls, "npm") and not called(calls, "cmake --preset"), calls

@@ -9,6 +9,7 @@
 #include "apps/verb.hpp"
 #include "apps/vision/sign_readers.hpp"
 #include "host/eyes/look_server.hpp"
+#include "host/eyes/photograph_look.hpp"
 #include "host/eyes/sign_look.hpp"
 #include "vision/image/image.hpp"
 #include "vision/image/rectify.hpp"
@@ -54,6 +55,17 @@ bool is_sharp_at(cv::Mat const& pixels, vision::Box const& box) {
   return is_sharp(vision::sharpness(pixels(part & cv::Rect(0, 0, pixels.cols, pixels.rows))));
 }
 
+LookFrame photograph(cv::Mat const& pixels) {
+  constexpr double longest = 320.0;  // of the small copy
+  double const scale = std::min(1.0, longest / std::max(pixels.cols, pixels.rows));
+  cv::Mat small;
+  cv::resize(pixels, small, {}, scale, scale, cv::INTER_AREA);
+  return host::photograph_answer({.jpeg = vision::encode_jpeg(pixels),
+                                  .thumbnail = vision::encode_jpeg(small),
+                                  .width = pixels.cols,
+                                  .height = pixels.rows});
+}
+
 LookFrame look_for_signs(vision::SignFinder& signs, cv::Mat const& pixels) {
   host::SignsSeen seen;
   for (auto& sign : signs.find(pixels)) {
@@ -64,16 +76,27 @@ LookFrame look_for_signs(vision::SignFinder& signs, cv::Mat const& pixels) {
   return host::sign_answer(std::move(seen));
 }
 
+/// Of a request: its picture.
+base::Result<cv::Mat> picture_in(LookFrame& request) {
+  auto picture = host::take_picture(request);
+  if (!picture) return std::unexpected(picture.error());
+  return pixels_of(*picture);
+}
+
 int look() {
   auto readers = detect::sign_readers();
   if (!readers) return host::refuse(readers.error());
   vision::SignFinder signs(*std::move(readers));
-  return host::serve_looks({{host::sign_look, [&signs](LookFrame& request) -> base::Result<LookFrame> {
-                               auto picture = host::take_picture(request);
-                               if (!picture) return std::unexpected(picture.error());
-                               auto const pixels = pixels_of(*picture);
+  return host::serve_looks({{host::sign_look,
+                             [&signs](LookFrame& request) -> base::Result<LookFrame> {
+                               auto const pixels = picture_in(request);
                                if (!pixels) return std::unexpected(pixels.error());
                                return look_for_signs(signs, *pixels);
+                             }},
+                            {host::photograph_look, [](LookFrame& request) -> base::Result<LookFrame> {
+                               auto const pixels = picture_in(request);
+                               if (!pixels) return std::unexpected(pixels.error());
+                               return photograph(*pixels);
                              }}});
 }
 

@@ -230,6 +230,13 @@ Checked<Value> taken_slots(Runtime& runtime, Fiber& /*fiber*/, Arguments argumen
   return slots_of(runtime, arguments[0], "takenSlots", &vehicle::SlotCounts::taken);
 }
 
+/// By the signs that it has read; of whoever reads none there are none.
+Checked<Value> found_doors(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
+  auto const info = single_vehicle(runtime, arguments[0], "foundDoors");
+  if (!info) return std::unexpected(info.error());
+  return Value::integer(static_cast<std::int64_t>(info->doors));
+}
+
 Checked<Value> mode(Runtime& runtime, Fiber& /*fiber*/, Arguments arguments) {
   auto const info = single_vehicle(runtime, arguments[0], "mode");
   if (!info) return std::unexpected(info.error());
@@ -376,6 +383,12 @@ std::vector<InstructionSpec> vehicle_words() {
        .result = number,
        .doc = "How many places to park with a car on them the one vehicle of the set, a survey drone, has found.",
        .call = taken_slots},
+      {.name = "foundDoors",
+       .signatures = {takes({plain("vehicle", vehicles)})},
+       .result = number,
+       .doc = "How many doors the one vehicle of the set, a robot with cameras, has found by the signs beside them.",
+       .example = "v = pick {}\nexecute waitFor { foundDoors(v) >= 4 } then idle(1)",
+       .call = found_doors},
       {.name = "mode",
        .signatures = {takes({plain("vehicle", vehicles)})},
        .result = text,

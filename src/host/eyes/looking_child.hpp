@@ -22,7 +22,7 @@ namespace lapwing::host {
 class LookingChild {
  public:
   struct Settings {
-    base::ChildProgram program = program_beside_us("lapwing-vision", "look");
+    base::ChildProgram program;
     /// What a look takes in time that is not the wall's, which waits if it takes longer, so that a run repeats;
     /// nothing: for the wall's, which goes on.
     std::optional<base::Duration> takes = std::chrono::milliseconds(400);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/eyes/simulated_eyes.hpp"
 #include "host/files/files.hpp"
 #include "robot/platform/linked_body.hpp"
 #include "robot/ros/ros_body.hpp"
@@ -50,8 +51,12 @@ class Maker {
       auto const start = simulated->building->robot(i).body().pose();
       auto spec = next_spec(simulated->site_from_floor * start);
       spec.planning.side_m = side_around(start, *plan, spec.planning.side_m);
+      spec.payload.emplace_back(robot::camera_payload);
       simulated->robots.push_back(spec.id);
       add(std::move(spec), simulated->run->connect(i));
+      robots_.back().eyes = [in = simulated->building.get(), i](LookingChild& child) {
+        return simulated_eyes(*in, i, child);
+      };
     }
     buildings_.push_back(std::move(simulated));
     return {};

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host/eyes/looking_child.hpp"
 #include "host/robots/robot_spec.hpp"
 #include "robot/platform/robot_platform.hpp"
+#include "robot/poi/eye.hpp"
 #include "sim/building/building_run.hpp"
 
 namespace lapwing::host {
@@ -27,7 +30,8 @@ struct SimulatedBuilding {
 struct RobotToAdd {
   robot::RobotSpec spec;
   std::unique_ptr<robot::Body> body;
-  geo::Wgs84 anchor;  ///< of its site, where that is not on the map yet
+  geo::Wgs84 anchor;                                    ///< of its site, where that is not on the map yet
+  std::function<robot::Eyes(LookingChild&)> eyes = {};  ///< empty: it has no cameras; the child outlives them
 };
 
 /// The robots of some requests, called robot1, robot2 and so on, in the site `site` at `anchor`. Where a building says

@@ -88,6 +88,71 @@ TEST_F(RobotsInABuilding, MapTheFloorAndComeBack) {
   EXPECT_GT(told["robots"][0]["spread"]["major_m"].get<double>(), 0.0);
 }
 
+/// Sees one sign wherever it is in the picture of a camera that looks to the left, by the truth; nothing is rendered.
+struct RobotsWithAStandInEye : RobotsInABuilding {
+  void SetUp() override {
+    RobotsInABuilding::SetUp();
+    camera.yaw_rad = 1.57;
+    robot::Eyes eyes;
+    robot::CameraMount const mount{.x_m = camera.x_m, .yaw_rad = camera.yaw_rad};
+    eyes.for_tags.push_back({.mount = mount, .look = [this] { return look(); }});
+    eyes.photographer = {.mount = mount, .take = [] { return photograph(); }};
+    eyes.keep = [this](std::string jpeg) { return keep(std::move(jpeg)); };
+    session.robots.open_eyes(*session.robots.robots().front(), std::move(eyes));
+  }
+  base::Task<std::optional<robot::Look>> look() {
+    auto const at = sim::building::pixel_of(sign, camera_on(building().robot(0).body().pose(), camera), camera);
+    robot::Look seen;
+    if (at && at->x() > 40.0 && at->x() < camera.width - 40.0 && at->y() > 20.0 && at->y() < camera.height - 20.0)
+      seen.found.push_back({.what = {.category = "sign",
+                                     .box = {.x = at->x() - 20.0, .y = at->y() - 10.0, .width = 40.0, .height = 20.0},
+                                     .score = 0.9,
+                                     .text = "221"},
+                            .crop = "its letters"});
+    co_return seen;
+  }
+  static base::Task<base::Result<robot::Photograph>> photograph() {
+    co_return robot::Photograph{.jpeg = "all", .thumbnail = "small", .width_px = 960, .height_px = 720};
+  }
+  base::Task<base::Result<std::string>> keep(std::string jpeg) {
+    kept.push_back(std::move(jpeg));
+    co_return std::string(63, 'a') + static_cast<char>('0' + kept.size() % 10);
+  }
+
+  sim::building::CameraSettings camera;
+  Eigen::Vector3d const sign{6.0, 3.95, 1.5};  ///< on the far wall of the other room
+  std::vector<std::string> kept;
+};
+
+TEST_F(RobotsWithAStandInEye, FindADoorGoToItAndPhotographIt) {
+  EXPECT_EQ(run("robot = pick { type 'UGV'; payload 'Camera'; timeout 60 }\n"
+                "execute robot: drive { explore() } / { foundDoors(robot) >= 1 } >>\n"
+                "    drive { explore(); driveTo 'room 221'; photograph() }\n"
+                "message \"${foundDoors(robot)}\""),
+            "done")
+      << session.host.outcome()->message;
+  auto const& map = session.live_map;
+  auto const tags = map.within(map::LayerKind::points_of_interest, "default", std::nullopt, 10);
+  ASSERT_EQ(tags.size(), 1U);
+  auto const& tag = std::get<map::PointOfInterest>(tags.front()->feature.content);
+  EXPECT_EQ(tag.name, "221");
+  EXPECT_NEAR(tag.position.x(), 20.0 + sign.x(), 0.2) << "on the site";
+  EXPECT_NEAR(tag.position.y(), -10.0 + sign.y(), 0.2);
+  EXPECT_NEAR(tag.height_m, sign.z(), 0.1);
+  EXPECT_FALSE(tag.picture.empty());
+  EXPECT_LT(geo::distance_m(building().robot(0).body().pose().position, {sign.x(), sign.y()}), 1.5) << "before it";
+
+  auto const pictures = map.within(map::LayerKind::pictures, "default", std::nullopt, 10);
+  ASSERT_EQ(pictures.size(), 1U);
+  auto const& picture = std::get<map::Picture>(pictures.front()->feature.content);
+  EXPECT_EQ(picture.vehicle, "robot1");
+  EXPECT_TRUE(picture.site_from_camera);
+  EXPECT_EQ(kept.back(), "small");
+  auto const report = json::parse(to_json(session.report()))["vehicles"][0]["robot"];
+  EXPECT_EQ(report["doors"], 1);
+  EXPECT_EQ(report["signs"], json::parse(R"(["221"])"));
+}
+
 TEST_F(RobotsInABuilding, AreGuardedByWhatTheyHaveSeen) {
   EXPECT_EQ(run("robot = pick { id 'robot1'; timeout 60 }\n"
                 "execute robot: drive { explore() } / { coverage(robot) > 0.3 }"),

@@ -30,10 +30,8 @@ json to_json_value(RobotReport const& robot) {
     drives.push_back({{"name", drive.name}, {"outcome", drive.outcome}, {"error", drive.error}});
     if (!drive.remark.empty()) drives.back()["remark"] = drive.remark;
   }
-  json value{{"coverage", robot.coverage},
-             {"free_m2", robot.free_m2},
-             {"closures", robot.closures},
-             {"drives", std::move(drives)}};
+  json value{{"coverage", robot.coverage},  {"free_m2", robot.free_m2}, {"closures", robot.closures},
+             {"doors", robot.signs.size()}, {"signs", robot.signs},     {"drives", std::move(drives)}};
   if (robot.collisions) value["collisions"] = *robot.collisions;
   return value;
 }

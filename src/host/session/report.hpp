@@ -22,8 +22,9 @@ struct RobotReport {
   };
   double coverage = 0.0;  ///< 0..1, of what there seems to be
   double free_m2 = 0.0;
-  int closures = 0;                    ///< loops that its map has closed
-  std::optional<int> collisions = {};  ///< of a simulated one: how often it ran into something
+  int closures = 0;                     ///< loops that its map has closed
+  std::optional<int> collisions = {};   ///< of a simulated one: how often it ran into something
+  std::vector<std::string> signs = {};  ///< beside the doors that it has found: what is written on them, in order
   std::vector<Drive> drives = {};
 };
 

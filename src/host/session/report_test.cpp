@@ -61,10 +61,12 @@ TEST(Report, TellsWhatRobotsHaveMappedAndOfThemAlone) {
   auto told = example();
   EXPECT_FALSE(json::parse(to_json(told))["vehicles"][0].contains("robot"));
   RobotReport robot{.coverage = 0.5, .free_m2 = 120.5, .closures = 2};
+  robot.signs = {"220", "221 office"};
   robot.drives = {{"Office", "failed", "it is lost"}};
   told.vehicles.front().robot = robot;
   auto const report = json::parse(to_json(told));
   EXPECT_EQ(report["vehicles"][0]["robot"], json::parse(R"({"coverage": 0.5, "free_m2": 120.5, "closures": 2,
+    "doors": 2, "signs": ["220", "221 office"],
     "drives": [{"name": "Office", "outcome": "failed", "error": "it is lost"}]})"));
   told.vehicles.front().robot->drives.front().remark = "2 places are left unseen";
   EXPECT_EQ(json::parse(to_json(told))["vehicles"][0]["robot"]["drives"][0]["remark"], "2 places are left unseen");

@@ -60,6 +60,17 @@ CarParkReport car_park_report(LotWatch const& watch, std::optional<LotScore> con
   return report;
 }
 
+/// `program`: the one that looks.
+LookingChild::Settings looking_settings(base::ChildProgram program, bool is_real_time) {
+  LookingChild::Settings settings{.program = std::move(program)};
+  if (is_real_time) {
+    settings.takes = std::nullopt;
+  } else {
+    settings.program.niceness = 0;  // time waits for it
+  }
+  return settings;
+}
+
 /// Nothing for what is no robot.
 std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehicle::VehicleId const& id) {
   auto const* const robot = robots.robot(id);
@@ -70,6 +81,7 @@ std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehi
     report.free_m2 = survey->free_m2;
   }
   report.closures = robot->loops().closures;
+  if (auto const* const tags = robots.tags_of(id)) report.signs = tags->texts();
   for (auto const& drive : robot->drives())
     report.drives.push_back({drive->name, std::string(to_string(drive->outcome)), drive->error, drive->remark});
   return report;
@@ -114,7 +126,7 @@ Session::Session(Options const& options)
       emergency_action_(options.emergency_action),
       interrupted_(loop),
       events_(options.events),
-      speedup_(options.speedup),
+      is_real_time_(options.speedup == 1.0),
       seed_(options.seed.value_or(1)) {
   hub.add_sink(terminal_sink(options.log_level));
   auto const fleet_fits = join("MAVLink", {platform, &control, &parameters});
@@ -152,10 +164,24 @@ base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo
       if (!site) return std::unexpected(site.error());
       live_map.put_site(*std::move(site));
     }
-    if (auto added = robots.add(std::move(robot.spec), std::move(robot.body)); !added)
-      return std::unexpected(added.error());
+    auto added = robots.add(std::move(robot.spec), std::move(robot.body));
+    if (!added) return std::unexpected(added.error());
+    if (!robot.eyes) continue;
+    if (!looking) {
+      auto program = LookingChild::program_beside_us("lapwing-vision", "look");
+      looking = std::make_unique<LookingChild>(loop, looking_settings(std::move(program), is_real_time_), log);
+    }
+    auto eyes = robot.eyes(*looking);
+    eyes.keep = [this](std::string jpeg) { return keep_picture(std::move(jpeg)); };
+    robots.open_eyes(**added, std::move(eyes));
   }
   return {};
+}
+
+base::Task<base::Result<std::string>> Session::keep_picture(std::string jpeg) {
+  if (!station_map) co_return base::fail(base::ErrorKind::refused, "there is no map that is kept");
+  auto keeping = station_map->store().keep(std::move(jpeg), "image/jpeg");
+  co_return co_await std::move(keeping);
 }
 
 base::Result<> Session::open_survey(std::vector<SurveyLink> links) {
@@ -183,11 +209,8 @@ base::Result<> Session::watch_car_park(std::filesystem::path const& world_file) 
   auto const file = std::filesystem::canonical(world_file, error);
   if (error) return base::fail(ErrorKind::not_found, fmt::format("{}: {}", world_file.string(), error.message()));
   auto program = LookingChild::program_beside_us("lapwing-perceive", "overlook");
-  // Drawing and looking take some 100 ms of a core.
-  auto const takes = speedup_ == 1.0 ? std::nullopt : std::optional<base::Duration>(std::chrono::milliseconds(200));
-  overlook = std::make_unique<LookingChild>(
-      loop, LookingChild::Settings{.program = std::move(program), .takes = takes},
-      log.named("car park"));
+  overlook =
+      std::make_unique<LookingChild>(loop, looking_settings(std::move(program), is_real_time_), log.named("car park"));
   lot_watch =
       std::make_unique<LotWatch>(loop, live_map,
                                  LotWatch::Setup{.world = file,

@@ -119,6 +119,7 @@ class Session {
   fleet::FleetParameters parameters;                          ///< of those, asked for when an operator asks
   lapwing::map::LiveMap live_map;                             ///< what lies on the map
   std::vector<std::unique_ptr<SimulatedBuilding>> buildings;  ///< in which simulated robots drive
+  std::unique_ptr<LookingChild> looking;                      ///< at what robots' cameras see, where there are some
   robot::RobotPlatform robots;
   robot::RobotControl robot_control;   ///< what operators do with the robots
   robot::RobotModules robot_modules;   ///< how the robots' modules do
@@ -142,6 +143,7 @@ class Session {
   std::unique_ptr<SigningTimeKeeper> signing_time;  ///< in real time only: other clocks run ahead of other stations'
 
  private:
+  [[nodiscard]] base::Task<base::Result<std::string>> keep_picture(std::string jpeg);
   base::Task<> finish(std::optional<base::Duration> timeout);
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();
@@ -153,7 +155,7 @@ class Session {
   vehicle::StopAction emergency_action_;
   base::Notifier interrupted_;  ///< by Ctrl-C
   EventFile const* events_;
-  double speedup_;
+  bool is_real_time_;                  ///< time does not wait for what is worked out beside the loop
   std::optional<LotScore> lot_score_;  ///< once the script has ended
   std::string record_folder_;
   std::uint64_t seed_;

@@ -273,6 +273,12 @@ base::Task<base::Result<std::string>> Robot::carry_out(Step step) {
     co_await around_.loop.sleep(base::from_seconds(wait->seconds));
     co_return std::string();
   }
+  if (std::holds_alternative<PhotographStep>(step)) {
+    give({});
+    while (!stands()) co_await changed_.wait();
+    auto taking = around_.photograph();
+    co_return co_await std::move(taking);
+  }
   if (auto const* const exploring = std::get_if<ExploreStep>(&step)) {
     give(ExploreErrand{exploring->strategy});
   } else if (auto const* const by_name = std::get_if<DriveToNameStep>(&step)) {

@@ -75,6 +75,8 @@ class Robot {
     base::Loop& loop;
     vehicle::Registry& registry;
     FindPlace find_place;
+    /// Takes a picture of what is ahead and puts it on the map; gives what is to be said of that.
+    std::function<base::Task<base::Result<std::string>>()> photograph;
     std::function<std::optional<geo::Point<geo::SiteFrame>>(geo::Wgs84)> on_site;
     std::function<std::optional<geo::Wgs84>(geo::Point<geo::SiteFrame>)> on_globe;
     OnMap on_map;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text/utc_text.hpp"
+#include "robot/poi/placed_picture.hpp"
 #include "robot/words/vocabulary.hpp"
 #include "tasks/failed_run.hpp"
 
@@ -93,6 +95,7 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       .loop = around_.loop,
       .registry = around_.registry,
       .find_place = [this, spec](std::string const& name) { return find_place(spec, name); },
+      .photograph = [this, id = spec.id] { return photograph({id}); },
       .on_site = [this, id = spec.site](geo::Wgs84 place) -> std::optional<geo::Point<geo::SiteFrame>> {
         auto const* const at = around_.live_map.site(id);
         if (!at) return std::nullopt;
@@ -121,6 +124,53 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
 Robot* RobotPlatform::robot(VehicleId const& id) const {
   auto const found = std::ranges::find(robots_, id, [](auto const& robot) { return robot->id(); });
   return found == robots_.end() ? nullptr : found->get();
+}
+
+void RobotPlatform::open_eyes(Robot const& robot, Eyes eyes) {
+  auto const& spec = robot.spec();
+  auto& sight = sights_[robot.id()];
+  sight.tags.reset();
+  sight.eyes = std::move(eyes);
+  sight.tags =
+      std::make_unique<TagFinder>(around_.loop, around_.registry, around_.live_map,
+                                  TagFinder::Setup{.vehicle = spec.id, .grid = spec.name, .eyes = sight.eyes}, log_);
+}
+
+TagFinder const* RobotPlatform::tags_of(VehicleId const& id) const {
+  auto const found = sights_.find(id);
+  return found == sights_.end() ? nullptr : found->second.tags.get();
+}
+
+base::Task<base::Result<std::string>> RobotPlatform::photograph(VehicleId id) {
+  auto const sight = sights_.find(id);
+  if (sight == sights_.end() || !sight->second.eyes.photographer)
+    co_return std::string("nobody looks through its camera here");
+  auto const& eyes = sight->second.eyes;
+  auto const pose = around_.registry.find(id)->motion.site_pose.value;
+  if (!pose) co_return fail(ErrorKind::not_found, "it does not know where it is");
+  auto const taken_at = around_.loop.utc_now();
+  auto taking = eyes.photographer->take();
+  auto const photograph = co_await std::move(taking);
+  if (!photograph) co_return std::unexpected(photograph.error());
+  auto picture = placed_picture(eyes.photographer->mount, *pose);
+  picture.width_px = photograph->width_px;
+  picture.height_px = photograph->height_px;
+  picture.taken_at = taken_at;
+  picture.vehicle = id.text;
+  for (auto [file, hash] :
+       {std::pair(&photograph->jpeg, &picture.image), std::pair(&photograph->thumbnail, &picture.thumbnail)}) {
+    auto keeping = eyes.keep(*file);
+    auto const kept = co_await std::move(keeping);
+    if (!kept) co_return fmt::format("it is not kept: {}", kept.error().message);
+    *hash = *kept;
+  }
+  auto const put = around_.live_map.put({.id = fmt::format("{} picture {}", id.text, base::to_iso8601(taken_at)),
+                                         .site = pose->site,
+                                         .floor = pose->floor,
+                                         .account = {.writer = id.text, .at = around_.loop.utc_now()},
+                                         .content = std::move(picture)});
+  if (!put) co_return fmt::format("it is not shown: {}", put.error().message);
+  co_return std::string();
 }
 
 base::Task<> RobotPlatform::pass_on(Robot& robot) {
@@ -153,6 +203,7 @@ VehicleInfo RobotPlatform::info_of(Robot const& robot) const {
   info.connection_timeout = robot.connection_timeout;
   info.mode = state.mode.value.value_or("");
   if (robot.survey()) info.coverage = robot.survey()->coverage;
+  if (auto const* const tags = tags_of(robot.id())) info.doors = tags->texts().size();
   return info;
 }
 

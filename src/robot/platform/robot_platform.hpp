@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "base/log.hpp"
 #include "map/live/live_map.hpp"
 #include "robot/platform/robot.hpp"
+#include "robot/poi/tag_finder.hpp"
 #include "tasks/platform.hpp"
 #include "vehicle/authority.hpp"
 
@@ -36,6 +38,11 @@ class RobotPlatform final : public tasks::Platform {
   /// Error: invalid_input for an id that another robot has, or a site or floor that the map does not have.
   [[nodiscard]] base::Result<Robot*> add(RobotSpec spec, std::unique_ptr<Body> body);
   [[nodiscard]] std::vector<std::unique_ptr<Robot>> const& robots() const { return robots_; }
+  /// What one of them sees with from now on: name tags on its way become points of interest on the map, and it takes
+  /// pictures when it is told to. What the eyes need outlives the platform.
+  void open_eyes(Robot const& robot, Eyes eyes);
+  /// What it has found; null for one without eyes.
+  [[nodiscard]] TagFinder const* tags_of(vehicle::VehicleId const& id) const;
   /// Null for an id that is not one of theirs.
   [[nodiscard]] Robot* robot(vehicle::VehicleId const& id) const;
 
@@ -67,6 +74,7 @@ class RobotPlatform final : public tasks::Platform {
   void write_walls(RobotSpec const& spec, WallBook::Changes const& changes);
   /// Of a robot that maps anew, so that what it found another time does not lie among what it finds now.
   void forget_walls(RobotSpec const& spec);
+  [[nodiscard]] base::Task<base::Result<std::string>> photograph(vehicle::VehicleId id);
   base::Task<> pass_on(Robot& robot);
   base::Task<> pass_on_membership();
 
@@ -76,6 +84,11 @@ class RobotPlatform final : public tasks::Platform {
   std::function<std::uint16_t()> communication_;
   base::Notifier vehicles_changed_;
   base::Notifier settled_;
+  struct Sight {
+    Eyes eyes;
+    std::unique_ptr<TagFinder> tags;
+  };
+  std::map<vehicle::VehicleId, Sight> sights_;
   std::vector<std::unique_ptr<Robot>> robots_;
   base::Scope scope_;
 };

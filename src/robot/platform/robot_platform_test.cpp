@@ -30,6 +30,13 @@ struct RobotPlatformTest : ::testing::Test, testing::PlatformBench {
   [[nodiscard]] double error_m() const { return slam::distance_m(robot->here()->pose, body->truth()); }
 };
 
+TEST_F(RobotPlatformTest, WithoutEyesPhotographsNothingAndSaysSo) {
+  auto const run = start({PhotographStep{}, WaitStep{1.0}});
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 1min)) << run->progress();
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_EQ(robot->drives().back()->remark, "photograph: nobody looks through its camera here");
+}
+
 TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
   auto const run = start({ExploreStep{"tour"}, ReturnStep{}});
   ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();

@@ -30,15 +30,17 @@ std::string most_voted(std::map<std::string, double> const& votes) {
 }  // namespace
 
 std::string TagBook::Entry::name() const {
-  return names.empty() ? text() : most_voted(names);
+  return most_voted(names.empty() ? kinds : names);
 }
 
 std::string TagBook::Entry::text() const {
-  return most_voted(texts);
+  auto const number = most_voted(names);
+  auto const kind = most_voted(kinds);
+  return number.empty() || kind.empty() ? number + kind : number + ' ' + kind;
 }
 
 double TagBook::Entry::confidence() const {
-  auto const& votes = names.empty() ? texts : names;
+  auto const& votes = names.empty() ? kinds : names;
   double const all = std::accumulate(votes.begin(), votes.end(), votes_against,
                                      [](double sum, auto const& vote) { return sum + vote.second; });
   auto const best = votes.find(name());
@@ -63,7 +65,7 @@ TagBook::Entry* TagBook::nearest(TagSight const& sight) {
   return found;
 }
 
-TagBook::Entry const& TagBook::take(TagSight const& sight) {
+TagBook::Entry& TagBook::take(TagSight const& sight) {
   auto* tag = nearest(sight);
   if (!tag) {
     tags_.push_back({.number = static_cast<std::uint32_t>(tags_.size()) + 1,
@@ -73,7 +75,7 @@ TagBook::Entry const& TagBook::take(TagSight const& sight) {
                      .facing_rad = sight.place.wall.facing_rad,
                      .sights = 0,
                      .names = {},
-                     .texts = {}});
+                     .kinds = {}});
     tag = &tags_.back();
   } else {
     Eigen::Matrix2d const gain = tag->covariance_m2 * (tag->covariance_m2 + sight.place.covariance_m2).inverse();
@@ -88,7 +90,13 @@ TagBook::Entry const& TagBook::take(TagSight const& sight) {
   }
   ++tag->sights;
   if (!sight.name.empty()) tag->names[sight.name] += sight.score;
-  tag->texts[sight.text] += sight.score;
+  if (!sight.kind.empty()) tag->kinds[sight.kind] += sight.score;
+  bool const is_as_it_is_called = sight.name.empty() ? tag->names.empty() : sight.name == tag->name();
+  if (!sight.crop.empty() && is_as_it_is_called && sight.score > tag->crop_score) {
+    tag->crop = sight.crop;
+    tag->crop_score = sight.score;
+    tag->picture.clear();
+  }
   return *tag;
 }
 

@@ -12,9 +12,10 @@ namespace lapwing::robot {
 /// A name tag as it was seen once.
 struct TagSight {
   TagPlace place;
-  std::string name;    ///< the room's number; empty: none was read
-  std::string text;    ///< all that was read, its kind among it
-  double score = 0.0;  ///< 0..1: how sure the reader is
+  std::string name;       ///< the room's number; empty: none was read
+  std::string kind;       ///< of the room: "office"; empty: none was read
+  double score = 0.0;     ///< 0..1: how sure the reader is
+  std::string crop = {};  ///< the tag from the front, as a JPEG file; empty: none
 };
 
 /// Keeps name tags apart while a robot drives about: the same one seen from elsewhere is merged, its place by
@@ -29,17 +30,21 @@ class TagBook {
     double facing_rad = 0.0;
     int sights = 0;
     std::map<std::string, double> names;  ///< scores of all sights that read so
-    std::map<std::string, double> texts;  ///< likewise
+    std::map<std::string, double> kinds;  ///< likewise
+    std::string crop = {};                ///< of the sight that was surest of what the tag is called
+    double crop_score = 0.0;              ///< how sure that was
+    std::string picture = {};             ///< where the crop is kept; whoever keeps it writes this
 
-    /// What most sights with a number read; without any, what is written there.
+    /// What most sights with a number read; without any, the kind of room.
     [[nodiscard]] std::string name() const;
+    /// Number and kind.
     [[nodiscard]] std::string text() const;
     /// That the name is right: its part of all votes, and half a one against it, so that a single sight is not sure.
     [[nodiscard]] double confidence() const;
   };
 
-  /// The one that it was, or a new one.
-  Entry const& take(TagSight const& sight);
+  /// The one that it was, or a new one, until the next call.
+  Entry& take(TagSight const& sight);
   [[nodiscard]] std::vector<Entry> const& tags() const { return tags_; }
 
  private:

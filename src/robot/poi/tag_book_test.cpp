@@ -12,7 +12,7 @@ TagSight sight(double x, double y, std::string const& name, double score, double
                     .height_m = 1.5,
                     .covariance_m2 = sd_m * sd_m * Eigen::Matrix2d::Identity()},
           .name = name,
-          .text = name,
+          .kind = {},
           .score = score};
 }
 
@@ -41,7 +41,7 @@ TEST(TagBook, TakesTheNameThatMostOfTheSightsRead) {
 TEST(TagBook, IsNamedByANumberHoweverOftenTheKindOfRoomAloneWasRead) {
   TagBook book;
   auto kind_alone = sight(1.0, 2.0, "", 0.9);
-  kind_alone.text = "meeting room";
+  kind_alone.kind = "meeting room";
   (void)book.take(kind_alone);
   EXPECT_EQ(book.tags().front().name(), "meeting room");
   (void)book.take(sight(1.0, 2.0, "223", 0.6));
@@ -57,6 +57,33 @@ TEST(TagBook, KeepsTagsApartThatHangElsewhereOrOnTheOtherSideOfTheWall) {
   (void)book.take(sight(1.0, 2.0, "221", 0.8, std::numbers::pi));
   (void)book.take(sight(1.6, 2.0, "223", 0.8));
   EXPECT_EQ(book.tags().size(), 4U) << "the last one reads otherwise and is farther off than places err";
+}
+
+TEST(TagBook, TellsNumberAndKindWhicheverWasReadMoreOften) {
+  TagBook book;
+  auto kind_alone = sight(1.0, 2.0, "", 0.5);
+  kind_alone.kind = "meeting room";
+  for (int i = 0; i < 3; ++i) (void)book.take(kind_alone);
+  EXPECT_EQ(book.tags().front().text(), "meeting room");
+  auto whole = sight(1.0, 2.0, "223", 0.7);
+  whole.kind = "meeting room";
+  (void)book.take(whole);
+  EXPECT_EQ(book.tags().front().text(), "223 meeting room");
+}
+
+TEST(TagBook, KeepsThePictureOfTheSurestSightOfWhatItIsCalled) {
+  TagBook book;
+  auto const seen = [&](std::string const& name, double score) -> TagBook::Entry& {
+    auto one = sight(1.0, 2.0, name, score);
+    one.crop = name + " of " + std::to_string(score).substr(0, 3);
+    return book.take(one);
+  };
+  EXPECT_EQ(seen("221", 0.8).crop, "221 of 0.8");
+  seen("221", 0.8).picture = "kept";
+  EXPECT_EQ(seen("271", 0.9).crop, "221 of 0.8") << "it is called 221";
+  EXPECT_EQ(book.tags().front().picture, "kept");
+  EXPECT_EQ(seen("221", 0.9).crop, "221 of 0.9");
+  EXPECT_TRUE(book.tags().front().picture.empty()) << "of another crop";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "robot/poi/tag_finder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,9 +20,11 @@ constexpr double most_slant_rad = 1.0;  ///< more, and its letters are too narro
 constexpr double most_turn_rad = 0.1;   ///< in a period: more, and pictures are smeared
 constexpr double patch_m = 0.4;
 constexpr int looks_a_patch = 6;
-constexpr int sharp_look = 3;    ///< two sharp looks are enough
-constexpr int blurred_look = 2;  ///< a blurred one is taken again, twice at most
-constexpr double least_confidence = 0.5;
+constexpr int blank_look = 6;  ///< one is enough where nothing is written: the pieces beside it show it as well
+constexpr int sharp_look = 3;  ///< two sharp looks are enough
+constexpr int poor_look = 2;   ///< a blurred one, or with a sign cut off, is taken again, twice at most
+constexpr double least_confidence = 0.55;  ///< more than a single sight of a kind without a number gives
+constexpr double edge_px = 4.0;
 
 geo::Pose<geo::SiteFrame> level(vehicle::SitePose const& pose) {
   return {map::SitePoint(pose.position.x(), pose.position.y()), pose.yaw_rad};
@@ -31,12 +34,26 @@ std::string tag_id(std::string const& vehicle, std::uint32_t number) {
   return fmt::format("{} tag {}", vehicle, number);
 }
 
-std::optional<TagSight> sight_of(vision::Detection const& sign, TagPlace const& place) {
+std::optional<TagSight> sight_of(Seen const& seen, TagPlace const& place) {
+  auto const& sign = seen.what;
   auto const number = sign.text.value_or("");
   auto const kind = sign.kind.value_or("");
   if (number.empty() && kind.empty()) return std::nullopt;
-  auto const all = number.empty() || kind.empty() ? number + kind : fmt::format("{} {}", number, kind);
-  return TagSight{.place = place, .name = number, .text = all, .score = sign.score};
+  return TagSight{.place = place, .name = number, .kind = kind, .score = sign.score, .crop = seen.crop};
+}
+
+/// The edge of the picture may have taken letters from it.
+bool is_cut_off(vision::Box const& box, CameraMount const& mount) {
+  return box.x < edge_px || box.y < edge_px || box.x + box.width > mount.width_px - edge_px ||
+         box.y + box.height > mount.height_px - edge_px;
+}
+
+/// How much of what a piece of wall is to be looked at a look was.
+int worth_of(Look const& look, CameraMount const& mount) {
+  if (look.found.empty()) return blank_look;
+  bool const is_whole =
+      std::ranges::none_of(look.found, [&](Seen const& seen) { return is_cut_off(seen.what.box, mount); });
+  return look.is_sharp && is_whole ? sharp_look : poor_look;
 }
 
 }  // namespace
@@ -63,10 +80,11 @@ base::Task<> TagFinder::keep_looking() {
     bool const turns = !yaw_rad || std::abs(geo::wrap_pi(pose.yaw_rad - *yaw_rad)) > most_turn_rad;
     yaw_rad = pose.yaw_rad;
     if (turns) continue;
-    for (auto const& eye : setup_.eyes) {
+    for (auto const& eye : setup_.eyes.for_tags) {
       // The robot drives on while somebody looks: each picture has the pose of its own moment.
       auto const* const now = registry_.find({setup_.vehicle});
       if (!now || !now->motion.site_pose.value) break;
+      if (std::abs(geo::wrap_pi(now->motion.site_pose.value->yaw_rad - pose.yaw_rad)) > most_turn_rad) break;
       auto looking = look_with(eye, *now->motion.site_pose.value);
       co_await std::move(looking);
     }
@@ -80,15 +98,31 @@ base::Task<> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
   auto const look = co_await std::move(looking);
   if (!look) co_return;
   ++pictures_;
-  looks_[*patch] += look->is_sharp ? sharp_look : blurred_look;
+  looks_[*patch] += worth_of(*look, eye.mount);
   auto const* const grid = grid_of(pose);
   if (!grid) co_return;
-  for (auto const& sign : look->found) {
-    if (sign.category != "sign") continue;
-    auto const place = tag_place(*grid, level(pose), eye.mount, sign.box);
-    if (!place) continue;
-    if (auto const sight = sight_of(sign, *place)) write(book_.take(*sight), pose);
+  for (auto const& seen : look->found) {
+    if (seen.what.category != "sign" || is_cut_off(seen.what.box, eye.mount)) continue;
+    auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
+    auto const sight = place ? sight_of(seen, *place) : std::nullopt;
+    if (!sight) continue;
+    auto& tag = book_.take(*sight);
+    if (tag.confidence() < least_confidence) continue;
+    if (setup_.eyes.keep && tag.picture.empty() && !tag.crop.empty()) {
+      auto keeping = setup_.eyes.keep(tag.crop);
+      auto const kept = co_await std::move(keeping);
+      if (kept) tag.picture = *kept;
+    }
+    write(tag, pose);
   }
+}
+
+std::vector<std::string> TagFinder::texts() const {
+  std::vector<std::string> texts;
+  for (auto const& tag : book_.tags())
+    if (tag.confidence() >= least_confidence) texts.push_back(tag.text());
+  std::ranges::sort(texts);
+  return texts;
 }
 
 std::optional<TagFinder::Patch> TagFinder::patch_before(Eye const& eye, vehicle::SitePose const& pose) const {
@@ -109,13 +143,12 @@ map::OccupancyGrid const* TagFinder::grid_of(vehicle::SitePose const& pose) cons
 }
 
 void TagFinder::write(TagBook::Entry const& tag, vehicle::SitePose const& pose) {
-  if (tag.confidence() < least_confidence) return;
   map::PointOfInterest const point{.position = tag.position,
                                    .height_m = tag.height_m,
                                    .kind = "name tag",
                                    .name = tag.name(),
                                    .text = tag.text(),
-                                   .picture = {},
+                                   .picture = tag.picture,
                                    .facing_rad = tag.facing_rad,
                                    .confidence = tag.confidence(),
                                    .covariance_m2 = tag.covariance_m2};

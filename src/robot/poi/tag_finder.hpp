@@ -10,24 +10,11 @@
 #include "base/async/scope.hpp"
 #include "base/log.hpp"
 #include "map/live/live_map.hpp"
+#include "robot/poi/eye.hpp"
 #include "robot/poi/tag_book.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::robot {
-
-/// What somebody saw in one picture.
-struct Look {
-  std::vector<vision::Detection> found = {};
-  bool is_sharp = true;  ///< enough to read what is written there; else it is taken again
-};
-
-/// One camera, and who looks at its pictures, wherever that is: heavy libraries stay out of a robot's process.
-struct Eye {
-  CameraMount mount = {};
-  /// Takes a picture at the moment that it is awaited and looks at it for as long as that takes. Nothing: the camera
-  /// gave none.
-  std::function<base::Task<std::optional<Look>>()> look = {};
-};
 
 /// Finds name tags on the way of one robot: looks at each piece of wall that comes before one of its cameras, places
 /// what is read there by the robot's pose and map, and puts it on the map as points of interest. It steers nothing.
@@ -38,15 +25,17 @@ class TagFinder {
   struct Setup {
     std::string vehicle;
     std::string grid;  ///< what its map is called on the map
-    std::vector<Eye> eyes;
+    Eyes eyes;
   };
-  /// All of these outlive it. What the robot put on the map another time goes.
+  /// All of these, and what the eyes need, outlive it. What the robot put on the map another time goes.
   TagFinder(base::Loop& loop, vehicle::Registry const& registry, map::LiveMap& live_map, Setup setup, base::Logger log);
   TagFinder(TagFinder const&) = delete;
   TagFinder& operator=(TagFinder const&) = delete;
 
   [[nodiscard]] TagBook const& book() const { return book_; }
   [[nodiscard]] int pictures() const { return pictures_; }
+  /// The texts of those that it is sure enough of to have put them on the map.
+  [[nodiscard]] std::vector<std::string> texts() const;
 
  private:
   /// A piece of wall, as wide as a camera's middle surely shows: its place in such widths, and the quarter it faces.
@@ -65,7 +54,7 @@ class TagFinder {
   Setup setup_;
   base::Logger log_;
   TagBook book_;
-  std::map<Patch, int> looks_;  ///< blurred ones count for less: see `look_with`
+  std::map<Patch, int> looks_;  ///< poor ones count for less: see `worth_of`
   int pictures_ = 0;
   base::Scope scope_;
 };

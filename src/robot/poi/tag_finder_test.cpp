@@ -36,9 +36,13 @@ struct TagFinderAtAWall : ::testing::Test {
             .look = [this]() -> base::Task<std::optional<Look>> { co_return look; }};
   }
   std::unique_ptr<TagFinder> finder() {
-    return std::make_unique<TagFinder>(loop, registry, live_map,
-                                       TagFinder::Setup{.vehicle = "robot1", .grid = "robot 1", .eyes = {eye()}},
-                                       base::Logger(hub, "test"));
+    TagFinder::Setup setup{.vehicle = "robot1", .grid = "robot 1", .eyes = {.for_tags = {eye()}}};
+    setup.eyes.keep = [this](std::string jpeg) { return keep(std::move(jpeg)); };
+    return std::make_unique<TagFinder>(loop, registry, live_map, std::move(setup), base::Logger(hub, "test"));
+  }
+  base::Task<base::Result<std::string>> keep(std::string jpeg) {
+    kept.push_back(std::move(jpeg));
+    co_return std::string(63, 'a') + std::to_string(kept.size());
   }
   void pass(base::Duration time) {
     loop.run_until_done(
@@ -52,11 +56,13 @@ struct TagFinderAtAWall : ::testing::Test {
   base::Loop loop{base::Loop::Pace{.unpaced = true, .begins_at = base::UtcTime(std::chrono::hours(24 * 365 * 30))}};
   vehicle::Registry registry{loop};
   map::LiveMap live_map{[this] { return loop.utc_now(); }};
-  Look look{.found = {{.category = "sign",
-                       .box = {.x = 460.0, .y = 350.0, .width = 40.0, .height = 20.0},
-                       .score = 0.8,
-                       .text = "221",
-                       .kind = "office"}}};
+  Look look{.found = {{.what = {.category = "sign",
+                                .box = {.x = 460.0, .y = 350.0, .width = 40.0, .height = 20.0},
+                                .score = 0.8,
+                                .text = "221",
+                                .kind = "office"},
+                       .crop = "its letters"}}};
+  std::vector<std::string> kept;
 };
 
 TEST_F(TagFinderAtAWall, PutsWhatIsReadThereOnTheMap) {
@@ -70,6 +76,24 @@ TEST_F(TagFinderAtAWall, PutsWhatIsReadThereOnTheMap) {
   EXPECT_NEAR(point.position.x(), 1.0, 0.05);
   EXPECT_NEAR(point.position.y(), 2.0, 0.05);
   EXPECT_TRUE(point.covariance_m2);
+  EXPECT_EQ(point.picture, std::string(63, 'a') + "1");
+  EXPECT_EQ(finds->texts(), std::vector<std::string>{"221 office"});
+}
+
+TEST_F(TagFinderAtAWall, KeepsThePictureOfTheSightThatWasSurest) {
+  auto const finds = finder();
+  pass(700ms);
+  EXPECT_EQ(kept, std::vector<std::string>{"its letters"});
+  look.found.front().what.score = 0.9;
+  look.found.front().crop = "sharper letters";
+  pass(300ms);
+  EXPECT_EQ(kept, std::vector<std::string>({"its letters", "sharper letters"}));
+  look.found.front().what.score = 0.7;
+  look.found.front().crop = "blurred letters";
+  stand_at(1.5);
+  pass(3s);
+  EXPECT_EQ(kept.size(), 2U);
+  EXPECT_EQ(std::get<map::PointOfInterest>(on_map().front()->feature.content).picture, std::string(63, 'a') + "2");
 }
 
 TEST_F(TagFinderAtAWall, LooksAtAPieceOfWallTwiceAndOnceMoreWhenThatWasBlurred) {
@@ -80,6 +104,32 @@ TEST_F(TagFinderAtAWall, LooksAtAPieceOfWallTwiceAndOnceMoreWhenThatWasBlurred) 
   stand_at(3.0);
   pass(5s);
   EXPECT_EQ(finds->pictures(), 5);
+}
+
+TEST_F(TagFinderAtAWall, TakesNoWordFromASignThatThePicturesEdgeCutsOff) {
+  look.found.front().what.box.x = 1.0;
+  auto const finds = finder();
+  pass(5s);
+  EXPECT_TRUE(on_map().empty());
+  EXPECT_EQ(finds->pictures(), 3) << "it is looked at again";
+}
+
+TEST_F(TagFinderAtAWall, BelievesAKindOfRoomAloneWhenItIsSeenTwice) {
+  look.found.front().what.text.reset();
+  look.found.front().what.score = 0.5;
+  auto const finds = finder();
+  pass(700ms);
+  EXPECT_TRUE(on_map().empty());
+  pass(300ms);
+  ASSERT_EQ(on_map().size(), 1U);
+  EXPECT_EQ(std::get<map::PointOfInterest>(on_map().front()->feature.content).text, "office");
+}
+
+TEST_F(TagFinderAtAWall, LooksOnceWhereNothingIsWritten) {
+  look.found.clear();
+  auto const finds = finder();
+  pass(5s);
+  EXPECT_EQ(finds->pictures(), 1);
 }
 
 TEST_F(TagFinderAtAWall, ForgetsWhatTheRobotFoundAnotherTime) {

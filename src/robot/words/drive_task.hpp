@@ -27,11 +27,18 @@ struct DriveToNameStep {
 struct ReturnStep {
   friend bool operator==(ReturnStep const&, ReturnStep const&) = default;
 };
+/// With the camera that looks ahead, onto the map.
+struct PhotographStep {
+  friend bool operator==(PhotographStep const&, PhotographStep const&) = default;
+};
 struct WaitStep {
   double seconds = 0.0;
   friend bool operator==(WaitStep const&, WaitStep const&) = default;
 };
-using Step = std::variant<ExploreStep, DriveToPlaceStep, DriveToNameStep, ReturnStep, WaitStep>;
+using Step = std::variant<ExploreStep, DriveToPlaceStep, DriveToNameStep, ReturnStep, PhotographStep, WaitStep>;
+
+/// What a robot carries that can take pictures.
+inline constexpr auto camera_payload = "Camera";
 
 /// "explore", "drive to room 221".
 [[nodiscard]] std::string to_text(Step const& step);
@@ -45,7 +52,7 @@ class DriveTask final : public tasks::PlatformTask {
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::string kind() const override { return "drive"; }
   [[nodiscard]] std::size_t bytes() const override { return 256 + steps_.size() * sizeof(Step); }
-  /// What does not drive on the ground.
+  /// What does not drive on the ground, or has no camera and is to take pictures.
   [[nodiscard]] std::optional<std::string> unsuited(tasks::VehicleInfo const& vehicle) const override;
   /// The first place that it drives to; nothing where it begins with the robot's own floor.
   [[nodiscard]] std::optional<geo::Wgs84> reference_position() const override;

@@ -34,6 +34,11 @@ base::Result<> return_to_start(Draft& draft, std::size_t, Arguments) {
   return {};
 }
 
+base::Result<> photograph(Draft& draft, std::size_t, Arguments) {
+  draft.steps.emplace_back(PhotographStep{});
+  return {};
+}
+
 }  // namespace
 
 tasks::Vocabulary vocabulary() {
@@ -59,6 +64,7 @@ tasks::Vocabulary vocabulary() {
          "Drives to a place on the floor as far as it has been mapped."},
         drive_to},
        {{"returnToStart", {{}}, "Drives back to where the robot began to map."}, return_to_start},
+       {{"photograph", {{}}, "Stands, takes a picture of what is ahead, and puts it on the map."}, photograph},
        tasks::wait_command<Step, WaitStep>("Stands for so long before the next command.")});
 }
 

@@ -26,13 +26,18 @@ TEST(DriveBlock, BuildsTheStepsInTheirOrder) {
   ASSERT_TRUE(block.add("driveTo", {std::string("room 221")}, 1));
   ASSERT_TRUE(block.add("driveTo", {geo::Wgs84::from_degrees(41.0, -8.0)}));
   ASSERT_TRUE(block.add("wait", {std::int64_t{5}}));
+  ASSERT_TRUE(block.add("photograph", {}));
   ASSERT_TRUE(block.add("returnToStart", {}));
   auto const built = block.session->finish();
   ASSERT_TRUE(built);
   auto const& task = dynamic_cast<DriveTask const&>(**built);
   EXPECT_EQ(task.name(), "Office");
-  std::vector<Step> const wanted{ExploreStep{"tour"}, DriveToNameStep{"room 221"},
-                                 DriveToPlaceStep{geo::Wgs84::from_degrees(41.0, -8.0)}, WaitStep{5.0}, ReturnStep{}};
+  std::vector<Step> const wanted{ExploreStep{"tour"},
+                                 DriveToNameStep{"room 221"},
+                                 DriveToPlaceStep{geo::Wgs84::from_degrees(41.0, -8.0)},
+                                 WaitStep{5.0},
+                                 PhotographStep{},
+                                 ReturnStep{}};
   EXPECT_EQ(task.steps(), wanted);
   EXPECT_EQ(task.reference_position()->lat_deg(), 41.0);
 }
@@ -61,6 +66,17 @@ TEST(DriveTask, SuitsWhatDrivesOnTheGround) {
   EXPECT_FALSE(task.unsuited(info));
   info.type = "UAV";
   EXPECT_EQ(task.unsuited(info), "a UAV does not drive on a floor");
+}
+
+TEST(DriveTask, ThatPhotographsSuitsWhatHasACamera) {
+  DriveTask const task("x", {ReturnStep{}, PhotographStep{}});
+  tasks::VehicleInfo info;
+  info.type = "UGV";
+  EXPECT_FALSE(task.unsuited(info)) << "what it carries is not known";
+  info.payload = {"Laser"};
+  EXPECT_EQ(task.unsuited(info), "no payload Camera");
+  info.payload.emplace_back("Camera");
+  EXPECT_FALSE(task.unsuited(info));
 }
 
 }  // namespace

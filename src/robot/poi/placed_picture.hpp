@@ -1,0 +1,13 @@
+#pragma once
+
+#include "map/features/contents.hpp"
+#include "robot/poi/camera_mount.hpp"
+#include "vehicle/place.hpp"
+
+namespace lapwing::robot {
+
+/// Where a picture was taken from and where the camera looked, of one on a robot that stood there; the rest of it is
+/// the caller's to say.
+[[nodiscard]] map::Picture placed_picture(CameraMount const& mount, vehicle::SitePose const& body);
+
+}  // namespace lapwing::robot
