@@ -1,11 +1,14 @@
 #include "video/rtsp/rtsp_server.hpp"
 
+#include <sys/socket.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <gio/gio.h>
 #include <gst/gst.h>
 #include <gst/rtsp-server/rtsp-server.h>
 #include <gst/video/video.h>
@@ -29,6 +32,10 @@ constexpr unsigned connections_a_viewer = 4;
 /// A player whose network has gone keeps its place for so long. Players say at half that time that they are there.
 constexpr guint session_s = 30;
 constexpr guint cleanup_s = 5;
+/// What waits in the kernel is old when it comes: some 2 s over TCP, so that a radio may stutter.
+constexpr int kernel_bytes = 256 * 1024;
+/// Of a connection that has begun to look.
+constexpr auto looks = "lapwing-looks";
 /// Who has lost a picture sees again after so long.
 constexpr double group_s = 2.0;
 
@@ -64,9 +71,20 @@ Owned<GstRTSPAuth> guard(std::string const& token) {
 
 // What GStreamer calls, on threads of its own.
 
+/// Whose place is gone, because it is lost, was too slow or has left, is told so by the end of its connection.
+GstRTSPFilterResult end_without_session(GstRTSPServer*, GstRTSPClient* client, gpointer) {
+  if (g_object_get_data(G_OBJECT(client), looks) == nullptr) return GST_RTSP_FILTER_KEEP;
+  auto* const sessions = gst_rtsp_client_session_filter(client, nullptr, nullptr);
+  bool const has_none = sessions == nullptr;
+  g_list_free_full(sessions, g_object_unref);
+  return has_none ? GST_RTSP_FILTER_REMOVE : GST_RTSP_FILTER_KEEP;
+}
+
 gboolean forget_lost_viewers(gpointer server) {
   Owned<GstRTSPSessionPool> const sessions(gst_rtsp_server_get_session_pool(GST_RTSP_SERVER(server)));
   gst_rtsp_session_pool_cleanup(sessions.get());
+  g_list_free_full(gst_rtsp_server_client_filter(GST_RTSP_SERVER(server), end_without_session, nullptr),
+                   g_object_unref);
   return G_SOURCE_CONTINUE;
 }
 
@@ -77,7 +95,8 @@ GstRTSPStatusCode refuse_when_full(GstRTSPClient* client, GstRTSPContext* contex
   return context->session == nullptr && is_full ? GST_RTSP_STS_SERVICE_UNAVAILABLE : GST_RTSP_STS_OK;
 }
 
-void set_patience(GstRTSPClient*, GstRTSPSession* session, gpointer) {
+void begin_session(GstRTSPClient* client, GstRTSPSession* session, gpointer) {
+  g_object_set_data(G_OBJECT(client), looks, client);
   gst_rtsp_session_set_timeout(session, session_s);
 }
 
@@ -96,8 +115,10 @@ void take_in(GstRTSPServer* server, GstRTSPClient* client, gpointer most_viewers
   auto const count = g_list_length(all);
   g_list_free_full(all, g_object_unref);
   if (count > connections_a_viewer * GPOINTER_TO_UINT(most_viewers)) return gst_rtsp_client_close(client);
+  auto* const socket = gst_rtsp_connection_get_write_socket(gst_rtsp_client_get_connection(client));
+  g_socket_set_option(socket, SOL_SOCKET, SO_SNDBUF, kernel_bytes, nullptr);
   g_signal_connect(client, "pre-setup-request", G_CALLBACK(refuse_when_full), most_viewers);
-  g_signal_connect(client, "new-session", G_CALLBACK(set_patience), nullptr);
+  g_signal_connect(client, "new-session", G_CALLBACK(begin_session), nullptr);
   g_signal_connect(client, "play-request", G_CALLBACK(ask_for_whole_picture), nullptr);
 }
 

@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = ROOT / "build/release/bin"
 SECONDS = float(os.environ.get("LAPWING_BENCH_SECONDS", "30"))
 WIDTH, HEIGHT = 640, 480
