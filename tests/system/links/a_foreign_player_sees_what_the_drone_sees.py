@@ -2,59 +2,25 @@
 process that is killed with -9 are no matter to the others; who does not know the password sees nothing."""
 
 import os
-import shutil
 import signal
-import subprocess
-import sys
-import threading
 import time
 
 import harness
 import survey
 from drone import Drone
+from player import Player
 
 WIDTH, HEIGHT = 320, 240
-if not shutil.which("gst-launch-1.0"):
-    print("gstreamer1.0-tools is not installed")
-    sys.exit(77)
+Player.skip_without()
 
 
-class Player:
-    """Keeps the newest picture, and how many there were. What is decoded is the brightness of each pixel."""
-
-    def __init__(self, path: str, protocols: str = "tcp", password: str = "swordfish"):
-        source = f"rtspsrc location=rtsp://127.0.0.1:{rtsp_port}{path} latency=0 protocols={protocols} user-id=viewer user-pw={password}"
-        words = f"{source} ! rtph264depay ! h264parse ! openh264dec ! videoconvert ! video/x-raw,format=GRAY8 ! fdsink sync=false"
-        self.process = subprocess.Popen(["gst-launch-1.0", "-q", *words.split()], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.count, self.newest, self.words = 0, b"", ""
-        threading.Thread(target=self._read, daemon=True).start()
-        threading.Thread(target=self._read_words, daemon=True).start()
-
-    def _read(self) -> None:
-        while len(picture := self.process.stdout.read(WIDTH * HEIGHT)) == WIDTH * HEIGHT:
-            self.newest, self.count = picture, self.count + 1
-
-    def _read_words(self) -> None:
-        for line in self.process.stderr:
-            self.words += line.decode()
-
-    def wait_for(self, more: int, seconds: float = 20) -> bytes:
-        known = self.count
-        harness.wait_until(lambda: self.count >= known + more or time.sleep(0.02), seconds, f"{more} more pictures; it says: {self.words}")
-        return self.newest
-
-    def end(self) -> None:
-        self.process.kill()
-        self.process.wait()
-
-
-def brightness(picture: bytes, x: int, y: int) -> int:
-    return picture[y * WIDTH + x]
+def look(path: str, **how) -> Player:
+    return Player(rtsp_port, path, (WIDTH, HEIGHT), **how)
 
 
 def is_the_pattern(picture: bytes) -> bool:
     """Of its bars the first is white and the last is black, in the picture's uppermost rows."""
-    return brightness(picture, 15, 5) > 200 and brightness(picture, WIDTH - 15, 5) < 40
+    return picture[5 * WIDTH + 15] > 200 and picture[5 * WIDTH + WIDTH - 15] < 40
 
 
 rtsp_port, pictures_port = harness.free_tcp_port(), harness.free_tcp_port()
@@ -72,7 +38,7 @@ token.chmod(0o600)
 
 with drone:
     drone.wait_for_log(f"rtsp://127.0.0.1:{rtsp_port}/annotated")
-    raw, annotated, by_datagrams = Player("/raw"), Player("/annotated"), Player("/raw", "udp")
+    raw, annotated, by_datagrams = look("/raw"), look("/annotated"), look("/raw", protocols="udp")
     for player in (raw, annotated, by_datagrams):
         first = player.wait_for(1)
         assert is_the_pattern(first), first[:WIDTH:20]
@@ -84,15 +50,15 @@ with drone:
 
     # A wrong password, and none.
     for password in ("Swordfish", '""'):
-        stranger = Player("/raw", password=password)
+        stranger = look("/raw", password=password)
         assert stranger.process.wait(timeout=20) != 0
         assert stranger.count == 0 and "nauthorized" in stranger.words, stranger.words
     # A path that is not there.
-    lost = Player("/elsewhere")
+    lost = look("/elsewhere")
     assert lost.process.wait(timeout=20) != 0 and lost.count == 0
 
     # One that hangs takes nothing more; the others go on.
-    hung = Player("/raw")
+    hung = look("/raw")
     hung.wait_for(1)
     hung.process.send_signal(signal.SIGSTOP)
     raw.wait_for(30)
@@ -107,7 +73,7 @@ with drone:
     drone.wait_for_log("stream killed by signal 9 (Killed); it is started again")
     harness.wait_until(lambda: (pid := drone.pid("stream")) and pid != killed or time.sleep(0.05), 10, "stream runs again")
     harness.wait_until(lambda: sum(f":{rtsp_port}/annotated" in line for line in drone.log) == 2 or time.sleep(0.05), 10, "it serves again")
-    again = Player("/annotated")
+    again = look("/annotated")
     assert is_the_pattern(again.wait_for(2))
 
     # The camera's own process is killed: the player stays, and sees again.
