@@ -1,5 +1,5 @@
-// What goes between a program with simulated drones and the one that shows them a car park: what was read is written and
-// read again as itself.
+// What goes between a program with simulated drones and the one that shows them a car park: what was read is written
+// and read again as itself.
 #include <cstdint>
 #include <string_view>
 
