@@ -49,7 +49,7 @@ int cars(CarOptions const& options) {
   if (!watcher) return host::refuse(watcher.error());
   auto const outcome =
       carry_out(options.common, [&](std::size_t, cv::Mat const& upright, vision::FlightRecord const& flight) -> Seen {
-        auto const ground = watcher->look(upright, flight, options.least_score);
+        auto const ground = watcher->look(upright, flight, options.least_score, vision::Views::picture_and_mirror);
         Seen seen{.detections = {}, .metres_a_pixel = ground.metres_a_pixel};
         for (auto const& car : ground.overhead.cars) seen.detections.push_back(told(car, upright.size()));
         return seen;

@@ -46,7 +46,8 @@ std::optional<double> GroundWatcher::scale_of(cv::Mat const& upright, vision::Fl
       upright, [&](cv::Mat const& square) { return network_->look_at_square(square, least_score); });
 }
 
-Ground GroundWatcher::look(cv::Mat const& upright, vision::FlightRecord const& flight, double least_score) {
+Ground GroundWatcher::look(cv::Mat const& upright, vision::FlightRecord const& flight, double least_score,
+                           vision::Views views) {
   Ground ground{.overhead = {}, .metres_a_pixel = scale_of(upright, flight)};
   if (!ground.metres_a_pixel) {
     fmt::print(stderr,
@@ -54,7 +55,7 @@ Ground GroundWatcher::look(cv::Mat const& upright, vision::FlightRecord const& f
     return ground;
   }
   if (network_) {
-    ground.overhead = network_->look(upright, *ground.metres_a_pixel, least_score);
+    ground.overhead = network_->look(upright, *ground.metres_a_pixel, least_score, views);
   } else {
     ground.overhead.cars = vision::cars_by_contrast(upright, *ground.metres_a_pixel);
     std::erase_if(ground.overhead.cars, [&](auto const& car) { return car.score < least_score; });

@@ -31,7 +31,8 @@ class GroundWatcher {
  public:
   [[nodiscard]] static base::Result<GroundWatcher> make(GroundOptions const& options);
 
-  [[nodiscard]] Ground look(cv::Mat const& upright, vision::FlightRecord const& flight, double least_score);
+  [[nodiscard]] Ground look(cv::Mat const& upright, vision::FlightRecord const& flight, double least_score,
+                            vision::Views views);
 
  private:
   explicit GroundWatcher(GroundOptions options) : options_(std::move(options)) {}

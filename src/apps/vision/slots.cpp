@@ -90,7 +90,7 @@ int slots(SlotOptions const& options) {
   }
   auto const outcome = carry_out(
       options.common, [&](std::size_t which, cv::Mat const& upright, vision::FlightRecord const& flight) -> Seen {
-        auto const ground = watcher->look(upright, flight, least_car);
+        auto const ground = watcher->look(upright, flight, least_car, vision::Views::picture);
         Seen seen{.detections = {}, .metres_a_pixel = ground.metres_a_pixel};
         if (!ground.metres_a_pixel) return seen;
         std::vector<vision::SeenSlot> placed;

@@ -68,19 +68,20 @@ base::Result<CarNetwork> CarNetwork::load(std::string const& network) {
   }
 }
 
-cv::Mat CarNetwork::answer_to(cv::Mat const& square) {
-  constexpr bool to_rgb = true;
-  net_.setInput(cv::dnn::blobFromImage(square, 1.0 / contrast, {}, cv::Scalar::all(grey), to_rgb));
-  return net_.forward();
-}
-
-cv::Mat CarNetwork::confirmed_answer_to(cv::Mat const& square) {
+cv::Mat CarNetwork::answer_to(cv::Mat const& square, Views views) {
+  auto const shown = [](cv::Mat const& pixels) {
+    constexpr bool to_rgb = true;
+    return cv::dnn::blobFromImage(pixels, 1.0 / contrast, {}, cv::Scalar::all(grey), to_rgb);
+  };
+  net_.setInput(shown(square));
+  if (views == Views::picture) return net_.forward();
   // The network's own memory, which the mirror image overwrites.
-  cv::Mat answer = answer_to(square).clone();
+  cv::Mat answer = net_.forward().clone();
   cv::Mat mirrored;
   constexpr int left_to_right = 1;
   cv::flip(square, mirrored, left_to_right);
-  confirm(answer, answer_to(mirrored));
+  net_.setInput(shown(mirrored));
+  confirm(answer, net_.forward());
   return answer;
 }
 
@@ -88,7 +89,7 @@ std::vector<SeenCar> CarNetwork::look_at_square(cv::Mat const& pixels, double le
   return cars_of_answer(answer_to(squared(pixels)), least_score);
 }
 
-Overhead CarNetwork::look(cv::Mat const& pixels, double metres_a_pixel, double least_score) {
+Overhead CarNetwork::look(cv::Mat const& pixels, double metres_a_pixel, double least_score, Views views) {
   if (pixels.empty()) return {};
   double const scale = metres_a_pixel / car_metres;
   auto const scaled = at_scale(pixels, scale);
@@ -99,7 +100,8 @@ Overhead CarNetwork::look(cv::Mat const& pixels, double metres_a_pixel, double l
   for (int const top : beginnings(scaled.rows)) {
     for (int const left : beginnings(scaled.cols)) {
       cv::Rect const tile(left, top, std::min(car_input, scaled.cols - left), std::min(car_input, scaled.rows - top));
-      auto const answer = confirmed_answer_to(squared(scaled(tile)));
+      // Perhaps the network's own memory, which the next tile overwrites.
+      auto const answer = answer_to(squared(scaled(tile)), views);
       for (auto car : cars_of_answer(answer, least_score)) {
         car.box.middle.x += left;
         car.box.middle.y += top;
