@@ -21,14 +21,33 @@ def convolution(inputs: int, outputs: int, size: int = 3, step: int = 1) -> nn.S
     return nn.Sequential(nn.Conv2d(inputs, outputs, size, step, size // 2, bias=False), nn.BatchNorm2d(outputs), nn.ReLU(True))
 
 
+class Twice(nn.Module):
+    """Two convolutions beside a short cut (He et al. 2016)."""
+
+    def __init__(self, planes: int):
+        super().__init__()
+        self.first = convolution(planes, planes)
+        self.second = nn.Sequential(nn.Conv2d(planes, planes, 3, 1, 1, bias=False), nn.BatchNorm2d(planes))
+
+    def forward(self, x):
+        return functional.relu(x + self.second(self.first(x)))
+
+
+def twice_as_large(x: torch.Tensor) -> torch.Tensor:
+    return functional.interpolate(x, scale_factor=2.0, mode="nearest")
+
+
 class Cars(nn.Module):
+    """Down to a 32nd, where a place has seen what a house looks like, and up again to a 4th, where a vehicle is told from its neighbour."""
+
     def __init__(self):
         super().__init__()
         self.at4 = nn.Sequential(convolution(3, 14, 3, 2), convolution(14, 28, 3, 2))
-        self.at8 = nn.Sequential(convolution(28, 48, 3, 2), convolution(48, 48))
-        self.at16 = nn.Sequential(convolution(48, 80, 3, 2), convolution(80, 80))
-        self.side16, self.side8, self.side4 = nn.Conv2d(80, 40, 1), nn.Conv2d(48, 40, 1), nn.Conv2d(28, 32, 1)
-        self.mix8, self.mix4 = convolution(40, 32), convolution(32, 40)
+        self.at8 = nn.Sequential(convolution(28, 48, 3, 2), Twice(48))
+        self.at16 = nn.Sequential(convolution(48, 80, 3, 2), Twice(80))
+        self.at32 = nn.Sequential(convolution(80, 112, 3, 2), Twice(112))
+        self.side32, self.side16, self.side8, self.side4 = nn.Conv2d(112, 56, 1), nn.Conv2d(80, 56, 1), nn.Conv2d(48, 40, 1), nn.Conv2d(28, 32, 1)
+        self.mix16, self.mix8, self.mix4 = convolution(56, 40), convolution(40, 32), convolution(32, 40)
         self.head = nn.Conv2d(40, 8, 1)
         nn.init.normal_(self.head.weight, 0, 0.01)
         nn.init.zeros_(self.head.bias)
@@ -38,8 +57,9 @@ class Cars(nn.Module):
         at4 = self.at4(x)
         at8 = self.at8(at4)
         at16 = self.at16(at8)
-        up8 = self.mix8(functional.interpolate(self.side16(at16), scale_factor=2.0, mode="nearest") + self.side8(at8))
-        return self.head(self.mix4(functional.interpolate(up8, scale_factor=2.0, mode="nearest") + self.side4(at4)))
+        up16 = self.mix16(twice_as_large(self.side32(self.at32(at16))) + self.side16(at16))
+        up8 = self.mix8(twice_as_large(up16) + self.side8(at8))
+        return self.head(self.mix4(twice_as_large(up8) + self.side4(at4)))
 
 
 def loss_of(answer: torch.Tensor, wanted: torch.Tensor) -> torch.Tensor:

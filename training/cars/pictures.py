@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+import io
 import math
 import pathlib
 
 import numpy
 import torch
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFilter
 
 import network
 import scenes
@@ -84,8 +85,8 @@ def photographs(folder: pathlib.Path, squeezed: bool) -> list[Picture]:
     return [picture for picture in pictures if picture]
 
 
-def rendered(seed: int, count: int, side: int = 520) -> list[Picture]:
-    rng, pictures = numpy.random.default_rng(seed), []
+def rendered(rng: numpy.random.Generator, count: int, side: int = 520) -> list[Picture]:
+    pictures = []
     for _ in range(count):
         scene = scenes.render(rng, side, SOURCE_METRES)
         cars, blank = [], []
@@ -119,7 +120,21 @@ def view_of(picture: Picture, rng: numpy.random.Generator) -> tuple[numpy.ndarra
     fill = tuple(int(v) for v in rng.integers(20, 220, 3))
     shown = picture.pixels.transform((VIEW, VIEW), Image.Transform.AFFINE, terms, Image.Resampling.BILINEAR, fillcolor=fill)
     covered = numpy.asarray(picture.covered.transform((VIEW, VIEW), Image.Transform.AFFINE, terms, Image.Resampling.NEAREST, fillcolor=0))
-    return numpy.asarray(shown), wanted_of(picture, covered, forward, middle)
+    return numpy.asarray(spoilt(shown, rng)), wanted_of(picture, covered, forward, middle)
+
+
+def spoilt(shown: Image.Image, rng: numpy.random.Generator) -> Image.Image:
+    """Coarser cameras, lenses that blur, files that were packed tightly."""
+    if rng.random() < 0.25:
+        coarse = round(VIEW / rng.uniform(1.2, 2.4))
+        shown = shown.resize((coarse, coarse), Image.Resampling.BOX).resize((VIEW, VIEW), Image.Resampling.BICUBIC)
+    elif rng.random() < 0.2:
+        shown = shown.filter(ImageFilter.GaussianBlur(rng.uniform(0.4, 1.3)))
+    if rng.random() < 0.35:
+        packed = io.BytesIO()
+        shown.save(packed, "JPEG", quality=int(rng.integers(25, 90)))
+        shown = Image.open(packed).convert("RGB")
+    return shown
 
 
 PLACES = VIEW // network.STEP

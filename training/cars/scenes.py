@@ -12,6 +12,7 @@ import math
 import numpy
 from PIL import Image, ImageChops, ImageDraw, ImageFilter
 
+import surroundings
 import vehicles
 
 FINER = 2
@@ -87,6 +88,7 @@ def rows_of(rng: numpy.random.Generator, reach: float) -> tuple[list[Slot], list
     """Slots, and the lines that bound them: (points, width)."""
     pitch, depth = rng.uniform(2.35, 3.05), rng.uniform(4.6, 5.8)
     slant = rng.choice([0.0, rng.uniform(0.2, 0.75)], p=[0.75, 0.25])
+    pitch /= math.cos(slant)  # a slanted slot is as wide as others
     double, hairpin, spine = rng.random() < 0.65, rng.random() < 0.12, rng.random() < 0.7
     aisle, line = rng.uniform(4.5, 8.0), rng.uniform(0.09, 0.17)
     slots, lines = [], []
@@ -110,7 +112,7 @@ def rows_of(rng: numpy.random.Generator, reach: float) -> tuple[list[Slot], list
                 if k < count:
                     heading = math.atan2(facing * depth, shift)
                     middle = (at + (pitch - shift) / 2, head - facing * depth / 2)
-                    slots.append(Slot(*middle, heading, pitch * math.cos(slant), depth / math.cos(slant), slant if facing > 0 else -slant))
+                    slots.append(Slot(*middle, heading, pitch * math.cos(slant), depth / math.cos(slant), -slant))
             if spine:
                 lines.append(([(begin, head), (begin + count * pitch, head)], line))
         across += (2 * depth if double else depth) + aisle
@@ -218,6 +220,16 @@ def trees(rng: numpy.random.Generator, canvas: Image.Image, covered: Image.Image
             mask.ellipse(box, fill=0)
 
 
+def drive(rng: numpy.random.Generator, places) -> list[vehicles.Vehicle]:
+    """Along a street, now and then a bus, which takes the room of what would come next."""
+    there: list[vehicles.Vehicle] = []
+    for x, y, heading in places:
+        bus = rng.random() < 0.06
+        if not any(math.hypot(car.x - x, car.y - y) < (12.5 if bus else 3.2 + car.length / 2) and abs(math.sin(math.atan2(y - car.y, x - car.x) - heading)) < 0.35 for car in there):
+            there.append(vehicles.parked(rng, x, y, heading, vehicles.BUS if bus else None))
+    return there
+
+
 def park(rng: numpy.random.Generator, slots: list[Slot]) -> list[vehicles.Vehicle]:
     there = []
     full = rng.choice([rng.uniform(0, 0.15), rng.uniform(0.1, 0.7), rng.uniform(0.6, 1.0)], p=[0.15, 0.4, 0.45])
@@ -279,29 +291,47 @@ def render(rng: numpy.random.Generator, side: int, metres: float) -> Labelled:
     size = side * FINER
     view = View(rng, side, metres)
     canvas = ground(rng, size)
-    slots, lines = rows_of(rng, 0.75 * side * metres) if rng.random() < 0.9 else ([], [])
+    is_street = rng.random() < 0.25
+    places, edges = surroundings.street_of(rng) if is_street else ([], None)
+    slots, lines = rows_of(rng, 0.75 * side * metres) if not is_street and rng.random() < 0.9 else ([], [])
     if rng.random() < 0.75:
         cracks(rng, canvas)
+    if is_street:
+        surroundings.draw_street(rng, canvas, view, edges)
+    if rng.random() < (0.95 if is_street else 0.35):
+        surroundings.street_paint(rng, canvas, view)
     if rng.random() < 0.9:
         paint(rng, canvas, view, lines, slots)
     islands(rng, canvas, view, slots)
+    if rng.random() < 0.5:
+        surroundings.beds(rng, canvas, view)
     clutter(rng, canvas, view)
-    there = park(rng, slots)
+    houses, posts = surroundings.houses_of(rng), surroundings.posts_of(rng)
+    slots = [slot for slot in slots if not any(house.is_near(slot.x, slot.y) for house in houses)]
+    there = [car for car in park(rng, slots) + drive(rng, places) if not any(house.is_near(car.x, car.y) for house in houses)]
     sunny = rng.random() < 0.75
     angle, low = rng.uniform(0, 2 * math.pi), rng.uniform(0.15, 1.6) if sunny else 0.08
     sun = low * numpy.array([math.cos(angle), math.sin(angle)])
     covered = Image.new("L", canvas.size, 0)
     crowns = crowns_of(rng)
     canvas = shaded(rng, canvas, view, there, crowns, sun)
+    fallen = [outline for house in houses for outline in surroundings.shadow_of(house, sun)] if sunny else []
+    dims_cars = rng.random() < 0.6  # the shadow of houses falls on vehicles, or beside them
+    if not dims_cars:
+        canvas = surroundings.blurred_shadow(rng, canvas, view, fallen, posts if sunny else [], sun)
     brush, mask = ImageDraw.Draw(canvas), ImageDraw.Draw(covered)
     for car in there:
         vehicles.draw(rng, brush, car, view, angle)
         for outline in vehicles.silhouette(car):
             mask.polygon([tuple(p) for p in view(outline)], fill=255)
+    if dims_cars:
+        canvas = surroundings.blurred_shadow(rng, canvas, view, fallen, posts if sunny else [], sun)
+    surroundings.draw_posts(rng, canvas, view, posts)
     trees(rng, canvas, covered, view, crowns)
+    surroundings.draw_houses(rng, canvas, covered, view, houses)
     told = [slot for slot in slots if slot.parkable or slot.taken]
     corners = numpy.array([view(slot.corners()) / FINER for slot in told], numpy.float32).reshape(-1, 4, 2)
     small = canvas.resize((side, side), Image.Resampling.BOX)
     seen = numpy.asarray(covered.resize((side, side), Image.Resampling.BOX))
-    cars = [(*box, share_seen(seen, box)) for box in (box_of(car, view) for car in there)]
+    cars = [(*box, share_seen(seen, box)) for box in (box_of(car, view) for car in there if car.kind is not vehicles.BUS)]
     return Labelled(numpy.asarray(small), numpy.array(cars, numpy.float32).reshape(-1, 6), seen, corners, numpy.array([slot.taken for slot in told], bool), metres)

@@ -2,13 +2,13 @@
 
     train.py scenes --count N --seed S --out scenes.pt          renders car parks
     train.py show --count N --seed S --out DIR                  writes some of them as files, with labels, to be looked at and to test with
-    train.py learn --scenes scenes.pt --rows DIR --streets DIR [--from a.pt] --minutes M --out b.pt
+    train.py learn --rows DIR --streets DIR --count N --seed S --minutes M --out b.pt
     train.py export --from b.pt --scenes others.pt --rows DIR --streets DIR --out cars.onnx
     train.py occupancy --from b.pt --scenes others.pt           fits the chance that a slot is taken: the numbers of occupancy.cpp
 
 Minutes are of the clock on the wall. `rows` is a folder of pictures that were squeezed to squares (train, valid and test as Roboflow exports them), `streets`
-one of pictures beside YOLO's labels, of which those named Munich* are kept back. `export` makes chances of the network's words by what was kept back and by
-scenes of another seed, and prints how good it is on each.
+one of pictures beside YOLO's labels, of which those named Munich* are kept back. `learn` goes on with what it finds in its `--out`. `export` prints how good
+the network is on what was kept back and on scenes of another seed, and makes chances of its words by the streets, the one place that it never saw.
 """
 
 from __future__ import annotations
@@ -29,8 +29,9 @@ import network
 import pictures
 import scenes
 
-SCENES, PHOTOGRAPHS = 2, 2  # of a batch: where time is short, many small steps teach more than few large ones
-STREET_SHARE = 0.3  # of the photographs' views
+SCENES, PHOTOGRAPHS = 4, 2  # of a batch: where time is short, many small steps teach more than few large ones
+FRESH = 6  # steps from one new scene to the next
+STREET_SHARE = 0.5  # of the photographs' views
 TILE = 512  # pixels a side of what the program shows it
 
 
@@ -51,15 +52,27 @@ class Average:
                     mine.copy_(other)
 
 
-def learn(net: network.Cars, sources, minutes: float, rate: float, seed: int, out: pathlib.Path) -> None:
-    rng, begun, step, told = numpy.random.default_rng(seed), time.monotonic(), 0, 0.0
-    net.train()
+def learn(sources, minutes: float, rate: float, seed: int, out: pathlib.Path) -> None:
+    """What `out` already holds of a course that was cut off is gone on with."""
+    rng, net = numpy.random.default_rng(seed), network.Cars().train()
     average = Average(net)
     teacher = torch.optim.AdamW(net.parameters(), rate, weight_decay=1e-2)
-    losses: list[float] = []
+    spent = 0.0  # seconds
+    if out.exists():
+        kept = torch.load(out)
+        net.load_state_dict(kept["net"])
+        average.net.load_state_dict(kept["average"])
+        teacher.load_state_dict(kept["teacher"])
+        average.steps, spent = kept["steps"], kept["spent"]
+        rng = numpy.random.default_rng(seed + average.steps)
+    begun, told, losses = time.monotonic() - spent, time.monotonic(), []
+    keep = lambda: torch.save({"net": net.state_dict(), "average": average.net.state_dict(), "teacher": teacher.state_dict(), "steps": average.steps, "spent": time.monotonic() - begun}, out)
     while (done := (time.monotonic() - begun) / (60 * minutes)) < 1:
         for group in teacher.param_groups:
-            group["lr"] = rate * min(1.0, (step + 1) / 60) * (0.5 + 0.5 * math.cos(math.pi * done) * 0.98 + 0.01)
+            group["lr"] = rate * min(1.0, (average.steps + 1) / 100) * (0.5 + 0.5 * math.cos(math.pi * done) * 0.99 + 0.005)
+        if average.steps % FRESH == 0:  # no end of scenes: what has been seen for longest gives way
+            drawn = sources[0][0]
+            drawn[average.steps // FRESH % len(drawn)] = pictures.rendered(rng, 1)[0]
         shown, wanted = pictures.batch(sources, rng)
         loss = network.loss_of(net(shown), wanted)
         teacher.zero_grad()
@@ -68,22 +81,30 @@ def learn(net: network.Cars, sources, minutes: float, rate: float, seed: int, ou
         teacher.step()
         average.add(net)
         losses.append(float(loss))
-        step += 1
-        if time.monotonic() - told > 30:
+        if time.monotonic() - told > 60:
             told = time.monotonic()
-            print(f"{time.strftime('%H:%M:%S')} {done:.0%}, {step} steps, loss {numpy.mean(losses[-100:]):.3f}", flush=True)
-            torch.save(average.net.state_dict(), out)
-    torch.save(average.net.state_dict(), out)
+            print(f"{time.strftime('%H:%M:%S')} {done:.0%}, {average.steps} steps, loss {numpy.mean(losses[-400:]):.3f}, {time.process_time():.0f} s of one core", flush=True)
+            keep()
+    keep()
+
+
+def answer_to(net: network.Cars, picture: pictures.Picture) -> tuple[torch.Tensor, list[int]]:
+    """Of the whole picture, as the program has it: chances are the mean of the picture's and its mirror image's. And its size in the network's pixels."""
+    size = [max(1, round(n * pictures.SOURCE_METRES / network.METRES)) for n in picture.pixels.size]
+    square = numpy.full((math.ceil(size[1] / 32) * 32, math.ceil(size[0] / 32) * 32, 3), int(network.GREY), numpy.uint8)
+    square[:size[1], :size[0]] = numpy.asarray(picture.pixels.resize(size, Image.Resampling.BOX))
+    shown = pictures.normal(torch.from_numpy(square).permute(2, 0, 1)[None])
+    with torch.no_grad():
+        answer, mirror = net(shown), net(shown.flip(3)).flip(3)
+    answer[:, network.MIDDLE] = (answer[:, network.MIDDLE] + mirror[:, network.MIDDLE]) / 2
+    answer[:, network.COVERED] = torch.logit((torch.sigmoid(answer[:, network.COVERED]) + torch.sigmoid(mirror[:, network.COVERED])) / 2, eps=1e-6)
+    return answer, size
 
 
 def seen_by(net: network.Cars, picture: pictures.Picture) -> tuple[numpy.ndarray, numpy.ndarray]:
     """What the network finds in all of a picture, and what is there, in the network's pixels."""
     scale = pictures.SOURCE_METRES / network.METRES
-    size = [max(1, round(n * scale)) for n in picture.pixels.size]
-    square = numpy.full((math.ceil(size[1] / 16) * 16, math.ceil(size[0] / 16) * 16, 3), int(network.GREY), numpy.uint8)
-    square[:size[1], :size[0]] = numpy.asarray(picture.pixels.resize(size, Image.Resampling.BOX))
-    with torch.no_grad():
-        found = network.found_in(net(pictures.normal(torch.from_numpy(square).permute(2, 0, 1)[None])))[0].numpy()
+    found = network.found_in(answer_to(net, picture)[0])[0].numpy()
     there = picture.cars.copy()
     there[:, :4] *= scale
     return found, there
@@ -140,13 +161,11 @@ def kept_back(words) -> dict[str, list[pictures.Picture]]:
 
 def export(words) -> None:
     net = restored(words.start)
-    sure, right = [], []
-    for name, of in kept_back(words).items():
-        each = verdicts(net, of)
+    apart = {name: verdicts(net, of) for name, of in kept_back(words).items()}
+    for name, each in apart.items():
         tell(name, *each)
-        sure.append(each[0])
-        right.append(each[1])
-    slope, offset = calibration(numpy.concatenate(sure), numpy.concatenate(right).astype(float))
+    sure, right, _ = apart["streets"]  # the others are of the lot and of the making that it learnt from: it is surer there than elsewhere
+    slope, offset = calibration(sure, right.astype(float))
     print(f"chances: slope {slope:.3f}, offset {offset:.3f}")
     torch.onnx.export(network.Exported(net, slope, offset).eval(), torch.zeros(1, 3, TILE, TILE), words.out, opset_version=11, input_names=["picture"], output_names=["cars"])
 
@@ -154,11 +173,7 @@ def export(words) -> None:
 def shares_of(net: network.Cars, picture: pictures.Picture, slope: float, offset: float) -> list[tuple[float, float, bool]]:
     """Of each slot that is well within the picture: how much of its middle shows a vehicle, the chance of the best one in it, and whether it is taken."""
     scale = pictures.SOURCE_METRES / network.METRES
-    size = [max(1, round(n * scale)) for n in picture.pixels.size]
-    square = numpy.full((math.ceil(size[1] / 16) * 16, math.ceil(size[0] / 16) * 16, 3), int(network.GREY), numpy.uint8)
-    square[:size[1], :size[0]] = numpy.asarray(picture.pixels.resize(size, Image.Resampling.BOX))
-    with torch.no_grad():
-        answer = net(pictures.normal(torch.from_numpy(square).permute(2, 0, 1)[None]))
+    answer, size = answer_to(net, picture)
     covered = torch.sigmoid(answer[0, network.COVERED]).numpy()
     cars = network.found_in(answer)[0].numpy()
     chances = 1 / (1 + numpy.exp(-(cars[:, 5] * slope + offset)))
@@ -194,7 +209,7 @@ def occupancy(words) -> None:
 
 def restored(file: pathlib.Path) -> network.Cars:
     net = network.Cars()
-    net.load_state_dict(torch.load(file))
+    net.load_state_dict(torch.load(file)["average"])
     return net.eval()
 
 
@@ -231,19 +246,17 @@ def main() -> None:
     torch.set_num_threads(1)
     if words.step == "scenes":
         with words.out.open("wb") as file:
-            pickle.dump(pictures.rendered(words.seed, words.count), file)
+            pickle.dump(pictures.rendered(numpy.random.default_rng(words.seed), words.count), file)
     elif words.step == "show":
         show(words)
     elif words.step == "learn":
-        with words.scenes.open("rb") as file:
-            drawn = pickle.load(file)
+        drawn = pictures.rendered(numpy.random.default_rng(words.seed), words.count)
         streets = [picture for file in sorted(words.streets.glob("MOS*.png")) if (picture := pictures.photograph(file, file.with_suffix(".txt"), False))]
         rows = pictures.photographs(words.rows / "train", True)
         repeated = streets * max(1, round(STREET_SHARE / (1 - STREET_SHARE) * len(rows) / len(streets)))
         sources = [(drawn, SCENES), (rows + repeated, PHOTOGRAPHS)]
-        net = restored(words.start) if words.start else network.Cars()
-        print([len(of) for of, _ in sources], "pictures,", sum(weights.numel() for weights in net.parameters()), "weights", flush=True)
-        learn(net, sources, words.minutes, words.rate, words.seed, words.out)
+        print([len(of) for of, _ in sources], "pictures", flush=True)
+        learn(sources, words.minutes, words.rate, words.seed, words.out)
     elif words.step == "occupancy":
         occupancy(words)
     else:

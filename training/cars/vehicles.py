@@ -30,14 +30,16 @@ class Kind:
 
 
 KINDS = [
-    Kind("sedan", 30, (4.3, 5.0), (1.74, 1.9), (1.4, 1.5), (0.13, 0.72), (0.27, 0.56)),
+    Kind("sedan", 28, (4.3, 5.0), (1.74, 1.9), (1.4, 1.5), (0.13, 0.72), (0.27, 0.56)),
     Kind("hatchback", 18, (3.6, 4.4), (1.65, 1.82), (1.42, 1.58), (0.02, 0.75), (0.1, 0.58)),
     Kind("suv", 24, (4.3, 5.1), (1.8, 2.0), (1.6, 1.85), (0.02, 0.74), (0.07, 0.58)),
     Kind("minivan", 9, (4.5, 5.2), (1.8, 2.0), (1.7, 2.0), (0.02, 0.84), (0.05, 0.68)),
-    Kind("pickup", 10, (5.2, 6.1), (1.85, 2.05), (1.75, 1.95), (0.4, 0.76), (0.44, 0.63)),
-    Kind("van", 6, (5.0, 6.4), (1.95, 2.1), (2.1, 2.8), (0.8, 0.92), (0.02, 0.8)),
-    Kind("truck", 3, (6.0, 7.6), (2.1, 2.4), (2.8, 3.3), (0.82, 0.98), (0.84, 0.92)),
+    Kind("pickup", 12, (5.2, 6.1), (1.85, 2.05), (1.75, 1.95), (0.4, 0.76), (0.44, 0.63)),
+    Kind("van", 9, (5.0, 6.4), (1.95, 2.1), (2.1, 2.8), (0.8, 0.92), (0.02, 0.8)),
+    Kind("truck", 4, (6.0, 7.6), (2.1, 2.4), (2.8, 3.3), (0.82, 0.98), (0.84, 0.92)),
 ]
+BUS = Kind("bus", 0, (8.5, 18.0), (2.4, 2.6), (2.7, 3.3), (0.93, 0.99), (0.005, 0.985))
+BOXES = ("van", "truck", "bus")
 
 
 @dataclasses.dataclass
@@ -63,11 +65,11 @@ class Vehicle:
         return (share - 0.5) * self.length
 
 
-def parked(rng: numpy.random.Generator, x: float, y: float, heading: float) -> Vehicle:
+def parked(rng: numpy.random.Generator, x: float, y: float, heading: float, kind: Kind | None = None) -> Vehicle:
     shares = numpy.array([kind.share for kind in KINDS])
-    kind = KINDS[rng.choice(len(KINDS), p=shares / shares.sum())]
+    kind = kind or KINDS[rng.choice(len(KINDS), p=shares / shares.sum())]
     paint = numpy.array(PAINTS[rng.choice(len(PAINTS), p=PAINT_SHARES / PAINT_SHARES.sum())], float)
-    if kind.name in ("van", "truck") and rng.random() < 0.7:
+    if kind.name in BOXES and rng.random() < 0.7:
         paint = numpy.array([235.0, 236.0, 236.0])
     paint = numpy.clip(paint + rng.normal(0, 8, 3), 8, 250)
     return Vehicle(kind, x, y, heading, rng.uniform(*kind.length), rng.uniform(*kind.width), rng.uniform(*kind.height), tuple(paint), bool(rng.random() < 0.4),
@@ -81,17 +83,17 @@ def rounded(x0: float, x1: float, half: float, nose: float, tail: float) -> list
 
 
 def body(vehicle: Vehicle) -> list[tuple[float, float]]:
-    box = vehicle.kind.name in ("van", "truck")
+    box = vehicle.kind.name in BOXES
     return rounded(-vehicle.length / 2, vehicle.length / 2, vehicle.width / 2, 0.16 if box else 0.32, 0.06 if box else 0.2)
 
 
 def belt_of(vehicle: Vehicle) -> float:
-    return min(0.95, 0.62 * vehicle.height) if vehicle.kind.name not in ("van", "truck", "pickup") else 1.05
+    return min(0.95, 0.62 * vehicle.height) if vehicle.kind.name not in (*BOXES, "pickup") else 1.05
 
 
 def roof_of(vehicle: Vehicle) -> list[tuple[float, float]]:
     tail, nose = vehicle.kind.roof
-    half = 0.5 * vehicle.width * (0.92 if vehicle.kind.name in ("van", "truck") else 0.76)
+    half = 0.5 * vehicle.width * (0.92 if vehicle.kind.name in BOXES else 0.76)
     return rounded(vehicle.along(tail), vehicle.along(nose), half, 0.12, 0.1)
 
 
@@ -110,7 +112,7 @@ def silhouette(vehicle: Vehicle) -> list[numpy.ndarray]:
         half, rear = vehicle.width / 2, vehicle.along(0.78)
         load = [(-vehicle.length / 2, -half), (rear, -half), (rear, half), (-vehicle.length / 2, half)]
         return between(ground, belt) + between(vehicle.placed(load, 0.8), vehicle.placed(load, vehicle.height), 7)
-    if vehicle.kind.name == "van":
+    if vehicle.kind.name in ("van", "bus"):
         return between(ground, vehicle.placed(roof_of(vehicle), vehicle.height), 8) + [belt]
     cabin = vehicle.placed(rounded(vehicle.along(vehicle.kind.cabin[0]), vehicle.along(vehicle.kind.cabin[1]), 0.47 * vehicle.width, 0.2, 0.12), belt_of(vehicle))
     return between(ground, belt) + between(cabin, vehicle.placed(roof_of(vehicle), vehicle.height))
@@ -148,7 +150,7 @@ def draw(rng: numpy.random.Generator, canvas: ImageDraw.ImageDraw, vehicle: Vehi
     cabin = vehicle.placed(rounded(vehicle.along(kind.cabin[0]), vehicle.along(kind.cabin[1]), 0.94 * half, 0.2, 0.12), belt)
     roof = vehicle.placed(roof_of(vehicle), vehicle.height)
     glass = tuple(int(v) for v in numpy.clip(numpy.array(GLASS) * rng.uniform(0.6, 1.7), 0, 255))
-    if kind.name == "van":
+    if kind.name in ("van", "bus"):
         for outline in between(vehicle.placed(rounded(vehicle.along(0.01), vehicle.along(0.82), half, 0.1, 0.06), belt), roof, 8):
             put(outline, tones(paint, 0.66))
         pane = [(vehicle.along(0.81), -0.84 * half), (vehicle.along(0.81), 0.84 * half), (vehicle.along(0.9), 0.9 * half), (vehicle.along(0.9), -0.9 * half)]
@@ -171,7 +173,7 @@ def draw(rng: numpy.random.Generator, canvas: ImageDraw.ImageDraw, vehicle: Vehi
     tail, nose = kind.roof
     middle = rounded(vehicle.along(tail + 0.04), vehicle.along(nose - 0.03), 0.55 * half, 0.08, 0.08)
     put(vehicle.placed(middle, vehicle.height + 0.03), tones(paint, rng.uniform(1.0, 1.12)))
-    if vehicle.skylight and kind.name not in ("van",):
+    if vehicle.skylight and kind.name != "van":
         at, size = rng.uniform(tail + 0.12, nose - 0.06), rng.uniform(0.04, 0.12)
         put(vehicle.placed([(vehicle.along(at - size), -0.42 * half), (vehicle.along(at), -0.42 * half), (vehicle.along(at), 0.42 * half), (vehicle.along(at - size), 0.42 * half)],
                            vehicle.height + 0.03), glass)

@@ -13,7 +13,7 @@ import tempfile
 
 import harness
 
-LOTS = pathlib.Path(__file__).resolve().parents[3] / "tests/golden/lots"  # training/cars/train.py show --count 4 --seed 78
+LOTS = pathlib.Path(__file__).resolve().parents[3] / "tests/golden/lots"  # rendered car parks, from before training/cars drew houses and streets
 METRES = 0.08
 
 
