@@ -1,15 +1,16 @@
-"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP and see a car park, a robot maps the office, and
-the report says so."""
+"""`lapwing demo --headless`: two copters and a rover fly the example script over UDP and see a car park, a robot maps the office and
+finds its doors, each where the program that looks is there, and the report says so."""
 
 import json
 import pathlib
+import re
 import tempfile
 
 import harness
 
 with tempfile.TemporaryDirectory() as folder:
     path = pathlib.Path(folder, "report.json")
-    out, err = harness.expect_exit(0, "demo", "--headless", "--report", str(path), seconds=240)
+    out, err = harness.expect_exit(0, "demo", "--headless", "--report", str(path), seconds=840)
     report = json.loads(path.read_text())
 
 assert report["outcome"] == "done", report
@@ -32,6 +33,14 @@ assert 0 < mapped["coverage"] <= 1, mapped
 assert 50 < mapped["free_m2"] < 48 * 24, mapped
 assert mapped["collisions"] == 0, mapped
 assert robot["track_m"] > 20, robot
+office = pathlib.Path(__file__).resolve().parents[3] / "examples/buildings/office.toml"
+there = set(re.findall(r'^sign = "(\d+)', office.read_text(), re.MULTILINE))
+found = {sign.split()[0] for sign in mapped["signs"] if sign[0].isdigit()}
+assert mapped["doors"] == len(mapped["signs"]), mapped
+if pathlib.Path(harness.LAPWING).with_name("lapwing-vision").exists():
+    assert len(found & there) >= 0.7 * len(there) and len(found - there) <= 1, (found, there)
+else:
+    assert not found, mapped
 
 
 # What the copters saw, where the program is built that shows them the car park.
@@ -49,4 +58,4 @@ def leaves(task):
 
 states = {leaf["state"] for root in report["tasks"] for leaf in leaves(root)}
 assert states == {"done"}, states
-print(f"{mapped['coverage']:.0%} of the office, {mapped['free_m2']:.0f} m2 in {robot['track_m']:.0f} m; {len(vehicles)} vehicles, {sum(v['track_m'] for v in vehicles.values()):.0f} m in all")
+print(f"{mapped['coverage']:.0%} of the office, {mapped['free_m2']:.0f} m2, {len(found)} of {len(there)} doors in {robot['track_m']:.0f} m; {len(vehicles)} vehicles, {sum(v['track_m'] for v in vehicles.values()):.0f} m in all")
