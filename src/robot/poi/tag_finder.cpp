@@ -51,9 +51,9 @@ bool is_cut_off(vision::Box const& box, CameraMount const& mount) {
 /// How much of what a piece of wall is to be looked at a look was.
 int worth_of(Look const& look, CameraMount const& mount) {
   if (look.found.empty()) return blank_look;
-  bool const is_whole =
-      std::ranges::none_of(look.found, [&](Seen const& seen) { return is_cut_off(seen.what.box, mount); });
-  return look.is_sharp && is_whole ? sharp_look : poor_look;
+  bool const is_read = std::ranges::all_of(
+      look.found, [&](Seen const& seen) { return seen.what.text && !is_cut_off(seen.what.box, mount); });
+  return look.is_sharp && is_read ? sharp_look : poor_look;
 }
 
 }  // namespace
