@@ -97,7 +97,7 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
     if (back <= count) targets.push_back({&frames[count - back].frame, poses[count - back]});
   auto const aligned = align(frame, found.pose, {.pose = guess.pose, .trust = trust_of(guess.spread)}, targets,
                              {.point_information = options_.point_information});
-  if (!is_misled) noise_.learn(guess.pose, aligned.pose, is_pinned(aligned.seen));
+  if (!is_misled) noise_.learn(driven, guess.pose, aligned.pose, is_pinned(aligned.seen));
   last_motion_ = between(poses.back(), aligned.pose);
 
   // The information is along the map's axes; the constraint is measured in the frame of the last key frame.

@@ -51,7 +51,7 @@ Laid Localizer::follow(Frame const& frame, Pose2 const& odometry) {
     }
   }
   if (frame.points.empty()) laid = {.pose = guess, .fit = 0.0};
-  if (laid.fit >= good_fit) noise_.learn(guess, laid.pose, true);
+  if (laid.fit >= good_fit) noise_.learn(driven, guess, laid.pose, true);
   pose_ = laid.pose;
   return laid;
 }

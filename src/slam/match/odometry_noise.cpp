@@ -35,8 +35,8 @@ void OdometryNoise::Ratios::add(double ratio) {
   scale = std::clamp(*p90 / gaussian_p90, least_scale, most_scale);
 }
 
-void OdometryNoise::learn(Pose2 const& predicted, Pose2 const& matched, bool is_pinned) {
-  auto const spread = nominal(predicted);
+void OdometryNoise::learn(Pose2 const& step, Pose2 const& predicted, Pose2 const& matched, bool is_pinned) {
+  auto const spread = nominal(step);
   auto const error = between(predicted, matched);
   turn_.add(std::abs(error.yaw) / spread.turn_rad);
   if (is_pinned) shift_.add(std::hypot(error.x, error.y) / std::sqrt(2.0) / spread.shift_m);

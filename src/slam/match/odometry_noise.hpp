@@ -19,8 +19,9 @@ class OdometryNoise {
   /// Standard deviations to be expected of that step.
   [[nodiscard]] Spread of(Pose2 const& step) const;
 
-  /// What a step turned out to be. `is_pinned`: the scan shows walls in both directions, so that its shift is known.
-  void learn(Pose2 const& predicted, Pose2 const& matched, bool is_pinned);
+  /// What a step turned out to be: where it was predicted to end, and where it was found to. `is_pinned`: the scan
+  /// shows walls in both directions, so that its shift is known.
+  void learn(Pose2 const& step, Pose2 const& predicted, Pose2 const& matched, bool is_pinned);
 
  private:
   struct Ratios {
