@@ -54,6 +54,7 @@ constexpr std::array table{
     parameter<&M::loops, &L::point_information>("loops.point_information"),
     parameter<&M::loops, &L::tolerance>("loops.tolerance"),
     parameter<&M::loops, &L::most_contradiction>("loops.most_contradiction"),
+    parameter<&M::loops, &L::most_contradiction_in_doubt>("loops.most_contradiction_in_doubt"),
     parameter<&M::loops, &L::late_sigmas>("loops.late_sigmas"),
     parameter<&M::loops, &L::late_rounds>("loops.late_rounds"),
     rate<&DriftRates::shift_per_sqrt_m>("loops.drift_shift"),

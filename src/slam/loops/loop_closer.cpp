@@ -63,23 +63,23 @@ LoopCloser::Group LoopCloser::witnesses_of(Graph const& graph, Closure const& cl
   return witnesses;
 }
 
-bool LoopCloser::is_believed(Group const& group) const {
+LoopCloser::Evidence LoopCloser::evidence_of(Group const& group) const {
   std::set<int> queries;
-  int unmistakable = 0;
+  std::set<int> unmistakable;
   double window_m = 0.0;
   for (auto const& closure : group) {
     queries.insert(closure.query);
-    unmistakable += closure.rival > options_.ambiguous_rival * closure.score ? 0 : 1;
+    if (closure.rival <= options_.ambiguous_rival * closure.score) unmistakable.insert(closure.query);
     window_m = std::max(window_m, closure.window_m);
   }
   constexpr double wide_m = 4.0;
   auto const is_wide = window_m > wide_m;
+  auto const needed = 1 + options_.witnesses + (is_wide ? 1 : 0);
+  auto const is_clear = static_cast<int>(unmistakable.size()) >= needed;
   // Along a corridor any number of claims agree on a wrong place, for each sees what the last one saw.
-  if (is_wide && unmistakable == 0) return false;
-  auto needed = 1 + options_.witnesses;
-  if (is_wide) ++needed;
-  if (unmistakable == 0) needed += 2;
-  return static_cast<int>(queries.size()) >= needed;
+  if (is_wide && unmistakable.empty()) return {};
+  auto const doubt = unmistakable.empty() ? 2 : 0;
+  return {.is_enough = static_cast<int>(queries.size()) >= needed + doubt, .is_clear = is_clear};
 }
 
 void LoopCloser::settle_with(Graph& graph, Group const& group) const {
@@ -113,7 +113,7 @@ bool LoopCloser::close(Graph& graph, Group const& group) {
   };
   settle_with(graph, group);
   auto held = held_of(graph, group);
-  if (held.size() < group.size() && is_believed(held)) {
+  if (held.size() < group.size() && evidence_of(held).is_enough) {
     undo();
     settle_with(graph, held);
     held = held_of(graph, held);
@@ -128,7 +128,9 @@ bool LoopCloser::close(Graph& graph, Group const& group) {
   // What lay together before in good agreement was not in need of a correction.
   constexpr double worse = 0.03;
   auto const is_better = were.seen() < options_.least_matches || passes.conflict() <= were.conflict() + worse;
-  if (is_believed(held) && is_better && passes.conflict() <= options_.most_contradiction) {
+  auto const evidence = evidence_of(held);
+  auto const most = evidence.is_clear ? options_.most_contradiction : options_.most_contradiction_in_doubt;
+  if (evidence.is_enough && is_better && passes.conflict() <= most) {
     mark(held, Verdict::closed);
     return true;
   }
@@ -172,7 +174,7 @@ bool LoopCloser::look(Graph& graph, int query) {
     auto group = witnesses_of(graph, closure);
     note(graph, closure, static_cast<int>(group.size()), Verdict::doubted);
     group.push_back(closure);
-    if (is_believed(group)) {
+    if (evidence_of(group).is_enough) {
       close_small(graph);
       if (close(graph, group)) {
         has_closed = true;
@@ -214,7 +216,7 @@ bool LoopCloser::look_everywhere(Graph& graph) {
     for (auto const& closure : group) note(graph, closure, static_cast<int>(group.size()) - 1, Verdict::doubted);
     if (std::ranges::all_of(group, [&](Closure const& c) { return is_small(graph, c); })) {
       small_.insert(small_.end(), group.begin(), group.end());
-    } else if (is_believed(group)) {
+    } else if (evidence_of(group).is_enough) {
       has_closed = close(graph, group) || has_closed;
     }
   }

@@ -34,7 +34,11 @@ class LoopCloser {
   using Group = std::vector<Closure>;
   [[nodiscard]] bool is_small(Graph const& graph, Closure const& closure) const;
   [[nodiscard]] Group witnesses_of(Graph const& graph, Closure const& closure) const;
-  [[nodiscard]] bool is_believed(Group const& group) const;
+  struct Evidence {
+    bool is_enough = false;  ///< to try what it says
+    bool is_clear = false;   ///< even without those of its claims that fit elsewhere, too
+  };
+  [[nodiscard]] Evidence evidence_of(Group const& group) const;
   /// The graph with these loops too.
   void settle_with(Graph& graph, Group const& group) const;
   /// Those of them that the poses bear out.

@@ -24,8 +24,9 @@ struct LoopOptions {
   int small_batch = 5;  ///< so many of these are taken in at once
   int witnesses = 2;    ///< other closures that must agree with a large correction
   /// Of the points of other passes that a closure brings into sight, the share in free space.
-  double most_contradiction = 0.12;
-  double late_sigmas = 4.0;  ///< of the drift, when everything is looked for again after the last scan
+  double most_contradiction = 0.25;
+  double most_contradiction_in_doubt = 0.12;  ///< where most claims fit elsewhere, too
+  double late_sigmas = 4.0;                   ///< of the drift, when everything is looked for again after the last scan
   int late_rounds = 3;
   int least_points = 60;  ///< of the query; with fewer nothing is looked for
   int near_submaps = 3;   ///< of submaps nearer to each other in time only one is looked at
