@@ -20,9 +20,10 @@ void read_look(LookFrame const& frame) {
 }
 
 void read_sight(LookFrame const& frame) {
-  auto const sight = sight_in(frame, {.lens = geo::pinhole(96, 72, 1.0)}, 0.0);
+  CarParkLook const asked{.place = {}, .lens = geo::pinhole(96, 72, 1.0), .at = {}, .pose = {}};
+  auto const sight = sight_in(frame, asked, 0.0);
   if (!sight) return fuzz::require(!sight.error().message.empty());
-  auto const again = sight_in(look_answer(*sight), {.lens = geo::pinhole(96, 72, 1.0)}, 0.0);
+  auto const again = sight_in(look_answer(*sight), asked, 0.0);
   fuzz::require(again && again->has_value() == sight->has_value());
   if (!*sight) return;
   fuzz::require((*again)->slots.size() == (*sight)->slots.size() && (*again)->cars.size() == (*sight)->cars.size());
