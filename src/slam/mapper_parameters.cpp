@@ -43,6 +43,7 @@ constexpr std::array table{
     parameter<&M::loops, &L::window_rad>("loops.window_rad"),
     parameter<&M::loops, &L::window_sigmas>("loops.window_sigmas"),
     parameter<&M::loops, &L::most_window_m>("loops.most_window_m"),
+    parameter<&M::loops, &L::most_branches>("loops.most_branches"),
     parameter<&M::loops, &L::most_window_rad>("loops.most_window_rad"),
     parameter<&M::loops, &L::most_candidates>("loops.most_candidates"),
     parameter<&M::loops, &L::least_matches>("loops.least_matches"),

@@ -53,9 +53,8 @@ class Search {
     for (int a = 0; a <= 2 * turns_; ++a)
       for (int x = -shifts_; x <= shifts_; x += 1 << top)
         for (int y = -shifts_; y <= shifts_; y += 1 << top) push(top, x, y, a);
-    constexpr int most_branches = 200'000;
     std::optional<Branch> best;
-    for (int count = 0; !queue_.empty() && count < most_branches; ++count) {
+    for (int count = 0; !queue_.empty() && count < window_.most_branches; ++count) {
       auto const branch = queue_.top();
       queue_.pop();
       if (best && is_same_place(*best, branch)) continue;

@@ -14,6 +14,8 @@ struct LoopWindow {
   /// How far off the guess may be, one standard deviation; a pose that is farther off must fit better.
   double sigma_m = 1e9;
   double sigma_rad = 1e9;
+  /// So many parts of it are looked into at most: a wide window over ground that looks alike everywhere has no end.
+  int most_branches = 200'000;
 };
 
 struct LoopMatch {

@@ -14,6 +14,7 @@ struct LoopOptions {
   double window_rad = 0.08;
   double window_sigmas = 2.5;
   double most_window_m = 40.0;
+  int most_branches = 20'000;  ///< of one search: `LoopWindow`
   double most_window_rad = 0.6;
   int most_candidates = 4;        ///< places looked at in one search
   int least_matches = 120;        ///< points of the query on the target's lines

@@ -89,7 +89,8 @@ std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, in
           .reach_m = window_of(drift),
           .reach_rad = std::min(options_.most_window_rad, options_.window_rad + scope.window_sigmas * drift.turn_rad),
           .sigma_m = options_.window_m + drift.shift_m,
-          .sigma_rad = options_.window_rad + drift.turn_rad}});
+          .sigma_rad = options_.window_rad + drift.turn_rad,
+          .most_branches = options_.most_branches}});
     // The less is known of where the query is, the more places it may be at.
     auto const most = std::max(1.0, window_of(drift) / narrow_m) * scope.most_places;
     if (static_cast<double>(chosen.size()) >= most) break;
