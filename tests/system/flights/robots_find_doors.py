@@ -12,7 +12,7 @@ import harness
 
 FIND = """
 robot = pick { id 'robot1'; timeout 60.seconds }
-execute robot: drive { explore(); driveTo 'room 223'; photograph() }
+execute robot: drive { explore(); driveTo 'room 221'; photograph() }
 message "${foundDoors(robot)} doors"
 """
 TWO = """
@@ -39,9 +39,9 @@ def robot_of(folder: pathlib.Path, script: str) -> tuple[dict, str, str]:
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     robot, out, _ = robot_of(folder, FIND)
-    numbers = {sign.split()[0] for sign in robot["signs"]}
+    numbers = {sign.split()[0] for sign in robot["signs"] if sign[0].isdigit()}  # of a meeting room its kind may be all that is read
     assert robot["doors"] == len(robot["signs"]), robot
-    assert {"221", "223"} <= numbers <= {"220", "221", "222", "223"}, robot
+    assert {"220", "221"} <= numbers <= {"220", "221", "222", "223"}, robot
     assert robot["drives"][0]["outcome"] == "done" and robot["collisions"] == 0, robot
     assert f"{robot['doors']} doors" in out, out
 
