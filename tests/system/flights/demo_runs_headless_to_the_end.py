@@ -49,7 +49,7 @@ if pathlib.Path(harness.LAPWING).with_name("lapwing-perceive").exists():
     assert park["pictures"] > 50 and park["coverage"] > 0.95, park
     assert score["true_slots"] == 432 and score["found"] > 0.8 * 432, park
     assert score["invented"] < 0.03 * 432 and score["off_m"] < 0.6, park
-    assert score["told"] > 0.9 * score["found"] and score["right"] > 0.97 * score["told"], park
+    assert score["told"] > 0.9 * score["found"] and score["right"] > 0.95 * score["told"], park
 
 
 def leaves(task):
