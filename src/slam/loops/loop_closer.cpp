@@ -199,17 +199,19 @@ bool LoopCloser::follow(Graph& graph) {
   return look(graph, last);
 }
 
-bool LoopCloser::look_everywhere(Graph& graph) {
+bool LoopCloser::look_everywhere(Graph& graph, int first) {
   LoopSearch::Scope const scope{
       .window_sigmas = options_.late_sigmas, .most_places = 2 * options_.most_candidates, .skips_joined = true};
   Group claims;
   auto next_m = options_.least_gap_m;
-  for (int query = 0; query < graph.size(); ++query) {
+  for (int query = first; query < graph.size(); ++query) {
     if (graph.frames[query].path_m < next_m) continue;
     next_m = graph.frames[query].path_m + options_.every_m;
     for (auto const& closure : search_.look(graph, query, scope)) claims.push_back(closure);
   }
   bool has_closed = false;
+  Group refuted;
+  int refuted_groups = 0;
   for (auto const& numbers : consistent_groups(graph, claims, options_.rates)) {
     Group group;
     for (auto const i : numbers) group.push_back(claims[static_cast<std::size_t>(i)]);
@@ -217,9 +219,16 @@ bool LoopCloser::look_everywhere(Graph& graph) {
     if (std::ranges::all_of(group, [&](Closure const& c) { return is_small(graph, c); })) {
       small_.insert(small_.end(), group.begin(), group.end());
     } else if (evidence_of(group).is_enough) {
-      has_closed = close(graph, group) || has_closed;
+      if (close(graph, group)) {
+        has_closed = true;
+      } else {
+        ++refuted_groups;
+        refuted.insert(refuted.end(), group.begin(), group.end());
+      }
     }
   }
+  // Of two loops that are open each may contradict the map as long as the other one is.
+  if (refuted_groups > 1) has_closed = close(graph, refuted) || has_closed;
   return close_small(graph) || has_closed;
 }
 
@@ -228,14 +237,14 @@ void LoopCloser::drop_open_loops(Graph& graph) {
                 [&](Constraint const& c) { return c.is_loop && !holds(graph.poses, c.from, c.to, c.from_to); });
 }
 
-void LoopCloser::finish(Graph& graph) {
+void LoopCloser::finish(Graph& graph, int first) {
   auto const settle = [&] {
     graph.poses =
         optimize(graph.poses, graph.constraints, {.most_rounds = 30, .loop_tolerance = options_.tolerance}).poses;
   };
   close_small(graph);
   settle();
-  for (int round = 0; round < options_.late_rounds && look_everywhere(graph); ++round) settle();
+  for (int round = 0; round < options_.late_rounds && look_everywhere(graph, first); ++round) settle();
   drop_open_loops(graph);
   settle();
 }

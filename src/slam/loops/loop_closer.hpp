@@ -16,9 +16,11 @@ class LoopCloser {
 
   /// After each new key frame, the graph's last. Returns whether the poses have changed.
   bool follow(Graph& graph);
+  /// Takes in a graph that others have made, in place of following it.
+  void know(Graph const& graph) { search_.know(graph); }
   /// After the last key frame: looks again from every place, as far as places are not joined yet, for now more is
-  /// known of where each lies; then optimizes the whole graph to the end.
-  void finish(Graph& graph);
+  /// known of where each lies; then optimizes the whole graph to the end. `first`: from that key frame on only.
+  void finish(Graph& graph, int first = 0);
 
   struct Counts {
     int searches = 0;
@@ -49,7 +51,7 @@ class LoopCloser {
   bool close_small(Graph& graph);
   void mark(Group const& group, LoopRecord::Verdict verdict);
   bool look(Graph& graph, int query);
-  bool look_everywhere(Graph& graph);
+  bool look_everywhere(Graph& graph, int first);
   void drop_open_loops(Graph& graph);
   void note(Graph const& graph, Closure const& closure, int witnesses, LoopRecord::Verdict verdict);
 

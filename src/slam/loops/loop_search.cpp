@@ -49,6 +49,15 @@ void LoopSearch::follow(Graph const& graph) {
   if (auto submap = make_submap(graph, last - size + 1, last)) submaps_.push_back(*std::move(submap));
 }
 
+void LoopSearch::know(Graph const& graph) {
+  auto const size = options_.submap_frames;
+  for (int first = 0; first + size <= graph.size(); first += size) {
+    auto const last = first + size - 1;
+    if (graph.frames[last].path_m - graph.frames[first].path_m >= options_.least_gap_m) continue;
+    if (auto submap = make_submap(graph, first, last)) submaps_.push_back(*std::move(submap));
+  }
+}
+
 std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, int query, Scope const& scope) const {
   auto const drifts = drift_from(query, graph.poses, graph.constraints, options_.rates);
   auto const joined = scope.skips_joined ? joined_with(graph, query, options_.query_frames) : std::vector<int>();

@@ -35,6 +35,8 @@ class LoopSearch {
 
   /// After each new key frame, the graph's last: makes a submap of the last ones when there are enough.
   void follow(Graph const& graph);
+  /// All submaps of a graph of one or several drives; none across a gap between two of them.
+  void know(Graph const& graph);
 
   struct Scope {
     double window_sigmas = 2.5;
