@@ -117,7 +117,6 @@ def runner(log) -> Run:
                 print(f"\r\033[K{line.rstrip()[:100]}", end="", file=sys.stderr, flush=True)
         if sys.stderr.isatty():
             print("\r\033[K", end="", file=sys.stderr, flush=True)
-        log.flush()
         if started.wait() != 0:
             raise Failed(f"{' '.join(command[:4])} ended with {started.returncode}")
     return run
@@ -127,7 +126,7 @@ def carry_out(part: Part) -> bool:
     print(f"{part.name}: {part.what}", flush=True)
     begun = time.monotonic()
     path = LOGS / f"{part.name}.log"
-    with path.open("w") as log:
+    with path.open("w", buffering=1) as log:  # line by line, for who looks on
         try:
             part.check(runner(log))
             outcome = "passed"
