@@ -1,7 +1,7 @@
 """Bags of ROS 2 that others' programs wrote (rosbags 0.11: SQLite and MCAP, mcap 1.6: MCAP with every packing) give the map of the same
 drive as a log of CARMEN: to the micrometre where they hold the same numbers. What is read here was written by code of other people, after
 rosbag2's tables and MCAP's specification, and encoded in CDR by a third reading of them: our own writers in the unit tests could share a
-mistake with our readers. One of them is then laid on the map of the log."""
+mistake with our readers. One of them is then laid on the map of the log, and one made one map with it."""
 
 import json
 import math
@@ -150,6 +150,38 @@ def nonsense_on_a_known_map_is_explained(bag: pathlib.Path, folder: pathlib.Path
     assert json.loads((folder / "out/report.json").read_text())["lost"] == 150
 
 
+def a_bag_and_a_log_are_one_map(scans: list, of_log: list, folder: pathlib.Path):
+    """Two robots' drives that share a part of the way, each counted from a place of its own: a bag and a log of CARMEN."""
+    ros_bags.by_mcap(ros_bags.Drive(scans[:100], START, STEP, 80.0, (MOUNT, 0.0, 0.0)), folder / "one.mcap", CompressionType.LZ4)
+    write_carmen([(time, ranges, (-y - 30.0, x + 7.0, yaw + math.pi / 2)) for time, ranges, (x, y, yaw) in scans[60:]], folder / "two.log")
+    logs = (str(folder / "one.mcap"), str(folder / "two.log"))
+    out = folder / "both"
+    harness.expect_exit(0, "map", *logs, "--out", str(out), "--threads", "1")
+    report = json.loads((out / "report.json").read_text())
+    assert [one["scans"] for one in report["logs"]] == [100, 90] and report["scans"] == 190, report["logs"]
+    assert report["logs"][1]["closures"] >= 3 and report["bag"][0]["scan_topic"] == "/scan", report
+    ways = [[[float(word) for word in line.split()] for line in (out / f"trajectory-{i}.tum").read_text().splitlines()] for i in (1, 2)]
+    apart = max(math.hypot(a[1] - b[1], a[2] - b[2]) for a, b in zip([*of_log[:100], *of_log[60:]], [*ways[0], *ways[1]], strict=True))
+    print(f"a bag and a log: {apart:.3f} m from the drive in one piece")
+    assert apart < 0.1, apart
+    assert (out / "map.yaml").exists() and not (out / "trajectory.tum").exists()
+
+
+def logs_that_are_no_one_building_are_named(bag: pathlib.Path, folder: pathlib.Path):
+    # A square room, in the middle of which the robot stands and turns.
+    def wall(angle: float) -> float:
+        return as_float(min(4.0 / max(abs(math.cos(angle)), 1e-9), 4.0 / max(abs(math.sin(angle)), 1e-9)))
+
+    room = [(float(i), [wall(0.05 * i + START + b * STEP) for b in range(BEAMS)], (0.0, 0.0, 0.05 * i)) for i in range(60)]
+    write_carmen(room, folder / "elsewhere.log")
+    _, said = harness.expect_exit(2, "map", str(bag), str(folder / "elsewhere.log"), "--out", str(folder / "none"))
+    assert "elsewhere.log: it shares no place with the others" in said, said
+    assert not (folder / "none/map.pgm").exists()
+    yaml = str(folder / "carmen/map.yaml")
+    _, said = harness.expect_exit(2, "map", str(bag), str(bag), "--out", str(folder / "none"), "--localise", yaml)
+    assert "one log on a map" in said, said
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -166,6 +198,8 @@ def main():
             assert report["bag"]["odometry"] == ("/tf (odom to base_link)" if "/tf" in what else "/odom"), report["bag"]
         a_bag_is_laid_on_the_map(folder / "LZ4.mcap", of_log, folder)
         nonsense_on_a_known_map_is_explained(folder / "LZ4.mcap", folder)
+        a_bag_and_a_log_are_one_map(scans, of_log, folder)
+        logs_that_are_no_one_building_are_named(folder / "LZ4.mcap", folder)
         a_file_cut_off(folder / "LZ4.mcap", of_log, folder)
         a_packed_file_is_explained(scans, folder)
 

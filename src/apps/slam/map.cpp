@@ -14,6 +14,7 @@
 #include "apps/slam/localise.hpp"
 #include "apps/slam/map_files.hpp"
 #include "apps/slam/map_graph.hpp"
+#include "apps/slam/map_logs.hpp"
 #include "apps/slam/map_report.hpp"
 #include "apps/slam/recorded_log.hpp"
 #include "apps/verb.hpp"
@@ -23,7 +24,6 @@
 #include "scans/storage/bag_files.hpp"
 #include "slam/graph/g2o.hpp"
 #include "slam/grid/draw_grid.hpp"
-#include "slam/mapper.hpp"
 #include "slam/mapper_parameters.hpp"
 #include "slam/relations.hpp"
 #include "slam/walls/wall_lines.hpp"
@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct MapOptions {
-  fs::path log;
+  std::vector<fs::path> logs;
   fs::path out;
   fs::path relations;
   scans::BagChoice topics;
@@ -47,22 +47,17 @@ struct MapOptions {
   bool wants_loops = false;
 };
 
-std::vector<slam::TimedPose> timed(slam::ScanLog const& log, std::vector<slam::Pose2> const& trajectory) {
-  std::vector<slam::TimedPose> poses;
-  for (std::size_t i = 0; i < trajectory.size(); ++i) poses.push_back({log.scans[i].time, trajectory[i]});
-  return poses;
-}
-
-Json report_of(slam::ScanLog const& log, slam::Mapping const& mapping, std::vector<slam::TimedPose> const& poses,
-               std::vector<slam::Relation> const& relations) {
+Json report_of(LogsMap const& made, std::vector<slam::Relation> const& relations) {
+  auto const& mapping = made.mapping;
   Json report;
-  report["scans"] = log.scans.size();
+  report["scans"] = made.log.scans.size();
   report["key_frames"] = mapping.graph.frames.size();
   report["closures"] = mapping.loops.closures;
   report["closures_doubted"] = mapping.loops.doubted;
   report["closures_revoked"] = mapping.loops.revoked;
-  report["path_m"] = mapping.graph.frames.empty() ? 0.0 : mapping.graph.frames.back().path_m;
-  if (!relations.empty()) report["relations"] = relations_json(poses, relations);
+  report["path_m"] = path_m(made.parts);
+  if (made.parts.size() > 1) report["logs"] = parts_json(made.parts);
+  if (!relations.empty()) report["relations"] = relations_json(in_time_order(made), relations);
   return report;
 }
 
@@ -100,29 +95,6 @@ base::Result<slam::MapperOptions> mapper_options(std::vector<std::string> const&
   return options;
 }
 
-Json loops_json(slam::ScanLog const& log, slam::Mapping const& mapping) {
-  auto list = Json::array();
-  for (auto const& r : mapping.loop_records)
-    list.push_back({{"query", r.query},
-                    {"target", r.target},
-                    {"query_s", log.scans[mapping.graph.frames[r.query].scan].time.count()},
-                    {"target_s", log.scans[mapping.graph.frames[r.target].scan].time.count()},
-                    {"window_m", r.window.reach_m},
-                    {"window_rad", r.window.reach_rad},
-                    {"score", r.score},
-                    {"rival", r.rival},
-                    {"conflict", r.conflict},
-                    {"matches", r.matches},
-                    {"shift_m", r.shift_m},
-                    {"turn_rad", r.turn_rad},
-                    {"witnesses", r.witnesses},
-                    {"contradiction", r.contradiction},
-                    {"was_contradiction", r.was_contradiction},
-                    {"is_late", r.is_late},
-                    {"verdict", to_string(r.verdict)}});
-  return list;
-}
-
 /// Lines of metres in the map's frame, the longest wall first.
 std::string walls_csv(std::vector<slam::WallLine> const& walls) {
   std::string text = "from_x_m,from_y_m,to_x_m,to_y_m,spread_m\n";
@@ -133,21 +105,81 @@ std::string walls_csv(std::vector<slam::WallLine> const& walls) {
 }
 
 /// The report comes last: whoever sees it finds the others.
-base::Result<> write_results(MapOptions const& options, slam::ScanLog const& log, slam::Mapping const& mapping,
-                             map::OccupancyGrid const& grid, std::vector<slam::TimedPose> const& poses,
+base::Result<> write_results(MapOptions const& options, LogsMap const& made, map::OccupancyGrid const& grid,
                              std::vector<slam::WallLine> const& walls, Json const& report) {
   auto const write = [&](char const* name, std::string const& text) {
     return base::replace_file(options.out / name, text);
   };
   if (options.wants_loops)
-    if (auto done = write("loops.json", base::to_text(loops_json(log, mapping), 1)); !done) return done;
+    if (auto done = write("loops.json", base::to_text(loops_json(made), 1)); !done) return done;
   if (!grid.tiles().empty())
     if (auto done = write_map(grid, options.out); !done) return done;
   if (auto done = write("walls.csv", walls_csv(walls)); !done) return done;
-  if (auto done = write("trajectory.tum", tum_text(poses)); !done) return done;
-  if (auto done = write("graph.g2o", slam::write_g2o(mapping.graph.poses, mapping.graph.constraints)); !done)
-    return done;
+  if (auto done = write_trajectories(made, options.out); !done) return done;
+  auto const& graph = made.mapping.graph;
+  if (auto done = write("graph.g2o", slam::write_g2o(graph.poses, graph.constraints)); !done) return done;
   return write("report.json", base::to_text(report, 2) + "\n");
+}
+
+/// A log, unless it is a pose graph, which is settled at once.
+base::Result<std::optional<RecordedLog>> read_one(MapOptions const& options, fs::path const& path) {
+  if (scans::is_bag(path)) {
+    auto bag = read_bag_log(path, options.topics);
+    if (!bag) return std::unexpected(bag.error());
+    return std::optional(*std::move(bag));
+  }
+  auto text = read_file(path);
+  if (!text) return std::unexpected(text.error());
+  if (!is_pose_graph(*text)) {
+    auto log = read_text_log(path, *std::move(text));
+    if (!log) return std::unexpected(log.error());
+    return std::optional(*std::move(log));
+  }
+  if (options.logs.size() > 1)
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("{}: a pose graph has no scans to merge", path.string()));
+  if (auto done = settle_graph(*text, options.out); !done) return in_file(path, done.error());
+  return std::nullopt;
+}
+
+/// All logs; none where the one that was named is a pose graph.
+base::Result<std::vector<RecordedLog>> read_all(MapOptions const& options) {
+  std::vector<RecordedLog> recorded;
+  for (auto const& path : options.logs) {
+    auto log = read_one(options, path);
+    if (!log) return std::unexpected(log.error());
+    if (!*log) break;
+    for (auto const& remark : (*log)->remarks) fmt::print(stderr, "{}: {}\n", path.string(), remark);
+    recorded.push_back(**std::move(log));
+  }
+  return recorded;
+}
+
+base::Result<> map_together(MapOptions const& options, std::vector<RecordedLog> recorded,
+                            std::vector<slam::Relation> const& relations, slam::MapperOptions const& settings,
+                            std::chrono::steady_clock::time_point started) {
+  auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
+    base::parallel_for(threads, count, work);
+  };
+  auto bags = bags_json(recorded);
+  ScanTimes times;
+  ProgressLine line;
+  auto const made =
+      map_logs(options.logs, std::move(recorded), settings, for_each, [&](std::string_view stage, double share) {
+        times(stage);
+        line(stage, share);
+      });
+  if (!made) return std::unexpected(made.error());
+  auto const grid = slam::draw_grid(made->log, made->mapping.trajectory, {});
+  auto const walls = slam::find_walls(grid);
+  auto report = report_of(*made, relations);
+  if (!bags.is_null()) report["bag"] = std::move(bags);
+  add_use(report, started, times);
+  report["threads"] = threads;
+  if (auto done = write_results(options, *made, grid, walls, report); !done) return done;
+  print_summary(report);
+  return {};
 }
 
 base::Result<> make_map(MapOptions const& options) {
@@ -162,44 +194,18 @@ base::Result<> make_map(MapOptions const& options) {
     if (!parsed) return std::unexpected(parsed.error());
     start = *parsed;
   }
-  bool const is_bag = scans::is_bag(options.log);
-  auto text = is_bag ? std::string() : read_file(options.log);
-  if (!text) return std::unexpected(text.error());
+  bool const is_known = !options.known_map.empty();
+  if (is_known && options.logs.size() > 1)
+    return base::fail(base::ErrorKind::invalid_input, "--localise lays one log on a map, not several");
   std::error_code error;
   fs::create_directories(options.out, error);
   if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", options.out.string(), error.message()));
-  if (is_pose_graph(*text)) {
-    auto done = settle_graph(*text, options.out);
-    return done ? done : in_file(options.log, done.error());
-  }
-  auto recorded = is_bag ? read_bag_log(options.log, options.topics) : read_text_log(options.log, *std::move(text));
+  auto recorded = read_all(options);
   if (!recorded) return std::unexpected(recorded.error());
-  for (auto const& remark : recorded->remarks) fmt::print(stderr, "{}: {}\n", options.log.string(), remark);
-  if (!options.known_map.empty()) {
-    return localise(*std::move(recorded), *relations, {.map = options.known_map, .start = start}, options.out);
-  }
-  auto const& log = recorded->log;
-
-  auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
-    base::parallel_for(threads, count, work);
-  };
-  ScanTimes times;
-  ProgressLine line;
-  auto const mapping = slam::map_log(log, *settings, for_each, [&](std::string_view stage, double share) {
-    times(stage);
-    line(stage, share);
-  });
-  auto const grid = slam::draw_grid(log, mapping.trajectory, {});
-  auto const walls = slam::find_walls(grid);
-  auto const poses = timed(log, mapping.trajectory);
-  auto report = report_of(log, mapping, poses, *relations);
-  if (is_bag) report["bag"] = bag_json(*recorded);
-  add_use(report, started, times);
-  report["threads"] = threads;
-  if (auto done = write_results(options, log, mapping, grid, poses, walls, report); !done) return done;
-  print_summary(report);
-  return {};
+  if (recorded->empty()) return {};
+  if (is_known)
+    return localise(std::move(recorded->front()), *relations, {.map = options.known_map, .start = start}, options.out);
+  return map_together(options, *std::move(recorded), *relations, *settings, started);
 }
 
 }  // namespace
@@ -207,10 +213,9 @@ base::Result<> make_map(MapOptions const& options) {
 void add_map(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<MapOptions>();
   auto* verb = begin_verb(program, "map");
-  verb->add_option("log", options->log,
+  verb->add_option("log", options->logs,
                    "What a robot recorded: a bag of ROS 2 (.mcap, .db3 or their folder), a log of CARMEN (.clf, .log), "
-                   "a table of "
-                   "few ranges, or a pose graph (.g2o)")
+                   "a table of few ranges, or a pose graph (.g2o). Several logs of one building: one map of all")
       ->required()
       ->check(CLI::ExistingPath);
   verb->add_option("--scan-topic", options->topics.scan_topic, "Which sensor_msgs/LaserScan of a bag that has several");

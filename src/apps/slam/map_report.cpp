@@ -83,6 +83,13 @@ Json bag_json(RecordedLog const& recorded) {
   return {{"scan_topic", recorded.scan_topic}, {"odometry", recorded.odometry}, {"remarks", recorded.remarks}};
 }
 
+Json bags_json(std::vector<RecordedLog> const& recorded) {
+  Json bags;
+  for (auto const& one : recorded)
+    if (!one.scan_topic.empty()) bags.push_back(bag_json(one));
+  return recorded.size() == 1 && !bags.is_null() ? bags[0] : bags;
+}
+
 void add_use(Json& report, std::chrono::steady_clock::time_point started, ScanTimes& times) {
   report["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   report["cpu_s"] = cpu_s();

@@ -45,6 +45,8 @@ class ProgressLine {
 [[nodiscard]] nlohmann::ordered_json relations_json(std::vector<slam::TimedPose> const& poses,
                                                     std::vector<slam::Relation> const& relations);
 [[nodiscard]] nlohmann::ordered_json bag_json(RecordedLog const& recorded);
+/// Of one bag what it is, of several logs a list of the bags among them; null where there is none.
+[[nodiscard]] nlohmann::ordered_json bags_json(std::vector<RecordedLog> const& recorded);
 
 /// `wall_s`, `cpu_s`, `peak_mb` of the process and `scan_ms`.
 void add_use(nlohmann::ordered_json& report, std::chrono::steady_clock::time_point started, ScanTimes& times);
