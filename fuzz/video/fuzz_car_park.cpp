@@ -22,7 +22,7 @@ void read_table(std::string const& text) {
   }
   require(pictures->size() <= most_pictures);
   for (auto const& picture : *pictures) {
-    require(picture.file.find('/') == std::string::npos);
+    require(!picture.file.contains('/'));
     if (picture.site_from_camera) require(picture.site_from_camera->origin().is_finite());
   }
 }

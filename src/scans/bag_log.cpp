@@ -131,14 +131,12 @@ class Converter {
     auto ranges = laser == nullptr ? std::nullopt : laser->reader.ranges(scan.message);
     auto const pose = track_ ? track_->at(scan.stamp) : slam::Pose2{};
     scan.message.ranges = std::vector<float>();  // two of them all need not be there at once
-    if (!ranges) {
-      ++unusable_;
-    } else if (!pose) {
+    if (ranges && !pose) {
       ++without_odometry_;
-    } else if (!builder_.add({.time = slam::LogTime(scan.stamp),
-                              .sensor = laser->sensor,
-                              .odometry = *pose,
-                              .ranges_m = *std::move(ranges)})) {
+    } else if (!ranges || !builder_.add({.time = slam::LogTime(scan.stamp),
+                                         .sensor = laser->sensor,
+                                         .odometry = *pose,
+                                         .ranges_m = *std::move(ranges)})) {
       ++unusable_;
     }
   }

@@ -44,8 +44,7 @@ bus::TFMessage frame_at(int ms, std::string parent, std::string child, double x,
                           .transform = {.translation = {.x = x}, .rotation = rotation}}}};
 }
 
-class BagLogTest : public ::testing::Test {
- protected:
+struct BagLogTest : ::testing::Test {
   BagLogTest() { fs::create_directories(folder); }
   ~BagLogTest() override { fs::remove_all(folder); }
 

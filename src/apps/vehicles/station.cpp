@@ -51,6 +51,24 @@ base::Result<> set_map(StationArguments const& arguments, host::MapContent& map)
   return {};
 }
 
+/// What holds vehicles back.
+base::Result<> set_safety(StationArguments const& arguments, host::StationConfig& config) {
+  if (arguments.on_stop) {
+    auto const on_stop = host::parse_on_stop(*arguments.on_stop);
+    if (!on_stop) return std::unexpected(on_stop.error());
+    config.on_stop = *on_stop;
+  }
+  if (arguments.emergency_stop) {
+    auto const action = host::parse_emergency_stop(*arguments.emergency_stop);
+    if (!action) return std::unexpected(action.error());
+    config.emergency_action = *action;
+  }
+  auto plausibility = host::plausibility_of(arguments.plausibility, config.plausibility);
+  if (!plausibility) return std::unexpected(plausibility.error());
+  config.plausibility = *std::move(plausibility);
+  return {};
+}
+
 base::Result<host::StationConfig> settings_of(StationArguments const& arguments) {
   base::Result<host::StationConfig> config =
       arguments.config.empty()
@@ -67,19 +85,7 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   for (auto const& text : arguments.payload) {
     if (auto added = host::add_payload(text, config->payload); !added) return std::unexpected(added.error());
   }
-  if (arguments.on_stop) {
-    auto const on_stop = host::parse_on_stop(*arguments.on_stop);
-    if (!on_stop) return std::unexpected(on_stop.error());
-    config->on_stop = *on_stop;
-  }
-  if (arguments.emergency_stop) {
-    auto const action = host::parse_emergency_stop(*arguments.emergency_stop);
-    if (!action) return std::unexpected(action.error());
-    config->emergency_action = *action;
-  }
-  auto plausibility = host::plausibility_of(arguments.plausibility, config->plausibility);
-  if (!plausibility) return std::unexpected(plausibility.error());
-  config->plausibility = *std::move(plausibility);
+  if (auto set = set_safety(arguments, *config); !set) return std::unexpected(set.error());
   if (auto set = set_map(arguments, config->map); !set) return std::unexpected(set.error());
   if (!arguments.forward.empty()) {
     auto forward = host::forward_to(arguments.forward);

@@ -67,7 +67,7 @@ TEST_F(TalkingChildTest, ASilentOneIsWaitedForNoLongerThanWasSaid) {
   start("exec sleep 60");
   std::array<char, 10> piece{};
   EXPECT_EQ(child->receive(piece, steady_clock::now() + 50ms).error().kind, ErrorKind::timed_out);
-  EXPECT_EQ(child->send(std::string(10'000'000, 'x'), steady_clock::now() + 50ms).error().kind, ErrorKind::timed_out);
+  EXPECT_EQ(child->send(std::string(8'000'000, 'x'), steady_clock::now() + 50ms).error().kind, ErrorKind::timed_out);
 }
 
 TEST_F(TalkingChildTest, IsWaitedForNoLongerThanSomebodyWants) {

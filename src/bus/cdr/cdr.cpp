@@ -85,9 +85,12 @@ std::size_t Reader::length(std::size_t least_bytes) {
   return is_good_ ? count : 0;
 }
 
+// A type is no expression that parentheses could hold together.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define LAPWING_CDR_NUMBER(T)                              \
   template void Writer::numbers<T>(T const*, std::size_t); \
   template void Reader::numbers<T>(T*, std::size_t)
+// NOLINTEND(bugprone-macro-parentheses)
 LAPWING_CDR_NUMBER(bool);
 LAPWING_CDR_NUMBER(std::int8_t);
 LAPWING_CDR_NUMBER(std::uint8_t);

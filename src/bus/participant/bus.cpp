@@ -83,7 +83,7 @@ bool is_name(std::string_view topic) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '/';
   };
   return topic.size() > 1 && topic.size() < 200 && topic.front() == '/' && topic.back() != '/' &&
-         topic.find("//") == std::string_view::npos && std::ranges::all_of(topic, may_stand);
+         !topic.contains("//") && std::ranges::all_of(topic, may_stand);
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 #include <clocale>
 #include <cwctype>
 
-#include <locale.h>
-
 #include "base/assert.hpp"
 #include "dolphin/syntax/characters.hpp"
 

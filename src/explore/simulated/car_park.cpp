@@ -56,6 +56,27 @@ double CarPark::noise(std::uint64_t what, std::uint64_t a, std::uint64_t b, std:
          std::cos(2.0 * std::numbers::pi * chance(what | second, a, b, c));
 }
 
+/// A rectangle, of which a corner may be cut out, with or without a house in it; in metres of its own, which `place`
+/// turns into those of the site.
+struct CarPark::Plan {
+  double width_m;
+  double height_m;
+  geo::Transform<geo::SiteFrame, geo::SiteFrame> turned;
+  bool has_cut;
+  bool has_building;
+
+  [[nodiscard]] map::SitePoint place(double x, double y) const { return turned * map::SitePoint(x, y); }
+  [[nodiscard]] double cut_x() const { return 0.6 * width_m; }
+  [[nodiscard]] double cut_y() const { return 0.55 * height_m; }
+  [[nodiscard]] double house_x() const { return 0.3 * width_m; }
+  [[nodiscard]] double house_y() const { return 0.4 * height_m; }
+  static constexpr double house_m = 12.0;
+  [[nodiscard]] bool is_built(double x, double y, double more) const {
+    return has_building && x > house_x() - more && x < house_x() + house_m + more && y > house_y() - more &&
+           y < house_y() + house_m + more;
+  }
+};
+
 CarPark::CarPark(std::uint64_t seed, DetectorFaults faults) : seed_(seed), faults_(faults) {
   std::mt19937_64 random(mixed(seed));
   auto const between = [&](double least, double most) {
@@ -64,67 +85,64 @@ CarPark::CarPark(std::uint64_t seed, DetectorFaults faults) : seed_(seed), fault
   double const width_m = between(80.0, 140.0);
   double const height_m = between(50.0, 90.0);
   double const turned_rad = between(0.0, std::numbers::pi);
-  draw_rows(width_m, height_m, turned_rad);
+  Plan const plan{.width_m = width_m,
+                  .height_m = height_m,
+                  .turned = {map::SitePoint(20.0, 10.0), turned_rad},
+                  .has_cut = seed % 3 == 1,
+                  .has_building = seed % 4 == 2};
+  draw_outline(plan);
+  draw_rows(plan);
 }
 
-void CarPark::draw_rows(double width_m, double height_m, double turned_rad) {
-  geo::Transform<geo::SiteFrame, geo::SiteFrame> const turned(map::SitePoint(20.0, 10.0), turned_rad);
-  auto const place = [&](double x, double y) { return turned * map::SitePoint(x, y); };
-  bool const has_cut = seed_ % 3 == 1;
-  bool const has_building = seed_ % 4 == 2;
-  double const cut_x = 0.6 * width_m;
-  double const cut_y = 0.55 * height_m;
-  double const o = fence_out_m;
-  geo::Ring<geo::SiteFrame> outer;
-  geo::Ring<geo::SiteFrame> fence;
-  if (has_cut) {
-    outer = {place(0, 0),         place(width_m, 0),      place(width_m, cut_y),
-             place(cut_x, cut_y), place(cut_x, height_m), place(0, height_m)};
-    fence = {place(-o, -o),
-             place(width_m + o, -o),
-             place(width_m + o, cut_y + o),
-             place(cut_x + o, cut_y + o),
-             place(cut_x + o, height_m + o),
-             place(-o, height_m + o)};
-  } else {
-    outer = {place(0, 0), place(width_m, 0), place(width_m, height_m), place(0, height_m)};
-    fence = {place(-o, -o), place(width_m + o, -o), place(width_m + o, height_m + o), place(-o, height_m + o)};
-  }
-  area_ = {{outer}};
-  fence_ = {{fence}};
-  double const house_x = 0.3 * width_m;
-  double const house_y = 0.4 * height_m;
-  constexpr double house_m = 12.0;
-  auto const is_built = [&](double x, double y, double more) {
-    return has_building && x > house_x - more && x < house_x + house_m + more && y > house_y - more &&
-           y < house_y + house_m + more;
+void CarPark::draw_outline(Plan const& plan) {
+  auto const ring = [&](double out) {
+    auto const right = plan.width_m + out;
+    auto const top = plan.height_m + out;
+    geo::Ring<geo::SiteFrame> corners = {plan.place(-out, -out), plan.place(right, -out)};
+    if (plan.has_cut) {
+      corners.push_back(plan.place(right, plan.cut_y() + out));
+      corners.push_back(plan.place(plan.cut_x() + out, plan.cut_y() + out));
+      corners.push_back(plan.place(plan.cut_x() + out, top));
+    } else {
+      corners.push_back(plan.place(right, top));
+    }
+    corners.push_back(plan.place(-out, top));
+    return corners;
   };
-  if (has_building) {
-    geo::Ring<geo::SiteFrame> const house = {place(house_x, house_y), place(house_x + house_m, house_y),
-                                             place(house_x + house_m, house_y + house_m),
-                                             place(house_x, house_y + house_m)};
+  area_ = {{ring(0.0)}};
+  fence_ = {{ring(fence_out_m)}};
+  if (plan.has_building) {
+    auto const x = plan.house_x();
+    auto const y = plan.house_y();
+    geo::Ring<geo::SiteFrame> const house = {plan.place(x, y), plan.place(x + Plan::house_m, y),
+                                             plan.place(x + Plan::house_m, y + Plan::house_m),
+                                             plan.place(x, y + Plan::house_m)};
     area_.rings.push_back(house);
     fence_.rings.push_back(house);
   }
-  home_ = place(2.0, 2.0);
+  home_ = plan.place(2.0, 2.0);
+}
 
+void CarPark::draw_rows(Plan const& plan) {
   std::uint64_t number = 0;
   double y = border_m;
-  for (int row = 0; y + slot_length_m <= height_m - border_m; ++row) {
-    for (double x = border_m; x + slot_width_m <= width_m - border_m; x += slot_width_m) {
+  for (int row = 0; y + slot_length_m <= plan.height_m - border_m; ++row) {
+    for (double x = border_m; x + slot_width_m <= plan.width_m - border_m; x += slot_width_m) {
       ++number;
-      bool const is_out = has_cut && x + slot_width_m > cut_x - border_m && y + slot_length_m > cut_y - border_m;
+      bool const is_out =
+          plan.has_cut && x + slot_width_m > plan.cut_x() - border_m && y + slot_length_m > plan.cut_y() - border_m;
       constexpr double island_share = 0.06;
-      if (is_out || is_built(x + slot_width_m / 2, y + slot_length_m / 2, 4.0)) continue;
+      if (is_out || plan.is_built(x + slot_width_m / 2, y + slot_length_m / 2, 4.0)) continue;
       if (chance(1, number) < island_share) {
         constexpr double with_tree = 0.5;
-        if (chance(2, number) < with_tree) trees_.push_back({place(x + 1.25, y + 2.5), 1.2 + 1.6 * chance(3, number)});
+        if (chance(2, number) < with_tree)
+          trees_.push_back({plan.place(x + 1.25, y + 2.5), 1.2 + 1.6 * chance(3, number)});
         continue;
       }
       constexpr double taken_share = 0.55;
       constexpr double painted_share = 0.85;
-      slots_.push_back({.outline = {place(x, y), place(x + slot_width_m, y), place(x + slot_width_m, y + slot_length_m),
-                                    place(x, y + slot_length_m)},
+      slots_.push_back({.outline = {plan.place(x, y), plan.place(x + slot_width_m, y),
+                                    plan.place(x + slot_width_m, y + slot_length_m), plan.place(x, y + slot_length_m)},
                         .is_taken = chance(4, number) < taken_share,
                         .is_painted = chance(5, number) < painted_share});
     }
@@ -132,8 +150,9 @@ void CarPark::draw_rows(double width_m, double height_m, double turned_rad) {
     y += slot_length_m + (row % 2 == 0 ? lane_m : 0.0);
     if (row % 2 == 0 && row < 6) {
       double const lane_y = y - lane_m / 2.0;
-      auto const from = place(border_m, lane_y);
-      auto const to = place(has_cut && lane_y > cut_y - border_m ? cut_x - border_m : width_m - border_m, lane_y);
+      auto const from = plan.place(border_m, lane_y);
+      auto const to = plan.place(
+          plan.has_cut && lane_y > plan.cut_y() - border_m ? plan.cut_x() - border_m : plan.width_m - border_m, lane_y);
       drivers_.push_back({from, (to - from) * (2.5 / geo::distance_m(from, to)), geo::distance_m(from, to)});
     }
   }

@@ -53,7 +53,9 @@ class CarPark {
     geo::Vector<geo::SiteFrame> way_m_s;
     double lane_m;
   };
-  void draw_rows(double width_m, double height_m, double turned_rad);
+  struct Plan;
+  void draw_outline(Plan const& plan);
+  void draw_rows(Plan const& plan);
   [[nodiscard]] double seen_share(TrueSlot const& slot, geo::GroundView const& view) const;
   [[nodiscard]] double taken_chance(std::size_t slot, geo::GroundView const& view, double seconds) const;
   [[nodiscard]] Corners driver_at(Driver const& driver, double seconds) const;

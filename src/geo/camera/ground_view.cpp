@@ -55,7 +55,7 @@ CameraPlace camera_at(Point3<SiteFrame> const& position, double yaw_rad, double 
 std::optional<Point<SiteFrame>> ground_at(GroundView const& view, Pixel const& pixel) {
   auto const ray = ray_into_site(view, pixel);
   if (!ray || ray->z() >= 0.0 || view.height_m() <= 0.0) return std::nullopt;
-  auto const ground = foot_of(view.site_from_camera.origin(), *ray, view.height_m());
+  auto ground = foot_of(view.site_from_camera.origin(), *ray, view.height_m());
   if (!ground.is_finite()) return std::nullopt;
   return ground;
 }

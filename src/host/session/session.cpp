@@ -87,6 +87,16 @@ std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehi
   return report;
 }
 
+/// What a service prints lies in its journal: a token that has a file of its own stays there.
+void tell_where_the_map_is(WebAccess const& access, int port, std::string const& token) {
+  bool const is_in_file = !access.token_file.empty();
+  fmt::print(stderr, "\n");
+  for (auto const& address : map_addresses(access.bind, port, is_in_file ? std::string() : token))
+    fmt::print(stderr, "    map  {}\n", address);
+  if (is_in_file) fmt::print(stderr, "    its token is in {}; the map asks for it\n", access.token_file);
+  fmt::print(stderr, "\n");
+}
+
 }  // namespace
 
 base::Result<fleet::OnStop> parse_on_stop(std::string const& text) {
@@ -311,13 +321,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   map = std::move(*opened);
   robots.set_communication(
       [this] { return map && map->viewers() > 0 ? robot::code::none : robot::code::operator_away; });
-  fmt::print(stderr, "\n");
-  // What a service prints lies in its journal: a token that has a file of its own stays there.
-  bool const is_in_file = !access.token_file.empty();
-  for (auto const& address : map_addresses(access.bind, map->port(), is_in_file ? std::string() : *token))
-    fmt::print(stderr, "    map  {}\n", address);
-  if (is_in_file) fmt::print(stderr, "    its token is in {}; the map asks for it\n", access.token_file);
-  fmt::print(stderr, "\n");
+  tell_where_the_map_is(access, map->port(), *token);
   if (!std::filesystem::exists(home_directory() / "web/dist/index.html")) {
     log.warn("the browser app is not built, so the map shows nothing: ./lapwing build builds it");
   }

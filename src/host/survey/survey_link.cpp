@@ -18,7 +18,7 @@ base::Result<wire::ConnectSettings> parse_survey(std::string_view text) {
   auto const colon = text.rfind(':');
   wire::ConnectSettings settings;
   settings.host = std::string(text.substr(0, colon));
-  bool is_sound = !settings.host.empty() && settings.host.find('/') == std::string::npos;
+  bool is_sound = !settings.host.empty() && !settings.host.contains('/');
   if (colon != std::string_view::npos) {
     auto const port = text.substr(colon + 1);
     auto const [end, fault] = std::from_chars(port.data(), port.data() + port.size(), settings.port);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -13,8 +14,7 @@ namespace {
 using autonomy::report::Heartbeat;
 using vehicle::StopAction;
 
-template <std::size_t N>
-bool is_one_of(std::string_view state, std::array<std::string_view, N> const& states) {
+bool is_one_of(std::string_view state, std::span<std::string_view const> states) {
   return std::ranges::find(states, state) != states.end();
 }
 

@@ -15,7 +15,7 @@ namespace lapwing::link::pictures {
 class PartReader {
  public:
   static constexpr std::size_t largest_head = 4096;
-  static constexpr std::size_t largest_picture = 8U * 1024 * 1024;
+  static constexpr std::size_t largest_picture = std::size_t{8} * 1024 * 1024;
 
   /// The newest picture that these bytes complete; older ones are worth nothing then. Errors: refused: the answer is
   /// another one than pictures, in its own words; invalid_input: these are no parts with a length and a time. After an

@@ -23,6 +23,7 @@ class CancelNotice {
   explicit CancelNotice(TransferTarget transfer) : target_(transfer) {}
   CancelNotice(CancelNotice const&) = delete;
   CancelNotice& operator=(CancelNotice const&) = delete;
+  // NOLINTNEXTLINE(bugprone-exception-escape): nothing throws there but for want of memory, which ends the program.
   ~CancelNotice() {
     if (!settled_)
       (void)target_.send(MissionAck{.result = MavMissionResult::operation_cancelled, .type = target_.type});

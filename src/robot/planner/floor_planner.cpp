@@ -270,7 +270,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
       if (navigator_.goal() != order.goal) goal_since_s_ = situation.time_s;
       navigator_.go_to(order.goal);
       break;
-    case explore::Order::Kind::steer: navigator_.stop(); break;
+    case explore::Order::Kind::steer:
     case explore::Order::Kind::home: navigator_.stop(); break;
     case explore::Order::Kind::keep: break;
   }

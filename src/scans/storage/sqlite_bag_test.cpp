@@ -15,8 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
-class SqliteBagTest : public ::testing::Test, public BagListener {
- protected:
+struct SqliteBagTest : ::testing::Test, BagListener {
   SqliteBagTest() { fs::create_directories(folder); }
   ~SqliteBagTest() override { fs::remove_all(folder); }
 

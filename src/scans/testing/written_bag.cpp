@@ -79,8 +79,12 @@ std::string WrittenBag::mcap(Packing packing, std::size_t messages_a_chunk) cons
   for (std::size_t i = 0; i < messages_.size(); ++i) {
     auto const& message = messages_[i];
     auto const time = number(static_cast<std::uint64_t>(message.logged.count()));
-    records += record(5, number(static_cast<std::uint16_t>(message.topic + 1)) + number(static_cast<std::uint32_t>(i)) +
-                             time + time + message.bytes);
+    auto body = number(static_cast<std::uint16_t>(message.topic + 1));
+    body += number(static_cast<std::uint32_t>(i));
+    body += time;
+    body += time;
+    body += message.bytes;
+    records += record(5, body);
     if (messages_a_chunk > 0 && (i + 1) % messages_a_chunk == 0) end_chunk();
   }
   if (!records.empty()) end_chunk();
@@ -103,7 +107,7 @@ void WrittenBag::write_sqlite(std::filesystem::path const& file) const {
   for (auto const& message : messages_) {
     sqlite3_stmt* row = nullptr;
     sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id,timestamp,data) VALUES(?,?,?)", -1, &row, nullptr);
-    sqlite3_bind_int64(row, 1, static_cast<sqlite3_int64>(message.topic + 1));
+    sqlite3_bind_int64(row, 1, static_cast<sqlite3_int64>(message.topic) + 1);
     sqlite3_bind_int64(row, 2, message.logged.count());
     sqlite3_bind_blob(row, 3, message.bytes.data(), static_cast<int>(message.bytes.size()), SQLITE_STATIC);
     sqlite3_step(row);

@@ -33,11 +33,12 @@ World::World(base::Loop& loop, WorldOptions options, OpenLink open_link, base::L
 
 void World::park(VehicleGroup const& group, int system_id) {
   auto const place = static_cast<int>(vehicles_.size());
+  auto const row = place / parking_columns;
   auto const seed = options_.seed * 1000003 + static_cast<std::uint64_t>(system_id);
   Vehicle::Options const options{
       .kind = {group.family, group.firmware},
       .system_id = static_cast<std::uint8_t>(system_id),
-      .start = {parking_spacing_m * (place / parking_columns), parking_spacing_m * (place % parking_columns), 0.0},
+      .start = {parking_spacing_m * row, parking_spacing_m * (place % parking_columns), 0.0},
       .heading_rad = options_.heading_rad,
       .altitude_error_m = group.firmware == vehicle::Autopilot::px4 ? 0.0 : options_.altitude_error_m,
       .boot = options_.boot == BootStyle::quick ? quick_boot() : realistic_boot(),

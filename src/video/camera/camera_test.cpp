@@ -129,8 +129,7 @@ TEST(PatternCamera, ShowsTheTime) {
   EXPECT_GT(cv::norm(first, taken(**camera, over(0, 0, begin + milliseconds(250))), cv::NORM_INF), 100.0);
 }
 
-class FolderOfPictures : public ::testing::Test {
- protected:
+struct FolderOfPictures : ::testing::Test {
   void table(std::string const& lines) { std::ofstream(folder.path() / "poses.csv") << pose_columns << '\n' << lines; }
   void picture(std::string const& name, int width, int tone) {
     cv::imwrite((folder.path() / name).string(), cv::Mat(240, width, CV_8UC3, cv::Scalar::all(tone)));

@@ -44,7 +44,7 @@ std::optional<Cells> cells_of(std::string_view line) {
 bool is_plain_name(std::string_view name) {
   constexpr std::size_t longest = 200;
   return !name.empty() && name.size() <= longest && name != "." && name != ".." &&
-         name.find_first_of("/\\") == std::string_view::npos && name.find('\0') == std::string_view::npos;
+         name.find_first_of("/\\") == std::string_view::npos && !name.contains('\0');
 }
 
 /// The six numbers of a pose, each within its limit.

@@ -78,15 +78,12 @@ base::Result<std::unique_ptr<Camera>> VideoCamera::open(CameraSettings const& se
     return base::fail(base::ErrorKind::io, fmt::format("no pictures can be had from {}", name),
                       origin == Origin::device ? "is it another program's, or is the user not in the group `video`?"
                                                : "try the same source in a player such as ffplay or VLC");
-  return std::unique_ptr<Camera>(new VideoCamera(std::move(name), origin, settings, std::move(capture)));
+  return std::unique_ptr<Camera>(new VideoCamera(std::move(name), origin, settings, capture));
 }
 
-VideoCamera::VideoCamera(std::string name, Origin origin, CameraSettings const& settings, cv::VideoCapture capture)
-    : capture_(std::move(capture)),
-      name_(std::move(name)),
-      origin_(origin),
-      lens_(settings.lens),
-      delay_(settings.faults.delay) {
+VideoCamera::VideoCamera(std::string name, Origin origin, CameraSettings const& settings,
+                         cv::VideoCapture const& capture)
+    : capture_(capture), name_(std::move(name)), origin_(origin), lens_(settings.lens), delay_(settings.faults.delay) {
   thread_ = std::jthread([this](std::stop_token const& stop) { read(stop); });
 }
 

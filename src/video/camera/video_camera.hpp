@@ -35,7 +35,7 @@ class VideoCamera final : public Camera {
  private:
   enum class Origin : std::uint8_t { file, device, address };
 
-  VideoCamera(std::string name, Origin origin, CameraSettings const& settings, cv::VideoCapture capture);
+  VideoCamera(std::string name, Origin origin, CameraSettings const& settings, cv::VideoCapture const& capture);
   [[nodiscard]] static Origin origin_of(std::string const& source);
   [[nodiscard]] static std::optional<base::Error> why_absent(std::string const& source, Origin origin);
   void read(std::stop_token const& stop);

@@ -38,8 +38,10 @@ auto const& by_share(List const& list, double chance) {
   double sum = 0.0;
   for (auto const& element : list) sum += element.share;
   double left = chance * sum;
-  for (auto const& element : list)
-    if ((left -= element.share) < 0.0) return element;
+  for (auto const& element : list) {
+    left -= element.share;
+    if (left < 0.0) return element;
+  }
   return list.back();
 }
 

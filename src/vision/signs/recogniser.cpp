@@ -40,8 +40,8 @@ cv::Mat blob_of(cv::Mat const& line) {
 /// OpenCV's dnn throws on what it cannot load; so that no half of it gets out, everything of it stays here.
 class Recogniser final : public LineReader {
  public:
-  Recogniser(cv::dnn::Net net, std::vector<std::string> characters)
-      : net_(std::move(net)), characters_(std::move(characters)) {}
+  Recogniser(cv::dnn::Net const& net, std::vector<std::string> characters)
+      : net_(net), characters_(std::move(characters)) {}
 
   Reading read(cv::Mat const& line) override {
     if (line.empty()) return {};
@@ -83,7 +83,7 @@ base::Result<std::unique_ptr<LineReader>> make_recogniser(std::string const& net
   try {
     auto net = cv::dnn::readNetFromONNX(network.data(), network.size());
     net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-    auto reader = std::make_unique<Recogniser>(std::move(net), std::move(names));
+    auto reader = std::make_unique<Recogniser>(net, std::move(names));
     // What can be loaded may still not fit: one line tells.
     (void)reader->read(cv::Mat(input_height, input_width, CV_8UC3, cv::Scalar(128, 128, 128)));
     return reader;

@@ -128,7 +128,7 @@ void take_in(Sign& sign, ReadLine const& line) {
     both = is_first ? joined_number(*row.text, *whole.text) : joined_number(*whole.text, *row.text);
   }
   if (both) {
-    whole.text = both;
+    whole.text = std::move(both);
     whole.score = std::min(whole.score, row.score);
   } else if (!whole.text || row.score > whole.score) {
     whole.text = row.text;

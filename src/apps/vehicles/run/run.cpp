@@ -123,6 +123,16 @@ bool is_all_simulated(RunOptions const& options) {
   return !is_linked && std::ranges::all_of(options.robots, is_simulated);
 }
 
+base::Result<> open_vehicles(host::Session& session, RunOptions const& options, dolphin::Needs const& needs,
+                             std::optional<sim::WorldOptions> world) {
+  auto const anchor = world ? world->home : needs.home.value_or(sim::WorldOptions{}.home);
+  if (auto added = session.add_robots(options.robots, anchor); !added) return added;
+  std::vector<host::SurveyLink> survey;
+  if (auto named = host::add_survey_links(options.survey, survey); !named) return named;
+  if (auto opened = session.open_survey(std::move(survey)); !opened) return opened;
+  return connect(session, options, std::move(world));
+}
+
 int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> const& scripts, host::LoadedPlans plans,
                     host::EventFile const& events) {
   auto const on_stop = host::parse_on_stop(options.on_stop);
@@ -153,12 +163,8 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return host::refuse(begun.error());
   }
-  auto const anchor = world ? world->home : needs.home.value_or(sim::WorldOptions{}.home);
-  if (auto added = session.add_robots(options.robots, anchor); !added) return host::refuse(added.error());
-  std::vector<host::SurveyLink> survey;
-  if (auto named = host::add_survey_links(options.survey, survey); !named) return host::refuse(named.error());
-  if (auto opened = session.open_survey(std::move(survey)); !opened) return host::refuse(opened.error());
-  if (auto connected = connect(session, options, std::move(world)); !connected) return host::refuse(connected.error());
+  if (auto opened = open_vehicles(session, options, needs, std::move(world)); !opened)
+    return host::refuse(opened.error());
   int code = host::exit_done;
   for (auto script = scripts.begin(); script != scripts.end() && code == host::exit_done; ++script)
     code = run_script(session, options, *script);

@@ -47,7 +47,7 @@ class Reader {
   std::optional<T> take() {
     if (rest_.size() < sizeof(T)) return std::nullopt;
     char bytes[sizeof(T)];
-    std::memcpy(bytes, rest_.data(), sizeof(T));
+    std::ranges::copy(rest_.substr(0, sizeof(T)), bytes);
     rest_.remove_prefix(sizeof(T));
     if (is_big_endian_) std::ranges::reverse(bytes);
     return std::bit_cast<T>(bytes);

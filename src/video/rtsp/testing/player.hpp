@@ -30,7 +30,7 @@ auto with_bytes(GstSample* sample, Use use) {
   auto* const buffer = gst_sample_get_buffer(sample);
   GstMapInfo map;
   gst_buffer_map(buffer, &map, GST_MAP_READ);
-  auto const result = use(map.data, map.size);
+  auto result = use(map.data, map.size);
   gst_buffer_unmap(buffer, &map);
   gst_sample_unref(sample);
   return result;
