@@ -10,6 +10,7 @@
 #include "host/session/session.hpp"
 #include "host/session/signals.hpp"
 #include "host/simulation/simulation.hpp"
+#include "host/simulation/world_place.hpp"
 #include "link/url.hpp"
 #include "sim/model/vehicle_spec.hpp"
 
@@ -17,12 +18,14 @@ namespace lapwing::apps {
 
 namespace {
 
+constexpr auto usual_home = "41.1780,-8.5980,90";
 /// How far off a vehicle has its home, as ArduPilot had in the loop.
 constexpr double usual_altitude_error_m = 0.09;
 
 struct SimOptions {
   std::string vehicles = "copter:1";
-  std::string home = "41.1780,-8.5980,90";
+  std::optional<std::string> home;
+  std::string world;
   std::string out = "udpout://127.0.0.1:14550";
   double speedup = 1.0;
   double loss = 0.0;
@@ -42,8 +45,13 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   sim::WorldOptions world;
   auto const vehicles = sim::parse_vehicles(options.vehicles);
   if (!vehicles) return std::unexpected(vehicles.error());
-  auto const home = host::parse_home(options.home);
+  auto home = host::parse_home(options.home.value_or(usual_home));
   if (!home) return std::unexpected(home.error());
+  if (!options.world.empty()) {
+    auto const place = host::world_place(options.world);
+    if (!place) return std::unexpected(place.error());
+    if (!options.home) home->place = *place;
+  }
   auto const out = link::parse_url(options.out);
   if (!out) return std::unexpected(out.error());
   world.vehicles = *vehicles;
@@ -94,7 +102,11 @@ void add_sim(CLI::App& program, int& exit_code) {
   auto* verb = begin_verb(program, "sim");
   verb->add_option("--vehicles", options->vehicles, "What and how many: copter:2,plane:1,rover:1,boat:1,sub:1,px4:1")
       ->capture_default_str();
-  verb->add_option("--home", options->home, "LAT,LON,ALT[,HEADING] in degrees and metres")->capture_default_str();
+  verb->add_option(
+      "--home", options->home,
+      fmt::format("LAT,LON,ALT[,HEADING] in degrees and metres; default: the world's anchor, or {}", usual_home));
+  verb->add_option("--world", options->world,
+                   "A simulated car park's or building's file, at whose anchor the vehicles start");
   verb->add_option("--out", options->out, "Where the vehicles send")->capture_default_str();
   verb->add_option("--speedup", options->speedup, "1 real time, 10 ten times faster")
       ->check(CLI::Range(0.01, 1000.0))
