@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -144,6 +145,12 @@ std::vector<T> requests(std::vector<Said> const& all) {
   for (auto const& said : all)
     for (auto const& one : requests<T>(said)) found.push_back(one);
   return found;
+}
+
+/// Whether that is the one mode asked for.
+inline bool asks_for(Said const& said, std::string_view mode) {
+  auto const modes = requests<request::Mode>(said);
+  return modes.size() == 1 && modes.front().mode == mode;
 }
 
 /// Whether some message for the operator has these words.
