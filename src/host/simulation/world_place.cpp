@@ -8,14 +8,14 @@ namespace lapwing::host {
 
 geo::Wgs84 read_world_place(base::SourceFile const& source, base::Diagnostics& diagnostics) {
   constexpr double most_altitude_m = 9'000.0;
-  constexpr auto how = "anchor = [latitude, longitude, altitude], in degrees and metres";
   auto const table = base::parse_config(source, diagnostics);
   if (diagnostics.has_errors()) return {};
   base::ConfigReader reader(table, diagnostics);
   auto const anchor = reader.numbers("anchor", 3, -most_altitude_m, most_altitude_m);
   if (diagnostics.has_errors()) return {};
   auto const wrong = [&](base::Span const& span, char const* what) {
-    diagnostics.report(base::config_kinds::invalid_value, span, what, {how});
+    diagnostics.report(base::config_kinds::invalid_value, span, what,
+                       {"anchor = [latitude, longitude, altitude], in degrees and metres"});
     return geo::Wgs84{};
   };
   if (!anchor) return wrong({0, 1}, "a world needs a place on Earth");

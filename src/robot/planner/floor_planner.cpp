@@ -13,7 +13,7 @@ namespace lapwing::robot {
 using explore::Cell;
 using explore::Disc;
 using explore::Knowledge;
-using explore::operator+;
+using explore::operator+;  // NOLINT(misc-unused-using-decls): it adds cells below.
 
 namespace {
 
