@@ -31,6 +31,12 @@ case $target in
     python3 "$root/fuzz/scans/bag_seeds.py" "$seeds"
     options=(-max_len=16384)
     ;;
+  bus)
+    # The first byte says which message; then CDR's head, little endian, and what reads as empty lists and zeros.
+    for kind in 0 1 2 3 4 5 6 7 8 9 10 11 12 13; do
+      { printf "\\x$(printf %02x "$kind")\x00\x01\x00\x00"; head -c 400 /dev/zero; } | seed "kind-$kind"
+    done
+    ;;
   building)
     cp "$root"/examples/buildings/*.toml "$seeds"
     printf '[[wall]]\nline=[[0,0],[4,0],[4,3],[0,3]]\nclosed=true\n[[door]]\nhinge=[1,0]\nlatch=[2,0]\nsign="7\\nWC"\nopen_s=1\nclosed_s=1\n[[person]]\nat=[3,1]\nwalks=true\n[[start]]\nat=[1,1]\n' | seed small

@@ -132,6 +132,14 @@ TEST(Config, TellsWhereAFileIsNoToml) {
   EXPECT_NE(records[0].message, "");
 }
 
+TEST(Config, TellsOfKeysThatBeginWithNoLetter) {
+  for (auto const* text : {"[(k#y1]\nfleet = 3\n", "[[,rea]]\n", "[\x1a]\n", "a.(b = 1\n", "(a = 1\n"}) {
+    Config const config(text);
+    EXPECT_TRUE(config.diagnostics.has_errors()) << text;
+    EXPECT_TRUE(config.root.empty()) << text;
+  }
+}
+
 TEST(Config, RefusesAKeyThatStandsTwice) {
   Config const config("a = 1\na = 2\n");
   EXPECT_EQ(config.diagnostics.error_count(), 1U);

@@ -112,12 +112,13 @@ base::Result<> Journal::recover_segment(Disk::File const& file, bool is_last) {
     damaged_bytes_ += file.size;
     return {};
   }
-  Segment segment{file.name, next_, 0};
+  Segment segment{.name = file.name, .first = next_};
   while (auto const body = record_at(*content, offset)) {
     replay(*body);
     offset += record_header_bytes + body->size();
   }
   segment.size = offset;
+  segment.is_damaged = !is_last && offset < content->size();
   segments_.push_back(std::move(segment));
   if (offset == content->size()) return {};
   if (!is_last) {
@@ -161,12 +162,12 @@ base::Result<> Journal::begin_segment() {
     return done;
   }
   ++next_segment_;
-  segments_.push_back({std::move(name), next_, head.size()});
+  segments_.push_back({.name = std::move(name), .first = next_, .size = head.size()});
   return {};
 }
 
 base::Result<> Journal::write(Bytes records) {
-  if (segments_.empty() || segments_.back().size >= limits_.segment_bytes)
+  if (segments_.empty() || segments_.back().is_damaged || segments_.back().size >= limits_.segment_bytes)
     if (auto const begun = begin_segment(); !begun) return begun;
   auto& active = segments_.back();
   if (auto const done = disk_->append(active.name, records); !done) return done;

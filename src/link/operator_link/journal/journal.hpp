@@ -48,6 +48,7 @@ class Journal final : public DurableQueue {
     std::string name;
     std::uint64_t first = 1;  ///< messages in it have this number or greater
     std::uint64_t size = 0;
+    bool is_damaged = false;  ///< there is more in the file, which cannot be read: what came behind would be lost
   };
   /// Where the next message that is sent stands; files are read a segment at a time.
   struct Cursor {

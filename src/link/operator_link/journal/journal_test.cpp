@@ -211,6 +211,23 @@ TEST_F(JournalTest, ReadsOnPastWhatADiskHasLost) {
   EXPECT_EQ(left.back(), 50u);
 }
 
+TEST_F(JournalTest, WritesNothingBehindWhatADiskHasLost) {
+  std::uint64_t accepted = 0;
+  {
+    auto const journal = open();
+    while (platter.files.size() < 2) EXPECT_TRUE(journal->append("key", text(++accepted)));
+  }
+  // Of the last file not even the head was written, and the end of the one before is damaged.
+  auto& first = platter.files.begin()->second;
+  first[first.size() - 1] ^= 1;
+  std::prev(platter.files.end())->second.resize(3);
+  auto journal = open();
+  auto const number = journal->append("key", text(journal->next()));
+  ASSERT_TRUE(number);
+  journal = open();
+  EXPECT_EQ(numbers(*journal).back(), *number);
+}
+
 TEST_F(JournalTest, SaysWhenTheDiskFailsAndTriesAgain) {
   auto const journal = open();
   settle();
