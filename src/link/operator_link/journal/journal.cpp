@@ -91,7 +91,8 @@ base::Result<> Journal::recover() {
   std::ranges::sort(*files, {}, &Disk::File::name);
   for (auto const& file : *files)
     if (auto const done = recover_segment(file, &file == &files->back()); !done) return done;
-  first_ = std::min(first_, next_);
+  // What was acknowledged is never said again under the same number, even where nobody could have written so.
+  next_ = std::max(next_, first_);
   drop_segments();
   return {};
 }
@@ -177,6 +178,9 @@ base::Result<> Journal::write(Bytes records) {
 
 base::Result<std::uint64_t> Journal::append(std::string_view key, std::string_view text) {
   LAPWING_ASSERT(key.size() <= longest_key && text.size() <= longest_text, key.size(), text.size());
+  if (next_ >= number_limit)
+    return base::fail(base::ErrorKind::refused, fmt::format("{} has no numbers left", disk_->name()),
+                      "Its files are damaged: move them away and begin anew.");
   if (bytes() + text.size() > limits_.bytes)
     return base::fail(
         base::ErrorKind::refused,

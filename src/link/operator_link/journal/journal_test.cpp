@@ -13,6 +13,7 @@
 #include "base/async/notifier.hpp"
 #include "base/testing/temporary_folder.hpp"
 #include "link/operator_link/testing/memory_disk.hpp"
+#include "link/operator_link/wire/byte_order.hpp"
 
 namespace lapwing::link::operator_link {
 namespace {
@@ -226,6 +227,24 @@ TEST_F(JournalTest, WritesNothingBehindWhatADiskHasLost) {
   ASSERT_TRUE(number);
   journal = open();
   EXPECT_EQ(numbers(*journal).back(), *number);
+}
+
+TEST_F(JournalTest, NeverUsesAnAcknowledgedNumberAgain) {
+  // A head with the right CRC whose oldest message comes after its next one.
+  std::vector<std::uint8_t> body;
+  ByteWriter head(body);
+  head.number(std::uint8_t{1});
+  for (std::uint64_t const number : {7U, 40U, 30U, 0U, 0U}) head.number(number);
+  auto& file = platter.files["0000000000000001.segment"];
+  ByteWriter writer(file);
+  writer.bytes("LWjrnl1\n");
+  writer.number(static_cast<std::uint32_t>(body.size()));
+  writer.number(crc32(body));
+  file.insert(file.end(), body.begin(), body.end());
+  auto journal = open();
+  EXPECT_EQ(journal->append("key", text(40)), 40U);
+  journal = open();
+  EXPECT_EQ(numbers(*journal), range(40, 40));
 }
 
 TEST_F(JournalTest, SaysWhenTheDiskFailsAndTriesAgain) {
