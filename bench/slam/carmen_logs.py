@@ -79,6 +79,12 @@ def write(log: Log, folder: pathlib.Path) -> tuple:
     return path, relations
 
 
+def part(log: Log, number: int, count: int) -> Log:
+    """One of `count` drives that follow each other, without the relations, which are of the whole."""
+    size = len(log.scans)
+    return dataclasses.replace(log, name=f"{log.name}-{number + 1}", scans=log.scans[size * number // count:size * (number + 1) // count], relations=[])
+
+
 def wrap(angle: float) -> float:
     return (angle + math.pi) % (2 * math.pi) - math.pi
 

@@ -6,7 +6,6 @@ second half only what the first has seen can be found; the rest is lost, as it s
 is told beside it: a map whose loops are not closed yet is bent, and who is found on it is where the map has the place.
 """
 
-import copy
 import csv
 import json
 import math
@@ -57,14 +56,6 @@ def say(name: str, out: pathlib.Path, truth: dict, motion: tuple):
           f"{at(turns, 0.95):.2f} deg, max {shifts[-1]:.2f} m; {report['scan_ms']['p50']:.2f} ms a scan (p99 {report['scan_ms']['p99']:.2f}), {report['cpu_s']:.1f} s", flush=True)
 
 
-def half(log, first: bool):
-    some = copy.copy(log)
-    middle = len(log.scans) // 2
-    some.scans = log.scans[:middle] if first else log.scans[middle:]
-    some.relations = []
-    return some
-
-
 def measure(folder: pathlib.Path):
     log = logs.read(folder)
     log.relations = []
@@ -73,8 +64,8 @@ def measure(folder: pathlib.Path):
         for part in ("whole", "first", "second"):
             (work / part).mkdir()
         whole, _ = logs.write(log, work / "whole")
-        first, _ = logs.write(half(log, True), work / "first")
-        second, _ = logs.write(half(log, False), work / "second")
+        first, _ = logs.write(logs.part(log, 0, 2), work / "first")
+        second, _ = logs.write(logs.part(log, 1, 2), work / "second")
         run(whole, "--out", work / "map")
         truth = trajectory(work / "map")
         run(whole, "--out", work / "on_map", "--localise", work / "map/map.yaml")

@@ -6,7 +6,6 @@ poses stand in for the truth, with odometry that drifts: how far places that two
 """
 
 import argparse
-import copy
 import itertools
 import json
 import math
@@ -19,14 +18,6 @@ import tempfile
 import carmen_logs as logs
 import other_buildings
 from variants import LAPWING, trajectory
-
-
-def part(log, number: int, count: int):
-    some = copy.copy(log)
-    size = len(log.scans)
-    some.name = f"{log.name}-{number + 1}"
-    some.scans = log.scans[size * number // count:size * (number + 1) // count]
-    return some
 
 
 def merge(paths, out: pathlib.Path, *more) -> str:
@@ -49,7 +40,7 @@ def say_joined(report: dict) -> str:
 
 def measure_relations(log, count: int, folder: pathlib.Path):
     _, relations = written(log, folder / "whole")
-    paths = [written(part(log, i, count), folder / str(i))[0] for i in range(count)]
+    paths = [written(logs.part(log, i, count), folder / str(i))[0] for i in range(count)]
     against = merge(paths, folder / "map", "--relations", relations)
     if against:
         return print(f"{log.name:18} {count} parts: {against}", flush=True)
@@ -63,7 +54,7 @@ def measure_other(path: pathlib.Path, count: int, folder: pathlib.Path):
     truth = [scan.odometry for scan in log.scans]
     steps = [logs.between(a, b) for a, b in zip(truth, truth[1:])]
     log = other_buildings.with_odometry(log, other_buildings.told_by("drift", steps, wheels, 1))
-    paths = [written(part(log, i, count), folder / str(i))[0] for i in range(count)]
+    paths = [written(logs.part(log, i, count), folder / str(i))[0] for i in range(count)]
     against = merge(paths, folder / "map")
     if against:
         return print(f"{log.name:18} {count} parts: {against}", flush=True)
@@ -85,7 +76,7 @@ def measure_other(path: pathlib.Path, count: int, folder: pathlib.Path):
 
 
 def measure_apart(every: list, folder: pathlib.Path):
-    paths = [written(part(log, 0, 2), folder / str(i))[0] for i, log in enumerate(every)]
+    paths = [written(logs.part(log, 0, 2), folder / str(i))[0] for i, log in enumerate(every)]
     merged = 0
     for (a, first), (b, second) in itertools.combinations(zip(every, paths), 2):
         if not merge([first, second], folder / "map"):

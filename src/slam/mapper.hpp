@@ -17,7 +17,7 @@ namespace lapwing::slam {
 struct Mapping {
   Graph graph;
   std::vector<Pose2> trajectory;  ///< one a scan of the log
-  LoopCloser::Counts loops;
+  LoopCounts loops;
   std::vector<LoopRecord> loop_records;
 };
 

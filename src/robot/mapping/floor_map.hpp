@@ -58,7 +58,7 @@ class FloorMap {
   [[nodiscard]] slam::Graph const& graph() const { return graph_; }
   /// When a key frame's scan was taken.
   [[nodiscard]] slam::LogTime key_time(std::size_t frame) const { return log_.scans[frame].time; }
-  [[nodiscard]] slam::LoopCloser::Counts loops() const { return loops_.counts(); }
+  [[nodiscard]] slam::LoopCounts loops() const { return loops_.counts(); }
   /// How often loops have made the grid be drawn anew.
   [[nodiscard]] int redrawn() const { return redrawn_; }
 

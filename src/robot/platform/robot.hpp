@@ -121,7 +121,7 @@ class Robot {
   [[nodiscard]] std::optional<PoseSpread> spread() const;
   /// The way that it follows now, in the site's frame; empty: none.
   [[nodiscard]] std::vector<geo::Point<geo::SiteFrame>> way() const;
-  [[nodiscard]] slam::LoopCloser::Counts const& loops() const { return loops_; }
+  [[nodiscard]] slam::LoopCounts const& loops() const { return loops_; }
   /// Notified when a drive ends, a reading comes in which it stands, or it is heard first.
   [[nodiscard]] base::Notifier& changed() { return changed_; }
   /// In the site's frame.
@@ -178,7 +178,7 @@ class Robot {
   std::optional<Survey> survey_;
   base::TimePoint surveyed_at_{};
   base::TimePoint walls_at_{};  ///< when they were looked for
-  slam::LoopCloser::Counts loops_;
+  slam::LoopCounts loops_;
   std::optional<map::OccupancyGrid> grid_;
   std::set<map::TileKey> unwritten_;
   base::TimePoint written_at_{};

@@ -33,9 +33,9 @@ bool holds(std::vector<Pose2> const& poses, int from, int to, Pose2 const& from_
 
 }  // namespace
 
-LoopCloser::Counts LoopCloser::counts() const {
-  Counts counts{.searches = search_.searches()};
-  for (auto const& record : records()) {
+LoopCounts counts_of(std::vector<LoopRecord> const& records) {
+  LoopCounts counts{.searches = static_cast<int>(records.size())};
+  for (auto const& record : records) {
     counts.closures += record.verdict == Verdict::closed ? 1 : 0;
     counts.doubted += record.verdict == Verdict::doubted ? 1 : 0;
     counts.revoked += record.verdict == Verdict::revoked ? 1 : 0;

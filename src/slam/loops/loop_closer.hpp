@@ -6,6 +6,14 @@
 
 namespace lapwing::slam {
 
+struct LoopCounts {
+  int searches = 0;
+  int closures = 0;  ///< that hold
+  int doubted = 0;   ///< found and not believed
+  int revoked = 0;   ///< believed until they were seen to contradict the rest
+};
+[[nodiscard]] LoopCounts counts_of(std::vector<LoopRecord> const& records);
+
 /// Finds places where the robot has been before and closes the graph there. A closure that is found is a claim; how
 /// many others must agree with it before it moves anything depends on how much it moves, how far was searched and
 /// whether another place looks as good. What a closure does to the rest of the map decides in the end.
@@ -22,13 +30,7 @@ class LoopCloser {
   /// known of where each lies; then optimizes the whole graph to the end. `first`: from that key frame on only.
   void finish(Graph& graph, int first = 0);
 
-  struct Counts {
-    int searches = 0;
-    int closures = 0;  ///< that hold
-    int doubted = 0;   ///< found and not believed
-    int revoked = 0;   ///< believed until they were seen to contradict the rest
-  };
-  [[nodiscard]] Counts counts() const;
+  [[nodiscard]] LoopCounts counts() const { return counts_of(records()); }
   [[nodiscard]] std::vector<LoopRecord> const& records() const { return search_.records(); }
 
  private:

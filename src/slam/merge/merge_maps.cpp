@@ -92,11 +92,14 @@ class Merger {
     auto const before = graph_;
     auto const first = graph_.size();
     auto const all_from_log = common->pose * inverse(keys.scans[static_cast<std::size_t>(common->scan)].odometry);
-    graph_.constraints.push_back(anchor(first + common->scan, common->pose));
+    auto const anchor = anchor_at(first + common->scan, common->pose);
+    graph_.constraints.push_back(anchor);
+    auto const records = records_.size();
     add_graph(number, all_from_log);
-    auto const closures = close(first);
+    auto const closures = close(first, anchor);
     if (!closures) {
       graph_ = before;
+      records_.resize(records);
       return fmt::format("where it seems to meet the others, {}", closures.error());
     }
     merged_[number].closures = *closures;
@@ -108,7 +111,7 @@ class Merger {
   [[nodiscard]] std::string const& name(std::size_t number) const { return logs_[number].name; }
   [[nodiscard]] MapperOptions const& options() const { return options_; }
   [[nodiscard]] std::vector<MergedLog> const& merged() const { return merged_; }
-  [[nodiscard]] LoopCloser::Counts const& counts() const { return counts_; }
+  [[nodiscard]] std::vector<LoopRecord> const& records() const { return records_; }
 
   /// The key frames of one of the logs, with its own numbers of scans.
   [[nodiscard]] Graph part(std::size_t number) const {
@@ -124,7 +127,7 @@ class Merger {
 
  private:
   void add_graph(std::size_t number, Pose2 const& all_from_log) {
-    auto& from = logs_[number].mapping.graph;
+    auto const& from = logs_[number].mapping.graph;
     auto const first = graph_.size();
     first_frame_[number] = first;
     // So far apart on the way that no search takes one log's end and the next one's beginning for neighbours.
@@ -141,6 +144,11 @@ class Merger {
       constraint.to += first;
       graph_.constraints.push_back(constraint);
     }
+    for (auto record : logs_[number].mapping.loop_records) {
+      record.query += first;
+      record.target += first;
+      records_.push_back(record);
+    }
   }
 
   void add_seen(std::size_t number) {
@@ -149,7 +157,7 @@ class Merger {
   }
 
   /// What holds the new log where it was found until there are loops: to the key frame there that looks most alike.
-  [[nodiscard]] Constraint anchor(int key, Pose2 const& pose) const {
+  [[nodiscard]] Constraint anchor_at(int key, Pose2 const& pose) const {
     constexpr double m_per_rad = 1.0;
     int nearest = 0;
     auto least = std::numeric_limits<double>::infinity();
@@ -169,14 +177,17 @@ class Merger {
             .is_loop = true};
   }
 
-  /// Loops between the key frames from `first` on, which hang on the last constraint alone, and those before; how many.
-  /// Else what speaks against one building.
-  [[nodiscard]] std::expected<int, std::string> close(int first) {
+  /// Loops between the key frames from `first` on, which only the anchor holds, and those before; how many. Else what
+  /// speaks against one building.
+  [[nodiscard]] std::expected<int, std::string> close(int first, Constraint const& anchor) {
     auto const joins = [first](Constraint const& c) { return c.is_loop && c.from < first && c.to >= first; };
     LoopCloser closer(options_.loops, for_each_);
     closer.know(graph_);
     closer.finish(graph_, first);
-    auto const closures = static_cast<int>(std::ranges::count_if(graph_.constraints, joins)) - 1;
+    std::erase_if(graph_.constraints, [&](Constraint const& c) {
+      return c.from == anchor.from && c.to == anchor.to && c.from_to == anchor.from_to;
+    });
+    auto const closures = static_cast<int>(std::ranges::count_if(graph_.constraints, joins));
     if (closures < least_closures)
       return std::unexpected(fmt::format("{} loops hold, and {} are needed", closures, least_closures));
     auto apart = graph_.poses;
@@ -191,11 +202,7 @@ class Merger {
     if (auto const fits = share_that_fits(first); fits < least_that_fits)
       return std::unexpected(fmt::format("{:.0f} % of its key frames fit what was seen there ({:.0f} % at least)",
                                          100.0 * fits, 100.0 * least_that_fits));
-    auto const counts = closer.counts();
-    counts_.searches += counts.searches;
-    counts_.closures += counts.closures;
-    counts_.doubted += counts.doubted;
-    counts_.revoked += counts.revoked;
+    records_.insert(records_.end(), closer.records().begin(), closer.records().end());
     return closures;
   }
 
@@ -226,7 +233,7 @@ class Merger {
   std::vector<MergedLog> merged_;
   ScanLog seen_;  ///< the scans of the graph's key frames, in the same order
   std::optional<KnownMap> known_;
-  LoopCloser::Counts counts_;
+  std::vector<LoopRecord> records_;  ///< of all logs and of merging them, by the graph's numbers
 };
 
 /// Each log on what is merged by then, again and again, for the third may meet only the second.
@@ -272,14 +279,14 @@ base::Result<MergedMaps> merge_maps(std::vector<MappedLog> logs, MapperOptions c
   progress("refining", merging);
   refine_jointly(merger.graph(), merger.options().joint, for_each);
   MergedMaps maps{.log = {}, .mapping = {}, .logs = merger.merged()};
-  maps.mapping.loops = merger.counts();
+  maps.mapping.loop_records = merger.records();
+  maps.mapping.loops = counts_of(merger.records());
   for (std::size_t i = 0; i < logs.size(); ++i) {
     progress("filling in", merging + refining);
     auto& [name, log, mapping] = logs[i];
     // What one drive alone knew of the way between two key frames is as good as odometry gets.
     for (auto const& pose : fill(log, mapping.trajectory, merger.part(i), options.frame, options.fill, for_each))
       maps.mapping.trajectory.push_back(pose);
-    maps.mapping.loops.closures += mapping.loops.closures;
     append(maps.log, std::move(log));
   }
   maps.mapping.graph = std::move(merger.graph());

@@ -1,5 +1,7 @@
 #include "slam/merge/merge_maps.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -55,6 +57,11 @@ TEST(MergeMaps, MakesOneMapOfTwoDrivesThatMeet) {
   ASSERT_EQ(maps->logs.size(), 2U);
   EXPECT_EQ(maps->logs[0].closures, 0);
   EXPECT_GE(maps->logs[1].closures, 3);
+  EXPECT_EQ(maps->mapping.loops.searches, static_cast<int>(maps->mapping.loop_records.size()));
+  auto const joins = [](LoopRecord const& record) {
+    return record.verdict == LoopRecord::Verdict::closed && record.is_late;
+  };
+  EXPECT_GE(std::ranges::count_if(maps->mapping.loop_records, joins), maps->logs[1].closures);
   EXPECT_EQ(maps->logs[1].first_scan, drives[0].log.scans.size());
   EXPECT_EQ(maps->log.scans.size(), drives[0].log.scans.size() + drives[1].log.scans.size());
 }
