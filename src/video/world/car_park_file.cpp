@@ -1,6 +1,5 @@
 #include "video/world/car_park_file.hpp"
 
-#include <cmath>
 #include <limits>
 #include <set>
 
@@ -8,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "base/config.hpp"
+#include "geo/anchor.hpp"
 #include "video/files/file_bytes.hpp"
 #include "video/world/car_park_parts.hpp"
 #include "video/world/row_of_slots.hpp"
@@ -24,18 +24,9 @@ constexpr double full_turn_deg = 360.0;
 constexpr int most_number = 2 * static_cast<int>(most_slots);
 
 void read_anchor(WorldParts& parts, ConfigReader& reader, CarPark& park) {
-  constexpr double most_altitude_m = 9'000.0;
-  auto const anchor = reader.numbers("anchor", 3, -most_altitude_m, most_altitude_m);
-  if (!anchor) {
-    if (!reader.has("anchor"))
-      parts.missing({0, 1}, "a car park", "a place on Earth: anchor = [latitude, longitude, altitude]");
-    return;
-  }
-  auto const& at = anchor->value;
-  if (std::abs(at[0]) > 90.0 || std::abs(at[1]) > 180.0)
-    parts.wrong(invalid_value, anchor->span, "the anchor is no place on Earth",
-                "anchor = [latitude, longitude, altitude], in degrees and metres");
-  park.anchor = geo::Wgs84::from_degrees(at[0], at[1], at[2]);
+  if (auto const anchor = geo::read_anchor(reader)) park.anchor = *anchor;
+  if (!reader.has("anchor"))
+    parts.missing({0, 1}, "a car park", "a place on Earth: anchor = [latitude, longitude, altitude]");
 }
 
 void read_light(WorldParts& parts, ConfigReader& reader, Light& light) {

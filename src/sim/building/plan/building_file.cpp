@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "base/config.hpp"
+#include "geo/anchor.hpp"
 #include "sim/building/picture/letters.hpp"
 #include "sim/building/plan/door_opening.hpp"
 
@@ -235,15 +236,8 @@ void read_room(Parts& parts, Placed<ConfigReader>& part, BuildingPlan& plan) {
   plan.rooms.push_back(std::move(room));
 }
 
-void read_site(Parts& parts, ConfigReader& reader, BuildingPlan& plan) {
-  constexpr double most_altitude_m = 9'000.0;
-  if (auto const anchor = reader.numbers("anchor", 3, -most_altitude_m, most_altitude_m)) {
-    auto const& at = anchor->value;
-    if (std::abs(at[0]) > 90.0 || std::abs(at[1]) > 180.0)
-      parts.wrong(invalid_value, anchor->span, "the anchor is no place on Earth",
-                  "anchor = [latitude, longitude, altitude], in degrees and metres");
-    plan.anchor = geo::Wgs84::from_degrees(at[0], at[1], at[2]);
-  }
+void read_site(ConfigReader& reader, BuildingPlan& plan) {
+  plan.anchor = geo::read_anchor(reader);
   constexpr double farthest_m = 10'000.0;
   auto const origin = reader.numbers("origin", 2, -farthest_m, farthest_m);
   auto const turned = reader.number("turned_deg", -full_turn_deg, full_turn_deg);
@@ -306,7 +300,7 @@ BuildingPlan read_building(base::SourceFile const& source, base::Diagnostics& di
   if (diagnostics.has_errors()) return plan;
   ConfigReader reader(root, diagnostics);
   plan.name = parts.name(reader, "name", plan.name);
-  read_site(parts, reader, plan);
+  read_site(reader, plan);
   parts.number(reader, "ceiling_m", 2.0, 20.0, plan.ceiling_m);
   double thickness_m = WallPlan{}.thickness_m;
   parts.number(reader, "wall_thickness_m", 0.02, 2.0, thickness_m);
