@@ -31,6 +31,7 @@ struct Row {
   double right = 0.0;
   double found = 0.0;
   double information = 0.0;
+  double off_m = 0.0;
   double flown_m = 0.0;
   std::size_t wrong = 0;
   std::size_t reached = 0;
@@ -46,6 +47,7 @@ void add(Row& row, SurveyReport const& report) {
   row.right += report.occupancy_right;
   row.found += report.slots_found;
   row.information += report.information;
+  row.off_m += report.off_m;
   row.flown_m += report.flown_m;
   row.wrong += report.wrong_slots;
   row.reached += report.to_90_s ? 1 : 0;
@@ -72,10 +74,10 @@ void print(std::string const& name, Row const& row, Row const& base) {
   auto const n = static_cast<double>(row.runs);
   std::printf(
       "%-34s %6.0f s (%+4.0f %%) %2zu/%zu %6.0f s (%+4.0f %%)  info %.3f  coverage %.3f (least %.3f)  slots %.3f wrong "
-      "%.1f  right %.4f  %5.0f m\n",
+      "%.1f off %.2f m  right %.4f  %5.0f m\n",
       name.c_str(), row.to_90_s / n, 100.0 * (row.to_90_s / base.to_90_s - 1.0), row.reached, row.runs, row.took_s / n,
       100.0 * (row.took_s / base.took_s - 1.0), row.information / n, row.coverage / n, row.least_coverage,
-      row.found / n, static_cast<double>(row.wrong) / n, row.right / n, row.flown_m / n);
+      row.found / n, static_cast<double>(row.wrong) / n, row.off_m / n, row.right / n, row.flown_m / n);
   std::fflush(stdout);
 }
 
@@ -87,6 +89,11 @@ void compare(int seeds) {
   auto const base = mow({.height_m = settings.survey.desired_m, .sidelap = 0.3});
   std::printf("%-34s %8s %18s\n", "", "to 90 %", "in all");
   print("planner", over_seeds(seeds, {}, [&](CarPark const& park) { return fly_survey(park, settings); }), base);
+  // As a drone with plain GPS has it.
+  DetectorFaults loose;
+  loose.camera_off_m = 1.0;
+  print("planner, places off by 1 m",
+        over_seeds(seeds, loose, [&](CarPark const& park) { return fly_survey(park, settings); }), base);
   for (double const height_m : {settings.survey.desired_m, settings.survey.highest_m}) {
     for (double const sidelap : {0.22, 0.3, 0.5, 0.7}) {
       char name[64];

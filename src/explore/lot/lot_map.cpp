@@ -76,10 +76,12 @@ geo::Polygon<geo::SiteFrame> well_seen_ground(geo::GroundView const& view, LotSe
   return {{std::move(outline)}};
 }
 
-bool LotMap::add(LotSight const& sight) {
+bool LotMap::add(LotSight const& told) {
+  auto const placed = slots_.placed(told);
+  auto const& sight = placed.sight;
   auto const footprint = well_seen_ground(sight.view, settings_);
   if (footprint.rings.empty() || !geo::bounds(footprint).meets(geo::bounds(area_))) return false;
-  slots_.add(sight, footprint);
+  slots_.add(placed, footprint);
   cars_.add(sight, footprint);
   auto const learned = cells_.add(sight, footprint, cars_.standing());
   for (auto const cell : learned) {

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "explore/lot/lot_cells.hpp"
-#include "explore/lot/slot_book.hpp"
+#include "explore/lot/slots/slot_book.hpp"
 #include "explore/lot/standing_cars.hpp"
 #include "map/features/feature.hpp"
 #include "map/grid/occupancy_grid.hpp"
@@ -50,7 +50,7 @@ class LotMap {
   /// A slot that the map has already, so that it keeps its id.
   void know(std::string id, Corners const& outline) { slots_.know(std::move(id), outline); }
   /// Whether any of the ground that it shows lies in the area.
-  bool add(LotSight const& sight);
+  bool add(LotSight const& told);
 
   [[nodiscard]] geo::Polygon<geo::SiteFrame> const& area() const { return area_; }
   [[nodiscard]] LotSettings const& settings() const { return settings_; }

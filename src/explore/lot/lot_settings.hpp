@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "explore/lot/slot_looks.hpp"
+#include "explore/lot/slots/slot_looks.hpp"
 
 namespace lapwing::explore {
 

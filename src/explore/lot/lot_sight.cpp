@@ -23,7 +23,9 @@ double ground_doubt_m(LotSight const& sight, map::SitePoint const& ground) {
   auto const camera = sight.view.site_from_camera.origin();
   double const height_m = std::max(sight.view.height_m(), 0.1);
   double const away_m = geo::distance_m(ground, {camera.x(), camera.y()});
-  return std::hypot(sight.doubt.position_m, sight.doubt.angle_rad * (height_m * height_m + away_m * away_m) / height_m);
+  double const by_tilt_m = sight.doubt.angle_rad * (height_m * height_m + away_m * away_m) / height_m;
+  double const aside_m = std::hypot(sight.doubt.heading_rad, sight.doubt.height_m / height_m) * away_m;
+  return std::hypot(sight.doubt.position_m, by_tilt_m, aside_m);
 }
 
 map::SitePoint middle_of(Corners const& corners) {

@@ -31,8 +31,10 @@ struct CarSight {
 
 /// How far the camera may be from where it says that it is: standard deviations.
 struct PoseDoubt {
-  double position_m = 0.3;   ///< level, beside what all pictures have in common
-  double angle_rad = 0.008;  ///< of each of its angles
+  double position_m = 0.3;    ///< level, beside what all pictures have in common
+  double angle_rad = 0.008;   ///< of its tilt and roll
+  double heading_rad = 0.02;  ///< a compass errs by more
+  double height_m = 0.3;      ///< above the ground
 };
 
 /// A picture's account.
@@ -50,8 +52,9 @@ struct LotSight {
 [[nodiscard]] std::optional<Corners> on_ground(geo::GroundView const& view, std::array<geo::Pixel, 4> const& corners,
                                                double farthest_m = 200.0);
 
-/// By how much a place on the ground is off: the position's doubt, and the angles' at that distance. An angle moves a
-/// place at height h and distance d by (h^2 + d^2) / h for each radian along, which is more than across.
+/// By how much a place on the ground is off: the position's doubt, and at height h and distance d that of tilt and
+/// roll, (h^2 + d^2) / h for each radian along, which is more than across; of the heading, d; and of the height, d / h
+/// for each metre.
 [[nodiscard]] double ground_doubt_m(LotSight const& sight, map::SitePoint const& ground);
 
 [[nodiscard]] map::SitePoint middle_of(Corners const& corners);

@@ -107,10 +107,13 @@ class Judge {
     std::size_t found = 0;
     std::size_t told = 0;
     std::size_t right = 0;
+    double off2_m2 = 0.0;
     for (auto const& slot : park_.slots()) {
       auto const* known = slot_near(lot, slot);
       if (!known) continue;
       ++found;
+      double const off_m = geo::distance_m(middle_of(known->outline), middle_of(slot.outline));
+      off2_m2 += off_m * off_m;
       auto const* newest = known->looks.newest();
       if (!newest) continue;
       ++told;
@@ -119,6 +122,7 @@ class Judge {
     auto const confirmed = std::ranges::count_if(lot.slots().slots(), &KnownSlot::is_confirmed);
     report.wrong_slots =
         static_cast<std::size_t>(confirmed) - std::min<std::size_t>(found, static_cast<std::size_t>(confirmed));
+    report.off_m = found == 0 ? 0.0 : std::sqrt(off2_m2 / static_cast<double>(found));
     report.slots_found = static_cast<double>(found) / static_cast<double>(park_.slots().size());
     report.occupancy_right = told == 0 ? 0.0 : static_cast<double>(right) / static_cast<double>(told);
     report.coverage = lot.coverage();

@@ -25,6 +25,7 @@ struct SurveyReport {
   double coverage = 0.0;               ///< share of the area that was seen
   double slots_found = 0.0;            ///< share of the slots that there are
   std::size_t wrong_slots = 0;         ///< on the map where none is
+  double off_m = 0.0;                  ///< root mean square of how far the middles of the slots found are off
   double occupancy_right = 0.0;        ///< share of the slots found of which free or taken is told rightly
   double flown_m = 0.0;
   std::string_view ending = {};

@@ -33,11 +33,23 @@ TEST_P(SurveyRunTest, EndsByItselfWithinTheFenceWithTheLotKnown) {
   EXPECT_GE(report.coverage, 0.98);
   EXPECT_GE(report.slots_found, 0.93);
   EXPECT_GE(report.occupancy_right, 0.97);
+  EXPECT_LT(report.off_m, 0.22) << "each place of the camera is off by 0.3 m east and 0.3 m north";
   EXPECT_LT(report.took_s, 600.0);
   expect_within_fence(park, report);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parks, SurveyRunTest, ::testing::Values(1, 2, 3, 4, 6));
+
+TEST(SurveyRun, APlaceOffByASlotHalvesNoSlotAndDoublesNone) {
+  DetectorFaults faults;
+  faults.camera_off_m = 1.0;
+  CarPark const park(4, faults);
+  auto const report = fly_survey(park, usual_run()).value();
+  EXPECT_EQ(report.ending, "nothing more to learn");
+  EXPECT_GE(report.slots_found, 0.9);
+  EXPECT_GE(report.occupancy_right, 0.95);
+  EXPECT_LE(report.wrong_slots, park.slots().size() / 20);
+}
 
 TEST(SurveyRun, TheSameSeedGivesTheSameRun) {
   CarPark const park(5);

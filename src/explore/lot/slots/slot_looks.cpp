@@ -1,4 +1,4 @@
-#include "explore/lot/slot_looks.hpp"
+#include "explore/lot/slots/slot_looks.hpp"
 
 #include <algorithm>
 #include <cmath>

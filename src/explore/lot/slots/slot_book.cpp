@@ -1,4 +1,4 @@
-#include "explore/lot/slot_book.hpp"
+#include "explore/lot/slots/slot_book.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,10 @@ constexpr double most_there = 8.0;
 constexpr double surest_find = 0.97;
 /// What slots' outlines are off by beside the camera's doubt.
 constexpr double outline_sigma_m = 0.2;
+/// A picture lies about as the one before did, if that is no older.
+constexpr base::Duration shift_lasts = std::chrono::seconds(10);
+/// A slot that has moved by more is told anew.
+constexpr double told_again_m = 0.1;
 
 Look look_of(LotSight const& sight) {
   return {.at = sight.at, .from = sight.view.site_from_camera.origin(), .log_likelihood = 0.0, .by = sight.vehicle};
@@ -30,6 +34,20 @@ bool is_within(Corners const& outline, geo::Polygon<geo::SiteFrame> const& footp
   return std::ranges::all_of(outline, [&](auto const& corner) {
     return geo::contains(footprint, corner) && geo::distance_to_edge_m(footprint, corner) > clear_m;
   });
+}
+
+/// What pictures say of where the other one lies they say of this one, which is the same.
+void take_places(KnownSlot& kept, KnownSlot const& other) {
+  for (auto find : other.finds) {
+    find.in_picture = aligned(find.in_picture, kept.outline);
+    kept.finds.push_back(find);
+  }
+  if (other.fixed_weight <= 0.0) return;
+  auto const fixed = aligned(other.fixed, kept.outline);
+  double const all = kept.fixed_weight + other.fixed_weight;
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    kept.fixed[i].v = (kept.fixed_weight * kept.fixed[i].v + other.fixed_weight * fixed[i].v) / all;
+  kept.fixed_weight = all;
 }
 
 }  // namespace
@@ -43,8 +61,11 @@ void SlotBook::know(std::string id, Corners const& outline) {
   changed_.insert(id);
   slots_.push_back({.id = std::move(id),
                     .outline = outline,
+                    .finds = {},
+                    .fixed = outline,
+                    .fixed_weight = 1.0 / (outline_sigma_m * outline_sigma_m),
+                    .told = outline,
                     .there_log_odds = sure_of_map,
-                    .weight = 1.0 / (outline_sigma_m * outline_sigma_m),
                     .is_confirmed = true});
 }
 
@@ -71,8 +92,60 @@ std::vector<SlotBook::Pair> SlotBook::pairs(LotSight const& sight) const {
   return near;
 }
 
-void SlotBook::add(LotSight const& sight, geo::Polygon<geo::SiteFrame> const& footprint) {
+/// Each once.
+std::vector<Tie> SlotBook::ties(LotSight const& told, PictureShift const& shift) const {
+  std::vector<Tie> ties;
+  std::vector<bool> is_tied(told.slots.size(), false);
+  std::vector<bool> ties_to(slots_.size(), false);
+  for (auto const& pair : pairs(shifted(told, shift))) {
+    if (is_tied[pair.found] || ties_to[pair.slot]) continue;
+    is_tied[pair.found] = ties_to[pair.slot] = true;
+    auto const& slot = slots_[pair.slot];
+    ties.push_back({.in_picture = middle_of(told.slots[pair.found].outline),
+                    .on_map = middle_of(slot.outline),
+                    .sigma_m = std::hypot(outline_sigma_m, 1.0 / std::sqrt(slot.weight()))});
+  }
+  return ties;
+}
+
+PictureShift SlotBook::last_shift(LotSight const& sight) const {
+  auto const last = last_.find(sight.vehicle);
+  bool const lasts = last != last_.end() && std::chrono::abs(sight.at - last->second.at) < shift_lasts;
+  return lasts ? last->second.shift : PictureShift{};
+}
+
+std::vector<SlotGuess> SlotBook::guesses(base::UtcTime now) const {
+  std::vector<SlotGuess> guesses;
+  for (auto const& slot : slots_)
+    guesses.push_back({.middle = middle_of(slot.outline),
+                       .half_width_m = 0.5 * sides_of(slot.outline).width_m,
+                       .taken_chance = taken_chance(slot, now)});
+  return guesses;
+}
+
+PlacedSight SlotBook::placed(LotSight const& sight) const {
+  FittedShift fit{.shift = first_shift(sight, guesses(sight.at), last_shift(sight)), .sigma = expected_shift(sight)};
+  constexpr int rounds = 2;  // what is found to be the same depends on how the picture lies
+  for (int round = 0; round < rounds; ++round) {
+    auto const found = ties(sight, fit.shift);
+    if (found.empty()) break;
+    fit = fitted_shift(sight, found);
+  }
+  PlacedSight result{.sight = shifted(sight, fit.shift), .shift = fit.shift, .expected = expected_shift(sight)};
+  auto& doubt = result.sight.doubt;
+  double const height_m = std::max(sight.view.height_m(), 0.1);
+  double const by_tilt_m = doubt.angle_rad * height_m;
+  doubt.position_m = std::sqrt(std::max(0.0, fit.sigma[0] * fit.sigma[0] - by_tilt_m * by_tilt_m));
+  doubt.heading_rad = fit.sigma[2];
+  doubt.height_m = fit.sigma[3] * height_m;
+  return result;
+}
+
+void SlotBook::add(PlacedSight const& placed, geo::Polygon<geo::SiteFrame> const& footprint) {
+  auto const& sight = placed.sight;
   auto const look = look_of(sight);
+  last_.insert_or_assign(sight.vehicle, LastShift{sight.at, placed.shift});
+  Added added{.sight = sight, .number = block_.next_number()};
   std::vector<bool> is_known(sight.slots.size(), false);
   std::vector<SlotSight const*> found_as(slots_.size(), nullptr);
   for (auto const& pair : pairs(sight)) {
@@ -86,7 +159,7 @@ void SlotBook::add(LotSight const& sight, geo::Polygon<geo::SiteFrame> const& fo
     double const novelty =
         slot.seen.at == base::UtcTime{} ? 1.0 : independence_of(slot.seen, look, settings_.independence);
     if (found_as[i]) {
-      found(slot, sight, *found_as[i], novelty);
+      found(slot, added, *found_as[i], novelty);
     } else if (novelty >= least_novelty) {
       slot.there_log_odds += novelty * std::log((1.0 - settings_.found_share) / (1.0 - settings_.false_share));
     }
@@ -94,28 +167,33 @@ void SlotBook::add(LotSight const& sight, geo::Polygon<geo::SiteFrame> const& fo
     judge(slot);
   }
   for (std::size_t i = 0; i < sight.slots.size(); ++i)
-    if (!is_known[i]) begin(sight, sight.slots[i]);
+    if (!is_known[i]) begin(added, sight.slots[i]);
+  // A drone that hovers tells nothing new of where slots lie, and is not to push out those that do.
+  if (added.tells_places) {
+    block_.add(placed);
+    block_.settle(slots_);
+  }
   join_doubles();
   for (std::size_t i = slots_.size(); i-- > 0;)
     if (slots_[i].there_chance() < settings_.forgotten) drop(i);
+  tell_moved();
 }
 
-void SlotBook::found(KnownSlot& slot, LotSight const& sight, SlotSight const& as, double novelty) {
-  double const sigma_m = std::hypot(ground_doubt_m(sight, middle_of(as.outline)), outline_sigma_m);
+void SlotBook::found(KnownSlot& slot, Added& added, SlotSight const& as, double novelty) {
   if (novelty >= least_novelty) {
+    added.tells_places = true;
     slot.there_log_odds += novelty * log_odds_of(std::clamp(as.surety, 1.0 - surest_find, surest_find));
-    double const weight = novelty / (sigma_m * sigma_m);
-    auto const corners = aligned(as.outline, slot.outline);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      slot.outline[i].v = (slot.weight * slot.outline[i].v + weight * corners[i].v) / (slot.weight + weight);
-    slot.weight += weight;
+    slot.finds.push_back({.picture = added.number,
+                          .in_picture = aligned(as.outline, slot.outline),
+                          .weight = novelty / (outline_sigma_m * outline_sigma_m)});
   }
   if (!as.taken_chance) return;
   // It may be the neighbour that was seen, by how far the camera may be off.
+  double const sigma_m = std::hypot(ground_doubt_m(added.sight, middle_of(as.outline)), outline_sigma_m);
   double const is_it = chance_within(0.5 * sides_of(slot.outline).width_m, sigma_m);
   double const told = std::clamp(*as.taken_chance, settings_.least_error, 1.0 - settings_.least_error);
   double const chance = is_it * told + (1.0 - is_it) * settings_.detector_prior;
-  auto look = look_of(sight);
+  auto look = look_of(added.sight);
   look.log_likelihood = log_odds_of(chance) - log_odds_of(settings_.detector_prior);
   if (slot.looks.novelty_of(look, settings_.independence) < least_novelty) return;
   if (!slot.looks.add(std::move(look))) return;
@@ -123,14 +201,25 @@ void SlotBook::found(KnownSlot& slot, LotSight const& sight, SlotSight const& as
   if (slot.is_confirmed) changed_.insert(slot.id);
 }
 
-void SlotBook::begin(LotSight const& sight, SlotSight const& as) {
+void SlotBook::begin(Added& added, SlotSight const& as) {
   KnownSlot slot{.id = fmt::format("{}-{}", settings_.id_prefix, next_++),
                  .outline = as.outline,
+                 .finds = {},
                  .there_log_odds = log_odds_of(settings_.slot_prior)};
-  found(slot, sight, as, 1.0);
-  slot.seen = look_of(sight);
+  found(slot, added, as, 1.0);
+  slot.seen = look_of(added.sight);
   judge(slot);
   slots_.push_back(std::move(slot));
+}
+
+/// Slots move with the pictures that show them.
+void SlotBook::tell_moved() {
+  for (auto& slot : slots_) {
+    if (!slot.is_confirmed) continue;
+    double const moved_m = geo::distance_m(middle_of(slot.outline), middle_of(slot.told));
+    if (moved_m > told_again_m) changed_.insert(slot.id);
+    if (changed_.contains(slot.id)) slot.told = slot.outline;
+  }
 }
 
 void SlotBook::judge(KnownSlot& slot) {
@@ -146,6 +235,7 @@ void SlotBook::join_doubles() {
       if (!is_same(slots_[older].outline, slots_[newer].outline)) continue;
       auto& kept = slots_[older];
       kept.there_log_odds = std::max(kept.there_log_odds, slots_[newer].there_log_odds);
+      take_places(kept, slots_[newer]);
       kept.looks.take_in(slots_[newer].looks);
       kept.looks.fold(settings_.turnover, settings_.independence);
       judge(kept);

@@ -1,0 +1,185 @@
+#include "explore/lot/slots/picture_block.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+
+namespace lapwing::explore {
+
+namespace {
+
+using Parts = Eigen::Matrix<double, 2, 4>;
+
+/// Where the slot's middle lies by one picture.
+struct Row {
+  Eigen::Index picture;  ///< its first unknown
+  Parts parts;           ///< of the middle by the picture's shift
+  Eigen::Vector2d at;    ///< of the middle while the picture is not moved
+  double weight;
+};
+
+/// One slot's rows.
+struct Sheaf {
+  std::vector<Row> rows;
+  double weight = 0.0;  ///< of all rows, and of what is fixed
+};
+
+Corners mean_outline(KnownSlot const& slot, PictureBlock const& block) {
+  Corners sum;
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i].v = slot.fixed_weight * slot.fixed[i].v;
+  for (auto const& find : slot.finds) {
+    auto const corners = block.placed(find);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i].v += find.weight * corners[i].v;
+  }
+  for (auto& corner : sum) corner.v /= slot.weight();
+  return sum;
+}
+
+}  // namespace
+
+double KnownSlot::weight() const {
+  double sum = fixed_weight;
+  for (auto const& find : finds) sum += find.weight;
+  return sum;
+}
+
+/// H x = b in the pictures' shifts, with the slots eliminated: a slot lies at the weighted mean of its rows.
+struct PictureBlock::Equations {
+  std::vector<Sheaf> sheaves;
+  Eigen::VectorXd stiffness;  ///< of what is expected of the poses: the diagonal of their part of H
+  Eigen::VectorXd right;
+  std::vector<Eigen::Matrix4d> preconditioner;  ///< inverse diagonal blocks of H
+
+  /// H x.
+  [[nodiscard]] Eigen::VectorXd times(Eigen::VectorXd const& x) const {
+    Eigen::VectorXd product = stiffness.cwiseProduct(x);
+    for (auto const& sheaf : sheaves) {
+      Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+      for (auto const& row : sheaf.rows) mean += row.weight * (row.parts * x.segment<4>(row.picture));
+      mean /= sheaf.weight;
+      for (auto const& row : sheaf.rows)
+        product.segment<4>(row.picture) +=
+            row.weight * row.parts.transpose() * (row.parts * x.segment<4>(row.picture) - mean);
+    }
+    return product;
+  }
+
+  [[nodiscard]] Eigen::VectorXd preconditioned(Eigen::VectorXd const& rest) const {
+    Eigen::VectorXd result(rest.size());
+    for (std::size_t i = 0; i < preconditioner.size(); ++i) {
+      auto const at = static_cast<Eigen::Index>(4 * i);
+      result.segment<4>(at) = preconditioner[i] * rest.segment<4>(at);
+    }
+    return result;
+  }
+
+  /// Conjugate gradients (Hestenes, Stiefel 1952) from `x` on.
+  void solve(Eigen::VectorXd& x) const {
+    constexpr int most_steps = 60;
+    constexpr double close = 1e-10;
+    Eigen::VectorXd rest = right - times(x);
+    Eigen::VectorXd way = preconditioned(rest);
+    double energy = rest.dot(way);
+    double const enough = close * close * (energy + right.dot(preconditioned(right)));
+    for (int step = 0; step < most_steps && energy > enough; ++step) {
+      Eigen::VectorXd const along = times(way);
+      double const length = energy / way.dot(along);
+      x += length * way;
+      rest -= length * along;
+      Eigen::VectorXd const next = preconditioned(rest);
+      double const next_energy = rest.dot(next);
+      way = next + (next_energy / energy) * way;
+      energy = next_energy;
+    }
+  }
+};
+
+void PictureBlock::add(PlacedSight const& placed) {
+  pictures_.push_back(
+      {.below = below_camera(placed.sight), .came_by = placed.shift.v, .expected = placed.expected, .moved = {}});
+}
+
+Corners PictureBlock::placed(SlotFind const& find) const {
+  auto const& picture = pictures_[find.picture - first_];
+  auto corners = find.in_picture;
+  for (auto& corner : corners) corner = picture.moved.of(corner, picture.below);
+  return corners;
+}
+
+PictureBlock::Equations PictureBlock::equations(std::span<KnownSlot const> slots) const {
+  auto const unknowns = static_cast<Eigen::Index>(4 * pictures_.size());
+  Equations all{.sheaves = {}, .stiffness = {}, .right = {}, .preconditioner = {}};
+  all.stiffness.resize(unknowns);
+  all.right.resize(unknowns);
+  std::vector<Eigen::Matrix4d> blocks;
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    auto const at = static_cast<Eigen::Index>(4 * i);
+    Eigen::Vector4d const stiffness = pictures_[i].expected.cwiseAbs2().cwiseInverse();
+    all.stiffness.segment<4>(at) = stiffness;
+    all.right.segment<4>(at) = -stiffness.cwiseProduct(pictures_[i].came_by);
+    blocks.emplace_back(stiffness.asDiagonal());
+  }
+  for (auto const& slot : slots) {
+    if (slot.finds.size() + (slot.fixed_weight > 0.0 ? 1 : 0) < 2) continue;
+    Sheaf sheaf;
+    auto const middle = middle_of(slot.outline);
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    if (slot.fixed_weight > 0.0) {
+      sheaf.weight = slot.fixed_weight;
+      mean = slot.fixed_weight * middle_of(slot.fixed).v;
+    }
+    for (auto const& find : slot.finds) {
+      auto const& picture = pictures_[find.picture - first_];
+      auto const at = middle_of(find.in_picture);
+      double const left_m = geo::distance_m(picture.moved.of(at, picture.below), middle);
+      double const weight = find.weight * huber_share(left_m * std::sqrt(find.weight));
+      sheaf.rows.push_back({.picture = static_cast<Eigen::Index>(4 * (find.picture - first_)),
+                            .parts = shift_of_place(at.v - picture.below.v),
+                            .at = at.v,
+                            .weight = weight});
+      sheaf.weight += weight;
+      mean += weight * at.v;
+    }
+    mean /= sheaf.weight;
+    for (auto const& row : sheaf.rows) {
+      all.right.segment<4>(row.picture) += row.weight * row.parts.transpose() * (mean - row.at);
+      blocks[static_cast<std::size_t>(row.picture / 4)] +=
+          row.weight * (1.0 - row.weight / sheaf.weight) * row.parts.transpose() * row.parts;
+    }
+    all.sheaves.push_back(std::move(sheaf));
+  }
+  for (auto const& block : blocks) all.preconditioner.emplace_back(block.inverse());
+  return all;
+}
+
+void PictureBlock::settle(std::span<KnownSlot> slots) {
+  while (pictures_.size() > most_pictures) fix_oldest(slots);
+  Eigen::VectorXd shifts(static_cast<Eigen::Index>(4 * pictures_.size()));
+  for (std::size_t i = 0; i < pictures_.size(); ++i)
+    shifts.segment<4>(static_cast<Eigen::Index>(4 * i)) = pictures_[i].moved.v;
+  equations(slots).solve(shifts);
+  for (std::size_t i = 0; i < pictures_.size(); ++i)
+    pictures_[i].moved.v = shifts.segment<4>(static_cast<Eigen::Index>(4 * i));
+  for (auto& slot : slots)
+    if (!slot.finds.empty()) slot.outline = mean_outline(slot, *this);
+}
+
+/// What the oldest picture says of the slots is kept as it lies now.
+void PictureBlock::fix_oldest(std::span<KnownSlot> slots) {
+  for (auto& slot : slots) {
+    for (auto const& find : slot.finds) {
+      if (find.picture != first_) continue;
+      auto const corners = placed(find);
+      double const all = slot.fixed_weight + find.weight;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        slot.fixed[i].v = (slot.fixed_weight * slot.fixed[i].v + find.weight * corners[i].v) / all;
+      slot.fixed_weight = all;
+    }
+    std::erase_if(slot.finds, [&](SlotFind const& find) { return find.picture == first_; });
+  }
+  pictures_.pop_front();
+  ++first_;
+}
+
+}  // namespace lapwing::explore

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "explore/lot/slots/known_slot.hpp"
+#include "explore/lot/slots/picture_shift.hpp"
+
+namespace lapwing::explore {
+
+/// A picture that was laid onto the map as well as what it shows allowed.
+struct PlacedSight {
+  LotSight sight;                                      ///< as it lies, with what doubt of its place is left
+  PictureShift shift = {};                             ///< from where its camera's pose had it
+  Eigen::Vector4d expected = Eigen::Vector4d::Ones();  ///< of that shift, by the pose alone
+};
+
+/// Pictures and slots placed together, so that every slot lies where all pictures have it and none is farther from its
+/// camera's pose than that is off: a planimetric block adjustment by independent models, each of which may move, turn
+/// and stretch (van den Hout 1966, "Anblock"; Kraus, "Photogrammetry" vol. 1, on block adjustment). Linear least
+/// squares with Huber's loss; the slots are eliminated (Schur complement) and the rest is solved by conjugate
+/// gradients from the last solution on, which takes a few steps when one picture is new.
+///
+/// The oldest of more than `most_pictures` does not move any more.
+class PictureBlock {
+ public:
+  static constexpr std::size_t most_pictures = 400;
+
+  /// Of the next picture, by which its finds name it.
+  [[nodiscard]] std::size_t next_number() const { return first_ + pictures_.size(); }
+  void add(PlacedSight const& placed);
+  /// Moves the pictures to where the finds of these slots agree best, and the slots with them.
+  void settle(std::span<KnownSlot> slots);
+  /// Where a find lies now.
+  [[nodiscard]] Corners placed(SlotFind const& find) const;
+
+ private:
+  struct Picture {
+    map::SitePoint below;
+    Eigen::Vector4d came_by = Eigen::Vector4d::Zero();  ///< from the camera's pose to where it was put when it came
+    Eigen::Vector4d expected = Eigen::Vector4d::Ones();
+    PictureShift moved = {};  ///< since it came
+  };
+  struct Equations;
+  [[nodiscard]] Equations equations(std::span<KnownSlot const> slots) const;
+  void fix_oldest(std::span<KnownSlot> slots);
+
+  std::deque<Picture> pictures_;
+  std::size_t first_ = 0;  ///< number of the oldest
+};
+
+}  // namespace lapwing::explore
