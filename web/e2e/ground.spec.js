@@ -6,7 +6,8 @@ import { expect } from '@playwright/test';
 import { axe, violations } from './axe.js';
 import { test } from './fixtures.js';
 import { openPanel, row } from './page.js';
-import { GROUNDS, planPicture } from './world.mjs';
+import { startFleet } from './harness.mjs';
+import { fill, GROUNDS, planPicture } from './world.mjs';
 
 const WIDE = { width: 1440, height: 900 };
 const openWorld = async (open, world, options = {}) => {
@@ -48,6 +49,23 @@ const bareGround = async (page) => {
   const map = await page.locator('.map').boundingBox();
   return { x: Math.round(map.x + map.width - 30), y: Math.round(map.y + 150) };
 };
+
+test('begins where the map holds something when no vehicle was heard', async ({ open }) => {
+  const station = await startFleet(undefined);
+  try {
+    await fill(station.url);
+    const page = await open({ url: station.url, size: WIDE });
+    const scale = page.locator('.maplibregl-ctrl-scale');
+    await expect(scale).toHaveText(/^\d+\sm$/);
+    await page.getByRole('button', { name: 'Zoom out' }).click();
+    await page.getByRole('button', { name: 'Zoom out' }).click();
+    await expect(scale).toHaveText(/^50\sm$/);
+    await page.getByRole('button', { name: 'Fit the vehicles' }).click();
+    await expect(scale).toHaveText(/^10\sm$/);
+  } finally {
+    await station.stop();
+  }
+});
 
 test('shows base maps of each kind, and thanks who made them', async ({ open, world }) => {
   const page = await openWorld(open, world, { scheme: 'dark' });

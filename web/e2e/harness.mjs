@@ -48,7 +48,7 @@ export async function startStation(port = 0, token = '') {
   };
 }
 
-/** The program itself: a station with simulated vehicles, whose time runs faster. */
+/** The program itself: a station with simulated vehicles, whose time runs faster, or with none. */
 export async function startFleet(vehicles, speedup = 5, words = []) {
   const program = path.join(build, 'bin', 'lapwing');
   const link = `127.0.0.1:${await freeUdpPort()}`;
@@ -57,12 +57,12 @@ export async function startFleet(vehicles, speedup = 5, words = []) {
       env: { ...process.env, LAPWING_HOME: path.dirname(web), XDG_DATA_HOME: dataHome() },
       stdio: ['ignore', 'ignore', 'pipe'],
     });
-  const [station, sim] = [
-    start('station', '--link', `udpin://${link}`, '--port', '0', ...words),
-    start('sim', '--vehicles', vehicles, '--home', '47.3977,8.5456,488', '--speedup', String(speedup), '--out', `udpout://${link}`),
-  ];
-  sim.stderr.resume();
-  const ended = Promise.all([station, sim].map((child) => new Promise((resolve) => child.once('close', resolve))));
+  const station = start('station', '--link', `udpin://${link}`, '--port', '0', ...words);
+  const home = ['--home', '47.3977,8.5456,488'];
+  const children = [station];
+  if (vehicles) children.push(start('sim', '--vehicles', vehicles, ...home, '--speedup', String(speedup), '--out', `udpout://${link}`));
+  children[1]?.stderr.resume();
+  const ended = Promise.all(children.map((child) => new Promise((resolve) => child.once('close', resolve))));
   const url = await new Promise((resolve, reject) => {
     let said = '';
     station.stderr.on('data', (data) => {
@@ -75,7 +75,7 @@ export async function startFleet(vehicles, speedup = 5, words = []) {
   return {
     url,
     stop: async () => {
-      for (const child of [station, sim]) child.kill('SIGKILL');
+      for (const child of children) child.kill('SIGKILL');
       await ended;
     },
   };

@@ -65,7 +65,7 @@ export const square = (x, y, width, height) => ({
 });
 const line = (...points) => ({ type: 'LineString', coordinates: points.map(at) });
 
-async function fill(url) {
+export async function fill(url) {
   const floors = [
     { id: '0', name: 'Ground floor', up_m: 0 },
     { id: '1', name: 'First floor', up_m: 3.5 },

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import type { MapFeature } from '../../layers/found/map_features';
-import { extentOf, nameOf, poseOf, search } from './found';
+import { extentOf, extentOfAll, nameOf, poseOf, search } from './found';
 
 const feature = (id: string, properties: Record<string, unknown> = {}, geometry: MapFeature['geometry'] = { type: 'Point', coordinates: [8, 47] }): MapFeature => ({ type: 'Feature', id, geometry, properties }); // prettier-ignore
 
@@ -28,6 +28,15 @@ it('has an extent that is never a mere point', () => {
   const { west, east } = extentOf(feature('p'))!;
   expect(east).toBeGreaterThan(west);
   expect(extentOf(feature('n', {}, { type: 'Point', coordinates: [] }))).toBeUndefined();
+});
+
+it('has an extent together with others, whatever of them has no place', () => {
+  const at = (lon: number): MapFeature => feature(`p${lon}`, {}, { type: 'Point', coordinates: [lon, 47] });
+  const nowhere = feature('n', {}, { type: 'Point', coordinates: [] });
+  const { west, east } = extentOfAll([nowhere, at(8), at(8.5), nowhere])!;
+  expect(west).toBeCloseTo(8, 3);
+  expect(east).toBeCloseTo(8.5, 3);
+  expect(extentOfAll([nowhere])).toBeUndefined();
 });
 
 it('tells from where a picture was taken, by its point or by its site', () => {

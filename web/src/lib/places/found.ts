@@ -1,6 +1,6 @@
 import type { Geometry } from 'geojson';
 import type { MapFeature } from '../../layers/found/map_features';
-import { boundsOf, type Bounds } from '../../map/geometry';
+import { boundsOf, cover, type Bounds } from '../../map/geometry';
 import type { Position } from '../protocol';
 import { siteToMap } from './sites';
 import { viewAxis, type ViewAxis } from './view_axis';
@@ -30,6 +30,16 @@ function positionsOf(geometry: Geometry): Position[] {
 /** What a map has to show to show it. */
 export function extentOf({ geometry }: MapFeature, leastSpan_m = 20): Bounds | undefined {
   return boundsOf(positionsOf(geometry), leastSpan_m);
+}
+
+/** What a map has to show to show all of it. */
+export function extentOfAll(features: Iterable<MapFeature>): Bounds | undefined {
+  let all: Bounds | undefined;
+  for (const feature of features) {
+    const one = extentOf(feature);
+    all = all && one ? cover(all, one) : (all ?? one);
+  }
+  return all;
 }
 
 const numberOf = ({ properties }: MapFeature, key: string): number | undefined => {
