@@ -1,8 +1,6 @@
 #include "perceive/lot_eye.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include <opencv2/imgproc.hpp>
 
@@ -38,35 +36,16 @@ bool is_seen(explore::Corners const& outline, geo::GroundView const& view) {
   });
 }
 
-/// The slot with its neighbours and some ground before and behind it: by them it was told how deep it is.
-explore::Corners with_neighbours(explore::Corners const& slot) {
-  constexpr double beyond_m = 2.0;
-  auto const sides = explore::sides_of(slot);
-  double const axis_rad = explore::axis_of(slot);
-  Eigen::Vector2d const axis(std::cos(axis_rad), std::sin(axis_rad));
-  Eigen::Vector2d const along = (0.5 * sides.length_m + beyond_m) * axis;
-  Eigen::Vector2d const across = 1.5 * sides.width_m * Eigen::Vector2d(-axis.y(), axis.x());
-  auto const middle = explore::middle_of(slot);
-  auto const at = [&](double u, double v) {
-    return map::SitePoint(Eigen::Vector2d(middle.v + u * along + v * across));
-  };
-  return {at(1.0, 1.0), at(-1.0, 1.0), at(-1.0, -1.0), at(1.0, -1.0)};
-}
-
-/// Its sides run neither along the picture's sides nor across them.
-bool is_aslant(explore::Corners const& slot, geo::GroundView const& view) {
-  constexpr double most_rad = 0.12;
-  constexpr double quarter = 0.5 * std::numbers::pi;
-  auto const right = view.site_from_camera * geo::Vector3<geo::CameraFrame>(1.0, 0.0, 0.0);
-  double const off =
-      std::fmod(explore::axis_of(slot) - std::atan2(right.y(), right.x()) + 2.0 * std::numbers::pi, quarter);
-  return std::min(off, quarter - off) > most_rad;
-}
-
-/// A row that the edge of the picture cuts off aslant seems to end farther in with each of its slots, so that none of
-/// them is as deep as it is told to be: of those only what is far from the edge counts.
-bool is_whole(explore::Corners const& slot, geo::GroundView const& view) {
-  return is_seen(is_aslant(slot, view) ? with_neighbours(slot) : slot, view);
+/// What of the plan the camera shows; where the drone leans the plan is larger.
+vision::SeenGround shown_ground(GroundPicture const& ground, geo::GroundView const& view,
+                                explore::LotSettings const& settings) {
+  auto const seen = explore::well_seen_ground(view, settings);
+  std::vector<cv::Point2d> outline;
+  for (auto const& place : seen.rings.front()) {
+    Eigen::Vector2d const from_corner = place.v - ground.corner.v;
+    outline.emplace_back(from_corner.dot(ground.right), from_corner.dot(ground.down));
+  }
+  return vision::SeenGround(outline);
 }
 
 }  // namespace
@@ -93,9 +72,10 @@ std::optional<explore::LotSight> LotEye::look(cv::Mat const& picture, geo::Groun
   if (!ground) return std::nullopt;
   explore::LotSight sight{.vehicle = {}, .at = at, .view = view};
   auto const seen = vehicles(ground->pixels, ground->metres_a_pixel);
-  for (auto const& slot : vision::slots_seen(ground->pixels, seen.cars, ground->metres_a_pixel)) {
+  auto const shown = shown_ground(*ground, view, settings_);
+  for (auto const& slot : vision::slots_seen(ground->pixels, seen.cars, ground->metres_a_pixel, shown)) {
     auto const outline = on_ground(*ground, slot.corners);
-    if (!is_whole(outline, view)) continue;
+    if (!is_seen(outline, view)) continue;
     sight.slots.push_back({.outline = outline,
                            .surety = slot.surety,
                            .taken_chance = vision::occupied_chance(slot.corners, seen, ground->pixels.size())});

@@ -29,10 +29,10 @@ def tables(camera: str = f'kind = "simulated"\nworld = "{WORLD}"\nwidth = 640\nh
     return f"[camera]\n{camera}\n[survey]\narea = {json.dumps(AREA)}\nfolder = \"found\"\n{survey}\n"
 
 
-def true_slots() -> list[tuple[float, float, bool]]:
-    """The middles of the world's slots, and whether they are taken."""
+def true_slots(world: pathlib.Path = WORLD) -> list[tuple[float, float, bool]]:
+    """The middles of the world's slots, and whether they are taken; of slots of the usual size, of which each row says all that are taken."""
     slots = []
-    for row in tomllib.loads(WORLD.read_text())["row"]:
+    for row in tomllib.loads(world.read_text())["row"]:
         heading = math.radians(row.get("heading_deg", 0))
         ahead, deep = (math.cos(heading), math.sin(heading)), (-math.sin(heading), math.cos(heading))
         for i in range(row["count"]):
@@ -46,26 +46,29 @@ def found_slots(folder: pathlib.Path) -> dict:
     return json.loads((folder / "found/slots.geojson").read_text())
 
 
-def compare(found: dict) -> dict:
-    """Of the true slots: how many were found within half a metre, of how many of those the state was told, and how many of these rightly."""
+def compare(found: dict, world: pathlib.Path = WORLD) -> dict:
+    """Of the true slots: how many were found within half a metre and how far off on average, of how many of those the state was told, and how
+    many of these rightly."""
     seen = []
     for feature in found["features"]:
         ring = feature["geometry"]["coordinates"][0][:-1]
         corners = [in_metres(*corner) for corner in ring]
         seen.append((sum(x for x, _ in corners) / len(corners), sum(y for _, y in corners) / len(corners), feature["properties"]))
-    result = {"true": 0, "found": 0, "told": 0, "right": 0, "extra": 0}
+    result = {"true": 0, "found": 0, "told": 0, "right": 0, "extra": 0, "off_m": 0.0}
     used = set()
-    for x, y, is_taken in true_slots():
+    for x, y, is_taken in true_slots(world):
         result["true"] += 1
         near = [(math.hypot(sx - x, sy - y), i) for i, (sx, sy, _) in enumerate(seen) if i not in used]
         if not near or min(near)[0] > 0.5:
             continue
-        i = min(near)[1]
+        off_m, i = min(near)
         used.add(i)
         result["found"] += 1
+        result["off_m"] += off_m
         chance = seen[i][2].get("taken_probability")
         if chance is not None:
             result["told"] += 1
             result["right"] += (chance > 0.5) == is_taken
     result["extra"] = len(seen) - len(used)
+    result["off_m"] /= max(1, result["found"])
     return result

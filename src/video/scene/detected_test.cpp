@@ -34,7 +34,8 @@ std::vector<vision::JudgedSlot> found_slots(vision::CarNetwork& cars, cv::Mat co
     boxes.push_back(box);
   }
   std::vector<vision::JudgedSlot> slots;
-  for (auto const& shape : vision::slots_between(vision::painted_lines(picture, metres_a_pixel), boxes)) {
+  auto const seen = vision::SeenGround::rectangle(picture.cols * metres_a_pixel, picture.rows * metres_a_pixel);
+  for (auto const& shape : vision::slots_between(vision::painted_lines(picture, metres_a_pixel), boxes, seen)) {
     auto& slot = slots.emplace_back(vision::JudgedSlot{.corners = shape.corners});
     for (auto& corner : slot.corners) corner *= 1.0 / metres_a_pixel;
     slot.occupied = vision::occupied_chance(slot.corners, overhead, picture.size());

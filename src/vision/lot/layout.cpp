@@ -162,14 +162,20 @@ void add_slots(LineRow const& row, std::span<TurnedBox const> cars, std::vector<
   }
 }
 
+bool is_on(SeenGround const& seen, SlotShape const& slot) {
+  constexpr double most_outside = 0.3;
+  return std::ranges::all_of(slot.corners, [&](auto const& corner) { return seen.inside_by(corner) > -most_outside; });
+}
+
 }  // namespace
 
-std::vector<SlotShape> slots_between(std::span<PaintedLine const> lines, std::span<TurnedBox const> cars) {
+std::vector<SlotShape> slots_between(std::span<PaintedLine const> lines, std::span<TurnedBox const> cars,
+                                     SeenGround const& seen) {
   std::vector<PaintedLine> sides;
   std::ranges::copy_if(lines, std::back_inserter(sides), [&](auto const& line) { return !is_on_car(line, cars); });
   std::vector<SlotShape> all;
-  for (auto const& row : internal::rows_of(sides)) add_slots(row, cars, all);
-  std::erase_if(all, [&](SlotShape const& slot) { return is_hatched(slot, sides); });
+  for (auto const& row : internal::rows_of(sides, seen)) add_slots(row, cars, all);
+  std::erase_if(all, [&](SlotShape const& slot) { return is_hatched(slot, sides) || !is_on(seen, slot); });
   // Rows that share a slot: the surer one has it.
   std::ranges::stable_sort(all, std::ranges::greater(), &SlotShape::surety);
   constexpr double same_slot = 1.3;

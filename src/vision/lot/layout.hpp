@@ -8,6 +8,7 @@
 
 #include "vision/cars/turned_box.hpp"
 #include "vision/lot/markings.hpp"
+#include "vision/lot/seen_ground.hpp"
 
 namespace lapwing::vision {
 
@@ -20,7 +21,9 @@ struct SlotShape {
 };
 
 /// The slots between painted lines: lines side by side at a pitch are a row; where some of them are hidden, the pitch
-/// and the cars that stand there complete it. `cars` in metres, too. What is hatched is no slot.
-[[nodiscard]] std::vector<SlotShape> slots_between(std::span<PaintedLine const> lines, std::span<TurnedBox const> cars);
+/// and the cars that stand there complete it. `cars` in metres, too. What is hatched is no slot, and what does not lie
+/// wholly on the ground that was seen is left out: paint that goes on beyond it does not say how deep slots are.
+[[nodiscard]] std::vector<SlotShape> slots_between(std::span<PaintedLine const> lines, std::span<TurnedBox const> cars,
+                                                   SeenGround const& seen);
 
 }  // namespace lapwing::vision

@@ -11,6 +11,8 @@ namespace {
 constexpr double pitch = 2.6;
 constexpr double depth = 5.0;
 
+SeenGround const everything = SeenGround::rectangle(200.0, 200.0);
+
 PaintedLine side(int k, double slant = 0.0) {
   double const x = 10.0 + k * pitch;
   return {{x, 4.0}, {x + slant * depth, 4.0 + depth}};
@@ -28,14 +30,14 @@ bool has_slot_at(std::vector<SlotShape> const& slots, double x, double y) {
 
 TEST(Layout, BetweenNeighbouringSidesIsASlot) {
   std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(3)};
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   ASSERT_EQ(slots.size(), 3U);
   for (int k = 0; k < 3; ++k) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
 }
 
 TEST(Layout, SlantedSidesMakeSlantedSlots) {
   std::vector<PaintedLine> const lines{side(0, 0.5), side(1, 0.5), side(2, 0.5), side(3, 0.5)};
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   ASSERT_EQ(slots.size(), 3U);
   EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch + 0.25 * depth, 6.5));
 }
@@ -43,7 +45,7 @@ TEST(Layout, SlantedSidesMakeSlantedSlots) {
 TEST(Layout, LongSidesAreTwoRowsHeadToHead) {
   std::vector<PaintedLine> lines;
   for (int k = 0; k < 4; ++k) lines.push_back({{10.0 + k * pitch, 4.0}, {10.0 + k * pitch, 4.0 + 2.0 * depth}});
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   ASSERT_EQ(slots.size(), 6U);
   EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 6.5));
   EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 11.5));
@@ -57,7 +59,7 @@ TEST(Layout, TheLineAlongTheHeadsSaysWhereRowsMeetAndHowDeepTheyAre) {
     double const x = 10.0 + static_cast<double>(k) * pitch;
     lines.push_back({{x, 4.0}, {x, 4.0 + 2.0 * depth + joints[k]}});
   }
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   ASSERT_EQ(slots.size(), 10U);
   for (double const y : {6.5, 11.5}) EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, y)) << y;
 }
@@ -69,7 +71,7 @@ TEST(Layout, WhatMostSidesShowIsTheirEndThoughCarsHideSome) {
     double const x = 10.0 + static_cast<double>(k) * pitch;
     lines.push_back({{x, 4.0 + hidden[k]}, {x, 4.0 + depth}});
   }
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   ASSERT_EQ(slots.size(), 6U);
   EXPECT_TRUE(has_slot_at(slots, 10.0 + 0.5 * pitch, 6.5));
 }
@@ -77,21 +79,22 @@ TEST(Layout, WhatMostSidesShowIsTheirEndThoughCarsHideSome) {
 TEST(Layout, AKerbBesideTheRowIsNoSideOfIt) {
   std::vector<PaintedLine> lines{side(0), side(1), side(2), side(3)};
   lines.push_back({{10.0 + 4.05 * pitch, 5.5}, {10.0 + 4.05 * pitch, 12.0}});
-  EXPECT_EQ(slots_between(lines, {}).size(), 3U);
+  EXPECT_EQ(slots_between(lines, {}, everything).size(), 3U);
 }
 
 TEST(Layout, HiddenSidesAreCompletedWhereCarsStand) {
   std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(5), side(6)};
-  EXPECT_EQ(slots_between(lines, {}).size(), 3U) << "nothing says that between the second and the fifth are slots";
+  EXPECT_EQ(slots_between(lines, {}, everything).size(), 3U)
+      << "nothing says that between the second and the fifth are slots";
   std::vector<TurnedBox> const cars{car(2), car(4), car(6)};
-  auto const slots = slots_between(lines, cars);
+  auto const slots = slots_between(lines, cars, everything);
   EXPECT_EQ(slots.size(), 6U);
   for (int const k : {0, 1, 2, 4, 5, 6}) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
 }
 
 TEST(Layout, OneSideThatIsMissingInALongRowIsCompleted) {
   std::vector<PaintedLine> const lines{side(0), side(1), side(3), side(4), side(5), side(6)};
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   EXPECT_EQ(slots.size(), 6U);
   for (int k = 0; k < 6; ++k) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
 }
@@ -99,7 +102,7 @@ TEST(Layout, OneSideThatIsMissingInALongRowIsCompleted) {
 TEST(Layout, PaintThatShowsFartherOutIsTheEndThoughMoreSidesAreHidden) {
   std::vector<PaintedLine> lines;
   for (int k = 0; k < 9; ++k) lines.push_back({{10.0 + k * pitch, k < 4 ? 4.0 : 5.2}, {10.0 + k * pitch, 4.0 + depth}});
-  EXPECT_TRUE(has_slot_at(slots_between(lines, {}), 10.0 + 0.5 * pitch, 6.5));
+  EXPECT_TRUE(has_slot_at(slots_between(lines, {}, everything), 10.0 + 0.5 * pitch, 6.5));
 }
 
 TEST(Layout, WhatIsHatchedIsNoSlot) {
@@ -108,15 +111,60 @@ TEST(Layout, WhatIsHatchedIsNoSlot) {
     double const y = 4.6 + 1.1 * k;
     lines.push_back({{10.1 + pitch, y}, {9.9 + 2.0 * pitch, y + 1.2}});
   }
-  auto const slots = slots_between(lines, {});
+  auto const slots = slots_between(lines, {}, everything);
   EXPECT_EQ(slots.size(), 2U);
   EXPECT_FALSE(has_slot_at(slots, 10.0 + 1.5 * pitch, 6.5));
 }
 
 TEST(Layout, LinesThatAreNoRowMakeNone) {
   std::vector<PaintedLine> const road{{{0.0, 0.0}, {60.0, 0.0}}, {{0.0, 3.0}, {60.0, 3.0}}, {{0.0, 6.0}, {60.0, 6.0}}};
-  EXPECT_TRUE(slots_between(road, {}).empty());
-  EXPECT_TRUE(slots_between({}, {}).empty());
+  EXPECT_TRUE(slots_between(road, {}, everything).empty());
+  EXPECT_TRUE(slots_between({}, {}, everything).empty());
+}
+
+/// Two rows head to head from y = 4 on, cut off where the picture ends.
+std::vector<PaintedLine> double_row_until(auto const& end_at) {
+  std::vector<PaintedLine> lines;
+  for (int k = 0; k < 6; ++k) {
+    double const x = 10.0 + k * pitch;
+    lines.push_back({{x, 4.0}, {x, std::min(4.0 + 2.0 * depth, end_at(x))}});
+  }
+  return lines;
+}
+
+TEST(Layout, WhereThePictureCutsOffTheFarRowTheNearOneIsAsDeepAsItIs) {
+  for (double const end : {10.0, 11.2, 12.5}) {
+    auto const lines = double_row_until([&](double) { return end; });
+    auto const slots = slots_between(lines, {}, SeenGround::rectangle(40.0, end + 0.1));
+    ASSERT_EQ(slots.size(), 5U) << end;
+    for (int k = 0; k < 5; ++k) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << end;
+  }
+}
+
+TEST(Layout, APictureThatCutsARowOffAslantDoesNotSlantItsSlots) {
+  auto const end_at = [](double x) { return 10.0 + 0.25 * (x - 10.0); };
+  SeenGround const seen({{0.0, 0.0}, {40.0, 0.0}, {40.0, end_at(40.0)}, {0.0, end_at(0.0)}});
+  auto const slots = slots_between(double_row_until(end_at), {}, seen);
+  ASSERT_GE(slots.size(), 5U);
+  for (auto const& slot : slots) {
+    EXPECT_NEAR(slot.middle().y, 6.5, 0.1);
+    EXPECT_NEAR(cv::norm(slot.corners[2] - slot.corners[1]), depth, 0.1);
+  }
+}
+
+TEST(Layout, TheLineAlongTheHeadsEndsTheNearRowOfACutPicture) {
+  auto lines = double_row_until([](double) { return 13.0; });
+  double const heads = 4.0 + 5.6;
+  lines.push_back({{10.0, heads}, {10.0 + 5 * pitch, heads}});
+  auto const slots = slots_between(lines, {}, SeenGround::rectangle(40.0, 13.1));
+  ASSERT_EQ(slots.size(), 5U);
+  for (auto const& slot : slots) EXPECT_NEAR(slot.middle().y, 4.0 + 0.5 * 5.6, 0.1);
+}
+
+TEST(Layout, SidesThatLeaveThePictureAtBothEndsAreNoSlots) {
+  std::vector<PaintedLine> lines;
+  for (int k = 0; k < 6; ++k) lines.push_back({{10.0 + k * pitch, 0.1}, {10.0 + k * pitch, 7.9}});
+  EXPECT_TRUE(slots_between(lines, {}, SeenGround::rectangle(40.0, 8.0)).empty());
 }
 
 }  // namespace

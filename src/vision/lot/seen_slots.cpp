@@ -19,16 +19,22 @@ TurnedBox scaled(TurnedBox const& box, double scale) {
 
 }  // namespace
 
-std::vector<SeenSlot> slots_seen(cv::Mat const& pixels, std::span<SeenCar const> cars, double metres_a_pixel) {
+std::vector<SeenSlot> slots_seen(cv::Mat const& pixels, std::span<SeenCar const> cars, double metres_a_pixel,
+                                 SeenGround const& seen) {
   std::vector<TurnedBox> boxes;
   for (auto const& car : cars)
     if (car.score >= least_score) boxes.push_back(scaled(car.box, metres_a_pixel));
   std::vector<SeenSlot> slots;
-  for (auto const& slot : slots_between(painted_lines(pixels, metres_a_pixel), boxes)) {
-    auto& seen = slots.emplace_back(SeenSlot{.corners = slot.corners, .surety = slot.surety});
-    for (auto& corner : seen.corners) corner *= 1.0 / metres_a_pixel;
+  for (auto const& slot : slots_between(painted_lines(pixels, metres_a_pixel), boxes, seen)) {
+    auto& told = slots.emplace_back(SeenSlot{.corners = slot.corners, .surety = slot.surety});
+    for (auto& corner : told.corners) corner *= 1.0 / metres_a_pixel;
   }
   return slots;
+}
+
+std::vector<SeenSlot> slots_seen(cv::Mat const& pixels, std::span<SeenCar const> cars, double metres_a_pixel) {
+  return slots_seen(pixels, cars, metres_a_pixel,
+                    SeenGround::rectangle(pixels.cols * metres_a_pixel, pixels.rows * metres_a_pixel));
 }
 
 }  // namespace lapwing::vision

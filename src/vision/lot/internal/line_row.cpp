@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace lapwing::vision::internal {
 
@@ -74,12 +75,31 @@ cv::Point2d common_direction(std::span<PaintedLine const> family) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-std::vector<Tooth> teeth_of(std::span<PaintedLine const> family, LineRow const& row) {
+Tooth tooth_of(PaintedLine line, LineRow const& row, SeenGround const& seen) {
+  if (line.from.dot(row.along) > line.to.dot(row.along)) std::swap(line.from, line.to);
+  // Lines are told up to where what is on both of their sides can be compared.
+  constexpr double near = 0.4;
+  return {.at = row.across.dot(0.5 * (line.from + line.to)),
+          .begin = line.from.dot(row.along),
+          .end = line.to.dot(row.along),
+          .is_begin_cut = seen.inside_by(line.from) < near,
+          .is_end_cut = seen.inside_by(line.to) < near};
+}
+
+/// Two pieces of one side.
+Tooth joined(Tooth const& a, Tooth const& b) {
+  auto const& first = a.begin < b.begin ? a : b;
+  auto const& last = a.end > b.end ? a : b;
+  return {.at = 0.5 * (a.at + b.at),
+          .begin = first.begin,
+          .end = last.end,
+          .is_begin_cut = first.is_begin_cut,
+          .is_end_cut = last.is_end_cut};
+}
+
+std::vector<Tooth> teeth_of(std::span<PaintedLine const> family, LineRow const& row, SeenGround const& seen) {
   std::vector<Tooth> teeth;
-  for (auto const& line : family) {
-    auto const [begin, end] = std::minmax({line.from.dot(row.along), line.to.dot(row.along)});
-    teeth.push_back({.at = row.across.dot(0.5 * (line.from + line.to)), .begin = begin, .end = end});
-  }
+  for (auto const& line : family) teeth.push_back(tooth_of(line, row, seen));
   std::ranges::stable_sort(teeth, {}, &Tooth::at);
   std::vector<Tooth> merged;
   for (auto const& tooth : teeth) {
@@ -87,10 +107,7 @@ std::vector<Tooth> teeth_of(std::span<PaintedLine const> family, LineRow const& 
       merged.push_back(tooth);
       continue;
     }
-    auto& last = merged.back();
-    last = {.at = 0.5 * (last.at + tooth.at),
-            .begin = std::min(last.begin, tooth.begin),
-            .end = std::max(last.end, tooth.end)};
+    merged.back() = joined(merged.back(), tooth);
   }
   return merged;
 }
@@ -143,6 +160,7 @@ struct Common {
 /// `values`: where each side ends, `outward` 1 or -1. Cars hide some ends, joints of the ground prolong others, mostly
 /// each by a length of its own: of the places where many agree the outermost is the paint's end.
 Common common_of(std::span<double const> values, double outward) {
+  if (values.empty()) return {};
   constexpr double same_place = 0.3;
   std::vector<Common> places;
   for (double const value : values) {
@@ -174,10 +192,16 @@ Ends ends_with(double slope, std::span<Tooth const> teeth) {
   std::vector<double> begins;
   std::vector<double> ends;
   for (auto const& tooth : teeth) {
-    begins.push_back(tooth.begin - slope * tooth.at);
-    ends.push_back(tooth.end - slope * tooth.at);
+    if (!tooth.is_begin_cut) begins.push_back(tooth.begin - slope * tooth.at);
+    if (!tooth.is_end_cut) ends.push_back(tooth.end - slope * tooth.at);
   }
   return {.slope = slope, .begin = common_of(begins, -1.0), .end = common_of(ends, 1.0)};
+}
+
+/// From where one side ends to where the other does; nothing where the picture cuts one of them off.
+std::optional<double> shift_of(Tooth const& from, Tooth const& to, double Tooth::* side, bool Tooth::* is_cut) {
+  if (from.*is_cut || to.*is_cut) return std::nullopt;
+  return to.*side - from.*side;
 }
 
 /// Most rows go straight across their sides. Slanted ones shift as some two of their sides do, and most others agree.
@@ -189,9 +213,10 @@ Ends ends_of(std::span<Tooth const> teeth) {
     for (std::size_t b = a + 1; b < teeth.size(); ++b) {
       double const apart = teeth[b].at - teeth[a].at;
       if (apart <= 1.0) continue;
-      for (double const shift : {teeth[b].begin - teeth[a].begin, teeth[b].end - teeth[a].end}) {
-        if (std::abs(shift) > steepest * apart) continue;
-        auto const slanted = ends_with(shift / apart, teeth);
+      for (auto const shift : {shift_of(teeth[a], teeth[b], &Tooth::begin, &Tooth::is_begin_cut),
+                               shift_of(teeth[a], teeth[b], &Tooth::end, &Tooth::is_end_cut)}) {
+        if (!shift || std::abs(*shift) > steepest * apart) continue;
+        auto const slanted = ends_with(*shift / apart, teeth);
         if (slanted.agreed() > best.agreed()) best = slanted;
       }
     }
@@ -252,11 +277,47 @@ void even_out(LineRow& row, Ends const& ends, double head_share) {
   row.head = (head - row.begin.offset) / (row.end.offset - row.begin.offset);
 }
 
-std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<PaintedLine const> lines) {
+/// Where nearly all sides are cut off, those that seem to end there say nothing.
+bool is_known(Common const& ends, std::span<Tooth const> teeth, bool Tooth::* is_cut) {
+  auto const cut = static_cast<std::size_t>(std::ranges::count_if(teeth, is_cut));
+  return ends.count >= 3 || ends.count > cut;
+}
+
+/// How far the picture shows the sides of which it does not show the end.
+double shown_to(std::span<Tooth const> teeth, double slope, double Tooth::* side, double outward) {
+  double farthest = -1e18;
+  for (auto const& tooth : teeth) farthest = std::max(farthest, outward * (tooth.*side - slope * tooth.at));
+  return outward * farthest;
+}
+
+/// A row whose sides the picture cuts off at one end: by the line where heads meet, or as deep as most slots are.
+bool close_end(LineRow& row, Ends const& ends, std::span<PaintedLine const> lines) {
+  bool const knows_begin = is_known(ends.begin, row.teeth, &Tooth::is_begin_cut);
+  bool const knows_end = is_known(ends.end, row.teeth, &Tooth::is_end_cut);
+  if (knows_begin && knows_end) return true;
+  if (!knows_begin && !knows_end) return false;
+  if (knows_begin)
+    row.end.offset = shown_to(row.teeth, ends.slope, &Tooth::end, 1.0);
+  else
+    row.begin.offset = shown_to(row.teeth, ends.slope, &Tooth::begin, -1.0);
+  constexpr double usual_depth = 5.0;
+  double const shown = row.end.offset - row.begin.offset;
+  if (shown < usual_depth) return false;
+  double depth = usual_depth;
+  if (auto const head = spine_of(row, lines)) depth = (knows_begin ? *head : 1.0 - *head) * shown;
+  if (knows_begin)
+    row.end.offset = row.begin.offset + depth;
+  else
+    row.begin.offset = row.end.offset - depth;
+  return true;
+}
+
+std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<PaintedLine const> lines,
+                              SeenGround const& seen) {
   LineRow row;
   row.along = common_direction(family);
   row.across = {-row.along.y, row.along.x};
-  row.teeth = teeth_of(family, row);
+  row.teeth = teeth_of(family, row, seen);
   auto const pitch = pitch_of(row.teeth);
   if (!pitch) return std::nullopt;
   row.pitch = *pitch;
@@ -265,6 +326,7 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<Pai
   auto const ends = ends_of(row.teeth);
   row.begin = {.slope = ends.slope, .offset = ends.begin.at};
   row.end = {.slope = ends.slope, .offset = ends.end.at};
+  if (!close_end(row, ends, lines)) return std::nullopt;
   double const depth = row.end.offset - row.begin.offset;
   if (depth < shallowest || depth > deepest) return std::nullopt;
   drop_beside(row);
@@ -277,14 +339,14 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<Pai
 
 }  // namespace
 
-std::vector<LineRow> rows_of(std::span<PaintedLine const> lines) {
+std::vector<LineRow> rows_of(std::span<PaintedLine const> lines, SeenGround const& seen) {
   std::vector<PaintedLine> sides;
   std::ranges::copy_if(lines, std::back_inserter(sides), [](PaintedLine const& line) {
     return line.length() > shortest_side && line.length() < deepest;
   });
   std::vector<LineRow> rows;
   for (auto const& family : families(sides)) {
-    if (auto row = row_of(family, lines)) rows.push_back(*std::move(row));
+    if (auto row = row_of(family, lines, seen)) rows.push_back(*std::move(row));
   }
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vision/lot/markings.hpp"
+#include "vision/lot/seen_ground.hpp"
 
 namespace lapwing::vision::internal {
 
@@ -13,6 +14,9 @@ struct Tooth {
   double at = 0.0;  ///< across the sides, along the row
   double begin = 0.0;
   double end = 0.0;  ///< along the side
+  /// The picture ends there, and not the side.
+  bool is_begin_cut = false;
+  bool is_end_cut = false;
 
   [[nodiscard]] double length() const { return end - begin; }
 };
@@ -40,7 +44,8 @@ struct LineRow {
   }
 };
 
-/// Every row that three or more of the lines make.
-[[nodiscard]] std::vector<LineRow> rows_of(std::span<PaintedLine const> lines);
+/// Every row that three or more of the lines make, as deep as they say. Where the picture cuts off its sides at one
+/// end, the row that lies at the other one is told alone; where it does so at both, nothing is.
+[[nodiscard]] std::vector<LineRow> rows_of(std::span<PaintedLine const> lines, SeenGround const& seen);
 
 }  // namespace lapwing::vision::internal
