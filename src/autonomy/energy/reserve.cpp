@@ -53,4 +53,13 @@ double reserve(std::optional<WayHome> const& way, std::optional<vehicle::Drain> 
   return std::clamp(needed + options.margin, options.least, 1.0);
 }
 
+std::optional<base::Duration> flying_time_left(double charge, double height_m, double return_height_m,
+                                               std::optional<vehicle::Drain> const& drain,
+                                               ReserveOptions const& options) {
+  WayHome const over_home{.height_m = height_m, .return_height_m = return_height_m};
+  if (!drain || !is_sound(*drain) || !is_sound(over_home)) return std::nullopt;
+  double const spare = std::max(0.0, charge - reserve(over_home, drain, options));
+  return base::from_seconds(spare / (drain->per_s * (1.0 + drain->error)));
+}
+
 }  // namespace lapwing::autonomy

@@ -43,4 +43,11 @@ struct WayHome {
 [[nodiscard]] double reserve(std::optional<WayHome> const& way, std::optional<vehicle::Drain> const& drain,
                              ReserveOptions const& options);
 
+/// How long it may go on flying until it has to be over home, to land from `height_m` above it with what has to be left
+/// then: counted with the drain's error against it, zero when it should be there already. Nothing as long as nobody
+/// knows what flying draws.
+[[nodiscard]] std::optional<base::Duration> flying_time_left(double charge, double height_m, double return_height_m,
+                                                             std::optional<vehicle::Drain> const& drain,
+                                                             ReserveOptions const& options);
+
 }  // namespace lapwing::autonomy

@@ -8,6 +8,7 @@
 
 #include "autonomy/interface/command.hpp"
 #include "autonomy/interface/state.hpp"
+#include "base/time.hpp"
 
 namespace lapwing::autonomy {
 
@@ -50,6 +51,7 @@ struct Said {
   State state{};
   std::vector<Request> requests = {};                       ///< in order
   std::optional<request::LocalSetpoint> wanted_place = {};  ///< for the planner, as topic `des_pose`
+  std::optional<base::Duration> flying_time_left = {};      ///< until it has to be over home; nothing: not known
   UserError user_error{};
   Health health = {};
   bool sends_heartbeat = false;                 ///< now: at its period, and when the state has changed

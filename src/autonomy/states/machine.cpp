@@ -152,6 +152,7 @@ Said Machine::step(Told const& told, base::TimePoint now) {
   memory_.has_met_flight_controller = memory_.has_met_flight_controller || tells_height;
   said.state = memory_.state;
   said.user_error = memory_.user_error;
+  said.flying_time_left = flying_time_left(s);
   said.health = health_of(s);
   said.sends_heartbeat = is_heartbeat_due(s);
   return said;

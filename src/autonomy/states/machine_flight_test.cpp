@@ -113,6 +113,17 @@ TEST(Machine, ReturnsEarlierTheFurtherItIsFromHome) {
   EXPECT_TRUE(tells(bench.said, "the battery has 20 %, and the way home and the landing need 21 %"));
 }
 
+TEST(Machine, TellsHowLongItMayFlyOnceConsumptionIsKnown) {
+  auto bench = hovering_bench();
+  EXPECT_FALSE(bench.step().flying_time_left);
+  bench.flight().drain = vehicle::Drain{.per_s = 1.0 / 1200.0};
+  bench.flight().battery = 0.65;
+  ASSERT_TRUE(bench.step().flying_time_left);
+  EXPECT_NEAR(base::to_seconds(*bench.said.flying_time_left), 600.0, 1e-6);
+  bench.flight().silence = 5s;
+  EXPECT_FALSE(bench.step().flying_time_left) << "nobody knows the charge by now";
+}
+
 TEST(Machine, HoldsWhereItIsTenTimesASecond) {
   auto bench = moving_bench();
   bench.flight().local = geo::Point3<ArmingFrame>(3, 4, 11);

@@ -96,6 +96,13 @@ double reserve_here(Situation const& s) {
   return reserve(way_home(s), s.told.flight ? s.told.flight->drain : std::nullopt, s.options.reserve);
 }
 
+std::optional<base::Duration> flying_time_left(Situation const& s) {
+  auto const* const flight = heard_flight(s);
+  if (flight == nullptr || !flight->battery || !flight->relative_alt_m) return std::nullopt;
+  return flying_time_left(*flight->battery, *flight->relative_alt_m, s.memory.heights.desired_m, flight->drain,
+                          s.options.reserve);
+}
+
 void tell(Situation& s, std::string text) {
   s.said.error_log.push_back(std::move(text));
 }

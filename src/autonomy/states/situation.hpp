@@ -88,6 +88,8 @@ struct Situation {
 [[nodiscard]] std::optional<std::string> process_failure(Situation const& s);
 /// The share of a full charge at which it has to go home from here.
 [[nodiscard]] double reserve_here(Situation const& s);
+/// Until it has to be over home; nothing as long as charge, height or consumption are not known.
+[[nodiscard]] std::optional<base::Duration> flying_time_left(Situation const& s);
 
 /// For the operator, as an ErrorLog.
 void tell(Situation& s, std::string text);

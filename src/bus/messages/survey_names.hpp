@@ -21,5 +21,7 @@ inline constexpr std::string_view wanted_pose = "/des_pose";
 inline constexpr std::string_view current_state = "/curr_state";
 /// The lowest, the desired and the highest, metres above home.
 inline constexpr std::string_view hover_heights = "/hover_heights";
+/// Seconds until the drone has to be over home, by its battery.
+inline constexpr std::string_view flying_time_left = "/flying_time_left";
 
 }  // namespace lapwing::bus::survey::names

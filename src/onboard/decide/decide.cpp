@@ -18,6 +18,7 @@ using autonomy::State;
 namespace {
 
 constexpr base::Duration frame = 50ms;
+constexpr double in_the_air_m = 2.0;
 constexpr base::Duration leaving_patience = 8s;
 constexpr auto diagnostics_file = "malfunction.txt";
 
@@ -84,12 +85,18 @@ base::Task<> Decide::decide() {
 
 autonomy::Told Decide::tell() {
   autonomy::Told told{.link = desk_->link(), .flight = flight_->heard().told(loop_.now()), .commands = due_commands()};
+  if (told.flight) learn_drain(*told.flight);
   processes_->tell(told);
   if (auto const wanted = command_to_leave()) {
     told.commands.push_back(*wanted);
     has_been_told_to_come_down_ = true;
   }
   return told;
+}
+
+void Decide::learn_drain(autonomy::FlightController& flight) {
+  bool const is_flying = flight.is_armed && flight.relative_alt_m && *flight.relative_alt_m > in_the_air_m;
+  flight.drain = drain_.add(flight.battery, is_flying, loop_.now());
 }
 
 std::vector<autonomy::Command> Decide::due_commands() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "autonomy/energy/flight_drain.hpp"
 #include "autonomy/settings/folder.hpp"
 #include "autonomy/states/machine.hpp"
 #include "base/async/scope.hpp"
@@ -47,6 +48,8 @@ class Decide {
   base::Task<> decide();
   void step();
   [[nodiscard]] autonomy::Told tell();
+  /// What flying draws, as far as this flight and the one before have shown.
+  void learn_drain(autonomy::FlightController& flight);
   /// What operators want now. What follows a Configure waits until that state, which takes nothing, has ended with the
   /// next frame; but Kill waits for nothing.
   [[nodiscard]] std::vector<autonomy::Command> due_commands();
@@ -61,6 +64,7 @@ class Decide {
   base::Logger log_;
   std::filesystem::path folder_name_;
   std::optional<autonomy::Machine> machine_;
+  autonomy::FlightDrain drain_;
   std::unique_ptr<FlightListener> flight_;
   std::unique_ptr<FlightHand> hand_;
   std::unique_ptr<SurveyProcesses> processes_;

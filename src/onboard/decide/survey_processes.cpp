@@ -29,6 +29,7 @@ constexpr std::array health_topics{HealthTopic{"vision", topics::vision_health},
 constexpr base::Duration sight_lasts = 2s;
 /// Until it counts that a process has not spoken: three of its reports.
 constexpr base::Duration first_report = 3s;
+constexpr base::Duration time_left_period = 500ms;
 
 std::optional<double> yaw_of(bus::Quaternion const& q) {
   double const square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
@@ -93,6 +94,7 @@ base::Result<> SurveyProcesses::open_topics(bus::Bus& bus, std::vector<std::stri
   ends.hear<bus::String>(topics_, topics::parking_slots, Profile::latched,
                          [this](bus::String const& slots) { slots_ = slots.data; });
   ends.say(heights_, topics::hover_heights, Profile::latched);
+  ends.say(flying_time_left_, topics::flying_time_left, Profile::standard);
   ends.say(wanted_, topics::wanted_pose, Profile::standard);
   ends.say(state_, topics::current_state, Profile::latched);
   return ends.result();
@@ -149,9 +151,17 @@ void SurveyProcesses::tell(autonomy::Told& told) const {
 void SurveyProcesses::hear(autonomy::Said const& said) {
   if (told_state_ != said.state) state_->publish({std::string(autonomy::to_string(said.state))});
   told_state_ = said.state;
+  tell_time_left(said);
   if (!said.wanted_place) return;
   if (auto const place = flight_.in_local_frame(said.wanted_place->place))
     wanted_->publish(local_pose(*place, said.wanted_place->yaw_rad));
+}
+
+void SurveyProcesses::tell_time_left(autonomy::Said const& said) {
+  auto const now = loop_.now();
+  if (!said.flying_time_left || now < time_left_due_) return;
+  time_left_due_ = now + time_left_period;
+  flying_time_left_->publish({base::to_seconds(*said.flying_time_left)});
 }
 
 void SurveyProcesses::hear(autonomy::HoverHeights const& heights) {

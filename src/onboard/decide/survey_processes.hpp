@@ -57,6 +57,8 @@ class SurveyProcesses {
   base::Result<> open_topics(bus::Bus& bus, std::vector<std::string> const& relies_on);
   void take(bus::OccupancyGrid const& grid);
   void take_report(std::string const& words);
+  /// To the planner, twice a second as long as it is known.
+  void tell_time_left(autonomy::Said const& said);
   [[nodiscard]] std::optional<base::Duration> silence_of(Process const& process) const;
 
   base::Loop& loop_;
@@ -72,7 +74,9 @@ class SurveyProcesses {
   std::vector<std::string> reports_;
   std::optional<std::string> slots_;
   std::optional<autonomy::HoverHeights> told_heights_;
+  base::TimePoint time_left_due_{};
   std::optional<bus::Publisher<bus::Float64MultiArray>> heights_;
+  std::optional<bus::Publisher<bus::Float64>> flying_time_left_;
   std::optional<bus::Publisher<bus::PoseStamped>> wanted_;
   std::optional<bus::Publisher<bus::String>> state_;
   bus::Subscriptions topics_;  ///< last: nothing comes any more

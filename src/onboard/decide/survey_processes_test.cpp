@@ -58,6 +58,22 @@ TEST_F(SurveyProcessesOnTheBus, AreToldTheHoverHeightsInForceHoweverLateTheyCome
   EXPECT_EQ(heard->data, (std::vector<double>{8, 11, 15}));
 }
 
+TEST_F(SurveyProcessesOnTheBus, AreToldHowLongTheDroneMayFlyOnceThatIsKnown) {
+  using namespace std::chrono_literals;
+  std::vector<double> heard;
+  auto const reading =
+      bus::Subscription<bus::Float64>::open(*bus, bus::survey::names::flying_time_left, bus::Profile::standard,
+                                            [&](auto const& seconds) { heard.push_back(seconds.data); });
+  ASSERT_TRUE(reading);
+  // Not latched: until the reader is met nobody hears it.
+  ASSERT_TRUE(comes_true([&] {
+    processes->hear(autonomy::Said{});
+    processes->hear(autonomy::Said{.flying_time_left = 90500ms});
+    return !heard.empty();
+  }));
+  EXPECT_EQ(heard.front(), 90.5);
+}
+
 TEST_F(SurveyProcessesOnTheBus, SpeakToTheOperatorInPrintableWords) {
   auto writing =
       bus::Publisher<bus::String>::open(*bus, bus::survey::names::survey_report, bus::Profile::standard).value();
