@@ -63,6 +63,13 @@ case $target in
     printf '{"slots":[{%s,"surety":0.9,"taken":0.1}],"cars":[{%s,"chance":0.8}]}\n' "$outline" "$outline" | seed sight
     printf '{"anchor":[41,-8,90],"ground_m":0,"slots":[{%s,"is_taken":true}]}\n' "$outline" | seed truth
     ;;
+  survey_memory)
+    outline='0,0,2.5,0,2.5,5,0,5'
+    anchor='{"lat_deg":43.2585,"lon_deg":-79.9201,"alt_m":100}'
+    printf '{"format":"lapwing survey","version":1,"at":"2026-01-01T00:00:00Z","anchor":%s,"lives":2,"begun":"2026-01-01T00:00:00Z","explores":true,"ending":"","pictures":3}\n%s\n{"at":"2026-01-01T00:00:00Z","vehicle":"d","lens":[64,48,60,60,32,24,0,0,0,0,0],"camera":[0,0,10,0,1,0,0],"ground":[0],"slots":[[%s,0.9],[%s,0.9,0.5]],"cars":[[%s,0.5]]}\n' \
+      "$anchor" '{"type":"FeatureCollection","features":[{"type":"Feature","id":"slot-1","geometry":{"type":"Polygon","coordinates":[[[-79.9201,43.2585],[-79.92007,43.2585],[-79.92007,43.25855],[-79.9201,43.2585]]]},"properties":{"writer":"d","at":"2026-01-01T00:00:00Z","state":"free"}}]}' \
+      "$outline" "$outline" "$outline" | seed memory
+    ;;
   floor_plan)
     printf 'P2\n# a room\n9 9 1\n%s' "$(for y in 0 1 1 1 1 1 1 1 0; do for x in 0 1 1 1 1 1 1 1 0; do printf '%d ' $((x * y)); done; done)" | seed plain
     printf 'P5\n3 2\n255\n\000\376\376\000\376\315' | seed binary

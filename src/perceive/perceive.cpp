@@ -7,6 +7,7 @@
 
 #include "base/files/replace_file.hpp"
 #include "base/wall_clock.hpp"
+#include "perceive/memory/memory_file.hpp"
 #include "perceive/without_throwing.hpp"
 
 namespace lapwing::perceive {
@@ -27,6 +28,15 @@ constexpr base::Duration findings_last = 2s;
 /// Lower than that the drone stands, and the ground before its lens says nothing.
 constexpr double standing_m = 2.0;
 constexpr auto slots_file = "slots.geojson";
+constexpr auto memory_file = "survey.jsonl";
+/// Cards wear out by what is written; the memory is written whole each time.
+constexpr double memory_bytes_a_s = 200'000.0;
+
+/// What came of making the surveyor, or adapting it.
+struct Adapted {
+  bool is_new = false;
+  Recalled recalled = {};
+};
 
 /// What became of looking at a picture.
 struct Look {
@@ -247,24 +257,34 @@ base::Task<bool> Perceive::adapt_surveyor() {
   auto const& heard = topics_->heard();
   thought_.has_home = heard.ground.has_value();
   if (!heard.ground) co_return false;
-  auto adapting = mind_->run(
-      [order = settings_.order, ground = *heard.ground, heights = heard.heights](Mind& mind) -> base::Result<bool> {
-        if (mind.surveyor) {
-          auto const adapted = mind.surveyor->adapt(ground.home, heights);
-          if (!adapted) return std::unexpected(adapted.error());
-          return false;
-        }
-        auto made = Surveyor::make(order, ground, heights);
-        if (!made) return std::unexpected(made.error());
-        mind.surveyor.emplace(*std::move(made));
-        return true;
-      });
+  auto adapting = mind_->run([order = settings_.order, ground = *heard.ground, heights = heard.heights,
+                              remembers = settings_.remembers,
+                              file = settings_.folder / memory_file](Mind& mind) -> base::Result<Adapted> {
+    if (mind.surveyor) {
+      auto const adapted = mind.surveyor->adapt(ground.home, heights);
+      if (!adapted) return std::unexpected(adapted.error());
+      return Adapted{};
+    }
+    auto made = Surveyor::make(order, ground, heights);
+    if (!made) return std::unexpected(made.error());
+    mind.surveyor.emplace(*std::move(made));
+    auto const now = base::wall_now();
+    Adapted adapted{.is_new = true, .recalled = recall(file, mind.surveyor->site(), now, remembers)};
+    if (adapted.recalled.memory) mind.surveyor->recall(*std::move(adapted.recalled.memory), now);
+    return adapted;
+  });
   auto const adapted = co_await adapting;
   auto const fault = adapted ? std::string() : adapted.error().message;
   if (!fault.empty() && fault != thought_.fault)
     log_.error(fmt::format("no survey: {}{}{}", fault, adapted.error().hint.empty() ? "" : "; ", adapted.error().hint));
   thought_.fault = fault;
-  if (adapted && *adapted) log_.info("the survey is ready: it begins with AutonomousExplore");
+  if (adapted && adapted->is_new) {
+    auto const& recalled = adapted->recalled;
+    if (!recalled.words.empty()) recalled.is_fault ? log_.warn(recalled.words) : log_.info(recalled.words);
+    // Whoever shows the map sees what there was, before anything is looked at anew.
+    if (recalled.memory) scope_.spawn(write_slots());
+    log_.info("the survey is ready: it begins with AutonomousExplore");
+  }
   has_surveyor_ = has_surveyor_ || adapted;
   co_return has_surveyor_;
 }
@@ -315,9 +335,15 @@ base::Task<> Perceive::report_health() {
 base::Task<> Perceive::keep() {
   for (;;) {
     co_await loop_.sleep(keep_period);
-    if (!std::exchange(has_new_slots_, false)) continue;
-    auto writing = write_slots();
-    co_await writing;
+    if (std::exchange(has_new_slots_, false)) {
+      has_new_memory_ = true;
+      auto writing = write_slots();
+      co_await writing;
+    }
+    if (has_new_memory_ && loop_.now() >= memory_due_) {
+      auto writing = write_memory();
+      co_await writing;
+    }
   }
 }
 
@@ -329,9 +355,30 @@ base::Task<> Perceive::write_slots() {
     return base::replace_file(file, mind.surveyor->slots_text(base::wall_now()));
   });
   auto const written = co_await writing;
+  tell_write_fault(told_write_fault_, written, "the slots are");
+}
+
+/// What a process that is started anew takes up.
+base::Task<> Perceive::write_memory() {
+  has_new_memory_ = false;
+  auto const lasts = std::chrono::duration_cast<base::UtcTime::duration>(settings_.remembers);
+  auto writing = mind_->run([file = settings_.folder / memory_file, lasts](Mind& mind) -> base::Result<std::size_t> {
+    if (!mind.surveyor || lasts <= base::UtcTime::duration::zero()) return std::size_t{0};
+    auto const now = base::wall_now();
+    auto const text = mind.surveyor->memory(now, now - lasts);
+    if (auto const written = base::replace_file(file, text); !written) return std::unexpected(written.error());
+    return text.size();
+  });
+  auto const written = co_await writing;
+  if (written) memory_due_ = loop_.now() + base::from_seconds(static_cast<double>(*written) / memory_bytes_a_s);
+  tell_write_fault(told_memory_fault_, written ? base::Result<>() : std::unexpected(written.error()), "the map is");
+}
+
+/// Once, until it is another one.
+void Perceive::tell_write_fault(std::string& told, base::Result<> const& written, std::string_view what) {
   auto const fault = written ? std::string() : written.error().message;
-  if (!fault.empty() && fault != told_write_fault_) log_.error(fmt::format("the slots are not written: {}", fault));
-  told_write_fault_ = fault;
+  if (!fault.empty() && fault != told) log_.error(fmt::format("{} not written: {}", what, fault));
+  told = fault;
 }
 
 void Perceive::leave(std::function<void()> done) {
@@ -341,6 +388,8 @@ void Perceive::leave(std::function<void()> done) {
 base::Task<> Perceive::write_and_end(std::function<void()> done) {
   auto writing = write_slots();
   co_await writing;
+  auto remembering = write_memory();
+  co_await remembering;
   done();
 }
 

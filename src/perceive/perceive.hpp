@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/async/notifier.hpp"
 #include "base/async/scope.hpp"
@@ -26,6 +27,7 @@ struct PerceiveSettings {
   SurveyOrder order = {};
   std::string vehicle = "drone";                             ///< whose account the map is
   std::filesystem::path folder = "survey";                   ///< of what was found
+  base::Duration remembers = std::chrono::minutes(60);       ///< of what was seen before this process began
   double looks_a_s = 4.0;                                    ///< pictures that are looked at, at most
   std::optional<link::pictures::ServeSettings> stream = {};  ///< where people look; none: nowhere
   double shown_a_s = 10.0;                                   ///< pictures for them, while somebody looks
@@ -70,6 +72,8 @@ class Perceive {
   base::Task<> report_health();
   base::Task<> keep();
   base::Task<> write_slots();
+  base::Task<> write_memory();
+  void tell_write_fault(std::string& told, base::Result<> const& written, std::string_view what);
   base::Task<> write_and_end(std::function<void()> done);
   [[nodiscard]] double ground_up_m() const;
 
@@ -85,7 +89,10 @@ class Perceive {
   std::optional<bool> sees_lot_;
   bool has_surveyor_ = false;
   bool has_new_slots_ = false;
+  bool has_new_memory_ = false;
+  base::TimePoint memory_due_{};
   std::string told_write_fault_;
+  std::string told_memory_fault_;
   std::unique_ptr<LiveView> live_view_;         ///< null: nobody may look
   std::optional<explore::LotSight> seen_last_;  ///< drawn into what comes after it
   std::optional<Filming> film_;

@@ -18,6 +18,8 @@ namespace {
 
 constexpr double round_m = 12.0;  ///< of a fence that nobody has named
 constexpr base::Duration plan_period = 1s;
+/// A process that was away for longer than that finds another survey.
+constexpr base::Duration longest_away = 1min;
 /// Sights farther apart are two visits: what lay between them does not count as looking.
 constexpr base::Duration one_visit = 3s;
 constexpr double most_percent = 100.0;
@@ -97,8 +99,57 @@ Conclusion Surveyor::think(News news) {
   return conclusion;
 }
 
+/// The sights are added as they were when they came, so that the ground and the age of everything are the same again;
+/// what they tell of slots was told better by all pictures together, and stays.
+void Surveyor::recall(SurveyMemory memory, base::UtcTime now) {
+  lives_ = memory.lives + 1;
+  order_.lot.id_prefix = fmt::format("{}.{}", order_.lot.id_prefix, lives_);
+  auto lot = explore::LotMap::make(lot_.area(), order_.lot);
+  if (!lot) return;
+  lot_ = *std::move(lot);
+  for (auto& slot : memory.slots) know(std::move(slot));
+  for (auto const& sight : memory.sights) {
+    if (!lot_.add(sight)) continue;
+    if (!sight.slots.empty()) found_at_ = sight.at;
+    kept_.add(sight, true);
+  }
+  auto const& writer = memory.sights.empty() ? site_.id() : memory.sights.back().vehicle;
+  auto news = lot_.take_news({.site = site_.id(), .writer = writer});
+  for (auto& slot : news.slots) slots_.try_emplace(slot.id, std::move(slot));
+  for (auto const& id : news.gone) slots_.erase(id);
+  sights_ = memory.pictures;
+  begun_ = memory.begun;
+  ending_ = std::move(memory.ending);
+  if (memory.explores && now - memory.at < longest_away) explores_since_ = begun_;
+}
+
+void Surveyor::know(map::Feature slot) {
+  auto const& ring = std::get<map::Slot>(slot.content).outline.rings.front();
+  explore::Corners outline;
+  if (ring.size() != outline.size()) return;
+  std::ranges::copy(ring, outline.begin());
+  if (!geo::contains(lot_.area(), explore::middle_of(outline))) return;
+  lot_.know(slot.id, outline);
+  auto id = slot.id;
+  slots_.insert_or_assign(std::move(id), std::move(slot));
+}
+
+std::string Surveyor::memory(base::UtcTime now, base::UtcTime since) {
+  kept_.forget_before(since);
+  SurveyMemory memory{.at = now,
+                      .lives = lives_,
+                      .begun = begun_,
+                      .explores = explores_since_.has_value(),
+                      .ending = ending_,
+                      .pictures = sights_};
+  for (auto const& [id, feature] : slots_) memory.slots.push_back(feature);
+  return memory_text(memory, site_, kept_.lines());
+}
+
 void Surveyor::take(explore::LotSight const& sight) {
+  auto const seen_before = lot_.cells().seen();
   if (!lot_.add(sight)) return;
+  kept_.add(sight, lot_.cells().seen() > seen_before);
   ++sights_;
   if (!sight.slots.empty()) {
     found_at_ = sight.at;

@@ -8,6 +8,8 @@
 #include "explore/lot/survey_planner.hpp"
 #include "geo/site.hpp"
 #include "map/features/feature.hpp"
+#include "perceive/memory/kept_sights.hpp"
+#include "perceive/memory/survey_memory.hpp"
 #include "perceive/survey_order.hpp"
 #include "video/camera/camera.hpp"
 
@@ -54,9 +56,17 @@ class Surveyor {
   [[nodiscard]] static base::Result<Surveyor> make(SurveyOrder order, SurveyGround const& ground,
                                                    HoverHeights const& heights);
 
+  /// Goes on with the map of an earlier process: its slots with their ids and as they were seen last, and the ground
+  /// that was seen. New slots get ids that none of it has. Precondition: nothing was seen yet.
+  void recall(SurveyMemory memory, base::UtcTime now);
+  /// All that a later process takes up, as `read_memory` reads it. What was seen before `since` is left out.
+  [[nodiscard]] std::string memory(base::UtcTime now, base::UtcTime since);
+
   /// When home or heights are others from now on. Errors: those of SurveyPlanner; it goes on as before.
   base::Result<> adapt(geo::Point3<geo::SiteFrame> const& home, HoverHeights const& heights);
   [[nodiscard]] Conclusion think(News news);
+  /// In whose frame the map is.
+  [[nodiscard]] geo::Site const& site() const { return site_; }
   /// The slots as GeoJSON, on one line, and how far the survey is as its member `survey`.
   [[nodiscard]] std::string slots_line() const;
   /// The same for people, with their ages and the survey's figures.
@@ -67,6 +77,7 @@ class Surveyor {
            explore::LotMap lot);
   [[nodiscard]] base::Result<explore::SurveyPlanner> make_planner() const;
   void take(explore::LotSight const& sight);
+  void know(map::Feature slot);
   [[nodiscard]] std::optional<bool> sees_lot() const;
   void lead(News const& news, Conclusion& conclusion);
   [[nodiscard]] explore::SurveyStep next_step(video::BodyPlace const& drone, base::UtcTime now) const;
@@ -82,6 +93,8 @@ class Surveyor {
   HoverHeights heights_;
   std::optional<explore::SurveyPlanner> planner_ = {};  ///< there once it is made
   std::map<std::string, map::Feature> slots_;           ///< by their ids
+  KeptSights kept_ = {};
+  int lives_ = 1;
   std::size_t sights_ = 0;
   std::optional<base::UtcTime> found_at_ = {};   ///< of the last slot
   std::optional<base::UtcTime> looked_at_ = {};  ///< of the last sight of the area

@@ -1,5 +1,7 @@
 #include "perceive/surveyor.hpp"
 
+#include <algorithm>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -175,6 +177,74 @@ TEST(Surveyor, WritesWhatItFound) {
   EXPECT_NEAR(slot["geometry"]["coordinates"][0][0][0].get<double>(), anchor.lon_deg(), 0.005);
   EXPECT_GE(slot["properties"]["age_s"].get<double>(), 10.0);
   EXPECT_TRUE(slot["properties"].contains("taken_probability"));
+}
+
+/// What a process that was killed has left, and what its successor makes of it.
+struct TakenUp {
+  Surveyor surveyor;
+  std::map<std::string, nlohmann::json> before;
+  double coverage = 0.0;
+};
+
+std::map<std::string, nlohmann::json> slots_of(Surveyor const& surveyor) {
+  std::map<std::string, nlohmann::json> slots;
+  auto const line = nlohmann::json::parse(surveyor.slots_line());
+  for (auto const& slot : line["features"]) slots.emplace(slot["id"], slot["properties"]);
+  return slots;
+}
+
+double coverage_of(Surveyor const& surveyor) {
+  return nlohmann::json::parse(surveyor.slots_line())["survey"]["coverage"];
+}
+
+TakenUp taken_up(Flight& flight, int steps) {
+  SurveyGround const ground{.anchor = anchor, .home = flight.home};
+  auto first = Surveyor::make(flight.order, ground, {}).value();
+  for (int i = 0; i < steps; ++i) (void)flight.step(first, true);
+  auto const text = first.memory(at(flight.now_s), at(0.0));
+  flight.now_s += 2.0;
+  auto second = Surveyor::make(flight.order, ground, {}).value();
+  second.recall(read_memory(text, second.site()).value(), at(flight.now_s));
+  return {.surveyor = std::move(second), .before = slots_of(first), .coverage = coverage_of(first)};
+}
+
+TEST(Surveyor, TakesUpTheMapOfAnEarlierProcess) {
+  Flight flight;
+  auto const [surveyor, before, coverage] = taken_up(flight, 240);
+  ASSERT_GT(before.size(), 20U);
+  auto const after = slots_of(surveyor);
+  for (auto const& [id, properties] : before) {
+    ASSERT_TRUE(after.contains(id)) << id;
+    EXPECT_EQ(after.at(id), properties) << id << ": state and age are those of before";
+  }
+  EXPECT_LT(after.size(), before.size() + 5U);
+  EXPECT_NEAR(coverage_of(surveyor), coverage, 0.005);
+  EXPECT_EQ(nlohmann::json::parse(surveyor.slots_line())["survey"]["begun"], base::utc_text(at(0.0)));
+}
+
+TEST(Surveyor, SurveysOnWithTheMapOfAnEarlierProcess) {
+  Flight whole;
+  auto undisturbed = Surveyor::make(whole.order, {.anchor = anchor, .home = whole.home}, {}).value();
+  while (!whole.step(undisturbed, true).report) ASSERT_LT(whole.now_s, 600.0);
+
+  Flight flight;
+  auto [surveyor, before, coverage] = taken_up(flight, 400);
+  while (!flight.step(surveyor, true).report) ASSERT_LT(flight.now_s, 600.0);
+  EXPECT_LT(flight.now_s, 1.15 * whole.now_s) << "nothing is flown twice";
+  auto const after = slots_of(surveyor);
+  auto const kept = std::ranges::count_if(before, [&](auto const& one) { return after.contains(one.first); });
+  EXPECT_GT(static_cast<double>(kept), 0.97 * static_cast<double>(before.size()));
+  EXPECT_GT(after.size(), before.size()) << "and new ones have other ids";
+}
+
+TEST(Surveyor, OfAnEarlierProcessThatWasOverSaysNothingTwice) {
+  Flight flight;
+  flight.order.most_s = 20.0;
+  auto [surveyor, before, coverage] = taken_up(flight, 120);
+  auto const conclusion = flight.step(surveyor, true);
+  EXPECT_FALSE(conclusion.report);
+  EXPECT_FALSE(conclusion.goal);
+  EXPECT_EQ(conclusion.figures.ending, "time");
 }
 
 TEST(Surveyor, RefusesWhatIsNoArea) {

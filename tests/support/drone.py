@@ -111,7 +111,7 @@ class Operator:
     def wait(self, condition, what: str, seconds: float = 30):
         with self._changed:
             assert self._changed.wait_for(lambda: condition(self), seconds), \
-                f"not within {seconds} s: {what}; last {self.last}, errors {self.errors[-5:]}"
+                f"not within {seconds} s: {what}; last {({**self.last, 'Occupancy Map': '...'})}, errors {self.errors[-5:]}"
 
     def wait_for_state(self, state: str, seconds: float = 30) -> dict:
         """A heartbeat that comes from now on has it."""
@@ -125,13 +125,13 @@ class Operator:
 
 
 @contextlib.contextmanager
-def flight_controller(port: int):
-    """The process of a copter that sends to that UDP port."""
+def flight_controller(port: int, vehicle: str = "copter:1", options: tuple[str, ...] = ()):
+    """The process of a copter that sends to that UDP port; vehicle and options are those of `lapwing sim`."""
     if IS_ARDUPILOT:
         with in_the_loop.started("copter", port, speedup=1, home=(*HOME, 100)) as process:
             yield process
         return
-    words = ["sim", "--vehicles", "copter:1", "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{port}"]
+    words = ["sim", "--vehicles", vehicle, *options, "--home", f"{HOME[0]},{HOME[1]},100", "--out", f"udpout://127.0.0.1:{port}"]
     process = subprocess.Popen([harness.LAPWING, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         yield process
@@ -143,7 +143,8 @@ def flight_controller(port: int):
 class Drone:
     """A flight controller and `lapwing onboard`, ended with the block."""
 
-    def __init__(self, mode: str = "framed", decide: str = "", desk: str = "", processes: str = ""):
+    def __init__(self, mode: str = "framed", decide: str = "", desk: str = "", processes: str = "", vehicle: str = "copter:1",
+                 simulator: tuple[str, ...] = ()):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lapwing-drone-"))
         self.port, self.link, self.domain = harness.free_tcp_port(), harness.free_udp_port(), 1 + os.getpid() % 100
         self.config = self.folder / "onboard.toml"
@@ -163,9 +164,10 @@ mode = "{mode}"
 {processes}
 """)
         self.log: list[str] = []
+        self._vehicle, self._simulator = vehicle, simulator
 
     def __enter__(self):
-        self._flight_controller = flight_controller(self.link)
+        self._flight_controller = flight_controller(self.link, self._vehicle, self._simulator)
         self.simulator = self._flight_controller.__enter__()
         self.start()
         return self
@@ -209,8 +211,8 @@ mode = "{mode}"
         return next(line for line in self.log if words in line)
 
 
-def take_off(operator: Operator, ready_s: float = READY_S) -> None:
-    """From the ground to Hover. A drone that has just been switched on needs a while until it may be armed."""
+def arm(operator: Operator, ready_s: float = READY_S) -> None:
+    """To Arm, with its motors running. A drone that has just been switched on needs a while until it may be."""
     deadline = time.monotonic() + ready_s
     operator.wait(lambda o: o.last, "the first heartbeat", READY_S)
     while True:
@@ -219,5 +221,10 @@ def take_off(operator: Operator, ready_s: float = READY_S) -> None:
             operator.wait(lambda o: o.last["State"] == "Arm" and o.last["Armed"], "armed", 5)
             break
         assert time.monotonic() < deadline, f"it is not armed: {operator.errors[-5:]}"
+
+
+def take_off(operator: Operator, ready_s: float = READY_S) -> None:
+    """From the ground to Hover."""
+    arm(operator, ready_s)
     operator.command("Takeoff")
     operator.wait(lambda o: o.last["State"] == "Hover", "Hover", 40)

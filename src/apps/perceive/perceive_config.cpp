@@ -69,6 +69,8 @@ void read_survey(ConfigReader& root, fs::path const& beside, Diagnostics& diagno
   if (auto const name = table->text("name")) order.name = name->value;
   if (auto const folder = table->text("folder")) settings.folder = beside / folder->value;
   if (auto const pictures = table->number("pictures_a_s", 0.2, 30.0)) settings.looks_a_s = pictures->value;
+  if (auto const minutes = table->number("remembers_min", 0.0, 1440.0))
+    settings.remembers = base::from_seconds(s_per_min * minutes->value);
   table->refuse_unknown();
 }
 

@@ -38,6 +38,7 @@ most_min = 10
 lot_lost_s = 60
 folder = "found"
 pictures_a_s = 2
+remembers_min = 15
 [stream]
 port = 3090
 pictures_a_s = 15
@@ -58,6 +59,7 @@ token_file = "camera.token"
   EXPECT_EQ(order.lot_lost, std::chrono::seconds(60));
   EXPECT_EQ(config.perceive.folder, "/etc/lapwing/found");
   EXPECT_EQ(config.perceive.looks_a_s, 2.0);
+  EXPECT_EQ(config.perceive.remembers, std::chrono::minutes(15));
   ASSERT_TRUE(config.perceive.stream);
   EXPECT_EQ(config.perceive.stream->port, 3090);
   EXPECT_EQ(config.perceive.shown_a_s, 15.0);

@@ -1,6 +1,9 @@
-"""The process that sees is killed in flight: it is back within seconds, the drone, which does not rely on it, waits where it is and surveys on. A camera that comes to its end
-is named in vision's health and tried again; a file that makes no sense is refused before anything is started."""
+"""The process that sees is killed in flight: it is back within seconds, the drone, which does not rely on it, waits where it is and surveys on with the map that there was:
+the slots have their ids, and the ground that was seen is not flown over again. A camera that comes to its end is named in vision's health and tried again; so is a map that is
+damaged, which is put aside; a file that makes no sense is refused before anything is started."""
 
+import contextlib
+import json
 import math
 import os
 import pathlib
@@ -13,19 +16,47 @@ import survey
 from drone import Drone, Operator, take_off
 from ros_drone import DiagnosticStatus, RosDrone
 
+
+
+def remembered_slots(folder: pathlib.Path) -> dict[str, dict]:
+    """What a new process would know, by their ids."""
+    with contextlib.suppress(OSError):
+        features = json.loads((folder / "found/survey.jsonl").read_text().splitlines()[1])["features"]
+        return {one["id"]: one["properties"] for one in features}
+    return {}
+
+
 with Drone(processes=survey.tables()) as drone:
     operator = Operator(drone.port)
     take_off(operator)
     operator.command("Autonomous Explore")
     operator.wait_for_state("AutonomousExplore", 5)
     operator.wait(lambda o: math.hypot(o.last["Local Position X"], o.last["Local Position Y"]) > 8, "it is on its way", 20)
+    found = drone.folder / "found/slots.geojson"
+    harness.wait_until(lambda: len(remembered_slots(drone.folder)) > 3 or time.sleep(0.1), 40, "slots are remembered")
     perceive = drone.pid("perceive")
     os.kill(perceive, signal.SIGKILL)
+    before, coverage = remembered_slots(drone.folder), survey.found_slots(drone.folder)["survey"]["coverage"]
+    found.unlink()
+    told = len(operator.errors)
     drone.wait_for_log("perceive killed by signal 9 (Killed); it is started again")
     harness.wait_until(lambda: (pid := drone.pid("perceive")) and pid != perceive or time.sleep(0.05), 10, "perceive runs again")
-    harness.wait_until(lambda: (drone.folder / "found/slots.geojson").exists() and len(survey.found_slots(drone.folder)["features"]) > 3
-                       or time.sleep(0.2), 40, "it surveys on")
+    drone.wait_for_log("is taken up")
+    harness.wait_until(lambda: found.exists() or time.sleep(0.05), 20, "the slots are written again")
+    after = survey.found_slots(drone.folder)
+    states = {one["id"]: one["properties"] for one in after["features"]}
+    assert set(before) <= set(states), (sorted(before), sorted(states))
+    # What has been looked at since may have changed; the rest is as it was, and as old.
+    for name, was in before.items():
+        assert states[name]["seen_at"] > was["seen_at"] or states[name]["state"] == was["state"], (name, was, states[name])
+    assert after["survey"]["coverage"] > coverage - 0.05 and after["survey"]["begun"], (coverage, after["survey"])
+    operator.wait(lambda o: set(before) <= {one["id"] for one in o.slots}, "the operator sees them", 10)
+    operator.wait_for_error("the survey is over: nothing more to learn", 150)
+    assert not any("the survey is over" in one for one in operator.errors[:told]), operator.errors
     assert all(one["State"] == "AutonomousExplore" for one in operator.heartbeats[-10:]), "it has waited in the air"
+    in_all = survey.compare(survey.found_slots(drone.folder))
+    print("taken up:", len(before), "slots,", f"coverage {coverage:.2f}; in all:", in_all)
+    assert in_all["found"] >= 0.8 * in_all["true"] and in_all["extra"] <= 2, in_all  # from up to 20 m, with few pixels
     operator.command("Land")
     operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 60)
     operator.cut()
@@ -40,7 +71,11 @@ for number in range(3):
     shutil.copy(lots / "00.jpg", pictures / f"{number}.jpg")
     rows.append(f"{number}.jpg,2026-05-0{number + 1}T12:00:00Z,0,20,20,0,0,0")
 (pictures / "poses.csv").write_text("\n".join(rows) + "\n")
+(drone.folder / "found").mkdir()
+(drone.folder / "found/survey.jsonl").write_text('{"format":"lapwing survey","version":1}\n')
 with drone:
+    drone.wait_for_log("the map of before is not taken up", 40)
+    assert (drone.folder / "found/survey.jsonl.unread").exists()
     ros = RosDrone(drone.domain)
     health = ros.reader("/vision_health", DiagnosticStatus)
     told = []
