@@ -238,6 +238,7 @@ base::Task<> Perceive::think() {
     bool const has_pose = heard.track.newest() != nullptr && loop_.now() - *heard.pose_at < pose_lasts;
     if (has_pose) news.drone = heard.track.newest()->place;
     news.speed_m_s = heard.track.speed_m_s();
+    if (heard.home_by) news.flying_s = base::to_seconds(*heard.home_by - loop_.now());
     news.wanted = topics_->take_wanted();
     news.wants_map = loop_.now() >= map_at;
     if (news.wants_map) map_at = loop_.now() + map_period;

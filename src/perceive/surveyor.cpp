@@ -180,10 +180,15 @@ bool Surveyor::is_there(video::BodyPlace const& drone, double speed_m_s) const {
          std::abs(geo::wrap_pi(goal_->yaw_rad - camera_yaw(drone))) < turned_rad;
 }
 
-explore::SurveyStep Surveyor::next_step(video::BodyPlace const& drone, base::UtcTime now) const {
-  explore::SurveyBudget const budget{.home = {ground_.home.x(), ground_.home.y()},
-                                     .time_s = order_.most_s - base::to_seconds(now - *explores_since_)};
-  return planner_->next(lot_, {drone.origin(), camera_yaw(drone)}, budget, goal_, {}, now);
+explore::SurveyBudget Surveyor::budget(News const& news) const {
+  return {.home = {ground_.home.x(), ground_.home.y()},
+          .flying_s = news.flying_s,
+          .time_s = order_.most_s - base::to_seconds(news.now - *explores_since_)};
+}
+
+explore::SurveyStep Surveyor::next_step(News const& news) const {
+  explore::SurveyDrone const drone{news.drone->origin(), camera_yaw(*news.drone)};
+  return planner_->next(lot_, drone, budget(news), goal_, {}, news.now);
 }
 
 std::string Surveyor::end(std::string_view reason) {
@@ -204,8 +209,11 @@ void Surveyor::lead(News const& news, Conclusion& conclusion) {
     explores_since_ = begun_ = news.now;
     planned_at_ = {};
     ending_.clear();
+    turned_home_.reset();
   }
-  if (!ending_.empty() || !news.drone) return;
+  if (!news.drone) return;
+  if (turned_home_) conclusion.goal = way_home(news);
+  if (!ending_.empty()) return;
   bool const is_at_goal = is_there(*news.drone, news.speed_m_s);
   if (is_at_goal) goal_.reset();
   if (!goal_ || news.now - planned_at_ >= plan_period) {
@@ -214,9 +222,10 @@ void Surveyor::lead(News const& news, Conclusion& conclusion) {
       conclusion.report = end("as much is covered as was wanted");
       return;
     }
-    auto const step = next_step(*news.drone, news.now);
+    auto const step = next_step(news);
     if (auto const* const over = std::get_if<explore::SurveyEnd>(&step)) {
       conclusion.report = end(to_string(over->reason));
+      if (over->reason == explore::SurveyEnding::energy) turned_home_ = news.drone;
       return;
     }
     auto const* const to = std::get_if<explore::SurveyGoal>(&step);
@@ -225,6 +234,13 @@ void Surveyor::lead(News const& news, Conclusion& conclusion) {
   if (!goal_) return;
   conclusion.goal = goal_;
   conclusion.goal->yaw_rad = geo::wrap_pi(goal_->yaw_rad - order_.camera_yaw_rad);
+}
+
+/// As high and looking as where it turned. It waits there for who commands it, or for the battery to be as low as it
+/// may be for landing.
+explore::SurveyGoal Surveyor::way_home(News const& news) const {
+  auto const next = planner_->toward_home(news.drone->origin(), budget(news));
+  return {.place = {next.x(), next.y(), turned_home_->origin().z()}, .yaw_rad = turned_home_->yaw_rad()};
 }
 
 SurveyFigures Surveyor::figures() const {

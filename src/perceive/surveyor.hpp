@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,8 +22,9 @@ struct News {
   std::optional<explore::LotSight> sight = {};
   std::optional<video::BodyPlace> drone = {};  ///< nothing: it is not known where it is
   double speed_m_s = 0.0;
-  bool explores = false;                      ///< it flies where the planner says
-  std::optional<map::SitePoint> wanted = {};  ///< is that place in the lot?
+  double flying_s = std::numeric_limits<double>::infinity();  ///< until it has to be over home
+  bool explores = false;                                      ///< it flies where the planner says
+  std::optional<map::SitePoint> wanted = {};                  ///< is that place in the lot?
   bool wants_map = false;
 };
 
@@ -80,9 +82,11 @@ class Surveyor {
   void know(map::Feature slot);
   [[nodiscard]] std::optional<bool> sees_lot() const;
   void lead(News const& news, Conclusion& conclusion);
-  [[nodiscard]] explore::SurveyStep next_step(video::BodyPlace const& drone, base::UtcTime now) const;
+  [[nodiscard]] explore::SurveyBudget budget(News const& news) const;
+  [[nodiscard]] explore::SurveyStep next_step(News const& news) const;
   [[nodiscard]] bool is_there(video::BodyPlace const& drone, double speed_m_s) const;
   [[nodiscard]] std::string end(std::string_view reason);
+  [[nodiscard]] explore::SurveyGoal way_home(News const& news) const;
   [[nodiscard]] SurveyFigures figures() const;
   [[nodiscard]] double camera_yaw(video::BodyPlace const& drone) const;
 
@@ -103,7 +107,8 @@ class Surveyor {
   std::optional<base::UtcTime> begun_ = {};  ///< the same, and kept when it does no more
   std::optional<explore::SurveyGoal> goal_ = {};
   base::UtcTime planned_at_{};
-  std::string ending_ = {};  ///< why the survey is over; empty: it is not
+  std::string ending_ = {};                           ///< why the survey is over; empty: it is not
+  std::optional<video::BodyPlace> turned_home_ = {};  ///< where it was over for want of energy
 };
 
 }  // namespace lapwing::perceive

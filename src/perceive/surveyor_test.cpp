@@ -44,9 +44,10 @@ struct Flight {
   geo::Point3<geo::SiteFrame> drone = home + geo::Vector3<geo::SiteFrame>(0.0, 0.0, 10.0);
   double yaw_rad = 0.0;
   double now_s = 0.0;
+  double home_by_s = std::numeric_limits<double>::infinity();
 
   Conclusion step(Surveyor& surveyor, bool explores) {
-    News news{.now = at(now_s), .drone = place(drone, yaw_rad), .explores = explores};
+    News news{.now = at(now_s), .drone = place(drone, yaw_rad), .flying_s = home_by_s - now_s, .explores = explores};
     news.sight = park.look(
         {.lens = order.planner.camera, .site_from_camera = geo::camera_at(drone, yaw_rad + order.camera_yaw_rad, 0.0)},
         at(now_s), now_s);
@@ -127,6 +128,30 @@ TEST(Surveyor, EndsWhenItsTimeIsOver) {
   ASSERT_TRUE(report);
   EXPECT_NE(report->find("is over: time"), std::string::npos) << *report;
   EXPECT_LT(flight.now_s, 22.0);
+}
+
+TEST(Surveyor, IsOverHomeBeforeItsEnergyIsSpent) {
+  Flight flight;
+  flight.home_by_s = 60.0;
+  auto surveyor = Surveyor::make(flight.order, {.anchor = anchor, .home = flight.home}, {}).value();
+  std::optional<std::string> report;
+  while (!report && flight.now_s < flight.home_by_s) report = flight.step(surveyor, true).report;
+  ASSERT_TRUE(report);
+  EXPECT_NE(report->find("is over: energy"), std::string::npos) << *report;
+  EXPECT_GT(flight.now_s, 30.0) << "it has surveyed as long as it could";
+  auto const turned_at_m = flight.drone.z();
+  auto const far_m = [&] { return std::hypot(flight.drone.x() - flight.home.x(), flight.drone.y() - flight.home.y()); };
+  EXPECT_GT(far_m(), 10.0) << "it was not there by chance";
+  while (far_m() > 1.0 && flight.now_s < flight.home_by_s) EXPECT_FALSE(flight.step(surveyor, true).report);
+  EXPECT_LE(far_m(), 1.0);
+  // It waits there, at its height, and is not led any more when it is told otherwise.
+  for (int i = 0; i < 40; ++i) {
+    auto const goal = flight.step(surveyor, true).goal;
+    ASSERT_TRUE(goal);
+    EXPECT_EQ(goal->place.z(), turned_at_m);
+  }
+  EXPECT_LE(far_m(), 1.0);
+  EXPECT_FALSE(flight.step(surveyor, false).goal);
 }
 
 TEST(Surveyor, AnswersWhetherAPlaceIsInTheLot) {

@@ -59,6 +59,8 @@ base::Result<> Topics::open_ends(bus::Bus& bus) {
                                     [this](bus::Float64MultiArray const& heights) { take(heights); });
   ends.hear<bus::String>(topics_, survey::current_state, Profile::latched,
                          [this](bus::String const& state) { heard_.explores = state.data == exploring; });
+  ends.hear<bus::Float64>(topics_, survey::flying_time_left, Profile::standard,
+                          [this](bus::Float64 const& seconds) { take(seconds); });
   ends.hear<bus::PoseStamped>(topics_, survey::wanted_pose, Profile::standard, [this](bus::PoseStamped const& wanted) {
     map::SitePoint const place(wanted.pose.position.x, wanted.pose.position.y);
     if (place.is_finite()) heard_.wanted = place;
@@ -87,6 +89,12 @@ void Topics::take(bus::Float64MultiArray const& heights) {
   if (heights.data.size() != 3) return;
   HoverHeights const told{heights.data[0], heights.data[1], heights.data[2]};
   if (0.0 < told.lowest_m && told.lowest_m < told.desired_m && told.desired_m < told.highest_m) heard_.heights = told;
+}
+
+/// Who tells it no more may be gone: the time goes on.
+void Topics::take(bus::Float64 const& seconds) {
+  constexpr double longest_s = 1e6;
+  if (seconds.data >= 0.0 && seconds.data < longest_s) heard_.home_by = loop_.now() + base::from_seconds(seconds.data);
 }
 
 void Topics::say_goal(explore::SurveyGoal const& goal) {

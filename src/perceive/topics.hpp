@@ -24,8 +24,9 @@ struct Heard {
   std::optional<base::TimePoint> pose_at = {};  ///< when the newest came
   std::optional<SurveyGround> ground = {};
   HoverHeights heights = {};
-  bool explores = false;                      ///< the drone flies where the planner says
-  std::optional<map::SitePoint> wanted = {};  ///< of which it has not been said yet whether it is in the lot
+  std::optional<base::TimePoint> home_by = {};  ///< when it has to be over home, by its battery; nothing: not known
+  bool explores = false;                        ///< the drone flies where the planner says
+  std::optional<map::SitePoint> wanted = {};    ///< of which it has not been said yet whether it is in the lot
 };
 
 /// The bus as perceive needs it.
@@ -58,6 +59,7 @@ class Topics {
   void take(bus::PoseStamped const& pose);
   void take(bus::mavros::HomePosition const& home);
   void take(bus::Float64MultiArray const& heights);
+  void take(bus::Float64 const& seconds);
 
   base::Loop& loop_;
   Heard heard_;

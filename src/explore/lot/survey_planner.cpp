@@ -313,6 +313,14 @@ double SurveyPlanner::seconds_home(AirPlace const& place, SurveyBudget const& bu
   return seconds_to_fly(way_m, settings_.flight) + bends_s;
 }
 
+map::SitePoint SurveyPlanner::toward_home(AirPlace const& place, SurveyBudget const& budget) const {
+  auto const route = fence_.route(below(place), budget.home);
+  // Of a bend that is reached the route still says that it is next.
+  auto const next = std::ranges::find_if(
+      route, [&](auto const& bend) { return geo::distance_m(bend, below(place)) > settings_.arrived_m; });
+  return next == route.end() ? budget.home : *next;
+}
+
 bool SurveyPlanner::is_within(SurveyGoal const& goal, SurveyDrone const& drone, SurveyBudget const& budget) const {
   double const there_s =
       seconds_to_move(geo::distance_m(below(drone.place), below(goal.place)), goal.place.z() - drone.place.z(),

@@ -93,6 +93,8 @@ class SurveyPlanner {
   [[nodiscard]] bool is_in_bounds(LotMap const& lot, map::SitePoint const& place, base::UtcTime now) const;
   /// How long the way home takes from there, landing left out.
   [[nodiscard]] double seconds_home(AirPlace const& place, SurveyBudget const& budget) const;
+  /// The next place to fly straight to on that way.
+  [[nodiscard]] map::SitePoint toward_home(AirPlace const& place, SurveyBudget const& budget) const;
 
   [[nodiscard]] SurveySettings const& settings() const { return settings_; }
 
