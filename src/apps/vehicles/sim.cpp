@@ -37,6 +37,7 @@ struct SimOptions {
   int first_id = 1;
   bool realistic_boot = false;
   std::optional<double> swap_batteries_s;
+  std::optional<double> battery_mah;
   std::vector<std::string> parameters;
   std::string signing_key;
 };
@@ -75,6 +76,7 @@ base::Result<sim::WorldOptions> world_options(SimOptions const& options) {
   if (!signing) return std::unexpected(signing.error());
   world.keys = signing->ring;
   if (options.swap_batteries_s) world.battery_swap_after = base::from_seconds(*options.swap_batteries_s);
+  if (options.battery_mah) world.battery_capacity_mah = *options.battery_mah;
   world.boot = options.realistic_boot ? sim::BootStyle::realistic : sim::BootStyle::quick;
   return world;
 }
@@ -128,6 +130,9 @@ void add_sim(CLI::App& program, int& exit_code) {
   verb->add_option("--param", options->parameters, "NAME=VALUE: a parameter of every vehicle; may come several times");
   verb->add_option("--signing-key", options->signing_key, host::signing_key_help);
   verb->add_option("--swap-batteries", options->swap_batteries_s, host::swap_help)->check(CLI::Range(1.0, 1e6));
+  verb->add_option("--battery-mah", options->battery_mah,
+                   "How much a full battery of each vehicle holds; 5000 otherwise")
+      ->check(CLI::Range(100.0, 100'000.0));
   verb->add_flag("--realistic-boot", options->realistic_boot, "Take 41 s to start up, as ArduPilot does, instead of 3");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }
