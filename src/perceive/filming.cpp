@@ -52,6 +52,7 @@ base::Task<> Filming::open_camera() {
   auto const opened = co_await opening;
   record_.is_open = opened.has_value();
   if (opened) {
+    opened_at_ = loop_.now();
     log_.info("the camera is open");
     co_return;
   }
@@ -69,7 +70,8 @@ base::Task<> Filming::take() {
     note_failure(frame.error());
     if (frame.error().kind != base::ErrorKind::lost) co_return;
     record_.is_open = false;
-    co_await loop_.sleep(open_again_after);
+    // One that has given pictures for a while is there still, as a rule: a picture that is none ends a stream.
+    if (loop_.now() - opened_at_ < open_again_after) co_await loop_.sleep(open_again_after);
     co_return;
   }
   record_.fault.clear();

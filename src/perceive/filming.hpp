@@ -62,6 +62,7 @@ class Filming {
   Director director_;
   base::Logger log_;
   FilmRecord record_;
+  base::TimePoint opened_at_{};
   std::optional<video::Frame> newest_;
   base::Notifier arrived_;
   base::SideThread<Hand> hand_;
