@@ -1,0 +1,44 @@
+"""A survey drone loses GPS in flight: it cannot return, and lands where it is, as a Malfunction that is told and written down; it is not armed again before it knows where it
+is. Then its flight bridge is stopped in flight, and replaced: the drone hovers on or comes home."""
+
+import os
+import signal
+import time
+
+import harness
+from drone import Drone, Operator, take_off
+from ros_drone import RosDrone, integer
+
+GPS_OFF = "SIM_GPS_DISABLE"
+
+with Drone() as drone:
+    ros = RosDrone(drone.domain)
+    operator = Operator(drone.port)
+    take_off(operator)
+    assert ros.set_parameter(False, GPS_OFF, integer(1)).success
+    operator.wait_for_state("Malfunction", 15)
+    operator.wait(lambda o: "does not know where it is" in o.last["Health Reason"], "why")
+    assert "does not know where it is" in (drone.folder / "state/malfunction.txt").read_text()
+    ros.wait(lambda r: r.state.mode == "LAND", "it lands, since it cannot return", 15)
+    operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 60)
+    told = len(operator.errors)
+    operator.command("Arm")
+    operator.wait(lambda o: any("Arm is refused" in one for one in o.errors[told:]), "it is not armed so", 10)
+    print(operator.errors[-1])
+    assert ros.set_parameter(False, GPS_OFF, integer(0)).success
+
+    take_off(operator)
+    bridge, decide = drone.pid("bridge"), drone.pid("decide")
+    os.kill(bridge, signal.SIGSTOP)
+    drone.wait_for_log("bridge stopped by signal 19")
+    harness.wait_until(lambda: (pid := drone.pid("bridge")) and pid != bridge or time.sleep(0.05), 20, "bridge runs again")
+    assert drone.pid("decide") == decide, "who decides has lived on"
+    heard = len(operator.heartbeats)
+    operator.wait(lambda o: len(o.heartbeats) > heard + 4, "it goes on speaking", 10)
+    after = operator.last["State"]
+    assert after in ("Hover", "Malfunction"), operator.last
+    if after == "Hover":
+        operator.command("Land")
+    operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has come home", 60)
+    operator.cut()
+    print(f"without its bridge: {after}")
