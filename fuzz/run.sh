@@ -175,7 +175,7 @@ case $target in
     { printf '\3'; head -c 16 /dev/zero; printf '\4\0\2\0\2\1\0\2\0'; } | seed laser
     ;;
   seed_text)
-    printf ' PLN_CAR_1_Medium\nPLN_CAR_2_90\nSIM_PLN_3_120:-:300\nMMU_CM_4_10-20-90\r\nPOI_CM_5_"Name Tag", "2%%5F21", 15, 20\nCC_CAR_6_e-Stop\nMMU_CC_7_ready:302:9\n' | seed lines
+    printf ' PLN_CAR_1_Medium\nPLN_CAR_2_90\nSIM_PLN_3_120:-:300\nMMU_CM_4_10-20-90\r\nPOI_CM_5_"Name Tag", "2%%5F21", 15, 20\nCC_CAR_6_e-Stop\nMMU_CC_7_ready:302:9\nCC_PLN_8_CONTINUE\n' | seed lines
     ;;
   key_store)
     printf '[keys]\nfleet = "%064d"\nnext = "%064d"\n[use]\neverybody = "fleet"\n[use.vehicles]\n7 = ["next", "fleet"]\n[use.links]\n"udpin://0.0.0.0:14550" = "next"\n[unsigned]\nlocal-links = true\nsystems = [51]\nmessages = ["ADSB_VEHICLE", 0]\n' 1 2 | seed store

@@ -1,11 +1,12 @@
 // The seed's text messages, from a stream in pieces: what was read as a line is written and read again as itself, and
-// so is what it says.
+// so is what it says. What it has a robot do is said or refused with a reason.
 #include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "require.hpp"
+#include "robot/old_parts/order.hpp"
 #include "robot/seed_text/line.hpp"
 #include "robot/seed_text/payload.hpp"
 
@@ -30,6 +31,8 @@ void require_stable(Line const& line) {
 }
 
 void read_line(std::string_view text) {
+  auto const heard = robot::heard_in(text);
+  fuzz::require(heard || !heard.error().message.empty());
   auto const line = read(text);
   if (!line) {
     fuzz::require(!line.error().message.empty());

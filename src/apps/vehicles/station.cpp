@@ -8,6 +8,7 @@
 #include "host/files/config_file.hpp"
 #include "host/files/key_file.hpp"
 #include "host/plausibility/options.hpp"
+#include "host/robots/old_parts.hpp"
 #include "host/robots/robot_spec.hpp"
 #include "host/session/session.hpp"
 #include "host/session/signals.hpp"
@@ -23,6 +24,7 @@ struct StationArguments {
   std::string config;
   std::vector<std::string> links;
   std::vector<std::string> robots;
+  std::vector<std::string> old_parts;
   std::vector<std::string> survey;
   std::vector<std::string> payload;
   std::vector<std::string> forward;
@@ -77,6 +79,7 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   if (!config) return config;
   if (!arguments.links.empty()) config->links = arguments.links;
   if (!arguments.robots.empty()) config->robots = arguments.robots;
+  if (!arguments.old_parts.empty()) config->old_parts = arguments.old_parts;
   if (auto added = host::add_survey_links(arguments.survey, config->survey); !added)
     return std::unexpected(added.error());
   for (auto& drone : config->survey)
@@ -131,6 +134,7 @@ int serve(StationArguments const& arguments) {
   }
   if (auto opened = session.open_store(config->map); !opened) return host::refuse(opened.error());
   if (auto added = add_robots(session, *config); !added) return host::refuse(added.error());
+  if (auto opened = session.open_old_parts(config->old_parts); !opened) return host::refuse(opened.error());
   if (auto opened = session.open_survey(config->survey); !opened) return host::refuse(opened.error());
   if (auto opened = session.open_links(config->links); !opened) return host::refuse(opened.error());
   if (auto opened = session.forward(config->forward); !opened) return host::refuse(opened.error());
@@ -157,6 +161,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(host::default_link));
   verb->add_option("--robot", arguments->robots, host::robot_help)->allow_extra_args(false);
+  verb->add_option("--old-parts", arguments->old_parts, host::old_parts_help)->allow_extra_args(false);
   verb->add_option("--survey", arguments->survey, host::survey_help)->allow_extra_args(false);
   verb->add_option("--forward", arguments->forward, host::forward_help);
   verb->add_option("--payload", arguments->payload, host::payload_help);

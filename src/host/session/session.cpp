@@ -7,6 +7,7 @@
 
 #include "base/assert.hpp"
 #include "host/files/files.hpp"
+#include "host/robots/old_parts.hpp"
 #include "host/robots/robots_feed.hpp"
 #include "host/session/console.hpp"
 #include "host/session/metrics.hpp"
@@ -188,6 +189,33 @@ base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo
   return {};
 }
 
+base::Result<> Session::open_old_parts(std::vector<std::string> const& requests) {
+  for (auto const& text : requests) {
+    auto const parts = parse_old_parts(text);
+    if (!parts) return std::unexpected(parts.error());
+    auto* const robot = robots.robot({parts->robot});
+    if (!robot)
+      return base::fail(base::ErrorKind::invalid_input,
+                        fmt::format("--old-parts {}: there is no robot '{}'", text, parts->robot),
+                        "name one with --robot; they are called robot1, robot2 and so on");
+    auto link = link::open(loop, parts->url);
+    if (!link) return std::unexpected(link.error());
+    old_parts.push_back(std::make_unique<robot::TextPort>(
+        robot::TextPort::Surroundings{
+            .loop = loop, .robot = *robot, .control = all_control, .authority = ground.authority, .live_map = live_map},
+        *std::move(link), log.named(parts->robot)));
+  }
+  if (!requests.empty())
+    robots.set_communication(
+        [this] { return is_an_operator_there() ? robot::code::none : robot::code::operator_away; });
+  return {};
+}
+
+bool Session::is_an_operator_there() const {
+  bool const is_viewed = map && map->viewers() > 0;
+  return is_viewed || std::ranges::any_of(old_parts, [](auto const& port) { return port->has_listener(); });
+}
+
 base::Task<base::Result<std::string>> Session::keep_picture(std::string jpeg) {
   if (!station_map) co_return base::fail(base::ErrorKind::refused, "there is no map that is kept");
   auto keeping = station_map->store().keep(std::move(jpeg), "image/jpeg");
@@ -319,8 +347,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   auto opened = station::Station::open(loop, ground.registry, script ? *script : host, hub, std::move(options));
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
-  robots.set_communication(
-      [this] { return map && map->viewers() > 0 ? robot::code::none : robot::code::operator_away; });
+  robots.set_communication([this] { return is_an_operator_there() ? robot::code::none : robot::code::operator_away; });
   tell_where_the_map_is(access, map->port(), *token);
   if (!std::filesystem::exists(home_directory() / "web/dist/index.html")) {
     log.warn("the browser app is not built, so the map shows nothing: ./lapwing build builds it");

@@ -29,6 +29,7 @@
 #include "host/survey/survey_platform.hpp"
 #include "map/live/live_map.hpp"
 #include "plan/plausibility/settings.hpp"
+#include "robot/old_parts/text_port.hpp"
 #include "robot/platform/robot_control.hpp"
 #include "robot/platform/robot_modules.hpp"
 #include "robot/platform/robot_platform.hpp"
@@ -82,6 +83,10 @@ class Session {
   /// `anchor`. Call it before links and the map are opened. Errors: those of `make_robots` and `RobotPlatform::add`.
   [[nodiscard]] base::Result<> add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor);
 
+  /// Joins old parts with robots, as `--old-parts` names both. Call it after `add_robots`. Errors: those of
+  /// `parse_old_parts` and of opening a link; invalid_input: there is no such robot.
+  [[nodiscard]] base::Result<> open_old_parts(std::vector<std::string> const& requests);
+
   /// Connects to survey drones and goes on trying; scripts fly them, and the station shows and commands them. Call it
   /// before the map is opened. Errors: those of `SurveyDesk::open`.
   [[nodiscard]] base::Result<> open_survey(std::vector<SurveyLink> links);
@@ -127,7 +132,8 @@ class Session {
   tasks::Platforms platforms;          ///< the fleet, the robots, survey drones and what has joined them, for scripts
   vehicle::JoinedControl all_control;  ///< the same for operators
   vehicle::JoinedParameters all_parameters;
-  std::map<std::string, route::Router> forwarding;  ///< where others ride along, by network
+  std::vector<std::unique_ptr<robot::TextPort>> old_parts;  ///< that speak the seed's lines with robots
+  std::map<std::string, route::Router> forwarding;          ///< where others ride along, by network
   std::unique_ptr<Recording> recording;
   std::vector<std::unique_ptr<Recording>> network_recordings;
   std::unique_ptr<dolphin::Output> console;
@@ -148,6 +154,7 @@ class Session {
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();
   [[nodiscard]] bool is_nobody_heard() const;
+  [[nodiscard]] bool is_an_operator_there() const;
   [[nodiscard]] std::string links_text() const;
   void note(tasks::TaskEvent const& event);
 

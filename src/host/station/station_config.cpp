@@ -9,6 +9,7 @@
 #include "base/text/spelling.hpp"
 #include "host/links/ground.hpp"
 #include "host/plausibility/reading.hpp"
+#include "host/robots/old_parts.hpp"
 #include "host/robots/robot_spec.hpp"
 #include "host/session/session.hpp"
 #include "host/simulation/simulation.hpp"
@@ -49,6 +50,14 @@ void read_robots(ConfigReader& root, Diagnostics& diagnostics, StationConfig& co
   if (!robots) return;
   for (auto const& [text, span] : *robots) {
     if (valid(diagnostics, span, parse_robot(text))) config.robots.push_back(text);
+  }
+}
+
+void read_old_parts(ConfigReader& root, Diagnostics& diagnostics, StationConfig& config) {
+  auto const parts = root.texts("old_parts");
+  if (!parts) return;
+  for (auto const& [text, span] : *parts) {
+    if (valid(diagnostics, span, parse_old_parts(text))) config.old_parts.push_back(text);
   }
 }
 
@@ -172,6 +181,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   ConfigReader root(entries, diagnostics);
   read_links(root, diagnostics, config);
   read_robots(root, diagnostics, config);
+  read_old_parts(root, diagnostics, config);
   for (auto& table : root.tables("survey")) config.survey.push_back(read_survey(table, source, diagnostics));
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);

@@ -38,9 +38,10 @@ struct MapContent {
 
 /// A ground station as its file describes it: docs/reference/station-config.md.
 struct StationConfig {
-  std::vector<std::string> links;        ///< empty: the default link
-  std::vector<std::string> robots = {};  ///< as `--robot` names them
-  std::vector<SurveyLink> survey = {};   ///< survey drones
+  std::vector<std::string> links;           ///< empty: the default link
+  std::vector<std::string> robots = {};     ///< as `--robot` names them
+  std::vector<std::string> old_parts = {};  ///< as `--old-parts` names them
+  std::vector<SurveyLink> survey = {};      ///< survey drones
   Equipment payload;
   fleet::OnStop on_stop = fleet::OnStop::loiter;
   vehicle::StopAction emergency_action = vehicle::StopAction::hold;

@@ -112,6 +112,8 @@ class Robot {
   [[nodiscard]] bool is_killed() const { return last_reading_ && last_reading_->is_killed; }
   /// It was killed, here or at its body.
   [[nodiscard]] bool needs_restart() const { return health_.watch().is_killed() || is_killed(); }
+  /// What a module says of itself that is no part of this program.
+  void hear_module(Module module, ModuleReport const& said) { health_.heard(module, said); }
   /// How its modules do.
   [[nodiscard]] ModuleWatch const& watch() const { return health_.watch(); }
   [[nodiscard]] std::vector<std::shared_ptr<DriveRecord const>> const& drives() const { return drives_; }

@@ -39,6 +39,8 @@ class RobotHealth {
 
   /// The sensors have spoken. What the carrier said with it counts at once, before anybody steers.
   void sensed(std::uint16_t code);
+  /// A part that is no part of this program has said how it is.
+  void heard(Module module, ModuleReport const& said) { watch_.report(module, said, around_.loop.now()); }
   /// Mapping or planning has begun to work beside the loop, until it says something again.
   void begin_work(Module module) { own(module).is_at_work = true; }
   /// Mapping or planning is done with its work, and so it is from now on.

@@ -227,6 +227,8 @@ std::optional<Payload> said(Line const& line) {
   if (line.from == planner && line.to == carrier) return speed_or_angle(text);
   if (line.from == sensors && line.to == planner) return distances(text);
   if (line.from == points_of_interest && line.to == planner) return override_or_pose(text);
+  if (line.from == command_centre && line.to == planner)
+    if (auto const what = meaning_of(overrides, text)) return *what;
   if (line.from == points_of_interest)
     if (auto const point = point_of_interest(text)) return point;
   if (line.to == communication || line.to == command_centre)

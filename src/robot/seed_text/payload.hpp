@@ -41,7 +41,8 @@ struct Completed {};
 /// `Kill`; the seed's `e-Stop` is read, too.
 struct Kill {};
 
-/// What points of interest ask the planner for, besides a pose: `STOP`, `REVERSE` or `CONTINUE`.
+/// What points of interest ask the planner for, besides a pose, and the command centre: `STOP`, `REVERSE` or
+/// `CONTINUE`.
 enum class Override : std::uint8_t { stop, reverse, go_on };
 
 /// `"Door", "", 15, 20` or `"Name Tag", "221", 15, 20`: centimetres on the map.

@@ -12,6 +12,7 @@
 #include "host/files/key_file.hpp"
 #include "host/links/equipment.hpp"
 #include "host/plausibility/options.hpp"
+#include "host/robots/old_parts.hpp"
 #include "host/session/session.hpp"
 #include "host/simulation/simulated_fleet.hpp"
 #include "host/simulation/simulation.hpp"
@@ -42,6 +43,7 @@ struct RunOptions {
   std::vector<std::string> payload;
   std::vector<std::string> forward;
   std::vector<std::string> robots;
+  std::vector<std::string> old_parts;
   std::vector<std::string> survey;
   std::string car_park;
   std::optional<double> swap_batteries_s;
@@ -120,13 +122,14 @@ bool is_all_simulated(RunOptions const& options) {
   auto const is_simulated = [](std::string const& robot) { return robot.starts_with("sim:"); };
   bool const is_linked =
       !options.survey.empty() || (options.simulated.empty() && (options.robots.empty() || !options.links.empty()));
-  return !is_linked && std::ranges::all_of(options.robots, is_simulated);
+  return !is_linked && options.old_parts.empty() && std::ranges::all_of(options.robots, is_simulated);
 }
 
 base::Result<> open_vehicles(host::Session& session, RunOptions const& options, dolphin::Needs const& needs,
                              std::optional<sim::WorldOptions> world) {
   auto const anchor = world ? world->home : needs.home.value_or(sim::WorldOptions{}.home);
   if (auto added = session.add_robots(options.robots, anchor); !added) return added;
+  if (auto opened = session.open_old_parts(options.old_parts); !opened) return opened;
   std::vector<host::SurveyLink> survey;
   if (auto named = host::add_survey_links(options.survey, survey); !named) return named;
   if (auto opened = session.open_survey(std::move(survey)); !opened) return opened;
@@ -189,7 +192,8 @@ bool rest_checks(std::vector<host::ScriptText> const& scripts) {
 /// What means nothing to the test platform, and so is a mistake beside it.
 base::Result<> check_combination(RunOptions const& options) {
   if (options.platform != "test") return {};
-  std::array<std::pair<std::string_view, bool>, 13> const given{{{"--robot", !options.robots.empty()},
+  std::array<std::pair<std::string_view, bool>, 14> const given{{{"--robot", !options.robots.empty()},
+                                                                 {"--old-parts", !options.old_parts.empty()},
                                                                  {"--car-park", !options.car_park.empty()},
                                                                  {"--survey", !options.survey.empty()},
                                                                  {"--link", !options.links.empty()},
@@ -234,6 +238,7 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--forward", options.forward, host::forward_help)->allow_extra_args(false);
   verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
   verb.add_option("--robot", options.robots, host::robot_help)->allow_extra_args(false);
+  verb.add_option("--old-parts", options.old_parts, host::old_parts_help)->allow_extra_args(false);
   verb.add_option("--car-park", options.car_park, host::car_park_help);
   verb.add_option("--survey", options.survey,
                   "A survey drone's operator link (may be repeated): HOST[:PORT]; those with a token or TLS are for "
