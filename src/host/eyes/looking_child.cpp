@@ -85,10 +85,28 @@ LookingChild::~LookingChild() {
   (void)stop_.write_all({reinterpret_cast<char const*>(&one), sizeof one});
 }
 
+/// While somebody awaits an answer, also if he gives up.
+class LookingChild::Owed {
+ public:
+  explicit Owed(LookingChild& by) : by_(by) {
+    if (by_.asked_++ == 0) by_.asked_since_ = by_.loop_.now();
+  }
+  ~Owed() {
+    // The next one's turn begins now: requests are met one after the other.
+    by_.asked_since_ = --by_.asked_ > 0 ? std::optional(by_.loop_.now()) : std::nullopt;
+  }
+  Owed(Owed const&) = delete;
+  Owed& operator=(Owed const&) = delete;
+
+ private:
+  LookingChild& by_;
+};
+
 base::Task<base::Result<LookFrame>> LookingChild::ask(Request request) {
   if (!may_be_asked())
     co_return base::fail(is_missing_ ? ErrorKind::not_found : ErrorKind::lost, "nobody looks at pictures now");
   auto job = [request = std::move(request)](Talk& talk) mutable { return talk.ask(to_bytes(request())); };
+  Owed const owed(*this);
   auto talk = takes_ ? thread_->run_in_time(std::move(job), *takes_) : thread_->run(std::move(job));
   auto answer = co_await std::move(talk);
   note(answer);

@@ -38,6 +38,12 @@ class LookingChild {
 
   /// Worth a picture: not when there is no such program, nor just after it has died.
   [[nodiscard]] bool may_be_asked() const { return !is_missing_ && loop_.now() >= not_before_; }
+  /// There is no such program.
+  [[nodiscard]] bool is_missing() const { return is_missing_; }
+  /// The last time it gave no sound answer.
+  [[nodiscard]] bool is_failing() const { return failures_ > 0; }
+  /// Since when it owes an answer; nothing while it owes none.
+  [[nodiscard]] std::optional<base::TimePoint> asked_since() const { return asked_since_; }
   /// What makes a request on the thread beside the loop, where a picture may take its time: it touches nothing of the
   /// loop's.
   using Request = std::move_only_function<LookFrame()>;
@@ -47,6 +53,7 @@ class LookingChild {
 
  private:
   class Talk;
+  class Owed;
 
   void note(base::Result<LookFrame> const& answer);
 
@@ -56,6 +63,8 @@ class LookingChild {
   bool is_missing_ = false;
   int failures_ = 0;  ///< one after the other
   base::TimePoint not_before_{};
+  int asked_ = 0;  ///< that it has not answered
+  std::optional<base::TimePoint> asked_since_;
   base::Descriptor stop_;
   std::unique_ptr<base::SideThread<Talk>> thread_;
 };

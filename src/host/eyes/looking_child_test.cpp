@@ -100,8 +100,33 @@ TEST_F(LookingChildTest, OneThatDiesIsStartedAnewAfterAWhileAndThatIsSaidOnce) {
 
 TEST_F(LookingChildTest, OneThatHangsIsEnded) {
   start("exec sleep 60");
+  EXPECT_FALSE(child->is_failing());
   EXPECT_EQ(ask().error().kind, ErrorKind::timed_out);
   EXPECT_FALSE(child->may_be_asked());
+  EXPECT_TRUE(child->is_failing());
+  EXPECT_FALSE(child->asked_since()) << "it owes nothing any more";
+}
+
+TEST_F(LookingChildTest, OwesAnAnswerFromTheQuestionOnUntilItHasCome) {
+  base::Loop real;
+  LookingChild slow(real,
+                    {.program = {.program = "/bin/sh",
+                                 .words = {"-c", "while read line; do while [ ! -e " + (folder.path() / "go").string() +
+                                                     " ]; do :; done; echo '{}'; done"},
+                                 .longest = 0s},
+                     .takes = std::nullopt},
+                    base::Logger(hub, "test"));
+  EXPECT_FALSE(slow.asked_since());
+  base::Scope scope(real);
+  auto const asked_at = real.now();
+  for (int i = 0; i < 2; ++i)
+    scope.spawn([](LookingChild& asked) -> base::Task<> { (void)co_await asked.ask(&request); }(slow));
+  real.run_until_done([](base::Loop& on) -> base::Task<> { co_await on.turn(); }(real));
+  ASSERT_TRUE(slow.asked_since());
+  EXPECT_GE(*slow.asked_since(), asked_at);
+  (void)folder.write("go", "");
+  real.run_until_done(scope.join());
+  EXPECT_FALSE(slow.asked_since());
 }
 
 TEST_F(LookingChildTest, NonsenseIsNoAnswer) {

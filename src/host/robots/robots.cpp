@@ -54,8 +54,8 @@ class Maker {
       spec.payload.emplace_back(robot::camera_payload);
       simulated->robots.push_back(spec.id);
       add(std::move(spec), simulated->run->connect(i));
-      robots_.back().eyes = [in = simulated->building.get(), i](LookingChild& child) {
-        return simulated_eyes(*in, i, child);
+      robots_.back().eyes = [this_loop = &loop_, in = simulated->building.get(), i](LookingChild& child) {
+        return simulated_eyes(*this_loop, *in, i, child);
       };
     }
     buildings_.push_back(std::move(simulated));

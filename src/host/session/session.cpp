@@ -348,6 +348,7 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
   if (!opened) return std::unexpected(opened.error());
   map = std::move(*opened);
   robots.set_communication([this] { return is_an_operator_there() ? robot::code::none : robot::code::operator_away; });
+  robots.set_map_keeping([this] { return !station_map || station_map->store().health().is_writing; });
   tell_where_the_map_is(access, map->port(), *token);
   if (!std::filesystem::exists(home_directory() / "web/dist/index.html")) {
     log.warn("the browser app is not built, so the map shows nothing: ./lapwing build builds it");

@@ -65,7 +65,8 @@ Robot::Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundin
                .body = *body_,
                .name = spec_.name,
                .log = around_.log,
-               .communication = around_.communication}),
+               .communication = around_.communication,
+               .points_of_interest = around_.points_of_interest}),
       scanned_(around_.loop),
       planned_(around_.loop),
       changed_(around_.loop),
@@ -188,7 +189,8 @@ std::uint16_t Robot::mapping_code() const {
   auto const now = around_.loop.now();
   if (is_pose_lost_) return code::pose_lost;
   if (!scanned_at_ || now - *scanned_at_ >= scan_is_old) return code::no_scans;
-  return left_out_at_ && now - *left_out_at_ < left_out_lately ? code::mapping_slow : code::none;
+  if (left_out_at_ && now - *left_out_at_ < left_out_lately) return code::mapping_slow;
+  return around_.is_map_kept && !around_.is_map_kept() ? code::map_not_saved : code::none;
 }
 
 void Robot::use(PlanResult result) {

@@ -83,6 +83,10 @@ class Robot {
     OnWalls on_walls;
     /// What is wrong with the way to the operators, of watch/codes.hpp; nothing where there is none to be watched.
     std::function<std::optional<std::uint16_t>()> communication;
+    /// What is wrong with its eyes, likewise; nothing where it has none, and while they do not answer.
+    std::function<std::optional<std::uint16_t>()> points_of_interest;
+    /// Whether what it maps is kept on the disk; empty: nobody keeps it.
+    std::function<bool()> is_map_kept;
     base::Logger log;
   };
   Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundings);

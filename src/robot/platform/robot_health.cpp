@@ -31,9 +31,14 @@ base::Task<> RobotHealth::beat() {
     report_carrier();
     for (auto const module : {Module::mapping, Module::planner})
       if (auto const& mine = own(module); !mine.is_at_work) report(module, mine.state, mine.code);
-    if (!around_.communication) continue;
-    if (auto const code = around_.communication()) report(Module::communication, ModuleState::ready, *code);
+    report_if_it_speaks(Module::communication, around_.communication);
+    report_if_it_speaks(Module::points_of_interest, around_.points_of_interest);
   }
+}
+
+void RobotHealth::report_if_it_speaks(Module module, std::function<std::optional<std::uint16_t>()> const& code) {
+  if (!code) return;
+  if (auto const said = code()) report(module, ModuleState::ready, *said);
 }
 
 void RobotHealth::report_carrier() {

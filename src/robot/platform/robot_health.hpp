@@ -29,6 +29,8 @@ class RobotHealth {
     base::Logger log;
     /// What is wrong with the way to the operators; nothing where there is none to be watched.
     std::function<std::optional<std::uint16_t>()> communication;
+    /// What is wrong with its eyes; nothing where it has none, and while they do not answer.
+    std::function<std::optional<std::uint16_t>()> points_of_interest;
   };
   explicit RobotHealth(Surroundings surroundings);
   RobotHealth(RobotHealth const&) = delete;
@@ -58,6 +60,7 @@ class RobotHealth {
   [[nodiscard]] Own& own(Module module) { return module == Module::mapping ? mapping_ : planner_; }
   base::Task<> beat();
   void report_carrier();
+  void report_if_it_speaks(Module module, std::function<std::optional<std::uint16_t>()> const& code);
   void report(Module module, ModuleState state, std::uint16_t code);
 
   Surroundings around_;

@@ -153,6 +153,39 @@ TEST_F(RobotHealthTest, AnOutageOfTheOperatorsLinkStopsNothing) {
   EXPECT_EQ(shown("CM").state, vehicle::ModuleState::silent);
 }
 
+TEST_F(RobotHealthTest, EyesThatFailOrHangAreSaidAndStopNothing) {
+  std::optional<std::uint16_t> trouble = code::none;
+  Eyes eyes;
+  eyes.trouble = [&trouble] { return trouble; };
+  platform.open_eyes(*robot, std::move(eyes));
+  run_for(1s);
+  EXPECT_EQ(shown("POI").state, vehicle::ModuleState::ready);
+  EXPECT_FALSE(shown("POI").error);
+  EXPECT_FALSE(shown("POI").is_required);
+  trouble = code::eyes_away;
+  EXPECT_TRUE(drives_on());
+  ASSERT_TRUE(shown("POI").error);
+  EXPECT_EQ(shown("POI").error->code, 504);
+  trouble.reset();
+  EXPECT_TRUE(drives_on());
+  EXPECT_EQ(shown("POI").state, vehicle::ModuleState::silent);
+  EXPECT_TRUE(shown().may_move);
+}
+
+TEST_F(RobotHealthTest, AMapThatIsNotKeptIsSaidByMappingAndStopsNothing) {
+  bool is_kept = true;
+  platform.set_map_keeping([&is_kept] { return is_kept; });
+  run_for(1s);
+  EXPECT_FALSE(shown("MMU").error);
+  is_kept = false;
+  EXPECT_TRUE(drives_on());
+  ASSERT_TRUE(shown("MMU").error);
+  EXPECT_EQ(shown("MMU").error->code, code::map_not_saved);
+  is_kept = true;
+  EXPECT_TRUE(drives_on());
+  EXPECT_FALSE(shown("MMU").error);
+}
+
 TEST_F(RobotHealthTest, AfterAKillItStandsUntilAnOperatorRestartsItAndAllAreWell) {
   command(vehicle::Action::disarm);
   EXPECT_TRUE(stands());

@@ -114,6 +114,8 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
         if (!communication_) return std::nullopt;
         return communication_();
       },
+      .points_of_interest = [this, id = spec.id] { return trouble_of_eyes({id}); },
+      .is_map_kept = [this] { return !is_map_kept_ || is_map_kept_(); },
       .log = log_};
   forget_walls(spec);
   robots_.push_back(std::make_unique<Robot>(std::move(spec), std::move(body), std::move(around)));
@@ -134,6 +136,12 @@ void RobotPlatform::open_eyes(Robot const& robot, Eyes eyes) {
   sight.tags =
       std::make_unique<TagFinder>(around_.loop, around_.registry, around_.live_map,
                                   TagFinder::Setup{.vehicle = spec.id, .grid = spec.name, .eyes = sight.eyes}, log_);
+}
+
+std::optional<std::uint16_t> RobotPlatform::trouble_of_eyes(VehicleId const& id) const {
+  auto const found = sights_.find(id);
+  if (found == sights_.end() || !found->second.eyes.trouble) return std::nullopt;
+  return found->second.eyes.trouble();
 }
 
 TagFinder const* RobotPlatform::tags_of(VehicleId const& id) const {

@@ -63,6 +63,8 @@ class RobotPlatform final : public tasks::Platform {
   /// How the way to the operators is, for the robots' communication module: gives what is wrong with it, of
   /// watch/codes.hpp. Without this nobody says anything of it. An outage of it stops nothing.
   void set_communication(std::function<std::uint16_t()> code) { communication_ = std::move(code); }
+  /// Whether what goes onto the map is kept on the disk, for the robots' mapping. Without this nobody asks.
+  void set_map_keeping(std::function<bool()> is_kept) { is_map_kept_ = std::move(is_kept); }
   /// Of all robots; `settle` waits until they stand.
   void end_drives(std::string const& reason);
 
@@ -75,6 +77,7 @@ class RobotPlatform final : public tasks::Platform {
   /// Of a robot that maps anew, so that what it found another time does not lie among what it finds now.
   void forget_walls(RobotSpec const& spec);
   [[nodiscard]] base::Task<base::Result<std::string>> photograph(vehicle::VehicleId id);
+  [[nodiscard]] std::optional<std::uint16_t> trouble_of_eyes(vehicle::VehicleId const& id) const;
   base::Task<> pass_on(Robot& robot);
   base::Task<> pass_on_membership();
 
@@ -82,6 +85,7 @@ class RobotPlatform final : public tasks::Platform {
   base::Logger log_;
   tasks::Vocabulary vocabulary_;
   std::function<std::uint16_t()> communication_;
+  std::function<bool()> is_map_kept_;
   base::Notifier vehicles_changed_;
   base::Notifier settled_;
   struct Sight {

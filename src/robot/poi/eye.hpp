@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -50,6 +51,8 @@ struct Photographer {
 struct Eyes {
   std::vector<Eye> for_tags = {};  ///< that look for name tags
   std::optional<Photographer> photographer = {};
+  /// What is wrong with them, of watch/codes.hpp; nothing while they do not answer. Empty: nobody knows.
+  std::function<std::optional<std::uint16_t>()> trouble = {};
   /// Keeps a JPEG file and says by which hash the map finds it. Errors: why it is not kept.
   std::function<base::Task<base::Result<std::string>>(std::string jpeg)> keep = {};
 };

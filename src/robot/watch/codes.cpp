@@ -73,6 +73,9 @@ auto constexpr table = std::to_array<CodeEntry>({
      "More light, or a slower drive past doors; clean the lens."},
     {code::no_reader, Module::points_of_interest, notice,
      "Nothing is installed that reads signs; doors have no numbers.", "lapwing doctor says what is missing."},
+    {code::eyes_away, Module::points_of_interest, degraded,
+     "The program that looks at pictures is gone; doors are not looked for.",
+     "Nothing: it is started anew by itself. If it stays away, see the log."},
 
     {code::operator_away, Module::communication, notice,
      "The operator is not connected; what is said is kept for later.",
@@ -125,7 +128,7 @@ std::string code_page() {
       "([guide](../guide/robots.md#whether-it-is-well)). This page is made from `src/robot/watch/codes.cpp`, which "
       "both "
       "speak from as well.\n"
-      "Nothing says 304, 402, 403, 501 to 503, 602, 701 and 801 yet.\n";
+      "Nothing says 402, 403, 502, 602, 701 and 801 yet.\n";
   std::optional<Module> module;
   for (auto const& entry : table) {
     if (module != entry.module) {

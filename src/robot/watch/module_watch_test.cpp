@@ -1,5 +1,6 @@
 #include "robot/watch/module_watch.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -150,10 +151,15 @@ TEST(Codes, EachHasOneNumberInTheHundredOfItsModuleAndSaysWhatToDo) {
 
 TEST(Codes, ThePageIsWhatTheTableSays) {
   std::string const path = LAPWING_SOURCE_DIR "/docs/reference/robot-errors.md";
-  if (std::getenv("LAPWING_REFRESH_GOLDEN") != nullptr) std::ofstream(path) << code_page();
-  std::ifstream page(path);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(page), {}), code_page())
-      << "LAPWING_REFRESH_GOLDEN=1 before this test writes " << path;
+  std::string page;
+  {
+    std::ifstream file(path);
+    page.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  // What follows is written by hand: which faults were tried, and what the robot does then.
+  auto const by_hand = std::min(page.find("\n## What breaks"), page.size());
+  if (std::getenv("LAPWING_REFRESH_GOLDEN") != nullptr) std::ofstream(path) << code_page() << page.substr(by_hand);
+  EXPECT_EQ(page.substr(0, by_hand), code_page()) << "LAPWING_REFRESH_GOLDEN=1 before this test writes " << path;
 }
 
 TEST(SelfReport, TellsTheWorstOfTheCarrier) {

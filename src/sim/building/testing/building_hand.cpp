@@ -1,7 +1,9 @@
 // Looks at a building file: usage: building_hand picture FILE X Y YAW_DEG OUT.ppm [WIDTH]
 //                                 building_hand speed FILE SECONDS [PICTURES_PER_S]
+//                                 building_hand serve FILE URL
 // `picture` is what a robot's camera sees from there. `speed` tells how many seconds are simulated in one; the robot
-// turns on the spot meanwhile.
+// turns on the spot meanwhile. `serve` gives its board's line at the URL, for programs that take it for a real one;
+// what can be broken meanwhile is in served_building.hpp.
 
 #include <chrono>
 #include <cmath>
@@ -17,6 +19,7 @@
 #include "firmware/frames/codec.hpp"
 #include "sim/building/building.hpp"
 #include "sim/building/plan/building_file.hpp"
+#include "sim/building/testing/served_building.hpp"
 
 namespace lapwing::sim::building {
 namespace {
@@ -88,6 +91,15 @@ int speed(std::vector<std::string> const& words) {
   return 0;
 }
 
+int serve(std::vector<std::string> const& words) {
+  auto const url = link::parse_url(words[2]);
+  if (!url) {
+    fmt::print(stderr, "{}; {}\n", url.error().message, url.error().hint);
+    return 2;
+  }
+  return testing::serve(*open(words[1], {.seed = 1, .robots = 1}), *url);
+}
+
 }  // namespace
 }  // namespace lapwing::sim::building
 
@@ -95,7 +107,9 @@ int main(int count, char** arguments) {
   std::vector<std::string> const words(arguments + 1, arguments + count);
   if (words.size() >= 6 && words[0] == "picture") return lapwing::sim::building::picture(words);
   if (words.size() >= 3 && words[0] == "speed") return lapwing::sim::building::speed(words);
+  if (words.size() == 3 && words[0] == "serve") return lapwing::sim::building::serve(words);
   fmt::print(stderr,
-             "usage: building_hand picture FILE X Y YAW_DEG OUT.ppm [WIDTH] | speed FILE SECONDS [PICTURES_PER_S]\n");
+             "usage: building_hand picture FILE X Y YAW_DEG OUT.ppm [WIDTH] | speed FILE SECONDS [PICTURES_PER_S] | "
+             "serve FILE URL\n");
   return 2;
 }
