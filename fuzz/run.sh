@@ -53,6 +53,7 @@ case $target in
     ;;
   look)
     printf '\004{"look":"signs","width":2,"height":1,"bytes":6}\nrgbrgb{"look":"signs","bytes":3}\njpg' | seed requests
+    printf '\040{"look":"shot","source":"/dev/video0","wanted_width":960,"wanted_height":720}\n{"width":2,"height":1,"bytes":6}\nrgbrgb' | seed shot
     printf '\377{"signs":[{"box":[1,2,3,4],"score":0.5,"text":"221","kind":"office","crop_bytes":4}],"is_sharp":true,"bytes":4}\ncrop{"error":"it is black"}\n{"width":9,"height":9,"jpeg_bytes":3,"bytes":5}\nallsm' | seed answers
     ;;
   overlook)

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/eyes/photograph_look.hpp"
+#include "host/eyes/shot_look.hpp"
 #include "host/eyes/sign_look.hpp"
 #include "require.hpp"
 
@@ -34,6 +35,15 @@ void read_photograph(LookFrame const& frame) {
   if (!picture) return fuzz::require(!picture.error().message.empty());
   auto const again = photograph_in(photograph_answer(*picture));
   fuzz::require(again && again->jpeg == picture->jpeg && again->thumbnail == picture->thumbnail);
+}
+
+void read_shot(LookFrame const& frame) {
+  auto const question = shot_question_in(frame);
+  fuzz::require(question ? shot_question_in(shot_request(*question)) == *question : !question.error().message.empty());
+  auto const picture = shot_in(frame);
+  if (!picture) return fuzz::require(!picture.error().message.empty());
+  auto const again = shot_in(shot_answer(*picture));
+  fuzz::require(again && again->bytes == picture->bytes && again->width == picture->width);
 }
 
 void read_answer(LookFrame const& frame) {
@@ -65,6 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
       require_same_frame(**frame);
       read_answer(**frame);
       read_photograph(**frame);
+      read_shot(**frame);
       read_request(**frame);
     }
   }

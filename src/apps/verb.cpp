@@ -38,6 +38,7 @@ constexpr std::array table{
     Verb{"detect", "What is in pictures: doors and their signs; from above cars and parking slots", eyes},
     Verb{"look", "What is in pictures on standard input, as run, demo and station start it", eyes},
     Verb{"overlook", "A simulated car park seen from above, as run and demo start it", seeing},
+    Verb{"shoot", "Pictures of a robot's camera, as run and station start it", seeing},
     Verb{"basemap", "Make map tiles of a picture that knows where it lies, such as a GeoTIFF", maps},
     Verb{"param", "Parameters of vehicles: list, get, set, save, load, compare, copy", vehicles},
     Verb{"signing", "Keys that sign MAVLink: new, setup, rotate, off, drop, show", vehicles},

@@ -35,6 +35,7 @@ void add_onboard(CLI::App& program, int& exit_code);
 
 // Those of lapwing-perceive:
 void add_overlook(CLI::App& program, int& exit_code);
+void add_shoot(CLI::App& program, int& exit_code);
 void add_perceive(CLI::App& program, int& exit_code);
 
 // That of lapwing-stream:

@@ -4,6 +4,6 @@
 
 int main(int argc, char** argv) {
   using namespace lapwing::apps;
-  OwnVerb const own[] = {{"perceive", add_perceive}, {"overlook", add_overlook}};
+  OwnVerb const own[] = {{"perceive", add_perceive}, {"overlook", add_overlook}, {"shoot", add_shoot}};
   return run_program("lapwing-perceive", own, argc, argv);
 }

@@ -9,6 +9,7 @@
 #include "host/files/key_file.hpp"
 #include "host/plausibility/options.hpp"
 #include "host/robots/old_parts.hpp"
+#include "host/robots/robot_cameras.hpp"
 #include "host/robots/robot_spec.hpp"
 #include "host/session/session.hpp"
 #include "host/session/signals.hpp"
@@ -24,6 +25,7 @@ struct StationArguments {
   std::string config;
   std::vector<std::string> links;
   std::vector<std::string> robots;
+  std::optional<std::string> robot_cameras;
   std::vector<std::string> old_parts;
   std::vector<std::string> survey;
   std::vector<std::string> payload;
@@ -79,6 +81,7 @@ base::Result<host::StationConfig> settings_of(StationArguments const& arguments)
   if (!config) return config;
   if (!arguments.links.empty()) config->links = arguments.links;
   if (!arguments.robots.empty()) config->robots = arguments.robots;
+  if (arguments.robot_cameras) config->robot_cameras = *arguments.robot_cameras;
   if (!arguments.old_parts.empty()) config->old_parts = arguments.old_parts;
   if (auto added = host::add_survey_links(arguments.survey, config->survey); !added)
     return std::unexpected(added.error());
@@ -122,13 +125,16 @@ int serve(StationArguments const& arguments) {
   if (!plans) return host::refuse(plans.error());
   auto const signing = host::read_signing(config->signing_key);
   if (!signing) return host::refuse(signing.error());
+  auto cameras = host::load_robot_cameras(config->robot_cameras);
+  if (!cameras) return host::refuse(cameras.error());
   host::Session session({.on_stop = config->on_stop,
                          .emergency_action = config->emergency_action,
                          .battery_limits = config->battery_limits,
                          .plans = *std::move(plans),
                          .payload = config->payload,
                          .plausibility = config->plausibility,
-                         .signing = *signing});
+                         .signing = *signing,
+                         .robot_cameras = *std::move(cameras)});
   if (!config->record.empty()) {
     if (auto begun = session.record(config->record); !begun) return host::refuse(begun.error());
   }
@@ -161,6 +167,7 @@ void add_station(CLI::App& program, int& exit_code) {
   verb->add_option("--link", arguments->links,
                    "Where vehicles are (may be repeated); default " + std::string(host::default_link));
   verb->add_option("--robot", arguments->robots, host::robot_help)->allow_extra_args(false);
+  verb->add_option("--robot-cameras", arguments->robot_cameras, host::robot_cameras_help);
   verb->add_option("--old-parts", arguments->old_parts, host::old_parts_help)->allow_extra_args(false);
   verb->add_option("--survey", arguments->survey, host::survey_help)->allow_extra_args(false);
   verb->add_option("--forward", arguments->forward, host::forward_help);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/eyes/camera_sources.hpp"
 #include "host/eyes/simulated_eyes.hpp"
 #include "host/files/files.hpp"
 #include "robot/platform/linked_body.hpp"
@@ -33,8 +34,15 @@ double side_around(building::Pose const& start, building::BuildingPlan const& pl
 class Maker {
  public:
   Maker(base::Loop& loop, std::string site, geo::Wgs84 const& anchor, std::uint64_t seed,
-        std::vector<std::unique_ptr<SimulatedBuilding>>& buildings, base::Logger const& log)
-      : loop_(loop), site_(std::move(site)), anchor_(anchor), seed_(seed), buildings_(buildings), log_(log) {}
+        CamerasOfRobots const& cameras, std::vector<std::unique_ptr<SimulatedBuilding>>& buildings,
+        base::Logger const& log)
+      : loop_(loop),
+        site_(std::move(site)),
+        anchor_(anchor),
+        seed_(seed),
+        cameras_(cameras),
+        buildings_(buildings),
+        log_(log) {}
 
   base::Result<> operator()(SimulatedRobots const& request) {
     auto text = read_script(request.file);
@@ -66,7 +74,7 @@ class Maker {
     auto link = link::open(loop_, request.url);
     if (!link) return std::unexpected(link.error());
     add(next_spec(request.start), *std::move(link));
-    return {};
+    return add_cameras({});
   }
 
   base::Result<> operator()(RosRobot const& request) {
@@ -76,12 +84,26 @@ class Maker {
         log_.named(spec.id));
     if (!body) return std::unexpected(body.error());
     robots_.push_back({.spec = std::move(spec), .body = *std::move(body), .anchor = anchor_});
-    return {};
+    return add_cameras(
+        [this, request] { return bus::Bus::open(loop_, {.domain = request.domain, .is_local = request.is_local}); });
   }
 
   [[nodiscard]] std::vector<RobotToAdd> take() { return std::move(robots_); }
 
  private:
+  /// Of the robot that was added last.
+  base::Result<> add_cameras(OpenBus const& open_bus) {
+    auto& robot = robots_.back();
+    auto const log = log_.named(robot.spec.id);
+    auto sources = camera_sources(loop_, cameras_.cameras, robot.spec.id, cameras_.shooter, open_bus, log);
+    if (!sources) return std::unexpected(sources.error());
+    if (sources->for_tags.empty()) return {};
+    robot.spec.payload.emplace_back(robot::camera_payload);
+    robot.eyes = [loop = &loop_, sources = *std::move(sources)](LookingChild& child) {
+      return eyes_with(*loop, sources.for_tags, sources.ahead, child);
+    };
+    return {};
+  }
   [[nodiscard]] robot::RobotSpec next_spec(geo::Pose<geo::SiteFrame> const& start) const {
     robot::RobotSpec spec;
     spec.id = fmt::format("robot{}", robots_.size() + 1);
@@ -110,10 +132,28 @@ class Maker {
   std::string site_;
   geo::Wgs84 anchor_;
   std::uint64_t seed_;
+  CamerasOfRobots const& cameras_;
   std::vector<std::unique_ptr<SimulatedBuilding>>& buildings_;
   base::Logger const& log_;
   std::vector<RobotToAdd> robots_;
 };
+
+/// A camera whose robot is not there, or sees otherwise, would be forgotten without a word.
+base::Result<> check_cameras(std::vector<RobotCamera> const& cameras, std::vector<RobotToAdd> const& robots,
+                             std::vector<std::unique_ptr<SimulatedBuilding>> const& buildings) {
+  for (auto const& camera : cameras) {
+    auto const is_its = [&](RobotToAdd const& robot) { return robot.spec.id == camera.robot; };
+    if (std::ranges::none_of(robots, is_its))
+      return base::fail(base::ErrorKind::invalid_input,
+                        fmt::format("there is no robot '{}' for the camera {}", camera.robot, camera.from),
+                        "robots are called robot1, robot2 and so on, in the order in which they are named");
+    if (collisions_of(buildings, camera.robot))
+      return base::fail(base::ErrorKind::invalid_input,
+                        fmt::format("{} is simulated and has its own cameras", camera.robot),
+                        fmt::format("leave the camera {} out", camera.from));
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -130,15 +170,18 @@ std::optional<int> collisions_of(std::vector<std::unique_ptr<SimulatedBuilding>>
 
 base::Result<std::vector<RobotToAdd>> make_robots(base::Loop& loop, std::vector<std::string> const& requests,
                                                   std::string const& site, geo::Wgs84 const& anchor, std::uint64_t seed,
+                                                  CamerasOfRobots const& cameras,
                                                   std::vector<std::unique_ptr<SimulatedBuilding>>& buildings,
                                                   base::Logger const& log) {
-  Maker maker(loop, site, anchor, seed, buildings, log);
+  Maker maker(loop, site, anchor, seed, cameras, buildings, log);
   for (auto const& text : requests) {
     auto const request = parse_robot(text);
     if (!request) return std::unexpected(request.error());
     if (auto made = std::visit(maker, *request); !made) return std::unexpected(made.error());
   }
-  return maker.take();
+  auto made = maker.take();
+  if (auto fits = check_cameras(cameras.cameras, made, buildings); !fits) return std::unexpected(fits.error());
+  return made;
 }
 
 }  // namespace lapwing::host

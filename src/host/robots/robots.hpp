@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/eyes/looking_child.hpp"
+#include "host/robots/robot_cameras.hpp"
 #include "host/robots/robot_spec.hpp"
 #include "robot/platform/robot_platform.hpp"
 #include "robot/poi/eye.hpp"
@@ -34,11 +35,19 @@ struct RobotToAdd {
   std::function<robot::Eyes(LookingChild&)> eyes = {};  ///< empty: it has no cameras; the child outlives them
 };
 
+/// The cameras of robots that are no simulated ones, and the program that takes their pictures.
+struct CamerasOfRobots {
+  std::vector<RobotCamera> cameras = {};
+  LookingChild::Settings shooter = {};
+};
+
 /// The robots of some requests, called robot1, robot2 and so on, in the site `site` at `anchor`. Where a building says
 /// where it is on the globe, its robots are placed by that. `buildings` gets the simulated ones and outlives the
-/// robots. Errors: those of reading and making a building, and of opening a link.
+/// robots. Errors: those of reading and making a building, and of opening a link; invalid_input for a camera of a robot
+/// that there is not, or is simulated, and has its own.
 [[nodiscard]] base::Result<std::vector<RobotToAdd>> make_robots(
     base::Loop& loop, std::vector<std::string> const& requests, std::string const& site, geo::Wgs84 const& anchor,
-    std::uint64_t seed, std::vector<std::unique_ptr<SimulatedBuilding>>& buildings, base::Logger const& log);
+    std::uint64_t seed, CamerasOfRobots const& cameras, std::vector<std::unique_ptr<SimulatedBuilding>>& buildings,
+    base::Logger const& log);
 
 }  // namespace lapwing::host

@@ -1,11 +1,14 @@
 #include "host/session/session.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/assert.hpp"
+#include "base/async/pool.hpp"
+#include "base/files/replace_file.hpp"
 #include "host/files/files.hpp"
 #include "host/robots/old_parts.hpp"
 #include "host/robots/robots_feed.hpp"
@@ -88,6 +91,14 @@ std::optional<RobotReport> robot_report(robot::RobotPlatform const& robots, vehi
   return report;
 }
 
+base::Result<> put_into_folder(std::string path, std::string content) {
+  std::error_code error;
+  auto const folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", folder.string(), error.message()));
+  return base::replace_file(path, content);
+}
+
 /// What a service prints lies in its journal: a token that has a file of its own stays there.
 void tell_where_the_map_is(WebAccess const& access, int port, std::string const& token) {
   bool const is_in_file = !access.token_file.empty();
@@ -137,6 +148,9 @@ Session::Session(Options const& options)
       emergency_action_(options.emergency_action),
       interrupted_(loop),
       events_(options.events),
+      cameras_{.cameras = options.robot_cameras,
+               .shooter = looking_settings(LookingChild::program_beside_us("lapwing-perceive", "shoot"), true)},
+      pictures_(options.pictures),
       is_real_time_(options.speedup == 1.0),
       seed_(options.seed.value_or(1)) {
   hub.add_sink(terminal_sink(options.log_level));
@@ -166,7 +180,7 @@ base::Result<> Session::join(std::string const& name, Joined const& joined) {
 base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo::Wgs84 const& anchor) {
   if (requests.empty()) return {};
   auto const* known = live_map.site("default");
-  auto made = make_robots(loop, requests, "default", known ? known->anchor() : anchor, seed_, buildings, log);
+  auto made = make_robots(loop, requests, "default", known ? known->anchor() : anchor, seed_, cameras_, buildings, log);
   if (!made) return std::unexpected(made.error());
   all_control.add("robots", robot_control);
   for (auto& robot : *made) {
@@ -184,6 +198,10 @@ base::Result<> Session::add_robots(std::vector<std::string> const& requests, geo
     }
     auto eyes = robot.eyes(*looking);
     eyes.keep = [this](std::string jpeg) { return keep_picture(std::move(jpeg)); };
+    if (!pictures_.empty())
+      eyes.write_file = [this](std::string name, std::string jpeg) {
+        return write_picture(std::move(name), std::move(jpeg));
+      };
     robots.open_eyes(**added, std::move(eyes));
   }
   return {};
@@ -220,6 +238,15 @@ base::Task<base::Result<std::string>> Session::keep_picture(std::string jpeg) {
   if (!station_map) co_return base::fail(base::ErrorKind::refused, "there is no map that is kept");
   auto keeping = station_map->store().keep(std::move(jpeg), "image/jpeg");
   co_return co_await std::move(keeping);
+}
+
+/// Beside the loop, since a disk may take its time and a robot drives on its readings.
+base::Task<base::Result<std::string>> Session::write_picture(std::string name, std::string jpeg) {
+  std::ranges::replace(name, ':', '-');
+  auto path = pictures_ / name;
+  auto const written = co_await loop.on_pool(&put_into_folder, path.string(), std::move(jpeg));
+  if (!written) co_return std::unexpected(written.error());
+  co_return path.string();
 }
 
 base::Result<> Session::open_survey(std::vector<SurveyLink> links) {

@@ -60,7 +60,9 @@ class Session {
     std::optional<std::uint64_t> seed = std::nullopt;
     std::optional<base::UtcTime> begins_at = std::nullopt;  ///< what the calendar shows at the start; empty: the wall's
     SigningSetup signing = {};
-    bool listens_only = false;  ///< asks vehicles for nothing
+    bool listens_only = false;                    ///< asks vehicles for nothing
+    std::vector<RobotCamera> robot_cameras = {};  ///< of robots that are no simulated ones
+    std::filesystem::path pictures = {};          ///< folder for robots' photographs where no map is kept; empty: none
   };
   explicit Session(Options const& options);
 
@@ -150,6 +152,7 @@ class Session {
 
  private:
   [[nodiscard]] base::Task<base::Result<std::string>> keep_picture(std::string jpeg);
+  [[nodiscard]] base::Task<base::Result<std::string>> write_picture(std::string name, std::string jpeg);
   base::Task<> finish(std::optional<base::Duration> timeout);
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();
@@ -162,6 +165,8 @@ class Session {
   vehicle::StopAction emergency_action_;
   base::Notifier interrupted_;  ///< by Ctrl-C
   EventFile const* events_;
+  CamerasOfRobots cameras_;
+  std::filesystem::path pictures_;
   bool is_real_time_;                  ///< time does not wait for what is worked out beside the loop
   std::optional<LotScore> lot_score_;  ///< once the script has ended
   std::string record_folder_;

@@ -182,6 +182,7 @@ StationConfig read_station_config(base::SourceFile const& source, Diagnostics& d
   read_links(root, diagnostics, config);
   read_robots(root, diagnostics, config);
   read_old_parts(root, diagnostics, config);
+  if (auto const file = root.text("robot_cameras")) config.robot_cameras = beside(source, file->value).string();
   for (auto& table : root.tables("survey")) config.survey.push_back(read_survey(table, source, diagnostics));
   read_payload(root, diagnostics, config);
   read_on_stop(root, diagnostics, config);

@@ -40,6 +40,7 @@ struct MapContent {
 struct StationConfig {
   std::vector<std::string> links;           ///< empty: the default link
   std::vector<std::string> robots = {};     ///< as `--robot` names them
+  std::string robot_cameras = {};           ///< file with the cameras of robots; empty: none
   std::vector<std::string> old_parts = {};  ///< as `--old-parts` names them
   std::vector<SurveyLink> survey = {};      ///< survey drones
   Equipment payload;

@@ -160,6 +160,12 @@ base::Task<base::Result<std::string>> RobotPlatform::photograph(VehicleId id) {
   auto taking = eyes.photographer->take();
   auto const photograph = co_await std::move(taking);
   if (!photograph) co_return std::unexpected(photograph.error());
+  if (eyes.write_file) {
+    auto name = fmt::format("{}_{}.jpg", id.text, base::to_iso8601(taken_at));
+    auto writing = eyes.write_file(std::move(name), photograph->jpeg);
+    auto const path = co_await std::move(writing);
+    co_return path ? fmt::format("it is in {}", *path) : fmt::format("it is not kept: {}", path.error().message);
+  }
   auto picture = placed_picture(eyes.photographer->mount, *pose);
   picture.width_px = photograph->width_px;
   picture.height_px = photograph->height_px;

@@ -55,6 +55,9 @@ struct Eyes {
   std::function<std::optional<std::uint16_t>()> trouble = {};
   /// Keeps a JPEG file and says by which hash the map finds it. Errors: why it is not kept.
   std::function<base::Task<base::Result<std::string>>(std::string jpeg)> keep = {};
+  /// Where no map is kept: writes a photograph into a file, from whose name whoever reads it sees what took it and
+  /// when, and says its path. Empty: photographs are kept by `keep`. Errors: why it is not written.
+  std::function<base::Task<base::Result<std::string>>(std::string name, std::string jpeg)> write_file = {};
 };
 
 }  // namespace lapwing::robot

@@ -31,7 +31,8 @@ if not (here / "lapwing-vision").exists():
 def robot_of(folder: pathlib.Path, script: str) -> tuple[dict, str, str]:
     (folder / "find.dolphin").write_text(script)
     report = folder / "report.json"
-    out, err = harness.expect_exit(0, "run", "--robot", f"sim:{building}", "--seed", "1", "--report", str(report), str(folder / "find.dolphin"),
+    out, err = harness.expect_exit(0, "run", "--robot", f"sim:{building}", "--seed", "1", "--report", str(report), "--pictures",
+                                   str(folder / "pictures"), str(folder / "find.dolphin"),
                                    seconds=200)
     return json.loads(report.read_text())["vehicles"][0]["robot"], out, err
 
@@ -44,6 +45,8 @@ with tempfile.TemporaryDirectory() as name:
     assert {"220", "221"} <= numbers <= {"220", "221", "222", "223"}, robot
     assert robot["drives"][0]["outcome"] == "done" and robot["collisions"] == 0, robot
     assert f"{robot['doors']} doors" in out, out
+    photograph = pathlib.Path(robot["drives"][0]["remark"].rpartition("photograph: it is in ")[2])
+    assert photograph.parent == folder / "pictures" and photograph.read_bytes().startswith(b"\xff\xd8"), robot["drives"]
 
     first = robot_of(folder, TWO)
     assert first[0]["doors"] == 2, first

@@ -113,7 +113,8 @@ base::Result<> DryRun::add_robots(std::vector<std::string> const& requests) {
                         "give the building that it is in: --robot sim:BUILDING.toml");
   }
   if (requests.empty()) return {};
-  auto made = host::make_robots(loop_, requests, "default", options_.world.home, options_.world.seed, buildings_, log_);
+  auto made =
+      host::make_robots(loop_, requests, "default", options_.world.home, options_.world.seed, {}, buildings_, log_);
   if (!made) return std::unexpected(made.error());
   auto site = geo::Site::make("default", options_.world.home);
   if (!site) return std::unexpected(site.error());

@@ -13,6 +13,7 @@
 #include "host/links/equipment.hpp"
 #include "host/plausibility/options.hpp"
 #include "host/robots/old_parts.hpp"
+#include "host/robots/robot_cameras.hpp"
 #include "host/session/session.hpp"
 #include "host/simulation/simulated_fleet.hpp"
 #include "host/simulation/simulation.hpp"
@@ -45,6 +46,8 @@ struct RunOptions {
   std::vector<std::string> robots;
   std::vector<std::string> old_parts;
   std::vector<std::string> survey;
+  std::string robot_cameras;
+  std::string pictures = "pictures";
   std::string car_park;
   std::optional<double> swap_batteries_s;
   host::PlausibilityArguments plausibility;
@@ -155,6 +158,8 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
   auto const signing = host::read_signing(options.signing_key);
   if (!signing) return host::refuse(signing.error());
   if (world) world->keys = signing->ring;
+  auto cameras = host::load_robot_cameras(options.robot_cameras);
+  if (!cameras) return host::refuse(cameras.error());
   host::Session session({.speedup = options.speedup.value_or(is_all_simulated(options) ? 0.0 : 1.0),
                          .on_stop = *on_stop,
                          .plans = std::move(plans),
@@ -162,7 +167,9 @@ int run_on_vehicles(RunOptions const& options, std::vector<host::ScriptText> con
                          .plausibility = *std::move(plausibility),
                          .events = &events,
                          .seed = options.seed,
-                         .signing = *signing});
+                         .signing = *signing,
+                         .robot_cameras = *std::move(cameras),
+                         .pictures = options.pictures});
   if (!options.record.empty()) {
     if (auto begun = session.record(options.record); !begun) return host::refuse(begun.error());
   }
@@ -238,6 +245,8 @@ void add_vehicle_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--forward", options.forward, host::forward_help)->allow_extra_args(false);
   verb.add_option("--sim", options.simulated, "Simulated vehicles instead, e.g. copter:2,rover:1");
   verb.add_option("--robot", options.robots, host::robot_help)->allow_extra_args(false);
+  verb.add_option("--robot-cameras", options.robot_cameras, host::robot_cameras_help);
+  verb.add_option("--pictures", options.pictures, "Folder for what robots photograph")->capture_default_str();
   verb.add_option("--old-parts", options.old_parts, host::old_parts_help)->allow_extra_args(false);
   verb.add_option("--car-park", options.car_park, host::car_park_help);
   verb.add_option("--survey", options.survey,
