@@ -19,7 +19,7 @@ os.environ["CYCLONEDDS_URI"] = f"file://{_file.name}"
 from cyclonedds.core import Policy, Qos  # noqa: E402  (reads its configuration when it is imported)
 from cyclonedds.domain import DomainParticipant  # noqa: E402
 from cyclonedds.idl import IdlStruct  # noqa: E402
-from cyclonedds.idl.types import array, float32, float64, int32, sequence, uint32  # noqa: E402
+from cyclonedds.idl.types import array, float32, float64, int32, sequence, uint8, uint32  # noqa: E402
 from cyclonedds.pub import DataWriter  # noqa: E402
 from cyclonedds.sub import DataReader  # noqa: E402
 from cyclonedds.topic import Topic  # noqa: E402
@@ -129,6 +129,13 @@ class LaserScan(IdlStruct, **message("sensor_msgs", "LaserScan")):
     intensities: sequence[float32]
 
 
+@dataclass
+class CompressedImage(IdlStruct, **message("sensor_msgs", "CompressedImage")):
+    header: Header
+    format: str
+    data: sequence[uint8]
+
+
 _STANDARD = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(10))
 _SENSOR = Qos(Policy.Reliability.BestEffort, Policy.History.KeepLast(5))
 _LATCHED = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(1), Policy.Durability.TransientLocal)
@@ -144,9 +151,9 @@ def _turned(yaw: float) -> Quaternion:
 
 class RosRobot:
     """Drives until it is closed, in a thread of its own. `walls`: pieces ((x, y), (x, y)) in metres; it begins at the origin and looks
-    along x."""
+    along x. `picture`: what its camera sees wherever it is, a JPEG file; empty: it has no camera."""
 
-    def __init__(self, domain: int, namespace: str, walls):
+    def __init__(self, domain: int, namespace: str, walls, picture: bytes = b""):
         self.walls = walls
         self.x = self.y = self.yaw = 0.0
         self.driven_m = 0.0
@@ -156,6 +163,8 @@ class RosRobot:
         self._odometry = DataWriter(participant, Topic(participant, f"rt{namespace}/odom", Odometry), qos=_STANDARD)
         self._scans = DataWriter(participant, Topic(participant, f"rt{namespace}/scan", LaserScan), qos=_SENSOR)
         self._frames = DataWriter(participant, Topic(participant, "rt/tf_static", TFMessage), qos=_LATCHED)
+        self._picture = list(picture)
+        self._pictures = picture and DataWriter(participant, Topic(participant, f"rt{namespace}/image_raw/compressed", CompressedImage), qos=_SENSOR)
         self._commands = DataReader(participant, Topic(participant, f"rt{namespace}/cmd_vel", Twist), qos=_STANDARD)
         self._speed = self._turn = 0.0
         self._commanded = 0.0
@@ -193,6 +202,8 @@ class RosRobot:
             step += 1
             if step % 2 == 0:
                 self._tell_scan()
+            if self._pictures and step % 4 == 0:
+                self._pictures.write(CompressedImage(Header(self._stamp(), "camera"), "jpeg", self._picture))
 
     def _move(self):
         self.yaw += self._turn * _STEP_S
