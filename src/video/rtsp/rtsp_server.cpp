@@ -3,7 +3,6 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include <boost/asio/ip/address.hpp>
 
 #include "base/async/side_thread.hpp"
+#include "video/rtsp/encoding.hpp"
 #include "video/rtsp/owned.hpp"
 #include "video/rtsp/rtsp_stream.hpp"
 
@@ -26,7 +26,6 @@ using base::fail;
 namespace {
 
 constexpr auto user = "viewer";
-constexpr auto encoder = "x264enc";
 /// Connections that have not begun to look are no viewers; there may be some more of them.
 constexpr unsigned connections_a_viewer = 4;
 /// A player whose network has gone keeps its place for so long. Players say at half that time that they are there.
@@ -36,20 +35,10 @@ constexpr guint cleanup_s = 5;
 constexpr int kernel_bytes = 256 * 1024;
 /// Of a connection that has begun to look.
 constexpr auto looks = "lapwing-looks";
-/// Who has lost a picture sees again after so long.
-constexpr double group_s = 2.0;
 
-/// Zero latency: neither the encoder nor what packs holds back a picture for the ones behind it. Sides are
-/// even, as the profile that every player knows demands.
 std::string pipeline(RtspSettings const& settings) {
-  return fmt::format(
-      "( appsrc name=pictures is-live=true format=time do-timestamp=true max-buffers=1 max-bytes=0 "
-      "leaky-type=downstream ! videoconvertscale ! "
-      "video/x-raw,format=I420,width=[2,4096,2],height=[2,4096,2] ! "
-      "{} name=encoder tune=zerolatency speed-preset=ultrafast threads=1 bitrate={} key-int-max={} "
-      "min-force-key-unit-interval=500000000 ! video/x-h264,profile=constrained-baseline ! "
-      "rtph264pay name=pay0 pt=96 config-interval=-1 aggregate-mode=zero-latency )",
-      encoder, settings.kbit_a_s, static_cast<unsigned>(std::ceil(group_s * settings.pictures_a_s)));
+  return fmt::format("( {} ! rtph264pay name=pay0 pt=96 config-interval=-1 aggregate-mode=zero-latency )",
+                     h264_encoding({.kbit_a_s = settings.kbit_a_s, .pictures_a_s = settings.pictures_a_s}));
 }
 
 bool is_loopback(std::string const& address) {
@@ -220,11 +209,7 @@ base::Result<std::unique_ptr<RtspServer>> RtspServer::open(base::Loop& loop, Rts
         ErrorKind::invalid_input,
         fmt::format("other machines reach {}: whoever is on the network would see the pictures", settings.address),
         "name a token_file under [stream], or keep address = \"127.0.0.1\"");
-  gst_init(nullptr, nullptr);
-  Owned<GstElementFactory> const found(gst_element_factory_find(encoder));
-  if (!found)
-    return fail(ErrorKind::io, "GStreamer's encoder for H.264 is not installed",
-                "apt install gstreamer1.0-plugins-ugly (setup/packages-stream.txt)");
+  if (auto found = find_encoder(); !found) return std::unexpected(found.error());
   auto core = std::make_unique<Core>(loop, settings, paths);
   if (auto served = core->serve(); !served) return std::unexpected(served.error());
   return std::unique_ptr<RtspServer>(new RtspServer(std::move(core)));

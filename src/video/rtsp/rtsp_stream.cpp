@@ -1,11 +1,10 @@
 #include "video/rtsp/rtsp_stream.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <gst/app/gstappsrc.h>
 
+#include "video/rtsp/encoding.hpp"
 #include "video/rtsp/owned.hpp"
 
 namespace lapwing::video {
@@ -15,29 +14,11 @@ namespace {
 /// The newest says how it is.
 constexpr std::size_t most_news = 16;
 
-/// It has the bytes for as long as GStreamer needs them.
-GstBuffer* wrapped(std::shared_ptr<std::string const> picture) {
-  auto const size = picture->size();
-  auto* const bytes = const_cast<char*>(picture->data());  // read only, as the flag says
-  auto* const kept = new std::shared_ptr<std::string const>(std::move(picture));
-  return gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY, bytes, size, 0, size, kept, [](gpointer held) {
-    delete static_cast<std::shared_ptr<std::string const>*>(held);
-  });
-}
-
-/// With a rate: without one x264 keeps each picture until the next one has come, to know how long it lasts.
-std::unique_ptr<GstCaps, decltype(&gst_caps_unref)> kind_of(RawPicture const& picture, int pictures_a_s) {
-  return {
-      gst_caps_new_simple("video/x-raw", "format", G_TYPE_STRING, "BGRx", "width", G_TYPE_INT, picture.width, "height",
-                          G_TYPE_INT, picture.height, "framerate", GST_TYPE_FRACTION, pictures_a_s, 1, nullptr),
-      &gst_caps_unref};
-}
-
 }  // namespace
 
 RtspStream::RtspStream(base::Loop& loop, std::function<void()> changed, double pictures_a_s)
     : changed_(std::move(changed)),
-      pictures_a_s_(std::max(1, static_cast<int>(std::ceil(pictures_a_s)))),
+      pictures_a_s_(pictures_a_s),
       inbox_(loop, most_news, base::Overflow::drop_oldest),
       scope_(loop) {
   scope_.spawn(listen());
@@ -95,7 +76,7 @@ void RtspStream::take(News news) {
 void RtspStream::offer(RawPicture picture) {
   if (!source_) return;
   auto* const source = GST_APP_SRC(source_.get());
-  gst_app_src_set_caps(source, kind_of(picture, pictures_a_s_).get());  // nothing happens where they are what they were
+  gst_app_src_set_caps(source, caps_of(picture, pictures_a_s_).get());  // nothing happens where they are what they were
   gst_app_src_push_buffer(source, wrapped(std::move(picture.bytes)));
 }
 

@@ -42,7 +42,7 @@ class RtspStream {
   void take(News news);
 
   std::function<void()> changed_;
-  int pictures_a_s_;
+  double pictures_a_s_;
   std::shared_ptr<GstElement> source_;
   GstRTSPMedia const* media_ = nullptr;
   base::Inbox<News> inbox_;
