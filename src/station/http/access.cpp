@@ -46,8 +46,8 @@ bool is_own_origin(std::string_view origin, std::string_view host) {
 /// "CORS-safelisted request-header".) A DELETE has no body, and browsers ask before each.
 bool asks_first(HttpRequest const& request) {
   if (request.method == "DELETE" && request.header("Content-Type").empty()) return true;
-  constexpr std::array<std::string_view, 5> known = {"application/json", "application/geo+json", "image/jpeg",
-                                                     "image/png", "image/webp"};
+  constexpr std::array<std::string_view, 6> known = {
+      "application/json", "application/geo+json", "application/sdp", "image/jpeg", "image/png", "image/webp"};
   auto const type = media_type(request.header("Content-Type"));
   return std::ranges::any_of(known, [&](auto one) { return equal_ignoring_case(type, one); });
 }
