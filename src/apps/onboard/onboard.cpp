@@ -115,7 +115,7 @@ constexpr Beside perceive{.process = perceive_process,
                           .what_it_needs = "OpenCV (setup/packages-vision.txt)"};
 constexpr Beside stream{.process = stream_process,
                         .program = "lapwing-stream",
-                        .what_needs_it = "[rtsp]",
+                        .what_needs_it = "[rtsp] or [webrtc]",
                         .what_it_needs = "GStreamer (setup/packages-stream.txt)"};
 
 std::filesystem::path this_program() {

@@ -181,14 +181,16 @@ OnboardConfig read_onboard_config(base::SourceFile const& source, base::Diagnost
   if (auto const file = root.text("health_file")) config.health_file = beside(source, file->value);
   // What is in them lapwing-perceive and lapwing-stream read and check.
   config.sees = root.has("camera");
-  config.shows = root.has("rtsp");
-  for (auto const* const table : {"camera", "survey", "stream", "rtsp"}) (void)root.table(table);
+  config.shows = root.has("rtsp") || root.has("webrtc");
+  for (auto const* const table : {"camera", "survey", "stream", "rtsp", "webrtc"}) (void)root.table(table);
   if (!config.sees && root.has("survey"))
     diagnostics.report(invalid_value, {0, 1}, "a survey needs a camera",
                        "[camera] with kind = \"simulated\" and a world, ...");
   if (config.shows && !config.sees)
-    diagnostics.report(invalid_value, {0, 1}, "[rtsp] shows what a camera sees, and there is none",
-                       "[camera] with kind = \"simulated\" and a world, ...");
+    diagnostics.report(
+        invalid_value, {0, 1},
+        fmt::format("[{}] shows what a camera sees, and there is none", root.has("rtsp") ? "rtsp" : "webrtc"),
+        "[camera] with kind = \"simulated\" and a world, ...");
   read_processes(root, diagnostics, config);
   root.refuse_unknown();
   return config;

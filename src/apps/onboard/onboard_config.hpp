@@ -29,7 +29,7 @@ struct OnboardConfig {
   std::vector<onboard::ProcessSpec> processes = {};  ///< own ones have no command
   std::filesystem::path health_file = {};            ///< empty: none
   bool sees = false;                                 ///< there is a camera, so that perceive is a process
-  bool shows = false;                                ///< its pictures go over RTSP, so that stream is one
+  bool shows = false;                                ///< its pictures go out as video, so that stream is one
 };
 
 /// Reads the file's text; paths in it count from the file's folder. Everything wrong is reported; the result is to be

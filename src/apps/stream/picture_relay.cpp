@@ -27,14 +27,40 @@ std::vector<std::string> relayed_paths() {
   return paths;
 }
 
-PictureRelay::PictureRelay(base::Loop& loop, video::RtspServer& server, link::pictures::Source source, base::Logger log)
-    : loop_(loop), server_(server), source_(std::move(source)), log_(std::move(log)), scope_(loop) {
+std::vector<std::string> view_names() {
+  auto names = relayed_paths();
+  for (auto& name : names) name.erase(0, 1);
+  return names;
+}
+
+PictureRelay::PictureRelay(base::Loop& loop, Outlets outlets, link::pictures::Source source, base::Logger log)
+    : loop_(loop), outlets_(outlets), changed_(loop), source_(std::move(source)), log_(std::move(log)), scope_(loop) {
+  if (outlets_.rtsp != nullptr) scope_.spawn(pass_on_changes(*outlets_.rtsp));
+  if (outlets_.webrtc != nullptr) scope_.spawn(pass_on_changes(*outlets_.webrtc));
   for (std::size_t path = 0; path < relayed_views.size(); ++path) scope_.spawn(serve(path));
+}
+
+template <class Server>
+base::Task<> PictureRelay::pass_on_changes(Server& server) {
+  for (;;) {
+    co_await server.watching_changed().wait();
+    changed_.notify_all();
+  }
+}
+
+bool PictureRelay::is_watched(std::size_t path) const {
+  return (outlets_.rtsp != nullptr && outlets_.rtsp->is_watched(path)) ||
+         (outlets_.webrtc != nullptr && outlets_.webrtc->is_watched(path));
+}
+
+void PictureRelay::show(std::size_t path, video::RawPicture const& picture, base::UtcTime taken) {
+  if (outlets_.rtsp != nullptr) outlets_.rtsp->offer(path, picture);
+  if (outlets_.webrtc != nullptr) outlets_.webrtc->show(path, picture, taken);
 }
 
 base::Task<> PictureRelay::serve(std::size_t path) {
   for (;;) {
-    while (!server_.is_watched(path)) co_await server_.watching_changed().wait();
+    while (!is_watched(path)) co_await changed_.wait();
     auto const pictures = PictureClient::open(loop_, source_, relayed_views.at(path));
     if (!pictures) {
       note(path, pictures.error().message);
@@ -47,7 +73,7 @@ base::Task<> PictureRelay::serve(std::size_t path) {
 }
 
 base::Task<> PictureRelay::hand_on(std::size_t path, PictureClient& pictures) {
-  for (std::uint64_t last = 0; server_.is_watched(path);) {
+  for (std::uint64_t last = 0; is_watched(path);) {
     auto asking = pictures.next(last, patience);
     auto const next = co_await asking;
     if (!next) {
@@ -58,7 +84,7 @@ base::Task<> PictureRelay::hand_on(std::size_t path, PictureClient& pictures) {
     auto picture = co_await loop_.on_pool(
         [](std::shared_ptr<std::string const> const& jpeg) { return video::read_jpeg(*jpeg); }, next->picture.jpeg);
     note(path, picture ? std::string() : picture.error().message);
-    if (picture) server_.offer(path, *std::move(picture));
+    if (picture) show(path, *picture, next->picture.taken);
   }
 }
 

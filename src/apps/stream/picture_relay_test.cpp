@@ -52,7 +52,8 @@ class Relay : public ::testing::Test {
   std::unique_ptr<PictureServer> camera = PictureServer::open(loop, {.port = 0, .token = "swordfish"}).value();
   std::uint16_t camera_port = camera->port();
   std::unique_ptr<video::RtspServer> server = video::RtspServer::open(loop, {.port = 0}, relayed_paths()).value();
-  PictureRelay relay{loop, *server, {.port = camera_port, .token = "swordfish"}, base::Logger(hub, "stream")};
+  PictureRelay relay{
+      loop, {.rtsp = server.get()}, {.port = camera_port, .token = "swordfish"}, base::Logger(hub, "stream")};
 };
 
 TEST_F(Relay, HandsOnEachViewWhileSomebodyLooksAtIt) {

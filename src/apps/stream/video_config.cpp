@@ -1,4 +1,7 @@
-#include "apps/stream/rtsp_config.hpp"
+#include "apps/stream/video_config.hpp"
+
+#include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -21,24 +24,61 @@ std::string reached_at(std::string const& address) {
   return address == "::" ? "::1" : address;
 }
 
+/// What both kinds of video have in common.
+template <class Settings>
+void read_common(base::ConfigReader& table, Settings& settings) {
+  constexpr int most = 64;
+  constexpr int least_kbit_a_s = 100;
+  constexpr int most_kbit_a_s = 20'000;
+  if (auto const address = table.text("address")) settings.address = address->value;
+  if (auto const viewers = table.integer("most_viewers", 1, most))
+    settings.most_viewers = static_cast<unsigned>(viewers->value);
+  if (auto const rate = table.integer("kbit_a_s", least_kbit_a_s, most_kbit_a_s))
+    settings.kbit_a_s = static_cast<unsigned>(rate->value);
+  table.refuse("token_file", "viewers need the token of the pictures: [stream] token_file");
+}
+
+void read_port(base::ConfigReader& table, std::uint16_t& port) {
+  if (auto const told = table.integer("port", 0, std::numeric_limits<std::uint16_t>::max()))
+    port = static_cast<std::uint16_t>(told->value);
+}
+
+void read_rtsp(base::ConfigReader& root, VideoConfig& config) {
+  auto table = root.table("rtsp");
+  if (!table) return;
+  auto& rtsp = config.rtsp.emplace();
+  read_common(*table, rtsp);
+  read_port(*table, rtsp.port);
+  table->refuse_unknown();
+}
+
+void read_webrtc(base::ConfigReader& root, VideoConfig& config) {
+  auto table = root.table("webrtc");
+  if (!table) return;
+  auto& webrtc = config.webrtc.emplace();
+  read_common(*table, webrtc.settings);
+  read_port(*table, webrtc.port);
+  table->refuse_unknown();
+}
+
+/// Who reaches it needs to know something.
+void want_token(std::string_view table, std::string const& address, base::Diagnostics& diagnostics) {
+  if (link::operator_link::is_loopback(address)) return;
+  diagnostics.report(invalid_value, beginning,
+                     fmt::format("other machines reach {}: whoever is on the network would see the pictures", address),
+                     fmt::format("name a token_file under [stream], or keep [{}] address = \"127.0.0.1\"", table));
+}
+
 }  // namespace
 
-RtspConfig read_rtsp_config(base::SourceFile const& source, base::Diagnostics& diagnostics) {
+VideoConfig read_video_config(base::SourceFile const& source, base::Diagnostics& diagnostics) {
   auto const tree = base::parse_config(source, diagnostics);
   base::ConfigReader root(tree, diagnostics);
-  RtspConfig config;
-  if (auto table = root.table("rtsp")) {
-    if (auto const address = table->text("address")) config.rtsp.address = address->value;
-    if (auto const port = table->integer("port", 0, 65535)) config.rtsp.port = static_cast<std::uint16_t>(port->value);
-    if (auto const most = table->integer("most_viewers", 1, 64))
-      config.rtsp.most_viewers = static_cast<unsigned>(most->value);
-    if (auto const rate = table->integer("kbit_a_s", 100, 20'000))
-      config.rtsp.kbit_a_s = static_cast<unsigned>(rate->value);
-    table->refuse("token_file", "viewers need the token of the pictures: [stream] token_file");
-    table->refuse_unknown();
-  } else if (!root.has("rtsp")) {
-    diagnostics.report(invalid_value, beginning, "nothing is to be served", "[rtsp], which may be empty");
-  }
+  VideoConfig config;
+  read_rtsp(root, config);
+  read_webrtc(root, config);
+  if (!root.has("rtsp") && !root.has("webrtc"))
+    diagnostics.report(invalid_value, beginning, "nothing is to be served", "[rtsp] or [webrtc], which may be empty");
   auto const stream = read_stream(root, std::filesystem::path(source.name()).parent_path());
   if (!stream) {
     if (!root.has("stream"))
@@ -50,12 +90,11 @@ RtspConfig read_rtsp_config(base::SourceFile const& source, base::Diagnostics& d
     diagnostics.report(invalid_value, beginning, "the pictures have no port that others know", "[stream] port = 3080");
   config.pictures = {.host = reached_at(stream->serve.address), .port = stream->serve.port};
   config.token_file = stream->token_file;
-  config.rtsp.pictures_a_s = stream->pictures_a_s;
-  if (config.token_file.empty() && !link::operator_link::is_loopback(config.rtsp.address))
-    diagnostics.report(
-        invalid_value, beginning,
-        fmt::format("other machines reach {}: whoever is on the network would see the pictures", config.rtsp.address),
-        "name a token_file under [stream], or keep [rtsp] address = \"127.0.0.1\"");
+  if (config.rtsp) config.rtsp->pictures_a_s = stream->pictures_a_s;
+  if (config.webrtc) config.webrtc->settings.pictures_a_s = stream->pictures_a_s;
+  if (!config.token_file.empty()) return config;
+  if (config.rtsp) want_token("rtsp", config.rtsp->address, diagnostics);
+  if (config.webrtc) want_token("webrtc", config.webrtc->settings.address, diagnostics);
   return config;
 }
 

@@ -27,5 +27,8 @@ struct Picture {
 /// Beside the port of a drone's operator link: two drones on one machine do not get each other's pictures.
 inline constexpr std::uint16_t ports_above_operator = 80;
 inline constexpr std::uint16_t default_port = 3080;
+/// The same as video, where browsers offer themselves for it (WHEP).
+inline constexpr std::uint16_t whep_ports_above_operator = 180;
+inline constexpr std::uint16_t default_whep_port = 3180;
 
 }  // namespace lapwing::link::pictures
