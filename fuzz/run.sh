@@ -45,6 +45,15 @@ case $target in
     printf '\377HTTP/1.1 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=p\r\n\r\n--p\r\nContent-Length: 3\r\nX-Timestamp: 1700000000.25\r\n\r\nabc\r\n--p\r\n' | seed one
     printf '\004HTTP/1.1 404 Not Found\r\n\r\n' | seed refused
     ;;
+  whep)
+    # An offer as a browser makes it, of sound and video; and an answer of a drone.
+    key='B6:F7:59:92:43:1D:62:97:AC:B5:89:42:16:EC:38:C8:38:9B:7C:0F:64:AD:E7:9B:FE:37:61:56:12:E0:5C:2A'
+    { printf '\007v=0\r\no=- 1 2 IN IP4 127.0.0.1\r\ns=-\r\nt=0 0\r\nm=audio 9 UDP/TLS/RTP/SAVPF 111\r\na=mid:1\r\n'
+      printf 'm=video 9 UDP/TLS/RTP/SAVPF 96 108\r\na=ice-ufrag:79Q+\r\na=ice-pwd:CZz2g9XhzBH7opNBXFIqGD0e\r\na=fingerprint:sha-256 %s\r\n' "$key"
+      printf 'a=mid:0\r\na=recvonly\r\na=candidate:1 1 udp 1 192.0.2.7 5 typ host\r\na=rtpmap:108 H264/90000\r\n'
+      printf 'a=fmtp:108 level-asymmetry-allowed=1;packetization-mode=1;profile-level-id=42e01f\r\n'; } | seed offer
+    printf '\003HTTP/1.1 201 Created\r\nContent-Type: application/sdp\r\nLocation: /api/v1/whep/sessions/1\r\nContent-Length: 5\r\n\r\nv=0\r\n' | seed answer
+    ;;
   car_park)
     cp "$root"/examples/car-park/*.toml "$seeds"
     printf 'anchor=[41,-8,90]\n[cars]\nstay_min=5\n[[area]]\ncorners=[[-9,-9],[9,-9],[9,9]]\n[[row]]\nat=[0,0]\ncount=3\nslant_deg=20\n[[car]]\nat=[1,1]\n[[lane]]\npoints=[[0,0],[9,0]]\n[[tree]]\nat=[5,5]\n[[building]]\ncorners=[[-9,5],[-5,5],[-5,9]]\n' | seed small

@@ -49,6 +49,12 @@ struct DronePicture {
 };
 enum class PictureView : std::uint8_t { raw, annotated };
 
+/// A viewer's session with a drone that sends it video.
+struct DroneVideo {
+  std::string answer = {};   ///< SDP, to the viewer's offer
+  std::string session = {};  ///< by which it is ended; nobody guesses it
+};
+
 class SurveyDrones {
  public:
   virtual ~SurveyDrones() = default;
@@ -63,6 +69,12 @@ class SurveyDrones {
   /// none; lost: FailedToSend, none can come from there.
   [[nodiscard]] virtual base::Task<base::Result<DronePicture>> picture(std::string drone, PictureView view,
                                                                        std::uint64_t after) = 0;
+  /// Has the drone send its video to a viewer, who offers himself as WebRTC has it (SDP). Errors: not_found as above;
+  /// refused, the drone says no; lost: FailedToSend, it is not reached or has no such video.
+  [[nodiscard]] virtual base::Task<base::Result<DroneVideo>> video(std::string drone, PictureView view,
+                                                                   std::string offer) = 0;
+  /// Ends it. Errors: as above.
+  [[nodiscard]] virtual base::Task<base::Result<>> end_video(std::string drone, std::string session) = 0;
 };
 
 }  // namespace lapwing::vehicle

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "autonomy/operator/command_text.hpp"
+#include "link/pictures/whep_client.hpp"
 
 namespace lapwing::host {
 
@@ -37,6 +38,11 @@ bool stops(autonomy::Command const& command) {
          std::holds_alternative<autonomy::command::Disarm>(command);
 }
 
+link::pictures::View wire_view(vehicle::PictureView view) {
+  using link::pictures::View;
+  return view == vehicle::PictureView::raw ? View::raw : View::annotated;
+}
+
 }  // namespace
 
 struct SurveyDesk::Seat {
@@ -58,6 +64,7 @@ struct SurveyDesk::Seat {
     std::uint64_t newest = 0;
   };
   link::pictures::Source camera = {};
+  link::pictures::Source video = {};
   std::array<Look, 2> looks = {};
   [[nodiscard]] Look& look_at(vehicle::PictureView view) { return looks.at(static_cast<std::size_t>(view)); }
 };
@@ -73,6 +80,7 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
   std::set<std::string> names;
   for (auto& link : links) {
     auto const camera = camera_of(link);
+    auto const video = video_of(link);
     auto& name = link.name;
     auto& settings = link.settings;
     if (!names.insert(name).second)
@@ -80,6 +88,7 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
                         "give each a name of its own");
     auto seat = std::make_unique<Seat>(map, name);
     seat->camera = camera;
+    seat->video = video;
     if (settings.client.end.name.empty()) settings.client.end.name = "station";
     auto client =
         wire::connect(loop, std::move(settings),
@@ -208,9 +217,7 @@ base::Result<> SurveyDesk::look(Seat& seat, vehicle::PictureView view) {
   auto& look = seat.look_at(view);
   look.asked_at = loop_.now();
   if (look.client) return {};
-  using link::pictures::View;
-  auto opened = link::pictures::PictureClient::open(loop_, seat.camera,
-                                                    view == vehicle::PictureView::raw ? View::raw : View::annotated);
+  auto opened = link::pictures::PictureClient::open(loop_, seat.camera, wire_view(view));
   if (!opened) return std::unexpected(opened.error());
   look.client = *std::move(opened);
   look.before = look.newest;
@@ -238,6 +245,23 @@ base::Task<base::Result<vehicle::DronePicture>> SurveyDesk::picture(std::string 
   look.newest = std::max(look.newest, before + picture->number);
   co_return vehicle::DronePicture{
       .jpeg = picture->picture.jpeg, .taken = picture->picture.taken, .number = before + picture->number};
+}
+
+base::Task<base::Result<vehicle::DroneVideo>> SurveyDesk::video(std::string drone, vehicle::PictureView view,
+                                                                std::string offer) {
+  auto* const seat = seat_of(drone);
+  if (!seat) co_return base::fail(base::ErrorKind::not_found, fmt::format("there is no survey drone '{}'", drone));
+  auto beginning = link::pictures::begin_video(loop_, seat->video, wire_view(view), std::move(offer));
+  auto begun = co_await beginning;
+  if (!begun) co_return std::unexpected(begun.error());
+  co_return vehicle::DroneVideo{.answer = std::move(begun->answer), .session = std::move(begun->session)};
+}
+
+base::Task<base::Result<>> SurveyDesk::end_video(std::string drone, std::string session) {
+  auto* const seat = seat_of(drone);
+  if (!seat) co_return base::fail(base::ErrorKind::not_found, fmt::format("there is no survey drone '{}'", drone));
+  auto ending = link::pictures::end_video(loop_, seat->video, std::move(session));
+  co_return co_await ending;
 }
 
 base::Task<> SurveyDesk::follow(Seat& seat, wire::MessageId id, std::string command) {

@@ -40,6 +40,9 @@ class SurveyDesk final : public vehicle::SurveyDrones {
 
   [[nodiscard]] base::Task<base::Result<vehicle::DronePicture>> picture(std::string drone, vehicle::PictureView view,
                                                                         std::uint64_t after) override;
+  [[nodiscard]] base::Task<base::Result<vehicle::DroneVideo>> video(std::string drone, vehicle::PictureView view,
+                                                                    std::string offer) override;
+  [[nodiscard]] base::Task<base::Result<>> end_video(std::string drone, std::string session) override;
 
   /// Why nothing but Land, Disarm and Kill is handed on; empty: everything is.
   void bar(std::string reason) { barred_ = std::move(reason); }

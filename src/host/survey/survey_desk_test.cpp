@@ -9,6 +9,7 @@
 #include "autonomy/operator/report_text.hpp"
 #include "base/log.hpp"
 #include "link/pictures/picture_server.hpp"
+#include "station/http/http_server.hpp"
 
 namespace lapwing::host {
 namespace {
@@ -195,10 +196,78 @@ TEST_F(Desk, ShowsTheCameraWhileItIsAskedFor) {
             base::ErrorKind::not_found);
 }
 
+/// What a drone answers to whoever offers himself, and what it was told.
+class Whep {
+ public:
+  Whep(base::Loop& loop, base::LogHub& hub)
+      : server(station::HttpServer::open(loop, {.port = 0, .token = "swordfish"}, base::Logger(hub, "whep")).value()) {
+    station::Router router;
+    router.add("POST", "/api/v1/whep/raw", [this](station::HttpRequest const& request) -> station::Reply {
+      offered.push_back(request.body);
+      return answer;
+    });
+    router.add("DELETE", "/api/v1/whep/sessions/5eed", [this](station::HttpRequest const&) -> station::Reply {
+      ++ended;
+      return station::HttpResponse{.body = "{}"};
+    });
+    server->set_router(std::move(router));
+  }
+
+  std::vector<std::string> offered;
+  int ended = 0;
+  station::HttpResponse answer{.status = 201,
+                               .content_type = "application/sdp",
+                               .body = "v=0 of the drone",
+                               .headers = {{"Location", "/api/v1/whep/sessions/5eed"}}};
+  std::unique_ptr<station::HttpServer> server;
+};
+
+TEST_F(Desk, HandsAViewersOfferToTheDroneAndEndsItsSession) {
+  Whep whep(loop, hub);
+  SurveyLink told{.name = "dove", .settings = {.port = drone->port()}, .camera_token = "swordfish"};
+  told.webrtc = link::pictures::Source{.port = static_cast<std::uint16_t>(whep.server->port())};
+  auto const seat = SurveyDesk::open(loop, map, base::Logger(hub, "survey"), {told}).value();
+  auto const ask = [&] { return loop.run_until_done(seat->video("dove", vehicle::PictureView::raw, "v=0")); };
+  auto const video = ask();
+  ASSERT_TRUE(video) << video.error().message;
+  EXPECT_EQ(video->answer, "v=0 of the drone");
+  EXPECT_EQ(video->session, "5eed");
+  EXPECT_EQ(whep.offered, std::vector<std::string>{"v=0"});
+  auto const over = loop.run_until_done(seat->end_video("dove", "5eed"));
+  EXPECT_TRUE(over) << over.error().message;
+  EXPECT_EQ(whep.ended, 1);
+  for (auto const* const strange : {"", "../sessions/5eed", "5eed HTTP/1.1"})
+    EXPECT_EQ(loop.run_until_done(seat->end_video("dove", strange)).error().kind, base::ErrorKind::not_found);
+
+  whep.answer = station::problem(503, "as many look at the camera as it allows");
+  auto const full = ask();
+  ASSERT_FALSE(full);
+  EXPECT_EQ(full.error().kind, base::ErrorKind::refused);
+  EXPECT_NE(full.error().message.find("as many look"), std::string::npos) << full.error().message;
+  for (auto const& strange :
+       {station::HttpResponse{.body = "{}"}, station::HttpResponse{.status = 201, .content_type = "application/sdp"},
+        station::HttpResponse{.status = 201,
+                              .content_type = "application/sdp",
+                              .headers = {{"Location", "/api/v1/whep/sessions/../x"}}}}) {
+    whep.answer = strange;
+    EXPECT_EQ(ask().error().kind, base::ErrorKind::lost);
+  }
+}
+
+TEST_F(Desk, TellsThatADroneHasNoVideo) {
+  auto const nobody = loop.run_until_done(desk->video("hawk", vehicle::PictureView::raw, "v=0"));
+  ASSERT_FALSE(nobody);
+  EXPECT_EQ(nobody.error().kind, base::ErrorKind::lost);
+  EXPECT_TRUE(nobody.error().message.starts_with("FailedToSend")) << nobody.error().message;
+  EXPECT_EQ(loop.run_until_done(desk->video("crow", vehicle::PictureView::raw, "v=0")).error().kind,
+            base::ErrorKind::not_found);
+}
+
 TEST(CameraOf, IsBesideTheOperatorLinkUnlessItIsTold) {
   SurveyLink link{.settings = parse_survey("drone.local:3001").value()};
   EXPECT_EQ(camera_of(link).host, "drone.local");
   EXPECT_EQ(camera_of(link).port, 3081);
+  EXPECT_EQ(video_of(link).port, 3181) << "never the picture's port of the drone beside it";
   link.camera = link::pictures::Source{.host = "10.0.0.7", .port = 8000};
   EXPECT_EQ(camera_of(link).host, "10.0.0.7");
 }

@@ -60,6 +60,22 @@ void read_tls(ConfigReader& table, base::SourceFile const& source, Diagnostics& 
   if (key) tls->key = beside(key->value);
 }
 
+struct Told {
+  char const* key;
+  char const* what;
+  std::uint16_t port;
+};
+void read_source(ConfigReader& table, Told const& told, Diagnostics& diagnostics,
+                 std::optional<link::pictures::Source>& source) {
+  auto const text = table.text(told.key);
+  if (!text) return;
+  if (auto const read = parse_survey(text->value))
+    source = link::pictures::Source{.host = read->host, .port = read->port};
+  else
+    diagnostics.report(invalid_value, text->span, fmt::format("'{}' is no address of {}", text->value, told.what),
+                       fmt::format("{} = \"127.0.0.1:{}\"", told.key, told.port));
+}
+
 }  // namespace
 
 SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const& source, Diagnostics& diagnostics) {
@@ -75,14 +91,10 @@ SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const
     else
       diagnostics.report(invalid_value, address->span, settings.error().message, settings.error().hint);
   }
-  if (auto const camera = reader.text("camera")) {
-    auto const told = parse_survey(camera->value);
-    if (told)
-      link.camera = link::pictures::Source{.host = told->host, .port = told->port};
-    else
-      diagnostics.report(invalid_value, camera->span, fmt::format("'{}' is no address of a camera", camera->value),
-                         "camera = \"127.0.0.1:3080\"");
-  }
+  read_source(reader, {.key = "camera", .what = "a camera", .port = link::pictures::default_port}, diagnostics,
+              link.camera);
+  read_source(reader, {.key = "webrtc", .what = "video for browsers", .port = link::pictures::default_whep_port},
+              diagnostics, link.webrtc);
   auto const name = reader.text("name");
   if (!name && !reader.has("name"))
     diagnostics.report(invalid_value, table.span, "a survey drone needs a name", "name = \"hawk\"");
@@ -101,12 +113,24 @@ SurveyLink read_survey(base::Placed<ConfigReader>& table, base::SourceFile const
   return link;
 }
 
+namespace {
+
+link::pictures::Source source_of(SurveyLink const& link, std::optional<link::pictures::Source> const& told,
+                                 std::uint16_t ports_above) {
+  auto source = told.value_or(link::pictures::Source{
+      .host = link.settings.host, .port = static_cast<std::uint16_t>(link.settings.port + ports_above)});
+  source.token = link.camera_token;
+  return source;
+}
+
+}  // namespace
+
 link::pictures::Source camera_of(SurveyLink const& link) {
-  auto camera = link.camera.value_or(link::pictures::Source{
-      .host = link.settings.host,
-      .port = static_cast<std::uint16_t>(link.settings.port + link::pictures::ports_above_operator)});
-  camera.token = link.camera_token;
-  return camera;
+  return source_of(link, link.camera, link::pictures::ports_above_operator);
+}
+
+link::pictures::Source video_of(SurveyLink const& link) {
+  return source_of(link, link.webrtc, link::pictures::whep_ports_above_operator);
 }
 
 base::Result<> take_tokens(SurveyLink& link) {

@@ -18,6 +18,7 @@ struct SurveyLink {
   link::operator_link::ConnectSettings settings = {};
   std::filesystem::path token_file = {};              ///< what the drone asks for; empty: it asks for none
   std::optional<link::pictures::Source> camera = {};  ///< its pictures; none: beside the operator link
+  std::optional<link::pictures::Source> webrtc = {};  ///< its video for browsers; none: beside the operator link
   std::filesystem::path camera_token_file = {};       ///< what its pictures ask for; never the operator link's token,
                                                       ///< which would go over the network as it is
   std::string camera_token = {};                      ///< as that file has it
@@ -35,6 +36,8 @@ inline constexpr auto survey_help =
                                      base::Diagnostics& diagnostics);
 /// Where the drone's pictures are: as it was told, else at its operator link's host, `ports_above_operator` up.
 [[nodiscard]] link::pictures::Source camera_of(SurveyLink const& link);
+/// The same of its video for browsers, `whep_ports_above_operator` up.
+[[nodiscard]] link::pictures::Source video_of(SurveyLink const& link);
 /// Reads the files of tokens, where there are any. Errors: those of `read_secret`.
 [[nodiscard]] base::Result<> take_tokens(SurveyLink& link);
 

@@ -1,53 +1,13 @@
 #include "link/pictures/part_reader.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "link/pictures/http_head.hpp"
+
 namespace lapwing::link::pictures {
-
-namespace {
-
-constexpr std::string_view end_of_head = "\r\n\r\n";
-constexpr std::string_view end_of_line = "\r\n";
-
-bool is_same_name(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
-/// The value of a header, without the blanks before it; nothing where there is none.
-std::optional<std::string_view> header(std::string_view head, std::string_view name) {
-  while (!head.empty()) {
-    auto const line = head.substr(0, head.find(end_of_line));
-    head.remove_prefix(std::min(head.size(), line.size() + end_of_line.size()));
-    auto const colon = line.find(':');
-    if (colon == std::string_view::npos || !is_same_name(line.substr(0, colon), name)) continue;
-    auto const value = line.substr(colon + 1);
-    return value.substr(std::min(value.size(), value.find_first_not_of(' ')));
-  }
-  return std::nullopt;
-}
-
-template <class Number>
-std::optional<Number> number_of(std::optional<std::string_view> text) {
-  Number number{};
-  if (!text) return std::nullopt;
-  auto const [end, fault] = std::from_chars(text->data(), text->data() + text->size(), number);
-  return fault == std::errc{} && end == text->data() + text->size() ? std::optional(number) : std::nullopt;
-}
-
-/// What a stranger says, as it may be shown.
-std::string printable(std::string_view text) {
-  constexpr std::size_t enough = 80;
-  std::string shown(text.substr(0, enough));
-  std::ranges::replace_if(shown, [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-  return shown;
-}
-
-}  // namespace
 
 base::Result<std::optional<Picture>> PartReader::take(std::string_view bytes) {
   std::optional<Picture> newest;

@@ -88,6 +88,39 @@ TEST(SurveyRoutes, GiveAPictureWithItsDelay) {
   EXPECT_EQ(ask("/api/v1/survey/hawk/picture?after=-1").status, 400);
 }
 
+TEST(SurveyRoutes, HandAViewersOfferToTheDroneAndItsAnswerBack) {
+  base::LogHub hub;
+  base::Logger const log(hub, "station");
+  base::Loop loop;
+  testing::FakeSurvey survey;
+  Router router;
+  add_survey_routes(router, &survey, log, [] { return answered; });
+  auto const ask = [&](std::string const& method, std::string const& target, std::string type = "application/sdp") {
+    auto request = request_for(method, target).value();
+    request.headers = {{"Content-Type", std::move(type)}};
+    request.body = "v=0";
+    auto reply = router.answer(request);
+    if (auto* const task = std::get_if<base::Task<HttpResponse>>(&reply)) return loop.run_until_done(std::move(*task));
+    return std::get<HttpResponse>(std::move(reply));
+  };
+  auto const begun = ask("POST", "/api/v1/survey/hawk/video?view=raw");
+  EXPECT_EQ(begun.status, 201);
+  EXPECT_EQ(begun.content_type, "application/sdp");
+  EXPECT_EQ(begun.body, "raw for v=0");
+  std::map<std::string, std::string> headers;
+  for (auto const& [name, value] : begun.headers) headers[name] = value;
+  EXPECT_EQ(headers["Location"], "/api/v1/survey/hawk/video/5eed");
+  EXPECT_EQ(headers["Lapwing-Now-Ms"], "1700000000250");
+  EXPECT_EQ(ask("POST", "/api/v1/survey/hawk/video", "application/json").status, 415);
+  EXPECT_EQ(ask("POST", "/api/v1/survey/hawk/video?view=infrared").status, 400);
+  auto const lost = ask("POST", "/api/v1/survey/dove/video");
+  EXPECT_EQ(lost.status, 409);
+  EXPECT_EQ(json::parse(lost.body)["detail"], "FailedToSend: nobody answers at dove:3180");
+  EXPECT_EQ(ask("DELETE", "/api/v1/survey/hawk/video/5eed").status, 200);
+  EXPECT_EQ(survey.ended, std::vector<std::string>{"hawk"});
+  EXPECT_EQ(ask("DELETE", "/api/v1/survey/hawk/video/another").status, 409);
+}
+
 TEST(SurveyRoutes, SayWhereThereIsNone) {
   base::LogHub hub;
   base::Logger const log(hub, "station");
@@ -95,6 +128,7 @@ TEST(SurveyRoutes, SayWhereThereIsNone) {
   add_survey_routes(router, nullptr, log, [] { return answered; });
   EXPECT_EQ(answer(router, "GET", "/api/v1/survey").body, R"({"type":"survey","drones":[]})");
   EXPECT_EQ(answer(router, "POST", "/api/v1/survey/hawk/commands").status, 404);
+  EXPECT_EQ(answer(router, "POST", "/api/v1/survey/hawk/video").status, 404);
 }
 
 }  // namespace

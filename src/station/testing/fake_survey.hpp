@@ -41,8 +41,20 @@ class FakeSurvey : public vehicle::SurveyDrones {
                                     .taken = base::UtcTime(std::chrono::seconds(1'700'000'000)),
                                     .number = after + 1};
   }
+  [[nodiscard]] base::Task<base::Result<vehicle::DroneVideo>> video(std::string drone, vehicle::PictureView view,
+                                                                    std::string offer) override {
+    if (drone != "hawk") co_return base::fail(base::ErrorKind::lost, "FailedToSend: nobody answers at dove:3180");
+    auto const words = view == vehicle::PictureView::raw ? "raw" : "annotated";
+    co_return vehicle::DroneVideo{.answer = words + (" for " + offer), .session = "5eed"};
+  }
+  [[nodiscard]] base::Task<base::Result<>> end_video(std::string drone, std::string session) override {
+    if (session != "5eed") co_return base::fail(base::ErrorKind::refused, "there is no such session");
+    ended.push_back(std::move(drone));
+    co_return base::Result<>();
+  }
 
   std::vector<vehicle::SurveyDroneView> list;
+  std::vector<std::string> ended;
   std::vector<std::string> commands;
 };
 
