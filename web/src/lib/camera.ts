@@ -40,6 +40,7 @@ const LONGEST_MS = 3_600_000;
 
 /** The delay of a picture, to be written on it. */
 export function ageText(age_ms: number): string {
+  if (Number.isNaN(age_ms)) return 'delay not known';
   if (age_ms < -CLOCKS_AGREE_MS || age_ms > LONGEST_MS) return 'delay unknown: the clocks of drone and station differ';
   return `${Math.max(0, Math.round(age_ms))} ms`;
 }

@@ -24,6 +24,7 @@ beforeEach(() => {
   URL.revokeObjectURL = () => {};
   station = TestStation.live();
   station.stores.session.ask = (address) => {
+    if (address.includes('/video')) return Promise.resolve(undefined);
     asked.push(address);
     const answer = answers.shift();
     return answer ? Promise.resolve(answer()) : new Promise(() => {});
@@ -72,7 +73,15 @@ it('shows the camera plain as well, and asks for nothing once it is closed', asy
   expect(asked).toHaveLength(2);
 });
 
+it('says why there is no video, and shows single pictures', async () => {
+  answers = [() => picture(250)];
+  await open();
+  expect(await screen.findByText('Single pictures, no video: this browser shows no WebRTC')).toBeVisible();
+  expect(await screen.findByAltText('What hawk sees')).toBeVisible();
+});
+
 it('tells no delay when the clocks do not agree', () => {
   expect(ageText(-20)).toBe('0 ms');
   expect(ageText(-5000)).toMatch(/unknown/);
+  expect(ageText(NaN)).toBe('delay not known');
 });
