@@ -45,8 +45,7 @@ bool is_fingerprint(std::string_view text) {
   text.remove_prefix(hash.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
     bool const is_colon = i % characters_a_byte == characters_a_byte - 1;
-    if (is_colon ? text[i] != ':' : std::string_view("0123456789ABCDEFabcdef").find(text[i]) == std::string_view::npos)
-      return false;
+    if (is_colon ? text[i] != ':' : !std::string_view("0123456789ABCDEFabcdef").contains(text[i])) return false;
   }
   return true;
 }

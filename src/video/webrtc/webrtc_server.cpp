@@ -95,8 +95,8 @@ class WebRtcServer::Core {
  private:
   struct Hand {};
   struct Viewer {
-    Viewer(base::Loop& loop, std::size_t number_, std::size_t view_)
-        : number(number_), view(view_), since(loop.now()), told(loop) {}
+    Viewer(base::Loop& loop, std::uint64_t its_number, std::size_t its_view)
+        : number(its_number), view(its_view), since(loop.now()), told(loop) {}
     std::uint64_t number;
     std::size_t view;
     base::TimePoint since;  ///< it was heard last, or began
@@ -187,7 +187,7 @@ void WebRtcServer::Core::let_go_of(Viewer& viewer) {
 void WebRtcServer::Core::forget(Viewer const& viewer) {
   auto const found = std::ranges::find_if(viewers_, [&viewer](auto const& one) { return one.get() == &viewer; });
   if (found == viewers_.end()) return;
-  auto const held = *found;
+  auto const held = std::move(*found);
   viewers_.erase(found);
   let_go_of(*held);
   if (!is_watched(held->view)) views_.at(held->view)->encoder.reset();
