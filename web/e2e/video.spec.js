@@ -93,7 +93,8 @@ test('shows both views as video with the delay written on it', async ({ open, ca
   await expect(panel.locator('.camera img')).toHaveCount(0);
   await panel.getByRole('button', { name: 'Plain' }).click();
   await expect(video(panel)).toBeVisible();
-  await seen(panel, 3);
+  await seen(panel, 15);
+  await expect(panel.locator('.delay')).toHaveText(/^\d{1,3} ms$/);
 });
 
 test('gives a place again when the viewer looks no more', async ({ open, camera }) => {

@@ -18,7 +18,7 @@ const TICKS_A_MS = 90;
 const TURN_MS = 2 ** 32 / TICKS_A_MS;
 /** How long the first picture, or the next one, may take until something else is tried. */
 const PATIENCE_MS = 5000;
-const LOOK_MS = 250;
+const LOOK_MS = 100;
 
 /** How long ago a picture of that RTP time was taken, where the drone's clock shows `now_ms`: the nearest time that it can mean. */
 export function rtpAge(rtpTimestamp: number, now_ms: number): number {
@@ -41,31 +41,39 @@ export async function showVideo(
   if (!('RTCPeerConnection' in window) || !('requestVideoFrameCallback' in element)) return 'this browser shows no WebRTC';
   const connection = new RTCPeerConnection({ iceServers: [] });
   let session = '';
+  let stream: MediaStream | undefined;
   try {
     const { receiver } = connection.addTransceiver('video', { direction: 'recvonly' });
     // The newest is wanted, not the smoothest.
     if ('jitterBufferTarget' in receiver) receiver.jitterBufferTarget = 0;
     await connection.setLocalDescription();
+    const asked_ms = performance.now();
     const answer = await station.ask(`/api/v1/survey/${encodeURIComponent(drone)}/video?view=${view}`, {
       method: 'POST',
       body: connection.localDescription?.sdp ?? '',
       headers: { 'Content-Type': 'application/sdp' },
     });
-    // The station's clock at this page's 0; how long its answer was on the way is not known, and not in the delay.
-    const begins_ms = Number.parseInt(answer?.headers.get('Lapwing-Now-Ms') ?? '', 10) - performance.now();
+    const answered_ms = performance.now();
     if (!answer?.ok) return (await bodyOf(answer)).failure;
     session = answer.headers.get('Location') ?? '';
-    await connection.setRemoteDescription({ type: 'answer', sdp: await answer.text() });
+    const sdp = await answer.text();
+    // A page that has much to do learns late of an answer; the browser has noted when it came.
+    const timing = performance.getEntriesByName(answer.url, 'resource').findLast((entry) => entry.startTime >= asked_ms) as
+      PerformanceResourceTiming | undefined;
+    // The station's clock at this page's 0; how long its answer was on the way is not known, and not in the delay.
+    const begins_ms = Number.parseInt(answer.headers.get('Lapwing-Now-Ms') ?? '', 10) - (timing?.responseStart || answered_ms);
+    await connection.setRemoteDescription({ type: 'answer', sdp });
     if (!isWanted()) return '';
-    element.srcObject = new MediaStream([receiver.track]);
+    element.srcObject = stream = new MediaStream([receiver.track]);
     return await watch(element, connection, begins_ms, isWanted, shown);
   } catch (error) {
     return `the browser takes no video from there: ${error instanceof Error ? error.message : String(error)}`;
   } finally {
-    element.srcObject = null;
+    // Another one may have begun to be shown there.
+    if (stream && element.srcObject === stream) element.srcObject = null;
     // In this order: a drone that has heard the end of the connection knows no such session any more.
-    if (session.startsWith('/api/v1/survey/')) void station.ask(session, { method: 'DELETE' }).finally(() => connection.close());
-    else connection.close();
+    if (session.startsWith('/api/v1/survey/')) await station.ask(session, { method: 'DELETE' });
+    connection.close();
   }
 }
 
