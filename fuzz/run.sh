@@ -31,6 +31,10 @@ case $target in
     python3 "$root/fuzz/scans/bag_seeds.py" "$seeds"
     options=(-max_len=16384)
     ;;
+  slam_state)
+    python3 "$root/fuzz/scans/state_seeds.py" "$seeds"
+    options=(-max_len=16384)
+    ;;
   bus)
     # The first byte says which message; then CDR's head, little endian, and what reads as empty lists and zeros.
     for kind in 0 1 2 3 4 5 6 7 8 9 10 11 12 13; do

@@ -34,6 +34,16 @@ bool look_alike(Frame const& a, Frame const& b) {
   return same > most * seen;
 }
 
+/// How many of the last key frames were taken on one way, up to `most`.
+int last_on_the_way(std::vector<KeyFrame> const& frames, int most) {
+  int found = 0;
+  for (auto frame = frames.rbegin(); frame != frames.rend() && found < most; ++frame) {
+    ++found;
+    if (frame->is_cut) break;
+  }
+  return found;
+}
+
 Eigen::Vector3d trust_of(OdometryNoise::Spread const& spread) {
   auto const shift = 1.0 / (spread.shift_m * spread.shift_m);
   return {shift, shift, 1.0 / (spread.turn_rad * spread.turn_rad)};
@@ -51,6 +61,18 @@ SearchWindow window_of(OdometryNoise::Spread const& spread) {
 
 }  // namespace
 
+void FrontEnd::remember(Memory const& memory) {
+  last_odometry_ = memory.last_odometry;
+  last_motion_ = memory.last_motion;
+  noise_.remember(memory.noise);
+}
+
+void FrontEnd::begin_at(Pose2 const& start) {
+  start_ = start;
+  last_odometry_.reset();
+  last_motion_ = {};
+}
+
 bool FrontEnd::wants(Pose2 const& odometry) const {
   if (!last_odometry_) return true;
   return distance_m(*last_odometry_, odometry) >= options_.key_step_m ||
@@ -61,7 +83,8 @@ FrontEnd::Found FrontEnd::search(std::vector<KeyFrame> const& frames, std::vecto
                                  Frame const& frame, Guess const& guess) {
   auto const count = static_cast<int>(frames.size());
   grid_.move_to(guess.pose);
-  for (auto k = std::max(0, count - options_.grid_frames); k < count; ++k) grid_.add(frames[k].frame, poses[k]);
+  for (auto k = count - last_on_the_way(frames, options_.grid_frames); k < count; ++k)
+    grid_.add(frames[k].frame, poses[k]);
   auto const found = correlate(grid_, frame, guess.pose, window_of(guess.spread));
   auto const slid = options_.may_slip ? correlate_along(grid_, frame, found) : std::nullopt;
   return slid ? Found{slid->pose, true} : Found{found.pose, false};
@@ -71,7 +94,7 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
                              Pose2 const& odometry, bool has_leapt) {
   if (!last_odometry_) {
     last_odometry_ = odometry;
-    return {.pose = odometry, .constraint = std::nullopt};
+    return {.pose = start_.value_or(odometry), .constraint = std::nullopt};
   }
   auto const driven = between(*last_odometry_, odometry);
   last_odometry_ = odometry;
@@ -93,8 +116,10 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   }
 
   std::vector<Target> targets;
-  for (int const back : {1, 2, 3, 5, 8})
-    if (back <= count) targets.push_back({&frames[count - back].frame, poses[count - back]});
+  constexpr int farthest_back = 8;
+  auto const reach = last_on_the_way(frames, farthest_back);
+  for (int const back : {1, 2, 3, 5, farthest_back})
+    if (back <= reach) targets.push_back({&frames[count - back].frame, poses[count - back]});
   auto const aligned = align(frame, found.pose, {.pose = guess.pose, .trust = trust_of(guess.spread)}, targets,
                              {.point_information = options_.point_information});
   if (!is_misled) noise_.learn(driven, guess.pose, aligned.pose, is_pinned(aligned.seen));

@@ -41,6 +41,19 @@ class FrontEnd {
 
   [[nodiscard]] OdometryNoise const& noise() const { return noise_; }
 
+  /// What it must know to go on from its last key frame.
+  struct Memory {
+    std::optional<Pose2> last_odometry;  ///< of that key frame; none before the first
+    Pose2 last_motion;                   ///< from the one before it
+    OdometryNoise::Memory noise;
+  };
+  [[nodiscard]] Memory memory() const {
+    return {.last_odometry = last_odometry_, .last_motion = last_motion_, .noise = noise_.memory()};
+  }
+  void remember(Memory const& memory);
+  /// The next key frame is the first of another drive, and was taken there.
+  void begin_at(Pose2 const& start);
+
  private:
   struct Guess {
     Pose2 pose;
@@ -58,6 +71,7 @@ class FrontEnd {
   LocalGrid grid_;
   Pose2 last_motion_;  ///< of the key frame before last to the last
   std::optional<Pose2> last_odometry_;
+  std::optional<Pose2> start_;  ///< of a drive on a map that is there already
 };
 
 }  // namespace lapwing::slam

@@ -10,6 +10,8 @@ struct KeyFrame {
   int scan = 0;  ///< of the log
   Frame frame;
   double path_m = 0.0;  ///< driven since the first one, by odometry
+  /// Not taken on the way on from the one before it in the graph, as another drive begins here.
+  bool is_cut = false;
 };
 
 /// A measured relative pose of two key frames, and how sure it is: H of Gauss-Newton in the frame of `from`.

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "slam/match/odometry_bias.hpp"
+#include "base/assert.hpp"
 
 namespace lapwing::slam {
 namespace {
@@ -25,7 +26,34 @@ Mapper::Mapper(MapperOptions const& options, RobotKind const& kind, ForEach for_
       for_each_(std::move(for_each)),
       front_end_(options_.front_end),
       loops_(options_.loops, for_each_),
-      gatherer_(options_.gather, options_.frame) {}
+      gatherer_(options_.gather, options_.frame) {
+  memory_.options = options;
+  memory_.kind = kind;
+}
+
+Mapper::Mapper(SavedMap saved, ForEach for_each)
+    : Mapper(saved.memory.options, saved.memory.kind, std::move(for_each)) {
+  memory_ = std::move(saved.memory);
+  graph_ = std::move(saved.graph);
+  seen_ = std::move(memory_.seen);
+  scans_ = static_cast<int>(memory_.past.size());
+  odometry_ = memory_.odometry;
+  key_odometry_ = memory_.key_odometry;
+  time_ = memory_.time;
+  front_end_.remember(memory_.front_end);
+  loops_.know(graph_);
+}
+
+void Mapper::begin_drive(RobotKind const& kind, std::optional<Pose2> const& start) {
+  LAPWING_ASSERT(!graph_.frames.empty());
+  kind_.has_odometry = kind.has_odometry;
+  kind_.has_times = kind.has_times;
+  is_first_scan_ = true;
+  scan_odometry_ = {};
+  if (!start) return;
+  begins_drive_ = true;
+  front_end_.begin_at(*start);
+}
 
 Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
   std::optional<Frame> frame;
@@ -38,7 +66,8 @@ Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
   }
   constexpr LogTime unknown(1.0);
   auto const elapsed = kind_.has_times ? scan.time - time_ : unknown;
-  has_leapt_ = has_leapt_ || (scans_ > 1 && is_leap(between(last_odometry, odometry_), elapsed));
+  has_leapt_ = has_leapt_ || (!is_first_scan_ && is_leap(between(last_odometry, odometry_), elapsed));
+  is_first_scan_ = false;
   time_ = scan.time;
   if (kind_.is_sparse) {
     gatherer_.add(scan, sensor, odometry_);
@@ -53,11 +82,12 @@ Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
 void Mapper::add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor) {
   auto const step = front_end_.add(graph_.frames, graph_.poses, frame, odometry_, has_leapt_);
   has_leapt_ = false;
-  auto const path_m =
-      graph_.frames.empty() ? 0.0 : graph_.frames.back().path_m + distance_m(graph_.poses.back(), step.pose);
-  graph_.frames.push_back({.scan = scans_ - 1, .frame = std::move(frame), .path_m = path_m});
+  graph_.frames.push_back(
+      {.scan = scans_ - 1, .frame = std::move(frame), .path_m = path_to(step.pose), .is_cut = begins_drive_});
   graph_.poses.push_back(step.pose);
   if (step.constraint) graph_.constraints.push_back(*step.constraint);
+  if (begins_drive_) hold_to_map();
+  begins_drive_ = false;
   key_odometry_ = odometry_;
   is_new_ = true;
 
@@ -65,6 +95,35 @@ void Mapper::add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor) 
   if (known == seen_.sensors.end()) known = seen_.sensors.insert(known, sensor);
   seen_.scans.push_back(scan);
   seen_.scans.back().sensor = static_cast<int>(known - seen_.sensors.begin());
+}
+
+double Mapper::path_to(Pose2 const& pose) const {
+  if (graph_.frames.empty()) return 0.0;
+  // So far apart on the way that no search takes one drive's end and the next one's beginning for neighbours.
+  auto const step_m = begins_drive_ ? options_.loops.least_gap_m : distance_m(graph_.poses.back(), pose);
+  return graph_.frames.back().path_m + step_m;
+}
+
+/// What holds the first key frame of a drive that began somewhere on the map: to the key frame there that looks most
+/// alike, loosely, so that loops decide.
+void Mapper::hold_to_map() {
+  constexpr double m_per_rad = 1.0;
+  constexpr double shift = 1.0 / (0.3 * 0.3);
+  constexpr double turn = 1.0 / (0.05 * 0.05);
+  auto const last = graph_.size() - 1;
+  auto const& pose = graph_.poses[last];
+  int nearest = 0;
+  auto least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < last; ++k) {
+    auto const apart = distance_m(graph_.poses[k], pose) + m_per_rad * turn_rad(graph_.poses[k], pose);
+    if (apart >= least) continue;
+    least = apart;
+    nearest = k;
+  }
+  graph_.constraints.push_back({.from = nearest,
+                                .to = last,
+                                .from_to = between(graph_.poses[nearest], pose),
+                                .information = Eigen::Vector3d(shift, shift, turn).asDiagonal()});
 }
 
 bool Mapper::close_loops() {
@@ -88,33 +147,14 @@ void Mapper::finish(Progress const& progress) {
   refine_jointly(graph_, options_.joint, for_each_);
 }
 
-Mapping map_log(ScanLog const& log, MapperOptions const& options, ForEach const& for_each, Progress const& progress) {
-  auto const kind = kind_of(log, options.gather);
-  Mapper mapper(options, kind, for_each);
-  constexpr double driving = 0.7;  // of the time that a log takes
-  constexpr double finishing = 0.15;
-  std::vector<Pose2> odometry;
-  odometry.reserve(log.scans.size());
-  std::vector<Pose2> told;
-  for (auto const& scan : log.scans) told.push_back(scan.odometry);
-  if (kind.is_sparse && kind.has_odometry) told = without_bias(told, find_bias(log, told));
-  for (auto scan : log.scans) {
-    progress("following", driving * static_cast<double>(odometry.size()) / static_cast<double>(log.scans.size()));
-    scan.odometry = told[odometry.size()];
-    mapper.follow(scan, log.sensors[scan.sensor]);
-    mapper.close_loops();
-    odometry.push_back(mapper.odometry());
-  }
-  mapper.finish([&](std::string_view stage, double share) { progress(stage, driving + finishing * share); });
-  progress("filling in", driving + finishing);
-  Mapping mapping;
-  mapping.loops = mapper.loops().counts();
-  mapping.loop_records = mapper.loops().records();
-  mapping.graph = std::move(mapper).take_graph();
-  mapping.trajectory = kind.is_sparse ? spread_over_scans(odometry, mapping.graph)
-                                      : fill(log, odometry, mapping.graph, options.frame, options.fill, for_each);
-  progress("done", 1.0);
-  return mapping;
+SavedMap Mapper::take() && {
+  memory_.seen = std::move(seen_);
+  memory_.loops += loops_.counts();
+  memory_.front_end = front_end_.memory();
+  memory_.odometry = odometry_;
+  memory_.key_odometry = key_odometry_;
+  memory_.time = time_;
+  return {.graph = std::move(graph_), .memory = std::move(memory_)};
 }
 
 }  // namespace lapwing::slam

@@ -10,15 +10,17 @@
 #include "slam/loops/loop_closer.hpp"
 #include "slam/match/scan_odometry.hpp"
 #include "slam/robot_kind.hpp"
+#include "slam/state/saved_map.hpp"
 
 namespace lapwing::slam {
 
 /// What a log came to.
 struct Mapping {
   Graph graph;
-  std::vector<Pose2> trajectory;  ///< one a scan of the log
-  LoopCounts loops;
+  std::vector<Pose2> trajectory;  ///< one a scan; of a mapping that went on, those of earlier drives before
+  LoopCounts loops;               ///< of all drives
   std::vector<LoopRecord> loop_records;
+  MapMemory memory;  ///< with which a further drive goes on
 };
 
 /// `share`: how much of the work is done, 0 to 1.
@@ -29,6 +31,12 @@ using Progress = std::function<void(std::string_view stage, double share)>;
 class Mapper {
  public:
   Mapper(MapperOptions const& options, RobotKind const& kind, ForEach for_each);
+  /// One that goes on; `begin_drive` comes next.
+  Mapper(SavedMap saved, ForEach for_each);
+
+  /// What follows is of a further drive. `start`: of its first scan, on the map; nothing: it goes on in the odometry
+  /// of the last one. Precondition: something is mapped.
+  void begin_drive(RobotKind const& kind, std::optional<Pose2> const& start);
 
   /// The robot's pose at that scan, by what is known now. Takes a few milliseconds however large the map is.
   Pose2 follow(Scan const& scan, Sensor const& sensor);
@@ -43,14 +51,21 @@ class Mapper {
   [[nodiscard]] map::OccupancyGrid grid(BeamModel const& model) const;
   /// The last scan's odometry: as it was told, or made of scans.
   [[nodiscard]] Pose2 const& odometry() const { return odometry_; }
+  [[nodiscard]] MapperOptions const& options() const { return options_; }
+  [[nodiscard]] RobotKind const& kind() const { return kind_; }
 
   /// After the last scan: what still can be closed, then all key frames aligned at once.
   void finish(Progress const& progress);
-  [[nodiscard]] Graph take_graph() && { return std::move(graph_); }
+  /// With which another mapper goes on. `past` and `drives` are those of earlier drives: of the last one the caller
+  /// knows more.
+  [[nodiscard]] SavedMap take() &&;
 
  private:
   void add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor);
+  void hold_to_map();
+  [[nodiscard]] double path_to(Pose2 const& pose) const;
 
+  MapMemory memory_;  ///< what an earlier drive left, and what a later one is to find
   MapperOptions options_;
   RobotKind kind_;
   ForEach for_each_;
@@ -61,9 +76,11 @@ class Mapper {
   Gatherer gatherer_;
   ScanLog seen_;  ///< the key frames' scans
   int scans_ = 0;
+  bool is_first_scan_ = true;  ///< of its drive
   Pose2 odometry_;
   LogTime time_{0.0};
-  bool has_leapt_ = false;  ///< odometry, since the last key frame
+  bool has_leapt_ = false;     ///< odometry, since the last key frame
+  bool begins_drive_ = false;  ///< the next key frame does, on a map that is there already
   Pose2 key_odometry_;
   bool is_new_ = false;  ///< the last key frame has not been looked for elsewhere
 };
@@ -72,5 +89,8 @@ class Mapper {
 /// number of threads.
 [[nodiscard]] Mapping map_log(ScanLog const& log, MapperOptions const& options, ForEach const& for_each,
                               Progress const& progress);
+
+/// The same with a mapper that has just begun, or begun a further drive.
+[[nodiscard]] Mapping map_drive(Mapper mapper, ScanLog const& log, ForEach const& for_each, Progress const& progress);
 
 }  // namespace lapwing::slam

@@ -93,4 +93,13 @@ std::span<Parameter const> all_parameters() {
   return table;
 }
 
+bool is_usable(Parameter const& parameter, double value) {
+  constexpr double factor = 1000.0;
+  auto const usual = parameter.get({});
+  if (!(value >= usual / factor && value <= usual * factor)) return false;
+  MapperOptions options;
+  parameter.set(options, value);
+  return parameter.get(options) > 0.0;  // of whole numbers a small one becomes none
+}
+
 }  // namespace lapwing::slam

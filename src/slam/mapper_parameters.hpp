@@ -17,4 +17,7 @@ struct Parameter {
 
 [[nodiscard]] std::span<Parameter const> all_parameters();
 
+/// Whether the mapper can work with that value: more than nothing, within a factor of a thousand of the usual one.
+[[nodiscard]] bool is_usable(Parameter const& parameter, double value);
+
 }  // namespace lapwing::slam

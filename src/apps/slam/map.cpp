@@ -17,6 +17,7 @@
 #include "apps/slam/map_logs.hpp"
 #include "apps/slam/map_report.hpp"
 #include "apps/slam/recorded_log.hpp"
+#include "apps/slam/resume_map.hpp"
 #include "apps/verb.hpp"
 #include "base/async/parallel_for.hpp"
 #include "base/files/replace_file.hpp"
@@ -41,6 +42,7 @@ struct MapOptions {
   fs::path relations;
   scans::BagChoice topics;
   fs::path known_map;
+  fs::path resumed;
   std::string start;
   unsigned threads = 0;
   std::vector<std::string> settings;
@@ -90,6 +92,10 @@ base::Result<slam::MapperOptions> mapper_options(std::vector<std::string> const&
     if (found == all.end() || end == begin || *end != '\0' || !std::isfinite(value))
       return base::fail(base::ErrorKind::invalid_input, fmt::format("--set {}: not a parameter and a number", setting),
                         "docs/reference/slam.md lists the parameters");
+    if (!slam::is_usable(*found, value))
+      return base::fail(
+          base::ErrorKind::invalid_input,
+          fmt::format("--set {}: more than nothing, and within a factor of 1000 of {}", setting, found->get({})));
     found->set(options, value);
   }
   return options;
@@ -104,9 +110,20 @@ std::string walls_csv(std::vector<slam::WallLine> const& walls) {
   return text;
 }
 
+/// With what it took, as that is not in `add_use` of the report.
+base::Result<> write_state(MapOptions const& options, slam::Mapping const& mapping, Json& report) {
+  if (!can_go_on(mapping)) return {};
+  auto const started = std::chrono::steady_clock::now();
+  if (auto done = write_state_file(mapping, options.out); !done) return done;
+  std::chrono::duration<double, std::milli> const took = std::chrono::steady_clock::now() - started;
+  std::error_code error;
+  report["state"] = {{"bytes", fs::file_size(state_path(options.out), error)}, {"write_ms", took.count()}};
+  return {};
+}
+
 /// The report comes last: whoever sees it finds the others.
 base::Result<> write_results(MapOptions const& options, LogsMap const& made, map::OccupancyGrid const& grid,
-                             std::vector<slam::WallLine> const& walls, Json const& report) {
+                             std::vector<slam::WallLine> const& walls, Json report) {
   auto const write = [&](char const* name, std::string const& text) {
     return base::replace_file(options.out / name, text);
   };
@@ -118,6 +135,7 @@ base::Result<> write_results(MapOptions const& options, LogsMap const& made, map
   if (auto done = write_trajectories(made, options.out); !done) return done;
   auto const& graph = made.mapping.graph;
   if (auto done = write("graph.g2o", slam::write_g2o(graph.poses, graph.constraints)); !done) return done;
+  if (auto done = write_state(options, made.mapping, report); !done) return done;
   return write("report.json", base::to_text(report, 2) + "\n");
 }
 
@@ -155,8 +173,23 @@ base::Result<std::vector<RecordedLog>> read_all(MapOptions const& options) {
   return recorded;
 }
 
-base::Result<> map_together(MapOptions const& options, std::vector<RecordedLog> recorded,
-                            std::vector<slam::Relation> const& relations, slam::MapperOptions const& settings,
+/// What `make_map` was asked, read and parsed.
+struct MapRequest {
+  std::vector<slam::Relation> relations;
+  slam::MapperOptions settings;
+  std::optional<slam::Pose2> start;
+  std::optional<slam::SavedMap> saved;
+  double read_state_ms = 0.0;
+};
+
+base::Result<LogsMap> map_or_resume(MapOptions const& options, std::vector<RecordedLog> recorded, MapRequest request,
+                                    slam::ForEach const& for_each, slam::Progress const& progress) {
+  if (!request.saved) return map_logs(options.logs, std::move(recorded), request.settings, for_each, progress);
+  return resume_map(*std::move(request.saved), options.logs.front(), std::move(recorded.front().log), request.start,
+                    for_each, progress);
+}
+
+base::Result<> map_together(MapOptions const& options, std::vector<RecordedLog> recorded, MapRequest request,
                             std::chrono::steady_clock::time_point started) {
   auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   slam::ForEach const for_each = [threads](std::size_t count, std::function<void(std::size_t)> const& work) {
@@ -165,16 +198,20 @@ base::Result<> map_together(MapOptions const& options, std::vector<RecordedLog> 
   auto bags = bags_json(recorded);
   ScanTimes times;
   ProgressLine line;
-  auto const made =
-      map_logs(options.logs, std::move(recorded), settings, for_each, [&](std::string_view stage, double share) {
-        times(stage);
-        line(stage, share);
-      });
+  auto const relations = request.relations;
+  auto const read_ms = request.read_state_ms;
+  auto const progress = [&](std::string_view stage, double share) {
+    times(stage);
+    line(stage, share);
+  };
+  auto const made = map_or_resume(options, std::move(recorded), std::move(request), for_each, progress);
   if (!made) return std::unexpected(made.error());
   auto const grid = slam::draw_grid(made->log, made->mapping.trajectory, {});
   auto const walls = slam::find_walls(grid);
   auto report = report_of(*made, relations);
   if (!bags.is_null()) report["bag"] = std::move(bags);
+  if (!made->beginning.empty())
+    report["resumed"] = {{"from", options.resumed.string()}, {"beginning", made->beginning}, {"read_ms", read_ms}};
   add_use(report, started, times);
   report["threads"] = threads;
   if (auto done = write_results(options, *made, grid, walls, report); !done) return done;
@@ -182,30 +219,58 @@ base::Result<> map_together(MapOptions const& options, std::vector<RecordedLog> 
   return {};
 }
 
-base::Result<> make_map(MapOptions const& options) {
-  auto const started = std::chrono::steady_clock::now();
-  auto const relations = read_relations(options.relations);
-  if (!relations) return std::unexpected(relations.error());
-  auto const settings = mapper_options(options.settings);
-  if (!settings) return std::unexpected(settings.error());
-  std::optional<slam::Pose2> start;
-  if (!options.start.empty()) {
-    auto const parsed = parse_start(options.start);
-    if (!parsed) return std::unexpected(parsed.error());
-    start = *parsed;
-  }
+/// What fits no other option, which the command line does not know.
+base::Result<> check(MapOptions const& options) {
   bool const is_known = !options.known_map.empty();
+  bool const is_resumed = !options.resumed.empty();
   if (is_known && options.logs.size() > 1)
     return base::fail(base::ErrorKind::invalid_input, "--localise lays one log on a map, not several");
+  if (is_resumed && options.logs.size() > 1)
+    return base::fail(base::ErrorKind::invalid_input, "--resume goes on with one log, not several",
+                      "resume with one after the other");
+  if (!options.start.empty() && !is_known && !is_resumed)
+    return base::fail(base::ErrorKind::invalid_input,
+                      "--start says where on a map a log begins: --localise or --resume");
+  return {};
+}
+
+base::Result<MapRequest> read_request(MapOptions const& options) {
+  MapRequest request;
+  auto relations = read_relations(options.relations);
+  if (!relations) return std::unexpected(relations.error());
+  request.relations = *std::move(relations);
+  auto const settings = mapper_options(options.settings);
+  if (!settings) return std::unexpected(settings.error());
+  request.settings = *settings;
+  if (!options.start.empty()) {
+    auto const start = parse_start(options.start);
+    if (!start) return std::unexpected(start.error());
+    request.start = *start;
+  }
+  if (options.resumed.empty()) return request;
+  auto const started = std::chrono::steady_clock::now();
+  auto saved = read_state_file(state_path(options.resumed));
+  if (!saved) return std::unexpected(saved.error());
+  request.saved = *std::move(saved);
+  request.read_state_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
+  return request;
+}
+
+base::Result<> make_map(MapOptions const& options) {
+  auto const started = std::chrono::steady_clock::now();
+  if (auto checked = check(options); !checked) return checked;
+  auto request = read_request(options);
+  if (!request) return std::unexpected(request.error());
   std::error_code error;
   fs::create_directories(options.out, error);
   if (error) return base::fail(base::ErrorKind::io, fmt::format("{}: {}", options.out.string(), error.message()));
   auto recorded = read_all(options);
   if (!recorded) return std::unexpected(recorded.error());
   if (recorded->empty()) return {};
-  if (is_known)
-    return localise(std::move(recorded->front()), *relations, {.map = options.known_map, .start = start}, options.out);
-  return map_together(options, *std::move(recorded), *relations, *settings, started);
+  if (!options.known_map.empty())
+    return localise(std::move(recorded->front()), request->relations,
+                    {.map = options.known_map, .start = request->start}, options.out);
+  return map_together(options, *std::move(recorded), *std::move(request), started);
 }
 
 }  // namespace
@@ -222,20 +287,26 @@ void add_map(CLI::App& program, int& exit_code) {
   verb->add_option("--odom-topic", options->topics.odometry_topic,
                    "Which nav_msgs/Odometry of a bag that has several, or /tf");
   verb->add_option("--out", options->out,
-                   "Folder for map.pgm, map.yaml, map.png, walls.csv, trajectory.tum, graph.g2o, report.json")
+                   "Folder for map.pgm, map.yaml, map.png, walls.csv, trajectory.tum, graph.g2o, mapping.state, "
+                   "report.json")
       ->required();
   auto* known = verb->add_option("--localise", options->known_map,
                                  "A ROS map (.yaml) on which the scans are laid, instead of making one: "
                                  "trajectory.tum, fits.csv, report.json")
                     ->check(CLI::ExistingFile);
+  auto* resumed =
+      verb->add_option("--resume", options->resumed,
+                       "A mapping that ended, which the log goes on with in the same frame: the folder that "
+                       "it was written to, or the mapping.state in it")
+          ->check(CLI::ExistingPath)
+          ->excludes(known);
   verb->add_option("--start", options->start,
-                   "x,y,heading of the first scan on that map, metres and degrees; default: it is searched for")
-      ->needs(known);
+                   "x,y,heading of the first scan on that map, metres and degrees; default: it is searched for");
   verb->add_option("--relations", options->relations, "True relative poses to measure the trajectory with")
       ->check(CLI::ExistingFile);
   verb->add_option("--threads", options->threads, "How many; default: as many as the machine has. The map is the same")
       ->check(CLI::Range(1U, 256U));
-  verb->add_option("--set", options->settings, "PARAMETER=NUMBER, as in docs/reference/slam.md");
+  verb->add_option("--set", options->settings, "PARAMETER=NUMBER, as in docs/reference/slam.md")->excludes(resumed);
   verb->add_flag("--loops", options->wants_loops,
                  "Write loops.json too: every place that was looked for, and what became of it");
   verb->callback([options, &exit_code] {

@@ -26,6 +26,7 @@ LogsMap of_one(std::filesystem::path const& path, slam::ScanLog log, slam::Mappi
   slam::MergedLog const whole{.scans = log.scans.size(),
                               .key_frames = static_cast<int>(frames.size()),
                               .path_m = frames.empty() ? 0.0 : frames.back().path_m};
+  mapping.memory.drives.back().name = path.filename().string();
   return {.log = std::move(log), .mapping = std::move(mapping), .parts = {{path.string(), whole}}};
 }
 

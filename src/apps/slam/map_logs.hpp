@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@ struct LogsMap {
   slam::ScanLog log;  ///< of several one after another
   slam::Mapping mapping;
   std::vector<LogPart> parts;
+  std::string_view beginning = {};  ///< of a mapping that went on: how it was known where the drive begins
 };
 
 /// Errors (invalid_input): of several logs one cannot be merged with the others. Preconditions: there is a log, and a

@@ -134,6 +134,7 @@ std::vector<Eigen::Vector2f> query_cloud(Graph const& graph, int last, int frame
       auto const y = static_cast<std::int64_t>(std::floor(point.y() / cell_m));
       if (taken.insert(x * 1'000'003 + y).second) points.push_back(point);
     }
+    if (graph.frames[k].is_cut) break;
   }
   return points;
 }

@@ -190,6 +190,11 @@ bool LoopCloser::look(Graph& graph, int query) {
   return has_closed;
 }
 
+void LoopCloser::know(Graph const& graph) {
+  search_.know(graph);
+  last_search_m_ = graph.frames.empty() ? 0.0 : graph.frames.back().path_m;
+}
+
 bool LoopCloser::follow(Graph& graph) {
   search_.follow(graph);
   auto const last = graph.size() - 1;

@@ -11,6 +11,15 @@ struct LoopCounts {
   int closures = 0;  ///< that hold
   int doubted = 0;   ///< found and not believed
   int revoked = 0;   ///< believed until they were seen to contradict the rest
+
+  LoopCounts& operator+=(LoopCounts const& other) {
+    searches += other.searches;
+    closures += other.closures;
+    doubted += other.doubted;
+    revoked += other.revoked;
+    return *this;
+  }
+  friend bool operator==(LoopCounts const&, LoopCounts const&) = default;
 };
 [[nodiscard]] LoopCounts counts_of(std::vector<LoopRecord> const& records);
 
@@ -24,8 +33,8 @@ class LoopCloser {
 
   /// After each new key frame, the graph's last. Returns whether the poses have changed.
   bool follow(Graph& graph);
-  /// Takes in a graph that others have made, in place of following it.
-  void know(Graph const& graph) { search_.know(graph); }
+  /// Takes in a graph that others have made, in place of following it so far.
+  void know(Graph const& graph);
   /// After the last key frame: looks again from every place, as far as places are not joined yet, for now more is
   /// known of where each lies; then optimizes the whole graph to the end. `first`: from that key frame on only.
   void finish(Graph& graph, int first = 0);

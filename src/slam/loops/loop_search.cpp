@@ -45,16 +45,25 @@ std::string_view to_string(LoopRecord::Verdict verdict) {
 void LoopSearch::follow(Graph const& graph) {
   auto const last = graph.size() - 1;
   auto const size = options_.submap_frames;
-  if ((last + 1) % size != 0) return;
-  if (auto submap = make_submap(graph, last - size + 1, last)) submaps_.push_back(*std::move(submap));
+  if (graph.frames[last].is_cut) end_drive(graph, last);
+  if (last - next_first_ + 1 < size) return;
+  if (auto submap = make_submap(graph, next_first_, last)) submaps_.push_back(*std::move(submap));
+  next_first_ = last + 1;
+}
+
+void LoopSearch::end_drive(Graph const& graph, int next) {
+  constexpr int few = 5;  // see too little to be looked for in
+  if (next - next_first_ >= few)
+    if (auto submap = make_submap(graph, next_first_, next - 1)) submaps_.push_back(*std::move(submap));
+  next_first_ = next;
 }
 
 void LoopSearch::know(Graph const& graph) {
   auto const size = options_.submap_frames;
-  for (int first = 0; first + size <= graph.size(); first += size) {
-    auto const last = first + size - 1;
-    if (graph.frames[last].path_m - graph.frames[first].path_m >= options_.least_gap_m) continue;
-    if (auto submap = make_submap(graph, first, last)) submaps_.push_back(*std::move(submap));
+  for (next_first_ = 0; next_first_ + size <= graph.size(); next_first_ += size) {
+    auto const last = next_first_ + size - 1;
+    if (graph.frames[last].path_m - graph.frames[next_first_].path_m >= options_.least_gap_m) continue;
+    if (auto submap = make_submap(graph, next_first_, last)) submaps_.push_back(*std::move(submap));
   }
 }
 

@@ -35,7 +35,8 @@ class LoopSearch {
 
   /// After each new key frame, the graph's last: makes a submap of the last ones when there are enough.
   void follow(Graph const& graph);
-  /// All submaps of a graph of one or several drives; none across a gap between two of them.
+  /// All submaps of a graph of one or several drives; none across a gap between two of them. What is left over at the
+  /// end becomes one when the graph grows.
   void know(Graph const& graph);
 
   struct Scope {
@@ -52,6 +53,8 @@ class LoopSearch {
   [[nodiscard]] LoopRecord& record_of(Closure const& closure) { return records_[closure.record]; }
 
  private:
+  /// A submap of what is left over, before the drive that key frame `next` begins.
+  void end_drive(Graph const& graph, int next);
   struct Candidate {
     int submap;
     LoopWindow window;
@@ -61,6 +64,7 @@ class LoopSearch {
   LoopOptions options_;
   ForEach for_each_;
   std::vector<Submap> submaps_;
+  int next_first_ = 0;  ///< key frame of the submap that is to come
   std::vector<LoopRecord> records_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,14 @@ class OdometryNoise {
   /// What a step turned out to be: where it was predicted to end, and where it was found to. `is_pinned`: the scan
   /// shows walls in both directions, so that its shift is known.
   void learn(Pose2 const& step, Pose2 const& predicted, Pose2 const& matched, bool is_pinned);
+
+  /// What was learned, to go on from another day: errors of the last steps as shares of what was expected.
+  struct Memory {
+    std::vector<double> shift;
+    std::vector<double> turn;
+  };
+  [[nodiscard]] Memory memory() const;
+  void remember(Memory const& memory);
 
  private:
   struct Ratios {

@@ -285,7 +285,8 @@ base::Result<MergedMaps> merge_maps(std::vector<MappedLog> logs, MapperOptions c
     progress("filling in", merging + refining);
     auto& [name, log, mapping] = logs[i];
     // What one drive alone knew of the way between two key frames is as good as odometry gets.
-    for (auto const& pose : fill(log, mapping.trajectory, merger.part(i), options.frame, options.fill, for_each))
+    auto const part = merger.part(i);
+    for (auto const& pose : fill(log, mapping.trajectory, way_of(part), part, options.frame, options.fill, for_each))
       maps.mapping.trajectory.push_back(pose);
     append(maps.log, std::move(log));
   }

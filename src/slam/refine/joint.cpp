@@ -30,9 +30,12 @@ std::vector<Pair> overlapping(Graph const& graph, JointOptions const& options) {
 
 /// That neighbours in time stay about where the graph had put them to each other: what holds a key frame that sees
 /// little.
-void hold_steps(BlockSystem& system, std::vector<Pose2> const& before, std::vector<Pose2> const& poses, double scale) {
-  Eigen::Vector3d const trust = scale * Eigen::Vector3d(400.0, 400.0, 2500.0);  // 5 cm, 1.1 degrees
+void hold_steps(BlockSystem& system, std::vector<Pose2> const& before, Graph const& graph, double scale) {
+  auto const& poses = graph.poses;
   for (int k = 1; k < static_cast<int>(poses.size()); ++k) {
+    constexpr double over_a_cut = 0.01;  // so that what sees nothing stays, and nothing else is held by it
+    Eigen::Vector3d const trust =        // 5 cm, 1.1 degrees
+        (graph.frames[k].is_cut ? over_a_cut : 1.0) * scale * Eigen::Vector3d(400.0, 400.0, 2500.0);
     auto const& from = poses[k - 1];
     auto const& to = poses[k];
     Eigen::Vector3d error = numbers(between(from, to)) - numbers(between(before[k - 1], before[k]));
@@ -78,7 +81,7 @@ void refine_jointly(Graph& graph, JointOptions const& options, ForEach const& fo
       system.add(target, hessian.bottomRightCorner<3, 3>(), gradient.tail<3>());
       system.add_coupling(source, target, hessian.topRightCorner<3, 3>());
     }
-    hold_steps(system, before, graph.poses, options.step_trust);
+    hold_steps(system, before, graph, options.step_trust);
     system.fix(0);
     auto const solution = system.solve();
     if (!solution.is_valid) return;

@@ -1,0 +1,125 @@
+#include "slam/state/state_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "slam/mapper.hpp"
+#include "slam/testing/simulated_drive.hpp"
+
+namespace lapwing::slam {
+namespace {
+
+/// Of a short drive, with a range that is no number and one that came back from nowhere.
+Mapping const& mapping() {
+  static auto const made = [] {
+    auto drive = testing::drive(testing::office(20.0, 12.0, 4.0, 1.0, 5), {{0, 0}, {4, 0}, {4, 0.5}}, {.beams = 31});
+    drive.log.scans[0].ranges_m[3] = std::numeric_limits<float>::quiet_NaN();
+    drive.log.scans[0].ranges_m[4] = std::numeric_limits<float>::infinity();
+    MapperOptions options;
+    options.loops.submap_frames = 12;
+    options.gather.few_readings = 10;
+    auto mapping = map_log(drive.log, options, one_by_one, [](std::string_view, double) {});
+    mapping.memory.drives.back().name = "monday.clf";
+    return mapping;
+  }();
+  return made;
+}
+
+std::string const& state() {
+  static auto const bytes = write_state(mapping().graph, mapping().memory);
+  return bytes;
+}
+
+std::string error_of(std::string const& bytes) {
+  auto const read = read_state(bytes);
+  return read ? "" : read.error().message;
+}
+
+TEST(StateFile, GivesBackEveryBit) {
+  auto const read = read_state(state());
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(write_state(read->graph, read->memory), state());
+  auto const& memory = mapping().memory;
+  EXPECT_EQ(read->graph.poses, mapping().graph.poses);
+  EXPECT_EQ(read->memory.options.loops.submap_frames, 12);
+  EXPECT_EQ(read->memory.past, memory.past);
+  EXPECT_EQ(read->memory.drives, memory.drives);
+  EXPECT_EQ(read->memory.loops, memory.loops);
+  EXPECT_EQ(read->memory.seen.sensors, memory.seen.sensors);
+  EXPECT_EQ(read->memory.front_end.last_odometry, memory.front_end.last_odometry);
+  EXPECT_EQ(read->memory.time, memory.time);
+}
+
+TEST(StateFile, FindsTheSamePointsInTheScans) {
+  auto const read = read_state(state());
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->graph.size(), mapping().graph.size());
+  for (int k = 0; k < read->graph.size(); ++k) {
+    EXPECT_EQ(read->graph.frames[k].scan, mapping().graph.frames[k].scan);
+    EXPECT_EQ(read->graph.frames[k].frame.points, mapping().graph.frames[k].frame.points);
+    EXPECT_EQ(read->graph.frames[k].frame.normals, mapping().graph.frames[k].frame.normals);
+  }
+}
+
+TEST(StateFile, RefusesWhatIsNoState) {
+  EXPECT_EQ(error_of("FLASER 2 1.0 1.0"), "this is no state of a mapping");
+  EXPECT_EQ(error_of(""), "this is no state of a mapping");
+}
+
+TEST(StateFile, RefusesANewerVersion) {
+  auto bytes = state();
+  bytes[8] = 2;
+  EXPECT_EQ(error_of(bytes), "this state of a mapping is of version 2, and version 1 is read");
+}
+
+TEST(StateFile, SaysWhereItIsCutOff) {
+  EXPECT_EQ(error_of(state().substr(0, 20)), "this state of a mapping is cut off in its first bytes");
+  auto const size = state().size() - 24;
+  EXPECT_EQ(error_of(state().substr(0, state().size() - 1)),
+            fmt::format("this state of a mapping is cut off: {} of {} bytes", size - 1, size));
+  EXPECT_EQ(error_of(state() + "more"), "this state of a mapping has 4 bytes behind its end");
+}
+
+TEST(StateFile, NoticesEveryFlippedBit) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 200; ++i) {
+    auto bytes = state();
+    auto& byte = bytes[24 + random() % (bytes.size() - 24)];
+    byte = static_cast<char>(byte ^ (1 << (random() % 8)));
+    EXPECT_EQ(error_of(bytes), "this state of a mapping is damaged: its checksum does not match");
+  }
+}
+
+TEST(StateFile, RefusesNumbersThatNoMappingHas) {
+  auto const refused = [](auto change) {
+    auto graph = mapping().graph;
+    auto memory = mapping().memory;
+    change(graph, memory);
+    return error_of(write_state(graph, memory));
+  };
+  constexpr auto begin = "this state of a mapping is damaged: ";
+  EXPECT_EQ(refused([](Graph& graph, MapMemory&) { graph.constraints[0].to = 9999; }),
+            fmt::format("{}a constraint is to key frame 9999 of {}", begin, mapping().graph.size()));
+  EXPECT_EQ(refused([](Graph& graph, MapMemory&) { graph.constraints[1].to = graph.constraints[1].from; }),
+            fmt::format("{}constraint 1 says nothing", begin));
+  EXPECT_EQ(refused([](Graph& graph, MapMemory&) { graph.poses[2].x = std::nan(""); }),
+            fmt::format("{}key frame 2 is out of order or nowhere", begin));
+  EXPECT_EQ(refused([](Graph& graph, MapMemory&) { graph.frames[2].scan = graph.frames[1].scan; }),
+            fmt::format("{}key frame 2 is out of order or nowhere", begin));
+  EXPECT_EQ(refused([](Graph&, MapMemory& memory) { memory.past[3].frame = -1; }),
+            fmt::format("{}a scan is near key frame 4294967295 of {}", begin, mapping().graph.size()));
+  EXPECT_EQ(refused([](Graph&, MapMemory& memory) { memory.drives.clear(); }),
+            fmt::format("{}its drives have 0 scans of {}", begin, mapping().memory.past.size()));
+  EXPECT_EQ(refused([](Graph&, MapMemory& memory) { memory.options.loops.submap_frames = 0; }),
+            fmt::format("{}loops.submap_frames is 0", begin));
+  EXPECT_EQ(refused([](Graph&, MapMemory& memory) { std::ranges::reverse(memory.seen.sensors[0].bearings_rad); }),
+            fmt::format("{}beams that no laser has", begin));
+}
+
+}  // namespace
+}  // namespace lapwing::slam
