@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <expected>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,10 +11,9 @@
 #include <fmt/format.h>
 
 #include "base/assert.hpp"
-#include "slam/known/lay_on_map.hpp"
 #include "slam/loops/contradiction.hpp"
 #include "slam/merge/common_place.hpp"
-#include "slam/refine/overlap.hpp"
+#include "slam/merge/fit_on_map.hpp"
 
 namespace lapwing::slam {
 namespace {
@@ -206,23 +206,12 @@ class Merger {
     return closures;
   }
 
-  /// Of the key frames from `first` on that were taken within a metre of one before, the share that fits what was seen
-  /// then. Half a building laid on the other half fits at its corners and along its corridors, and not in between.
+  /// Of the key frames from `first` on that were taken where others went, the share that fits what was seen then.
   [[nodiscard]] double share_that_fits(int first) const {
     std::vector<Pose2> const poses(graph_.poses.begin(), graph_.poses.begin() + first);
-    auto const known = KnownMap::make(draw_grid(seen_, poses, {}));
-    if (!known) return 0.0;
-    constexpr double near_m = 1.0;
-    constexpr double good_fit = 0.7;
-    PlaceIndex const index(poses, near_m);
-    int met = 0;
-    int fitting = 0;
-    for (int k = first; k < graph_.size(); ++k) {
-      if (index.near(graph_.poses[k], -1, 1).empty()) continue;
-      ++met;
-      fitting += fit_of(*known, graph_.frames[k].frame, graph_.poses[k]) >= good_fit ? 1 : 0;
-    }
-    return met == 0 ? 0.0 : static_cast<double>(fitting) / met;
+    std::vector<int> frames(static_cast<std::size_t>(graph_.size() - first));
+    std::iota(frames.begin(), frames.end(), first);
+    return fit_on_map(seen_, poses, graph_, frames).share();
   }
 
   std::vector<MappedLog>& logs_;

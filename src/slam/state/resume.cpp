@@ -1,6 +1,5 @@
 #include "slam/state/resume.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "slam/known/known_map.hpp"
 #include "slam/known/localizer.hpp"
 #include "slam/loops/contradiction.hpp"
+#include "slam/merge/fit_on_map.hpp"
 
 namespace lapwing::slam {
 namespace {
@@ -20,8 +20,9 @@ constexpr double same_place_rad = 0.5;
 // Where a robot is searched for: so often, and so far on its way.
 constexpr double search_step_m = 2.0;
 constexpr double most_searched_m = 30.0;
-/// So many loops must join what was found with the map.
-constexpr int least_closures = 3;
+// What is asked of a drive that was found: so many key frames on the map, and the share of them that fits it.
+constexpr int least_met = 15;
+constexpr double least_that_fits = 0.7;
 
 struct Begun {
   Beginning beginning;
@@ -111,14 +112,26 @@ base::Result<Begun> begin(SavedMap const& saved, ScanLog const& log, std::option
 /// What speaks against a drive that was found on the map.
 std::string against(Mapping const& mapping, int first_scan, LoopOptions const& options, ForEach const& for_each) {
   auto const& graph = mapping.graph;
-  auto const is_new = [&](int frame) { return graph.frames[frame].scan >= first_scan; };
-  auto const closures = std::ranges::count_if(
-      graph.constraints, [&](Constraint const& c) { return c.is_loop && is_new(c.from) != is_new(c.to); });
-  if (closures < least_closures) return fmt::format("{} loops hold, and {} are needed", closures, least_closures);
+  ScanLog seen{.sensors = mapping.memory.seen.sensors, .scans = {}};
+  std::vector<Pose2> poses;
+  std::vector<int> frames;
   auto apart = graph.poses;
   constexpr double beyond_sight_m = 1e4;
-  for (int k = 0; k < graph.size(); ++k)
-    if (is_new(k)) apart[k].x += beyond_sight_m;
+  for (int k = 0; k < graph.size(); ++k) {
+    if (graph.frames[k].scan < first_scan) {
+      seen.scans.push_back(mapping.memory.seen.scans[k]);
+      poses.push_back(graph.poses[k]);
+    } else {
+      frames.push_back(k);
+      apart[k].x += beyond_sight_m;
+    }
+  }
+  auto const fit = fit_on_map(seen, poses, graph, frames);
+  if (fit.met < least_met)
+    return fmt::format("{} of its key frames were taken on the map, and {} are needed", fit.met, least_met);
+  if (fit.share() < least_that_fits)
+    return fmt::format("{:.0f} % of its key frames fit what was seen there ({:.0f} % at least)", 100.0 * fit.share(),
+                       100.0 * least_that_fits);
   auto const passes = agreement_of_passes(graph, graph.poses, apart, options.least_gap_m, for_each);
   auto const most = options.most_contradiction;
   if (passes.conflict() <= most) return {};
