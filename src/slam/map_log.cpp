@@ -15,10 +15,12 @@ std::vector<Pose2> told_odometry(ScanLog const& log, RobotKind const& kind) {
   return told;
 }
 
-/// The key frames of the last drive, its first scan counted as 0.
-std::vector<WayPoint> way_since(Graph const& graph, int first_scan) {
+/// The key frames of the last drive and what became of those that were let go, its first scan counted as 0.
+std::vector<WayPoint> way_since(Graph const& graph, std::vector<WayPoint> const& gone, int first_scan) {
   auto way = way_of(graph);
   std::erase_if(way, [&](WayPoint const& point) { return point.scan < first_scan; });
+  way.insert(way.end(), gone.begin(), gone.end());
+  std::ranges::sort(way, {}, &WayPoint::scan);
   for (auto& point : way) point.scan -= first_scan;
   return way;
 }
@@ -31,12 +33,9 @@ std::vector<Pose2> carried_along(std::vector<PastScan> const& past, Graph const&
   return poses;
 }
 
-PastDrive drive_since(Graph const& graph, int first_scan, std::size_t scans) {
+int key_frames_since(Graph const& graph, int first_scan) {
   auto const first = std::ranges::lower_bound(graph.frames, first_scan, {}, &KeyFrame::scan);
-  PastDrive drive{.name = {}, .scans = static_cast<int>(scans)};
-  drive.key_frames = static_cast<int>(graph.frames.end() - first);
-  if (first != graph.frames.end()) drive.path_m = graph.frames.back().path_m - first->path_m;
-  return drive;
+  return static_cast<int>(graph.frames.end() - first);
 }
 
 }  // namespace
@@ -64,13 +63,15 @@ Mapping map_drive(Mapper mapper, ScanLog const& log, ForEach const& for_each, Pr
   progress("filling in", driving + finishing);
   Mapping mapping;
   mapping.loop_records = mapper.loops().records();
+  auto const gone = mapper.gone();
+  auto const driven_m = mapper.driven_m();
   auto saved = std::move(mapper).take();
   mapping.graph = std::move(saved.graph);
   mapping.memory = std::move(saved.memory);
   mapping.loops = mapping.memory.loops;
   auto& past = mapping.memory.past;
   auto const first_scan = static_cast<int>(past.size());
-  auto const way = way_since(mapping.graph, first_scan);
+  auto const way = way_since(mapping.graph, gone, first_scan);
   auto const trajectory = kind.is_sparse
                               ? spread_over_scans(odometry, mapping.graph)
                               : fill(log, odometry, way, mapping.graph, options.frame, options.fill, for_each);
@@ -81,7 +82,10 @@ Mapping map_drive(Mapper mapper, ScanLog const& log, ForEach const& for_each, Pr
     auto const frame = way_point_before(way, static_cast<int>(i)).frame;
     past.push_back({log.scans[i].time, frame, between(mapping.graph.poses[frame], trajectory[i])});
   }
-  mapping.memory.drives.push_back(drive_since(mapping.graph, first_scan, log.scans.size()));
+  mapping.memory.drives.push_back({.name = {},
+                                   .scans = static_cast<int>(log.scans.size()),
+                                   .key_frames = key_frames_since(mapping.graph, first_scan),
+                                   .path_m = driven_m});
   progress("done", 1.0);
   return mapping;
 }

@@ -50,6 +50,7 @@ void Mapper::begin_drive(RobotKind const& kind, std::optional<Pose2> const& star
   kind_.has_times = kind.has_times;
   is_first_scan_ = true;
   scan_odometry_ = {};
+  began_at_m_ = graph_.frames.back().path_m;
   if (!start) return;
   begins_drive_ = true;
   front_end_.begin_at(*start);
@@ -86,7 +87,10 @@ void Mapper::add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor) 
       {.scan = scans_ - 1, .frame = std::move(frame), .path_m = path_to(step.pose), .is_cut = begins_drive_});
   graph_.poses.push_back(step.pose);
   if (step.constraint) graph_.constraints.push_back(*step.constraint);
-  if (begins_drive_) hold_to_map();
+  if (begins_drive_) {
+    hold_to_map();
+    began_at_m_ = graph_.frames.back().path_m;
+  }
   begins_drive_ = false;
   key_odometry_ = odometry_;
   is_new_ = true;
@@ -129,7 +133,37 @@ void Mapper::hold_to_map() {
 bool Mapper::close_loops() {
   if (!is_new_) return false;
   is_new_ = false;
-  return loops_.follow(graph_);
+  auto const has_closed = loops_.follow(graph_);
+  // What was gathered is no scan that later ones could take the place of.
+  if (!kind_.is_sparse && --until_let_go_ <= 0) let_go_of_redundant();
+  return has_closed;
+}
+
+void Mapper::let_go_of_redundant() {
+  until_let_go_ = options_.prune.every_frames;
+  auto const redundant = redundant_frames(graph_, options_.prune);
+  if (redundant.empty()) return;
+  auto const first_scan = static_cast<int>(memory_.past.size());
+  for (auto const& [frame, heir] : redundant)
+    if (graph_.frames[frame].scan >= first_scan) gone_.push_back({graph_.frames[frame].scan, frame, Pose2{}});
+  auto const renumbering = let_go(graph_, redundant, options_.prune.most_loops);
+  keep_staying(seen_.scans, renumbering);
+  loops_.renumber(graph_, renumbering);
+  auto const hand_on = [&](int& heir, Pose2& in_heir) {
+    auto const& inheritance = renumbering.inheritances[heir];
+    in_heir = inheritance.in_heir * in_heir;
+    heir = inheritance.heir;
+  };
+  for (auto& gone : gone_) hand_on(gone.heir, gone.in_heir);
+  for (auto& scan : memory_.past) hand_on(scan.frame, scan.in_frame);
+}
+
+std::vector<WayPoint> Mapper::gone() const {
+  std::vector<WayPoint> way;
+  for (auto const& [scan, heir, in_heir] : gone_)
+    way.push_back({.scan = scan, .frame = heir, .pose = graph_.poses[heir] * in_heir, .is_key = false});
+  std::ranges::sort(way, {}, &WayPoint::scan);
+  return way;
 }
 
 Pose2 Mapper::pose() const {

@@ -41,7 +41,8 @@ class Mapper {
   /// The robot's pose at that scan, by what is known now. Takes a few milliseconds however large the map is.
   Pose2 follow(Scan const& scan, Sensor const& sensor);
   /// Looks for places where the robot has been before, if there is reason to. True: a loop was closed, so that every
-  /// pose has changed. Takes the longer the larger the map.
+  /// pose has changed. Takes the longer the larger the map. Key frames of places that have been seen often enough since
+  /// are let go, so that those of the graph have other numbers then.
   bool close_loops();
 
   [[nodiscard]] Pose2 pose() const;
@@ -53,6 +54,12 @@ class Mapper {
   [[nodiscard]] Pose2 const& odometry() const { return odometry_; }
   [[nodiscard]] MapperOptions const& options() const { return options_; }
   [[nodiscard]] RobotKind const& kind() const { return kind_; }
+  /// Driven in the last drive, by its key frames.
+  [[nodiscard]] double driven_m() const {
+    return graph_.frames.empty() ? 0.0 : graph_.frames.back().path_m - began_at_m_;
+  }
+  /// Key frames that were let go, in order of their scans, and where they are by now.
+  [[nodiscard]] std::vector<WayPoint> gone() const;
 
   /// After the last scan: what still can be closed, then all key frames aligned at once.
   void finish(Progress const& progress);
@@ -63,6 +70,7 @@ class Mapper {
  private:
   void add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor);
   void hold_to_map();
+  void let_go_of_redundant();
   [[nodiscard]] double path_to(Pose2 const& pose) const;
 
   MapMemory memory_;  ///< what an earlier drive left, and what a later one is to find
@@ -83,6 +91,14 @@ class Mapper {
   bool begins_drive_ = false;  ///< the next key frame does, on a map that is there already
   Pose2 key_odometry_;
   bool is_new_ = false;  ///< the last key frame has not been looked for elsewhere
+  struct Gone {
+    int scan;
+    int heir;
+    Pose2 in_heir;
+  };
+  std::vector<Gone> gone_;   ///< key frames of this drive that were let go
+  double began_at_m_ = 0.0;  ///< of the way, the last drive
+  int until_let_go_ = 0;     ///< key frames, until it is looked for what else can be
 };
 
 /// Maps a log: follows the robot, closes loops as they come, then refines everything together. The same result on any

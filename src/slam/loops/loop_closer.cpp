@@ -190,6 +190,26 @@ bool LoopCloser::look(Graph& graph, int query) {
   return has_closed;
 }
 
+LoopCounts LoopCloser::counts() const {
+  auto counts = forgotten_;
+  return counts += counts_of(records());
+}
+
+void LoopCloser::renumber(Graph const& graph, Renumbering const& renumbering) {
+  forgotten_ = counts();
+  auto const record_now = search_.renumber(graph, renumbering);
+  for (auto* group : {&pending_, &small_}) {
+    std::erase_if(*group,
+                  [&](Closure const& c) { return !renumbering.stays(c.query) || !renumbering.stays(c.target); });
+    for (auto& closure : *group) {
+      closure.query = renumbering.now[closure.query];
+      closure.target = renumbering.now[closure.target];
+      closure.record = record_now[static_cast<std::size_t>(closure.record)];
+    }
+  }
+  forgotten_ -= counts_of(records());
+}
+
 void LoopCloser::know(Graph const& graph) {
   search_.know(graph);
   last_search_m_ = graph.frames.empty() ? 0.0 : graph.frames.back().path_m;

@@ -19,6 +19,13 @@ struct LoopCounts {
     revoked += other.revoked;
     return *this;
   }
+  LoopCounts& operator-=(LoopCounts const& other) {
+    searches -= other.searches;
+    closures -= other.closures;
+    doubted -= other.doubted;
+    revoked -= other.revoked;
+    return *this;
+  }
   friend bool operator==(LoopCounts const&, LoopCounts const&) = default;
 };
 [[nodiscard]] LoopCounts counts_of(std::vector<LoopRecord> const& records);
@@ -35,11 +42,14 @@ class LoopCloser {
   bool follow(Graph& graph);
   /// Takes in a graph that others have made, in place of following it so far.
   void know(Graph const& graph);
+  /// After key frames of the graph were let go.
+  void renumber(Graph const& graph, Renumbering const& renumbering);
   /// After the last key frame: looks again from every place, as far as places are not joined yet, for now more is
   /// known of where each lies; then optimizes the whole graph to the end. `first`: from that key frame on only.
   void finish(Graph& graph, int first = 0);
 
-  [[nodiscard]] LoopCounts counts() const { return counts_of(records()); }
+  [[nodiscard]] LoopCounts counts() const;
+  /// Of the key frames that the graph still has.
   [[nodiscard]] std::vector<LoopRecord> const& records() const { return search_.records(); }
 
  private:
@@ -69,8 +79,9 @@ class LoopCloser {
   LoopOptions options_;
   ForEach for_each_;
   LoopSearch search_;
-  Group pending_;  ///< found and not believed yet
-  Group small_;    ///< that move little and wait for others
+  Group pending_;         ///< found and not believed yet
+  Group small_;           ///< that move little and wait for others
+  LoopCounts forgotten_;  ///< of key frames that were let go
   double last_search_m_ = 0.0;
 };
 

@@ -67,6 +67,42 @@ void LoopSearch::know(Graph const& graph) {
   }
 }
 
+std::optional<Submap> LoopSearch::left_of(Submap submap, Graph const& graph, Renumbering const& renumbering) const {
+  std::vector<int> staying;
+  for (int k = submap.first; k <= submap.last; ++k)
+    if (renumbering.stays(k)) staying.push_back(renumbering.now[k]);
+  if (static_cast<int>(staying.size()) <= submap.last - submap.first) {
+    auto const is_enough = 2 * static_cast<int>(staying.size()) >= options_.submap_frames;
+    return is_enough ? make_submap(graph, staying.front(), staying.back()) : std::nullopt;
+  }
+  submap.reference = renumbering.now[submap.reference];
+  submap.first = staying.front();
+  submap.last = staying.back();
+  return submap;
+}
+
+std::vector<int> LoopSearch::renumber(Graph const& graph, Renumbering const& renumbering) {
+  std::vector<Submap> submaps;
+  for (auto& submap : submaps_)
+    if (auto left = left_of(std::move(submap), graph, renumbering)) submaps.push_back(*std::move(left));
+  submaps_ = std::move(submaps);
+  auto const before = static_cast<std::ptrdiff_t>(next_first_);
+  next_first_ = static_cast<int>(std::count_if(renumbering.now.begin(), renumbering.now.begin() + before,
+                                               [](int now) { return now != Renumbering::gone; }));
+  std::vector<int> now;
+  std::vector<LoopRecord> records;
+  for (auto& record : records_) {
+    auto const stays = renumbering.stays(record.query) && renumbering.stays(record.target);
+    now.push_back(stays ? static_cast<int>(records.size()) : Renumbering::gone);
+    if (!stays) continue;
+    record.query = renumbering.now[record.query];
+    record.target = renumbering.now[record.target];
+    records.push_back(record);
+  }
+  records_ = std::move(records);
+  return now;
+}
+
 std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, int query, Scope const& scope) const {
   auto const drifts = drift_from(query, graph.poses, graph.constraints, options_.rates);
   auto const joined = scope.skips_joined ? joined_with(graph, query, options_.query_frames) : std::vector<int>();

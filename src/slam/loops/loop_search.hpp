@@ -5,6 +5,7 @@
 
 #include "slam/loops/closure.hpp"
 #include "slam/parallel.hpp"
+#include "slam/prune/let_go.hpp"
 
 namespace lapwing::slam {
 
@@ -39,6 +40,10 @@ class LoopSearch {
   /// end becomes one when the graph grows.
   void know(Graph const& graph);
 
+  /// After key frames of the graph were let go: submaps of what is left, and no record of what is gone. Returns the
+  /// records' new numbers, or Renumbering::gone.
+  [[nodiscard]] std::vector<int> renumber(Graph const& graph, Renumbering const& renumbering);
+
   struct Scope {
     double window_sigmas = 2.5;
     int most_places = 4;
@@ -55,6 +60,7 @@ class LoopSearch {
  private:
   /// A submap of what is left over, before the drive that key frame `next` begins.
   void end_drive(Graph const& graph, int next);
+  [[nodiscard]] std::optional<Submap> left_of(Submap submap, Graph const& graph, Renumbering const& renumbering) const;
   struct Candidate {
     int submap;
     LoopWindow window;
