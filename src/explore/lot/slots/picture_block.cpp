@@ -1,5 +1,6 @@
 #include "explore/lot/slots/picture_block.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -47,13 +48,25 @@ double KnownSlot::weight() const {
 /// H x = b in the pictures' shifts, with the slots eliminated: a slot lies at the weighted mean of its rows.
 struct PictureBlock::Equations {
   std::vector<Sheaf> sheaves;
-  Eigen::VectorXd stiffness;  ///< of what is expected of the poses: the diagonal of their part of H
+  std::vector<Expectation> expectations;  ///< of each picture's pose
   Eigen::VectorXd right;
   std::vector<Eigen::Matrix4d> preconditioner;  ///< inverse diagonal blocks of H
 
+  /// A row of the expectations, s (x_i - k x_before)^2, as part of a product with `x`.
+  void add_expectation(std::size_t picture, Eigen::VectorXd const& x, Eigen::VectorXd& product) const {
+    auto const& [before, kept, stiffness] = expectations[picture];
+    auto const at = static_cast<Eigen::Index>(4 * picture);
+    Eigen::Vector4d off = x.segment<4>(at);
+    if (before) off -= kept * x.segment<4>(static_cast<Eigen::Index>(4 * *before));
+    Eigen::Vector4d const pull = stiffness.cwiseProduct(off);
+    product.segment<4>(at) += pull;
+    if (before) product.segment<4>(static_cast<Eigen::Index>(4 * *before)) -= kept * pull;
+  }
+
   /// H x.
   [[nodiscard]] Eigen::VectorXd times(Eigen::VectorXd const& x) const {
-    Eigen::VectorXd product = stiffness.cwiseProduct(x);
+    Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
+    for (std::size_t i = 0; i < expectations.size(); ++i) add_expectation(i, x, product);
     for (auto const& sheaf : sheaves) {
       Eigen::Vector2d mean = Eigen::Vector2d::Zero();
       for (auto const& row : sheaf.rows) mean += row.weight * (row.parts * x.segment<4>(row.picture));
@@ -96,8 +109,12 @@ struct PictureBlock::Equations {
 };
 
 void PictureBlock::add(PlacedSight const& placed) {
-  pictures_.push_back(
-      {.below = below_camera(placed.sight), .came_by = placed.shift.v, .expected = placed.expected, .moved = {}});
+  pictures_.push_back({.below = below_camera(placed.sight),
+                       .came_by = placed.shift.v,
+                       .expected = placed.expected,
+                       .vehicle = placed.sight.vehicle,
+                       .at = placed.sight.at,
+                       .moved = {}});
 }
 
 Corners PictureBlock::placed(SlotFind const& find) const {
@@ -109,17 +126,9 @@ Corners PictureBlock::placed(SlotFind const& find) const {
 
 PictureBlock::Equations PictureBlock::equations(std::span<KnownSlot const> slots) const {
   auto const unknowns = static_cast<Eigen::Index>(4 * pictures_.size());
-  Equations all{.sheaves = {}, .stiffness = {}, .right = {}, .preconditioner = {}};
-  all.stiffness.resize(unknowns);
-  all.right.resize(unknowns);
-  std::vector<Eigen::Matrix4d> blocks;
-  for (std::size_t i = 0; i < pictures_.size(); ++i) {
-    auto const at = static_cast<Eigen::Index>(4 * i);
-    Eigen::Vector4d const stiffness = pictures_[i].expected.cwiseAbs2().cwiseInverse();
-    all.stiffness.segment<4>(at) = stiffness;
-    all.right.segment<4>(at) = -stiffness.cwiseProduct(pictures_[i].came_by);
-    blocks.emplace_back(stiffness.asDiagonal());
-  }
+  Equations all{.sheaves = {}, .expectations = {}, .right = Eigen::VectorXd::Zero(unknowns), .preconditioner = {}};
+  std::vector<Eigen::Matrix4d> blocks(pictures_.size(), Eigen::Matrix4d::Zero());
+  expect_poses(all, blocks);
   for (auto const& slot : slots) {
     if (slot.finds.size() + (slot.fixed_weight > 0.0 ? 1 : 0) < 2) continue;
     Sheaf sheaf;
@@ -151,6 +160,35 @@ PictureBlock::Equations PictureBlock::equations(std::span<KnownSlot const> slots
   }
   for (auto const& block : blocks) all.preconditioner.emplace_back(block.inverse());
   return all;
+}
+
+PictureBlock::Expectation PictureBlock::expectation(std::size_t picture) const {
+  auto const& one = pictures_[picture];
+  Expectation expected{.before = std::nullopt, .stiffness = one.expected.cwiseAbs2().cwiseInverse()};
+  for (std::size_t i = picture; i-- > 0;) {
+    if (pictures_[i].vehicle != one.vehicle) continue;
+    double const apart_s = std::abs(base::to_seconds(one.at - pictures_[i].at));
+    constexpr double most_kept = 0.999;  // two pictures of one moment
+    expected.before = i;
+    expected.kept = std::min(most_kept, std::exp(-apart_s / base::to_seconds(errors_last)));
+    expected.stiffness /= 1.0 - expected.kept * expected.kept;
+    break;
+  }
+  return expected;
+}
+
+/// The part of H that the poses have, and, as they are known up to where the pictures were put, of the right side.
+void PictureBlock::expect_poses(Equations& all, std::vector<Eigen::Matrix4d>& blocks) const {
+  Eigen::VectorXd came_by(all.right.size());
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    all.expectations.push_back(expectation(i));
+    auto const& [before, kept, stiffness] = all.expectations.back();
+    blocks[i] += stiffness.asDiagonal();
+    if (before) blocks[*before] += (kept * kept * stiffness).asDiagonal();
+    came_by.segment<4>(static_cast<Eigen::Index>(4 * i)) = pictures_[i].came_by;
+  }
+  for (std::size_t i = 0; i < pictures_.size(); ++i) all.add_expectation(i, came_by, all.right);
+  all.right = -all.right;
 }
 
 void PictureBlock::settle(std::span<KnownSlot> slots) {

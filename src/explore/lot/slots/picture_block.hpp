@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -24,10 +27,15 @@ struct PlacedSight {
 /// squares with Huber's loss; the slots are eliminated (Schur complement) and the rest is solved by conjugate
 /// gradients from the last solution on, which takes a few steps when one picture is new.
 ///
+/// What a drone errs about its place now it errs a moment later, too: the shifts of one vehicle's pictures are a
+/// process of Ornstein and Uhlenbeck (1930) with `errors_last` as its time, so that a hundred pictures of one place are
+/// no hundred opinions about where that is.
+///
 /// The oldest of more than `most_pictures` does not move any more.
 class PictureBlock {
  public:
   static constexpr std::size_t most_pictures = 400;
+  static constexpr base::Duration errors_last = std::chrono::seconds(3);
 
   /// Of the next picture, by which its finds name it.
   [[nodiscard]] std::size_t next_number() const { return first_ + pictures_.size(); }
@@ -42,10 +50,20 @@ class PictureBlock {
     map::SitePoint below;
     Eigen::Vector4d came_by = Eigen::Vector4d::Zero();  ///< from the camera's pose to where it was put when it came
     Eigen::Vector4d expected = Eigen::Vector4d::Ones();
+    std::string vehicle = {};
+    base::UtcTime at = {};
     PictureShift moved = {};  ///< since it came
+  };
+  /// What a picture's shift is expected to be by the one before of the same vehicle; by nothing where there is none.
+  struct Expectation {
+    std::optional<std::size_t> before;  ///< its place in `pictures_`
+    double kept = 0.0;                  ///< share of the earlier shift that is expected to last
+    Eigen::Vector4d stiffness;          ///< 1 / sigma^2 of the rest
   };
   struct Equations;
   [[nodiscard]] Equations equations(std::span<KnownSlot const> slots) const;
+  [[nodiscard]] Expectation expectation(std::size_t picture) const;
+  void expect_poses(Equations& all, std::vector<Eigen::Matrix4d>& blocks) const;
   void fix_oldest(std::span<KnownSlot> slots);
 
   std::deque<Picture> pictures_;

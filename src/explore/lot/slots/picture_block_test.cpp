@@ -121,7 +121,7 @@ TEST(PictureBlock, SettlesWhereDenseLeastSquaresDoes) {
   constexpr double weight = 25.0;
   std::vector<LotSight> sights;
   for (std::size_t k = 0; k < 5; ++k) {
-    sights.push_back(camera.look(8.0 + 6.0 * static_cast<double>(k), 19.0, 0.0, truth));
+    sights.push_back(camera.look(8.0 + 6.0 * static_cast<double>(k), 19.0, 5.0 * static_cast<double>(k), truth));
     auto const number = block.next_number();
     block.add({.sight = sights[k], .expected = expected_shift(sights[k])});
     for (auto const& seen : sights[k].slots)
@@ -134,9 +134,15 @@ TEST(PictureBlock, SettlesWhereDenseLeastSquaresDoes) {
   auto const unknowns = pictures + static_cast<Eigen::Index>(2 * slots.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
-  for (std::size_t k = 0; k < sights.size(); ++k)
-    normal.diagonal().segment<4>(static_cast<Eigen::Index>(4 * k)) =
-        expected_shift(sights[k]).cwiseAbs2().cwiseInverse();
+  double const kept = std::exp(-5.0 / base::to_seconds(PictureBlock::errors_last));
+  for (std::size_t k = 0; k < sights.size(); ++k) {
+    auto const at = static_cast<Eigen::Index>(4 * k);
+    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(4, unknowns);
+    row.middleCols<4>(at).setIdentity();
+    if (k > 0) row.middleCols<4>(at - 4) = -kept * Eigen::Matrix4d::Identity();
+    Eigen::Vector4d const rest = (k > 0 ? 1.0 - kept * kept : 1.0) * expected_shift(sights[k]).cwiseAbs2();
+    normal += row.transpose() * rest.cwiseInverse().asDiagonal() * row;
+  }
   for (std::size_t j = 0; j < slots.size(); ++j) {
     auto const at = pictures + static_cast<Eigen::Index>(2 * j);
     normal.diagonal().segment<2>(at).array() += slots[j].fixed_weight + 1e-9;
