@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "explore/lot/lot_map.hpp"
 #include "perceive/ground_picture.hpp"
 #include "vision/cars/contrast_cars.hpp"
 #include "vision/lot/occupancy.hpp"
