@@ -13,7 +13,7 @@ import harness
 import survey
 from drone import Drone, Operator, take_off
 from ros_drone import RosDrone
-from vision_health import Vision
+from drone_faults.vision_health import Vision
 
 KIBIBYTE = 1024
 

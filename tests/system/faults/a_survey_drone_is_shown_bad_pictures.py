@@ -6,7 +6,7 @@ import survey
 from drone import Drone, Operator, arm, take_off
 from fake_camera import FakeCamera
 from ros_drone import RosDrone
-from vision_health import Vision
+from drone_faults.vision_health import Vision
 
 with FakeCamera() as camera, Drone(decide='relies_on = ["vision"]', processes=survey.tables(camera=camera.table)) as drone:
     ros = RosDrone(drone.domain)

@@ -5,8 +5,8 @@ import contextlib
 import socket
 
 from drone import Drone, Operator, arm
-from drone_states import LED, begin, lead_into
-from played_survey import Survey
+from drone_faults.drone_states import LED, begin, lead_into
+from drone_faults.played_survey import Survey
 from ros_drone import RosDrone
 
 BACK = "the operator is heard again"

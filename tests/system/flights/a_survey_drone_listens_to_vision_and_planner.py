@@ -5,7 +5,7 @@ import math
 import time
 
 from drone import Drone, Operator, take_off
-from played_survey import NO_TURN, MapMetaData, OccupancyGrid, Survey, header
+from drone_faults.played_survey import NO_TURN, MapMetaData, OccupancyGrid, Survey, header
 from ros_drone import RosDrone
 from ros_robot import Point, Pose, Time
 

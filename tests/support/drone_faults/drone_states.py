@@ -1,7 +1,7 @@
 """Leads a survey drone into each of its states, with vision and planner played. Not a test itself."""
 
 from drone import Operator
-from played_survey import Survey
+from drone_faults.played_survey import Survey
 from ros_drone import RosDrone
 from ros_robot import Point
 

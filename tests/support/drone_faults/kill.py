@@ -3,8 +3,8 @@
 import time
 
 from drone import Drone, Operator, arm, take_off
-from drone_states import LED, begin, lead_into
-from played_survey import Survey
+from drone_faults.drone_states import LED, begin, lead_into
+from drone_faults.played_survey import Survey
 from ros_drone import RosDrone
 
 MOST_S = 1.5  # the flight controller's heartbeats, by which it is seen, are a second apart

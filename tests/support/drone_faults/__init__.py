@@ -1,0 +1,1 @@
+"""What tests of a survey drone's faults have in common."""
