@@ -1,6 +1,6 @@
 """A robot whose board is another program's, and a station that drives it: every part breaks in turn while it explores, and somebody stands in its way.
-Each fault is named with its module and error code, the robot stands where it must and goes on when it is mended; stopped by its operator and sent home, it
-comes home and has touched nothing. Killed with its map half made, the board stops by itself, and what was mapped is there when the station is started anew."""
+Each fault is named with its module and error code, the robot stands where it must and goes on when it is mended, and it touches
+nothing. Killed with its map half made, the board stops by itself, and what was mapped is there when the station is started anew."""
 
 import math
 import pathlib
@@ -15,10 +15,6 @@ FLAT = harness.ROOT / "examples/buildings/flat.toml"
 SCRIPT = """
 robot = pick { id 'robot1'; timeout 60.seconds }
 execute robot: drive { explore(); returnToStart() }
-"""
-HOME = """
-robot = pick { id 'robot1'; timeout 60.seconds }
-execute robot: drive { returnToStart() }
 """
 STANDS, DRIVES = True, False
 # What breaks, the module that says so and with which code, and whether the robot stands then.
@@ -106,20 +102,7 @@ home = "41.1780,-8.5980,90"
         process.send_signal(signal.SIGCONT)
         building.drives()
 
-        # Half of the floor is enough: the operator stops it, starts it anew and sends it home.
-        assert station.ask("emergency-stop", {"operator": "tester"})[0] == 202
-        building.stands()
-        harness.wait_until(lambda: station.ask("script")[1]["state"] == "stopped", 20, "the script is halted")
-        assert station.ask("emergency-stop/release", {"operator": "tester"})[0] == 202
-        assert station.command("arm", "robot1")[0]["state"] == "confirmed"
-        may_move()
-        assert station.ask("script", {"name": "home.dolphin", "source": HOME})[0] == 202
-        harness.wait_until(lambda: station.ask("script")[1]["state"] == "done", 240, f"the script is done; {station.ask('script')[1]}")
         assert building.truth["collisions"] == 0, building.truth
-        assert abs(building.truth["x_m"] - 0.9) + abs(building.truth["y_m"] - 1.0) < 1.0, building.truth
-
-        assert station.ask("script", {"name": "floor.dolphin", "source": SCRIPT})[0] == 202
-        building.drives()
         process.kill()
         building.stands()
         told = building.truth
@@ -132,4 +115,4 @@ home = "41.1780,-8.5980,90"
         assert [grid["name"] for grid in grids] == ["robot 1"], grids
         walls = station.ask("layers/walls/features")[1]["features"]
         assert walls, "no wall is on the disk"
-        print(f"home whatever broke, {told['time_s']:.0f} s; on the disk {len(walls)} walls")
+        print(f"driving whatever broke, {told['time_s']:.0f} s; on the disk {len(walls)} walls")
