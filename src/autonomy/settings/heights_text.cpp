@@ -1,7 +1,5 @@
 #include "autonomy/settings/heights_text.hpp"
 
-#include <zlib.h>
-
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -10,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/config.hpp"
+#include "base/crc32.hpp"
 
 namespace lapwing::autonomy {
 
@@ -19,9 +18,7 @@ constexpr std::string_view checksum_begin = "# crc32 = ";
 std::size_t constexpr checksum_line = checksum_begin.size() + 8 + 1;
 
 std::string checksum_of(std::string_view content) {
-  auto const* const bytes = reinterpret_cast<Bytef const*>(content.data());
-  auto const crc = static_cast<std::uint32_t>(::crc32(0, bytes, static_cast<uInt>(content.size())));
-  return fmt::format("{}{:08x}\n", checksum_begin, crc);
+  return fmt::format("{}{:08x}\n", checksum_begin, base::crc32(content));
 }
 
 std::unexpected<base::Error> unreadable(std::string const& name, std::string_view why) {

@@ -1,15 +1,15 @@
 #include "perceive/memory/survey_memory.hpp"
 
-#include <zlib.h>
-
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/crc32.hpp"
 #include "base/text/json.hpp"
 #include "base/text/utc_text.hpp"
+#include "explore/lot/slots/picture_shift.hpp"
 #include "map/features/feature_json.hpp"
 #include "perceive/memory/kept_sights.hpp"
 #include "perceive/memory/sight_json.hpp"
@@ -29,9 +29,7 @@ constexpr double most_pictures = 1e12;
 constexpr std::size_t longest_ending = 1'000;
 
 std::string checksum_of(std::string_view content) {
-  auto const* const bytes = reinterpret_cast<Bytef const*>(content.data());
-  auto const crc = static_cast<std::uint32_t>(::crc32_z(0, bytes, content.size()));
-  return fmt::format("{{\"crc32\":\"{:08x}\"}}\n", crc);
+  return fmt::format("{{\"crc32\":\"{:08x}\"}}\n", base::crc32(content));
 }
 
 std::unexpected<base::Error> unreadable(std::string why) {
@@ -104,14 +102,11 @@ base::Result<geo::Vector3<geo::SiteFrame>> shift_of(Json const& head, geo::Site 
 }
 
 void move(explore::LotSight& sight, geo::Vector3<geo::SiteFrame> const& shift) {
-  geo::Vector<geo::SiteFrame> const level(shift.x(), shift.y());
+  sight = explore::shifted(std::move(sight), {.v = {shift.x(), shift.y(), 0.0, 0.0}});
   auto const& from = sight.view.site_from_camera;
-  sight.view.site_from_camera = geo::CameraPlace(from.origin() + shift, from.rotation());
+  geo::Vector3<geo::SiteFrame> const up(0.0, 0.0, shift.z());
+  sight.view.site_from_camera = geo::CameraPlace(from.origin() + up, from.rotation());
   sight.view.ground_up_m += shift.z();
-  for (auto& slot : sight.slots)
-    for (auto& corner : slot.outline) corner = corner + level;
-  for (auto& car : sight.cars)
-    for (auto& corner : car.outline) corner = corner + level;
 }
 
 base::Result<SurveyMemory> read_head(Json const& head) {

@@ -1,13 +1,12 @@
 #include "scans/storage/mcap.hpp"
 
-#include <zlib.h>
-
 #include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/crc32.hpp"
 #include "scans/storage/record_fields.hpp"
 #include "scans/storage/unpack.hpp"
 
@@ -47,10 +46,6 @@ std::optional<Packing> packing_of(std::string_view name) {
   if (name == "lz4") return Packing::lz4;
   if (name == "zstd") return Packing::zstd;
   return std::nullopt;
-}
-
-std::uint32_t checksum(std::string_view bytes) {
-  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<Bytef const*>(bytes.data()), bytes.size()));
 }
 
 class McapReader {
@@ -155,7 +150,7 @@ class McapReader {
         fields.rest().substr(0, static_cast<std::size_t>(std::min<std::uint64_t>(packed_size, fields.rest().size())));
     auto const unpacked = unpack(*packing, packed, static_cast<std::size_t>(unpacked_size));
     bool const is_whole = unpacked.size() == unpacked_size;
-    if (is_whole && crc != 0 && checksum(unpacked) != crc) {
+    if (is_whole && crc != 0 && base::crc32(unpacked) != crc) {
       ++damaged_chunks_;
       return {};
     }

@@ -1,7 +1,5 @@
 #include "slam/state/state_file.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.hpp"
+#include "base/crc32.hpp"
 #include "slam/mapper_parameters.hpp"
 #include "slam/scan/frame.hpp"
 #include "slam/state/bytes.hpp"
@@ -33,11 +32,6 @@ constexpr double most_place_m = 1e6;
 constexpr double most_path_m = 1e9;
 constexpr double most_information = 1e15;
 constexpr std::uint64_t most_int = std::numeric_limits<int>::max();
-
-std::uint32_t checksum(std::string_view bytes) {
-  auto const crc = crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<Bytef const*>(bytes.data()), bytes.size());
-  return static_cast<std::uint32_t>(crc);
-}
 
 void write(ByteWriter& to, MapperOptions const& options) {
   auto const all = all_parameters();
@@ -374,7 +368,7 @@ std::string write_state(Graph const& graph, MapMemory const& memory) {
   ByteWriter head;
   head.number(version);
   head.number(static_cast<std::uint64_t>(bytes.size()));
-  head.number(checksum(bytes));
+  head.number(base::crc32(bytes));
   return std::string(magic) + std::move(head).take() + bytes;
 }
 
@@ -397,7 +391,7 @@ base::Result<SavedMap> read_state(std::string_view bytes) {
     return wrong(fmt::format("this state of a mapping is cut off: {} of {} bytes", payload.size(), size));
   if (payload.size() > size)
     return wrong(fmt::format("this state of a mapping has {} bytes behind its end", payload.size() - size));
-  if (checksum(payload) != sum) return wrong("this state of a mapping is damaged: its checksum does not match");
+  if (base::crc32(payload) != sum) return wrong("this state of a mapping is damaged: its checksum does not match");
   return StateReader(payload).read();
 }
 
