@@ -53,6 +53,10 @@ base::Result<LookPicture> newest_of(fs::path const& folder) {
   if (age > picture_is_old)
     return fail(ErrorKind::timed_out, fmt::format("the newest picture in {} is {} s old", folder.string(),
                                                   std::chrono::duration_cast<std::chrono::seconds>(age).count()));
+  auto const size = fs::file_size(*newest, error);
+  if (error || size > host::most_body_bytes)
+    return fail(ErrorKind::invalid_input, fmt::format("{} is no picture: at most {} MiB are read", newest->string(),
+                                                      host::most_body_bytes >> 20U));
   std::ifstream file(*newest, std::ios::binary);
   LookPicture picture{.bytes = {std::istreambuf_iterator<char>(file), {}}};
   if (!file || picture.bytes.empty()) return fail(ErrorKind::io, fmt::format("{} cannot be read", newest->string()));
