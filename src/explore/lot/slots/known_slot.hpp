@@ -30,7 +30,10 @@ struct KnownSlot {
   bool is_confirmed = false;    ///< on the map
 
   [[nodiscard]] double there_chance() const;
+  /// Of its outline: the sum over `fixed` and all finds.
   [[nodiscard]] double weight() const;
+  /// From now on a place of that weight belongs to what does not move. `corners` are aligned to the outline.
+  void fix(Corners const& corners, double weight);
 };
 
 }  // namespace lapwing::explore

@@ -10,22 +10,6 @@ namespace lapwing::explore {
 
 namespace {
 
-using Parts = Eigen::Matrix<double, 2, 4>;
-
-/// Where the slot's middle lies by one picture.
-struct Row {
-  Eigen::Index picture;  ///< its first unknown
-  Parts parts;           ///< of the middle by the picture's shift
-  Eigen::Vector2d at;    ///< of the middle while the picture is not moved
-  double weight;
-};
-
-/// One slot's rows.
-struct Sheaf {
-  std::vector<Row> rows;
-  double weight = 0.0;  ///< of all rows, and of what is fixed
-};
-
 Corners mean_outline(KnownSlot const& slot, PictureBlock const& block) {
   Corners sum;
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i].v = slot.fixed_weight * slot.fixed[i].v;
@@ -39,11 +23,18 @@ Corners mean_outline(KnownSlot const& slot, PictureBlock const& block) {
 
 }  // namespace
 
-double KnownSlot::weight() const {
-  double sum = fixed_weight;
-  for (auto const& find : finds) sum += find.weight;
-  return sum;
-}
+/// One slot's rows.
+struct PictureBlock::Sheaf {
+  /// Where the slot's middle lies by one picture.
+  struct Row {
+    Eigen::Index picture;               ///< its first unknown
+    Eigen::Matrix<double, 2, 4> parts;  ///< of the middle by the picture's shift
+    Eigen::Vector2d at;                 ///< of the middle while the picture is not moved
+    double weight;
+  };
+  std::vector<Row> rows;
+  double weight = 0.0;  ///< of all rows, and of what is fixed
+};
 
 /// H x = b in the pictures' shifts, with the slots eliminated: a slot lies at the weighted mean of its rows.
 struct PictureBlock::Equations {
@@ -124,6 +115,24 @@ Corners PictureBlock::placed(SlotFind const& find) const {
   return corners;
 }
 
+/// What pictures say of a slot, and how much each counts where it lies now.
+PictureBlock::Sheaf PictureBlock::sheaf_of(KnownSlot const& slot) const {
+  Sheaf sheaf{.rows = {}, .weight = slot.fixed_weight};
+  auto const middle = middle_of(slot.outline);
+  for (auto const& find : slot.finds) {
+    auto const& picture = pictures_[find.picture - first_];
+    auto const at = middle_of(find.in_picture);
+    double const left_m = geo::distance_m(picture.moved.of(at, picture.below), middle);
+    double const weight = find.weight * huber_share(left_m * std::sqrt(find.weight));
+    sheaf.rows.push_back({.picture = static_cast<Eigen::Index>(4 * (find.picture - first_)),
+                          .parts = shift_of_place(at.v - picture.below.v),
+                          .at = at.v,
+                          .weight = weight});
+    sheaf.weight += weight;
+  }
+  return sheaf;
+}
+
 PictureBlock::Equations PictureBlock::equations(std::span<KnownSlot const> slots) const {
   auto const unknowns = static_cast<Eigen::Index>(4 * pictures_.size());
   Equations all{.sheaves = {}, .expectations = {}, .right = Eigen::VectorXd::Zero(unknowns), .preconditioner = {}};
@@ -131,25 +140,9 @@ PictureBlock::Equations PictureBlock::equations(std::span<KnownSlot const> slots
   expect_poses(all, blocks);
   for (auto const& slot : slots) {
     if (slot.finds.size() + (slot.fixed_weight > 0.0 ? 1 : 0) < 2) continue;
-    Sheaf sheaf;
-    auto const middle = middle_of(slot.outline);
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-    if (slot.fixed_weight > 0.0) {
-      sheaf.weight = slot.fixed_weight;
-      mean = slot.fixed_weight * middle_of(slot.fixed).v;
-    }
-    for (auto const& find : slot.finds) {
-      auto const& picture = pictures_[find.picture - first_];
-      auto const at = middle_of(find.in_picture);
-      double const left_m = geo::distance_m(picture.moved.of(at, picture.below), middle);
-      double const weight = find.weight * huber_share(left_m * std::sqrt(find.weight));
-      sheaf.rows.push_back({.picture = static_cast<Eigen::Index>(4 * (find.picture - first_)),
-                            .parts = shift_of_place(at.v - picture.below.v),
-                            .at = at.v,
-                            .weight = weight});
-      sheaf.weight += weight;
-      mean += weight * at.v;
-    }
+    auto sheaf = sheaf_of(slot);
+    Eigen::Vector2d mean = slot.fixed_weight * middle_of(slot.fixed).v;
+    for (auto const& row : sheaf.rows) mean += row.weight * row.at;
     mean /= sheaf.weight;
     for (auto const& row : sheaf.rows) {
       all.right.segment<4>(row.picture) += row.weight * row.parts.transpose() * (mean - row.at);
@@ -206,14 +199,8 @@ void PictureBlock::settle(std::span<KnownSlot> slots) {
 /// What the oldest picture says of the slots is kept as it lies now.
 void PictureBlock::fix_oldest(std::span<KnownSlot> slots) {
   for (auto& slot : slots) {
-    for (auto const& find : slot.finds) {
-      if (find.picture != first_) continue;
-      auto const corners = placed(find);
-      double const all = slot.fixed_weight + find.weight;
-      for (std::size_t i = 0; i < corners.size(); ++i)
-        slot.fixed[i].v = (slot.fixed_weight * slot.fixed[i].v + find.weight * corners[i].v) / all;
-      slot.fixed_weight = all;
-    }
+    for (auto const& find : slot.finds)
+      if (find.picture == first_) slot.fix(placed(find), find.weight);
     std::erase_if(slot.finds, [&](SlotFind const& find) { return find.picture == first_; });
   }
   pictures_.pop_front();

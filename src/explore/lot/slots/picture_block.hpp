@@ -60,7 +60,9 @@ class PictureBlock {
     double kept = 0.0;                  ///< share of the earlier shift that is expected to last
     Eigen::Vector4d stiffness;          ///< 1 / sigma^2 of the rest
   };
+  struct Sheaf;
   struct Equations;
+  [[nodiscard]] Sheaf sheaf_of(KnownSlot const& slot) const;
   [[nodiscard]] Equations equations(std::span<KnownSlot const> slots) const;
   [[nodiscard]] Expectation expectation(std::size_t picture) const;
   void expect_poses(Equations& all, std::vector<Eigen::Matrix4d>& blocks) const;

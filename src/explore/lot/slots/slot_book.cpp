@@ -42,19 +42,10 @@ void take_places(KnownSlot& kept, KnownSlot const& other) {
     find.in_picture = aligned(find.in_picture, kept.outline);
     kept.finds.push_back(find);
   }
-  if (other.fixed_weight <= 0.0) return;
-  auto const fixed = aligned(other.fixed, kept.outline);
-  double const all = kept.fixed_weight + other.fixed_weight;
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-    kept.fixed[i].v = (kept.fixed_weight * kept.fixed[i].v + other.fixed_weight * fixed[i].v) / all;
-  kept.fixed_weight = all;
+  if (other.fixed_weight > 0.0) kept.fix(aligned(other.fixed, kept.outline), other.fixed_weight);
 }
 
 }  // namespace
-
-double KnownSlot::there_chance() const {
-  return chance_of(there_log_odds);
-}
 
 void SlotBook::know(std::string id, Corners const& outline) {
   constexpr double sure_of_map = 4.0;
@@ -78,7 +69,7 @@ bool SlotBook::is_same(Corners const& a, Corners const& b) const {
          between_axes(axis_of(a), axis_of(b)) < most_turned_rad;
 }
 
-/// What may be the same, the nearest first.
+/// What is the same: the nearest first, each once.
 std::vector<SlotBook::Pair> SlotBook::pairs(LotSight const& sight) const {
   std::vector<Pair> near;
   for (std::size_t found = 0; found < sight.slots.size(); ++found) {
@@ -89,17 +80,19 @@ std::vector<SlotBook::Pair> SlotBook::pairs(LotSight const& sight) const {
     }
   }
   std::ranges::sort(near, {}, [](Pair const& pair) { return std::tie(pair.apart_m, pair.slot, pair.found); });
+  std::vector<bool> has_found(sight.slots.size(), false);
+  std::vector<bool> has_slot(slots_.size(), false);
+  std::erase_if(near, [&](Pair const& pair) {
+    if (has_found[pair.found] || has_slot[pair.slot]) return true;
+    has_found[pair.found] = has_slot[pair.slot] = true;
+    return false;
+  });
   return near;
 }
 
-/// Each once.
 std::vector<Tie> SlotBook::ties(LotSight const& told, PictureShift const& shift) const {
   std::vector<Tie> ties;
-  std::vector<bool> is_tied(told.slots.size(), false);
-  std::vector<bool> ties_to(slots_.size(), false);
   for (auto const& pair : pairs(shifted(told, shift))) {
-    if (is_tied[pair.found] || ties_to[pair.slot]) continue;
-    is_tied[pair.found] = ties_to[pair.slot] = true;
     auto const& slot = slots_[pair.slot];
     ties.push_back({.in_picture = middle_of(told.slots[pair.found].outline),
                     .on_map = middle_of(slot.outline),
@@ -149,7 +142,6 @@ void SlotBook::add(PlacedSight const& placed, geo::Polygon<geo::SiteFrame> const
   std::vector<bool> is_known(sight.slots.size(), false);
   std::vector<SlotSight const*> found_as(slots_.size(), nullptr);
   for (auto const& pair : pairs(sight)) {
-    if (is_known[pair.found] || found_as[pair.slot]) continue;
     is_known[pair.found] = true;
     found_as[pair.slot] = &sight.slots[pair.found];
   }
