@@ -9,6 +9,7 @@ import pathlib
 import sys
 import tempfile
 
+import corridors
 import harness
 
 try:
@@ -21,29 +22,11 @@ from mcap.writer import CompressionType, IndexType  # noqa: E402
 from rosbags.rosbag2 import CompressionMode, StoragePlugin  # noqa: E402
 
 BEAMS, START, STEP, MOUNT = 180, -math.pi / 2, math.pi / 180, 0.25
-# An L of two corridors and a niche, so that the walls say where one is along either.
-WALLS = [((0, 0), (12, 0)), ((12, 0), (12, 9)), ((12, 9), (9, 9)), ((9, 9), (9, 3)), ((9, 3), (5, 3)), ((5, 3), (5, 4)), ((5, 4), (3, 4)),
-         ((3, 4), (3, 3)), ((3, 3), (0, 3)), ((0, 3), (0, 0))]
 
 
 def as_float(number: float) -> float:
     """As a message has it, so that the log of CARMEN has the same."""
     return float(ros_bags.numpy.float32(number))
-
-
-def seen(x: float, y: float, angle: float) -> float:
-    nearest = 80.0
-    dx, dy = math.cos(angle), math.sin(angle)
-    for (ax, ay), (bx, by) in WALLS:
-        ex, ey = bx - ax, by - ay
-        across = dx * ey - dy * ex
-        if abs(across) < 1e-9:
-            continue
-        far = ((ax - x) * ey - (ay - y) * ex) / across
-        along = ((ax - x) * dy - (ay - y) * dx) / across
-        if far > 0 and 0 <= along <= 1:
-            nearest = min(nearest, far)
-    return nearest
 
 
 def a_drive() -> list:
@@ -54,7 +37,7 @@ def a_drive() -> list:
         x, y = x + 0.12 * math.cos(yaw), y + (0.12 if y < 7 else 0.0) * math.sin(yaw)
         time += 0.1
         lx, ly = x + MOUNT * math.cos(yaw), y + MOUNT * math.sin(yaw)
-        ranges = [as_float(round(seen(lx, ly, yaw + START + b * STEP), 2)) for b in range(BEAMS)]
+        ranges = [as_float(round(corridors.seen(corridors.WALLS, lx, ly, yaw + START + b * STEP), 2)) for b in range(BEAMS)]
         # Its wheels tell each turn two hundredths too large.
         scans.append((time, ranges, (round(x, 6), round(y, 6), round(1.02 * yaw, 6))))
     return scans

@@ -7,27 +7,12 @@ import pathlib
 import sys
 import tempfile
 
+import corridors
 import harness
 
 BEAMS = 181
-# An L of two corridors with a niche and a pillar, so that no place of it looks like another.
-WALLS = [((0, 0), (12, 0)), ((12, 0), (12, 9)), ((12, 9), (9, 9)), ((9, 9), (9, 3)), ((9, 3), (5, 3)), ((5, 3), (5, 4)), ((5, 4), (3, 4)),
-         ((3, 4), (3, 3)), ((3, 3), (0, 3)), ((0, 3), (0, 0)), ((7, 0), (7, 0.5)), ((7, 0.5), (7.6, 0.5)), ((7.6, 0.5), (7.6, 0))]
-
-
-def seen(x: float, y: float, angle: float) -> float:
-    nearest = 80.0
-    dx, dy = math.cos(angle), math.sin(angle)
-    for (ax, ay), (bx, by) in WALLS:
-        ex, ey = bx - ax, by - ay
-        across = dx * ey - dy * ex
-        if abs(across) < 1e-9:
-            continue
-        far = ((ax - x) * ey - (ay - y) * ex) / across
-        along = ((ax - x) * dy - (ay - y) * dx) / across
-        if far > 0 and 0 <= along <= 1:
-            nearest = min(nearest, far)
-    return nearest
+# With a pillar, so that no place of them looks like another.
+WALLS = [*corridors.WALLS, ((7, 0), (7, 0.5)), ((7, 0.5), (7.6, 0.5)), ((7.6, 0.5), (7.6, 0))]
 
 
 def a_drive() -> list:
@@ -38,7 +23,7 @@ def a_drive() -> list:
         for _ in range(steps):
             yaw += turn
             x, y, time = x + ahead * math.cos(yaw), y + ahead * math.sin(yaw), time + 0.1
-            ranges = [round(seen(x, y, yaw - math.pi / 2 + b * math.pi / 180), 2) for b in range(BEAMS)]
+            ranges = [round(corridors.seen(WALLS, x, y, yaw - math.pi / 2 + b * math.pi / 180), 2) for b in range(BEAMS)]
             scans.append((time, ranges, (x, y, 1.02 * yaw)))
     return scans
 
