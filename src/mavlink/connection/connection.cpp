@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "mavlink/connection/internal/echoes.hpp"
+#include "mavlink/connection/internal/listeners.hpp"
 #include "mavlink/path/routes.hpp"
 #include "mavlink/wire/impossible_values.hpp"
 
@@ -33,6 +34,7 @@ Connection::Connection(base::Loop& loop, Options options, base::Logger log)
       })),
       echoes_(std::make_unique<internal::Echoes>()),
       impossible_(std::make_unique<internal::ImpossibleValues>()),
+      listeners_(std::make_unique<internal::Listeners>()),
       commands_(loop),
       scope_(loop) {
   set_keys(options_.keys);
@@ -122,8 +124,8 @@ void Connection::accept(PeerRef from, internal::PeerState& peer, Frame const& fr
   if (!taken.is_news) return;
   if (frame_hook_ && !tells_a_key(frame)) frame_hook_(Direction::received, frame, now);
   if (forward_hook_) forward_hook_(from, frame);
-  if (listeners_.empty()) return;
-  if (auto const message = understand(from, frame)) dispatch({*message, frame.source, from, now});
+  if (listeners_->is_empty()) return;
+  if (auto const message = understand(from, frame)) listeners_->tell({*message, frame.source, from, now});
 }
 
 std::optional<Message> Connection::understand(PeerRef from, Frame const& frame) {
@@ -156,17 +158,6 @@ bool Connection::may_be_heard(PeerRef from, Frame const& frame) {
   return false;
 }
 
-void Connection::dispatch(Received const& received) {
-  ++dispatching_;
-  // By index: a handler may subscribe, which lengthens the list.
-  for (std::size_t i = 0; i < listeners_.size(); ++i) {
-    auto const wanted = listeners_[i].system_id;
-    if (wanted && *wanted != received.source.system) continue;
-    if (auto const handler = listeners_[i].handler.lock()) (*handler)(received);
-  }
-  --dispatching_;
-}
-
 Subscription Connection::subscribe(Subscription::Handler handler) {
   return listen(std::nullopt, std::move(handler));
 }
@@ -176,9 +167,8 @@ Subscription Connection::subscribe(std::uint8_t system_id, Subscription::Handler
 }
 
 Subscription Connection::listen(std::optional<std::uint8_t> system_id, Subscription::Handler handler) {
-  if (dispatching_ == 0) std::erase_if(listeners_, [](Listener const& l) { return l.handler.expired(); });
   auto shared = std::make_shared<Subscription::Handler>(std::move(handler));
-  listeners_.push_back({system_id, shared});
+  listeners_->add(system_id, shared);
   return Subscription(std::move(shared));
 }
 

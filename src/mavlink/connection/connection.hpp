@@ -22,6 +22,7 @@ namespace lapwing::mavlink {
 namespace internal {
 class Echoes;
 class ImpossibleValues;
+class Listeners;
 class Routes;
 struct PeerState;
 }  // namespace internal
@@ -149,17 +150,11 @@ class Connection {
   [[nodiscard]] CommandLedger& commands() { return commands_; }
 
  private:
-  struct Listener {
-    std::optional<std::uint8_t> system_id;
-    std::weak_ptr<Subscription::Handler> handler;
-  };
-
   Subscription listen(std::optional<std::uint8_t> system_id, Subscription::Handler handler);
   void receive(PeerRef from, link::Bytes bytes);
   void accept(PeerRef from, internal::PeerState& peer, Frame const& frame);
   void look_into(PeerRef from, Frame const& frame);
   [[nodiscard]] std::optional<Message> understand(PeerRef from, Frame const& frame);
-  void dispatch(Received const& received);
   /// `system_id`: who is meant; 0: whoever is there.
   bool send_frame(PeerRef to, Frame& frame, std::uint8_t system_id = 0);
   [[nodiscard]] bool may_be_heard(PeerRef from, Frame const& frame);
@@ -178,8 +173,7 @@ class Connection {
   std::unique_ptr<internal::Echoes> echoes_;  ///< ours that may come back
   std::unique_ptr<internal::ImpossibleValues> impossible_;
   std::vector<ImpossibleField> left_out_;  ///< of the message at hand
-  std::vector<Listener> listeners_;
-  int dispatching_ = 0;  ///< depth: a handler may cause another dispatch
+  std::unique_ptr<internal::Listeners> listeners_;
   FrameHook frame_hook_;
   ForwardHook forward_hook_;
   SendGuard send_guard_;

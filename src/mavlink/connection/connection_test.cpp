@@ -385,6 +385,33 @@ TEST(Subscription, EndsWhenDestroyedEvenFromWithinItsCall) {
   EXPECT_EQ(calls, 1);
 }
 
+TEST(Subscription, HearsInTheOrderInWhichItBeganWhetherOfOneSystemOrOfAll) {
+  Bench bench;
+  std::string order;
+  auto const first = bench.ground.subscribe(1, [&](Received const&) { order += 'a'; });
+  auto const second = bench.ground.subscribe([&](Received const&) { order += 'b'; });
+  auto const third = bench.ground.subscribe(1, [&](Received const&) { order += 'c'; });
+  auto const another = bench.ground.subscribe(2, [&](Received const&) { order += 'x'; });
+  bench.run_for(5s);
+  ASSERT_GE(order.size(), 3u);
+  EXPECT_EQ(order.substr(0, 3), "abc");
+  EXPECT_EQ(order.find('x'), std::string::npos);
+}
+
+TEST(Subscription, HearsTheMessageDuringWhichItBegan) {
+  Bench bench;
+  std::optional<Subscription> late;
+  int by_first = 0;
+  int by_late = 0;
+  auto const first = bench.ground.subscribe(1, [&](Received const&) {
+    ++by_first;
+    if (!late) late = bench.ground.subscribe([&](Received const& received) { by_late += received.source.system == 1; });
+  });
+  bench.run_for(5s);
+  EXPECT_GT(by_first, 0);
+  EXPECT_EQ(by_late, by_first);
+}
+
 TEST(AwaitMessage, ReturnsTheFirstThatFitsOrTimesOut) {
   Bench bench;
   bench.vehicle->on = [&](Message const& message) {
