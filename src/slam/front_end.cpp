@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include <Eigen/Dense>
-
-#include "slam/match/align.hpp"
 
 namespace lapwing::slam {
 namespace {
@@ -49,6 +49,20 @@ Eigen::Vector3d trust_of(OdometryNoise::Spread const& spread) {
   return {shift, shift, 1.0 / (spread.turn_rad * spread.turn_rad)};
 }
 
+/// Of where the robot is after a step of which odometry says nothing true.
+constexpr OdometryNoise::Spread unknown{.shift_m = 0.3, .turn_rad = 0.2};
+
+/// Whether odometry that is as good as that errs so seldom.
+bool is_beyond(double deviations, Pose2 const& error, OdometryNoise::Spread const& spread) {
+  return std::hypot(error.x, error.y) > deviations * std::numbers::sqrt2 * spread.shift_m ||
+         std::abs(error.yaw) > deviations * spread.turn_rad;
+}
+
+/// Whether a key frame's step was wrong as a whole.
+bool is_gross(Pose2 const& error) {
+  return std::hypot(error.x, error.y) > 0.2 || std::abs(error.yaw) > 0.2;
+}
+
 /// The search leaves the prediction only for a better fit: so much of the score a squared standard deviation costs.
 SearchWindow window_of(OdometryNoise::Spread const& spread) {
   constexpr double cost_of_deviation = 0.003;
@@ -74,24 +88,77 @@ void FrontEnd::begin_at(Pose2 const& start) {
 }
 
 bool FrontEnd::wants(Pose2 const& odometry) const {
-  if (!last_odometry_) return true;
-  return distance_m(*last_odometry_, odometry) >= options_.key_step_m ||
-         turn_rad(*last_odometry_, odometry) >= options_.key_turn_rad;
+  return !last_odometry_ || is_a_step(between(*last_odometry_, odometry));
 }
 
-FrontEnd::Found FrontEnd::search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
-                                 Frame const& frame, Guess const& guess) {
+bool FrontEnd::is_a_step(Pose2 const& motion) const {
+  return std::hypot(motion.x, motion.y) >= options_.key_step_m || std::abs(motion.yaw) >= options_.key_turn_rad;
+}
+
+FrontEnd::SeenMotion FrontEnd::seen_motion(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                           Frame const& frame) {
+  draw_last(frames, poses, poses.back());
+  auto window = window_of(unknown);
+  window.reach_m = 0.4;  // enough since it was looked at last, and a sixth of the time
+  window.reach_rad = 0.35;
+  auto const found = correlate(grid_, frame, poses.back(), window).pose;
+  std::vector<Target> const last{{&frames.back().frame, poses.back()}};
+  auto const aligned = align(frame, found, {.pose = found, .trust = trust_of(unknown)}, last,
+                             {.point_information = options_.point_information});
+  return {between(poses.back(), aligned.pose), is_pinned(aligned.seen)};
+}
+
+void FrontEnd::draw_last(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Pose2 const& around) {
   auto const count = static_cast<int>(frames.size());
-  grid_.move_to(guess.pose);
+  grid_.move_to(around);
   for (auto k = count - last_on_the_way(frames, options_.grid_frames); k < count; ++k)
     grid_.add(frames[k].frame, poses[k]);
+}
+
+FrontEnd::Found FrontEnd::search(Frame const& frame, Guess const& guess) const {
   auto const found = correlate(grid_, frame, guess.pose, window_of(guess.spread));
   auto const slid = options_.may_slip ? correlate_along(grid_, frame, found) : std::nullopt;
   return slid ? Found{slid->pose, true} : Found{found.pose, false};
 }
 
+FrontEnd::Guess FrontEnd::by_odometry(Pose2 const& last, Pose2 const& driven) const {
+  auto spread = noise_.of(driven);
+  spread.shift_m *= options_.odometry_spread;
+  spread.turn_rad *= options_.odometry_spread;
+  return {.pose = last * driven, .spread = spread};
+}
+
+bool FrontEnd::is_misleading(Pose2 const& driven, OdometryDoubt doubt, Frame const& last, Frame const& now) {
+  constexpr double farthest_m = 3.0;  // that a robot may have gone while nothing was recorded
+  // What odometry missed while it was frozen it may tell now, all at once, though it is known.
+  auto const was_frozen = std::exchange(is_frozen_, doubt == OdometryDoubt::has_frozen);
+  if (is_frozen_ || was_frozen) return true;
+  // Counters that began anew: what is seen is what was seen just now. After a gap in the recording something else is
+  // seen, and odometry is right.
+  return doubt == OdometryDoubt::has_leapt && (std::hypot(driven.x, driven.y) > farthest_m || look_alike(now, last));
+}
+
+Alignment FrontEnd::lay_on_last(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                Frame const& frame, Pose2 const& found, Guess const& guess) const {
+  auto const count = static_cast<int>(frames.size());
+  std::vector<Target> targets;
+  constexpr int farthest_back = 8;
+  auto const reach = last_on_the_way(frames, farthest_back);
+  for (int const back : {1, 2, 3, 5, farthest_back})
+    if (back <= reach) targets.push_back({&frames[count - back].frame, poses[count - back]});
+  auto const held_to = [&](Guess const& expected) {
+    return align(frame, found, {.pose = expected.pose, .trust = trust_of(expected.spread)}, targets,
+                 {.point_information = options_.point_information});
+  };
+  // Who was wrong a moment ago is not asked where the scan shows by itself where it was taken.
+  constexpr double unusual = 2.0;
+  if (distrusted_ > 0 && is_beyond(unusual, between(guess.pose, found), guess.spread))
+    if (auto const alone = held_to({.pose = found, .spread = unknown}); is_pinned(alone.seen)) return alone;
+  return held_to(guess);
+}
+
 FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
-                             Pose2 const& odometry, bool has_leapt) {
+                             Pose2 const& odometry, OdometryDoubt doubt) {
   if (!last_odometry_) {
     last_odometry_ = odometry;
     return {.pose = start_.value_or(odometry), .constraint = std::nullopt};
@@ -99,30 +166,22 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   auto const driven = between(*last_odometry_, odometry);
   last_odometry_ = odometry;
   auto const count = static_cast<int>(frames.size());
-  auto spread = noise_.of(driven);
-  spread.shift_m *= options_.odometry_spread;
-  spread.turn_rad *= options_.odometry_spread;
-  Guess guess{.pose = poses.back() * driven, .spread = spread};
-  // Counters that began anew: what is seen is what was seen just now, so it went on as before. After a gap in the
-  // recording something else is seen, and odometry is right.
-  constexpr double farthest_m = 3.0;  // that a robot may have gone while nothing was recorded
-  constexpr OdometryNoise::Spread unknown{.shift_m = 0.3, .turn_rad = 0.2};
-  auto is_misled = has_leapt && (std::hypot(driven.x, driven.y) > farthest_m || look_alike(frame, frames.back().frame));
-  if (is_misled) guess = {.pose = poses.back() * last_motion_, .spread = unknown};
-  auto const found = search(frames, poses, frame, guess);
-  if (found.has_slipped) {
-    guess = {.pose = found.pose, .spread = unknown};
-    is_misled = true;
-  }
-
-  std::vector<Target> targets;
-  constexpr int farthest_back = 8;
-  auto const reach = last_on_the_way(frames, farthest_back);
-  for (int const back : {1, 2, 3, 5, farthest_back})
-    if (back <= reach) targets.push_back({&frames[count - back].frame, poses[count - back]});
-  auto const aligned = align(frame, found.pose, {.pose = guess.pose, .trust = trust_of(guess.spread)}, targets,
-                             {.point_information = options_.point_information});
-  if (!is_misled) noise_.learn(driven, guess.pose, aligned.pose, is_pinned(aligned.seen));
+  auto const told = by_odometry(poses.back(), driven);
+  auto const is_misled = is_misleading(driven, doubt, frames.back().frame, frame);
+  auto const guess = is_misled ? Guess{.pose = poses.back() * last_motion_, .spread = unknown} : told;
+  draw_last(frames, poses, guess.pose);
+  auto const found = search(frame, guess);
+  auto const is_wrong = is_misled || found.has_slipped;
+  auto const error = between(told.pose, found.pose);
+  constexpr double incredible = 4.5;
+  // By how well the wheels have done, not by how much they are trusted: who walks before the robot refutes nothing.
+  auto const is_refuted = is_wrong || is_beyond(incredible, error, noise_.of(driven));
+  auto const held_to = is_refuted ? Guess{.pose = found.pose, .spread = unknown} : guess;
+  auto const aligned = lay_on_last(frames, poses, frame, found.pose, held_to);
+  constexpr int while_distrusted = 5;
+  auto const is_broken = is_wrong || (is_refuted && is_gross(error));
+  distrusted_ = is_broken ? while_distrusted : std::max(0, distrusted_ - 1);
+  if (!is_broken) noise_.learn(driven, told.pose, aligned.pose, is_pinned(aligned.seen));
   last_motion_ = between(poses.back(), aligned.pose);
 
   // The information is along the map's axes; the constraint is measured in the frame of the last key frame.

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "slam/key_frame.hpp"
+#include "slam/match/align.hpp"
 #include "slam/match/local_grid.hpp"
 #include "slam/match/odometry_noise.hpp"
+#include "slam/match/odometry_watch.hpp"
 
 namespace lapwing::slam {
 
@@ -17,6 +19,7 @@ struct FrontEndOptions {
   /// odometry that is out of step in turns outweighed the scans of a small room.
   double point_information = 250.0;
   double odometry_spread = 1.0;  ///< times what is usual
+  bool may_freeze = true;        ///< odometry that stands still while the scans do not is late or stuck
   bool may_slip = true;          ///< what fits clearly better farther along the way speaks against the wheels
   double edge_share =
       0.1;  ///< of a key frame's information that its edge to the last one has, as neighbours err together
@@ -30,14 +33,24 @@ class FrontEnd {
   /// Whether the robot has moved enough since the last key frame.
   [[nodiscard]] bool wants(Pose2 const& odometry) const;
 
+  struct SeenMotion {
+    Pose2 motion;
+    bool is_sure;  ///< false along a bare corridor, where nothing shows it
+  };
+  /// How far the robot has moved since the last key frame by what it sees, whatever odometry says.
+  [[nodiscard]] SeenMotion seen_motion(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                       Frame const& frame);
+  /// Whether that is enough for another key frame.
+  [[nodiscard]] bool is_a_step(Pose2 const& motion) const;
+
   struct Step {
     Pose2 pose;                            ///< of the new key frame, in the map
     std::optional<Constraint> constraint;  ///< to the last one; none for the first
   };
-  /// `frames`, `poses`: of all key frames so far, as they are known by now; the new one is not among them. `has_leapt`:
-  /// odometry has moved as no robot does since the last one.
+  /// `frames`, `poses`: of all key frames so far, as they are known by now; the new one is not among them.
+  /// `doubt`: what speaks against odometry since the last one.
   [[nodiscard]] Step add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
-                         Pose2 const& odometry, bool has_leapt = false);
+                         Pose2 const& odometry, OdometryDoubt doubt = OdometryDoubt::none);
 
   [[nodiscard]] OdometryNoise const& noise() const { return noise_; }
 
@@ -63,13 +76,20 @@ class FrontEnd {
     Pose2 pose;
     bool has_slipped;  ///< far from where odometry has it
   };
-  [[nodiscard]] Found search(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
-                             Guess const& guess);
+  void draw_last(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Pose2 const& around);
+  [[nodiscard]] Guess by_odometry(Pose2 const& last, Pose2 const& driven) const;
+  /// Whether this step of odometry is better not looked at.
+  [[nodiscard]] bool is_misleading(Pose2 const& driven, OdometryDoubt doubt, Frame const& last, Frame const& now);
+  [[nodiscard]] Found search(Frame const& frame, Guess const& guess) const;
+  [[nodiscard]] Alignment lay_on_last(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                      Frame const& frame, Pose2 const& found, Guess const& guess) const;
 
   FrontEndOptions options_;
   OdometryNoise noise_;
   LocalGrid grid_;
-  Pose2 last_motion_;  ///< of the key frame before last to the last
+  Pose2 last_motion_;       ///< of the key frame before last to the last
+  bool is_frozen_ = false;  ///< odometry was, at the last key frame
+  int distrusted_ = 0;      ///< for so many key frames, since odometry was found far wrong
   std::optional<Pose2> last_odometry_;
   std::optional<Pose2> start_;  ///< of a drive on a map that is there already
 };

@@ -9,13 +9,10 @@
 namespace lapwing::slam {
 namespace {
 
-/// Whether no robot moves so within that time.
-bool is_leap(Pose2 const& motion, LogTime elapsed) {
-  constexpr double most_m_s = 3.0;
-  constexpr double most_rad_s = 4.0;
-  constexpr double least_s = 0.2;  // stamps of recordings come in bunches
-  auto const seconds = std::max(least_s, elapsed.count());
-  return std::hypot(motion.x, motion.y) > most_m_s * seconds || std::abs(motion.yaw) > most_rad_s * seconds;
+bool is_nothing(Pose2 const& motion) {
+  constexpr double still_m = 0.05;
+  constexpr double still_rad = 0.03;
+  return std::hypot(motion.x, motion.y) < still_m && std::abs(motion.yaw) < still_rad;
 }
 
 }  // namespace
@@ -48,7 +45,7 @@ void Mapper::begin_drive(RobotKind const& kind, std::optional<Pose2> const& star
   LAPWING_ASSERT(!graph_.frames.empty());
   kind_.has_odometry = kind.has_odometry;
   kind_.has_times = kind.has_times;
-  is_first_scan_ = true;
+  watch_.begin_drive();
   scan_odometry_ = {};
   began_at_m_ = graph_.frames.back().path_m;
   if (!start) return;
@@ -59,30 +56,35 @@ void Mapper::begin_drive(RobotKind const& kind, std::optional<Pose2> const& star
 Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
   std::optional<Frame> frame;
   ++scans_;
-  auto const last_odometry = odometry_;
   odometry_ = scan.odometry;
   if (!kind_.has_odometry) {
     frame = frame_of(scan, sensor, options_.frame);
     odometry_ = scan_odometry_.follow(*frame, scan.time);
   }
   constexpr LogTime unknown(1.0);
-  auto const elapsed = kind_.has_times ? scan.time - time_ : unknown;
-  has_leapt_ = has_leapt_ || (!is_first_scan_ && is_leap(between(last_odometry, odometry_), elapsed));
-  is_first_scan_ = false;
+  watch_.follow(odometry_, kind_.has_times ? scan.time - time_ : unknown);
   time_ = scan.time;
+  auto const doubt = watch_.has_leapt() ? OdometryDoubt::has_leapt : OdometryDoubt::none;
   if (kind_.is_sparse) {
     gatherer_.add(scan, sensor, odometry_);
-    if (gatherer_.is_due()) add_key_frame(gatherer_.take(), scan, sensor);
+    if (gatherer_.is_due()) add_key_frame(gatherer_.take(), scan, sensor, doubt);
   } else if (front_end_.wants(odometry_)) {
     if (!frame) frame = frame_of(scan, sensor, options_.frame);
-    add_key_frame(*std::move(frame), scan, sensor);
+    add_key_frame(*std::move(frame), scan, sensor, doubt);
+  } else if (options_.front_end.may_freeze && watch_.is_suspiciously_still()) {
+    if (!frame) frame = frame_of(scan, sensor, options_.frame);
+    auto const [motion, is_sure] = front_end_.seen_motion(graph_.frames, graph_.poses, *frame);
+    if (front_end_.is_a_step(motion))
+      add_key_frame(*std::move(frame), scan, sensor, OdometryDoubt::has_frozen);
+    else if (is_nothing(motion))
+      watch_.found_still(is_sure);
   }
   return pose();
 }
 
-void Mapper::add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor) {
-  auto const step = front_end_.add(graph_.frames, graph_.poses, frame, odometry_, has_leapt_);
-  has_leapt_ = false;
+void Mapper::add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor, OdometryDoubt doubt) {
+  auto const step = front_end_.add(graph_.frames, graph_.poses, frame, odometry_, doubt);
+  watch_.begin_key_frame();
   graph_.frames.push_back(
       {.scan = scans_ - 1, .frame = std::move(frame), .path_m = path_to(step.pose), .is_cut = begins_drive_});
   graph_.poses.push_back(step.pose);

@@ -68,7 +68,7 @@ class Mapper {
   [[nodiscard]] SavedMap take() &&;
 
  private:
-  void add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor);
+  void add_key_frame(Frame frame, Scan const& scan, Sensor const& sensor, OdometryDoubt doubt);
   void hold_to_map();
   void let_go_of_redundant();
   [[nodiscard]] double path_to(Pose2 const& pose) const;
@@ -81,13 +81,12 @@ class Mapper {
   FrontEnd front_end_;
   LoopCloser loops_;
   ScanOdometry scan_odometry_;
+  OdometryWatch watch_;
   Gatherer gatherer_;
   ScanLog seen_;  ///< the key frames' scans
   int scans_ = 0;
-  bool is_first_scan_ = true;  ///< of its drive
   Pose2 odometry_;
   LogTime time_{0.0};
-  bool has_leapt_ = false;     ///< odometry, since the last key frame
   bool begins_drive_ = false;  ///< the next key frame does, on a map that is there already
   Pose2 key_odometry_;
   bool is_new_ = false;  ///< the last key frame has not been looked for elsewhere

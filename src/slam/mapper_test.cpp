@@ -72,7 +72,50 @@ TEST(Mapper, IsNotCarriedAwayByWheelsThatSlip) {
     told.push_back(told.back() * step);
   }
   for (std::size_t i = 0; i < scans.size(); ++i) scans[i].odometry = told[i];
-  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.6);
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.15);
+}
+
+/// What odometry would say if of every `every` scans the first `held` repeated what was said before. `is_late`: what
+/// they missed is told afterwards all at once; else it is lost.
+void hold_odometry(ScanLog& log, std::size_t every, std::size_t held, bool is_late) {
+  std::vector<Pose2> told{log.scans[0].odometry};
+  for (std::size_t i = 1; i < log.scans.size(); ++i) {
+    auto const step = between(log.scans[i - 1].odometry, log.scans[i].odometry);
+    auto const is_held = i >= every && i % every < held;
+    auto const after = is_late ? log.scans[i].odometry : told.back() * step;
+    told.push_back(is_held ? told.back() : after);
+  }
+  for (std::size_t i = 0; i < told.size(); ++i) log.scans[i].odometry = told[i];
+}
+
+TEST(Mapper, FollowsTheRobotWhileItsOdometryIsLate) {
+  auto drive = round_the_office(1.0);
+  hold_odometry(drive.log, 60, 8, true);
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.25);
+}
+
+TEST(Mapper, FollowsTheRobotWhileItsOdometryIsStuck) {
+  auto drive = round_the_office(1.0);
+  hold_odometry(drive.log, 150, 40, false);
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.25);
+}
+
+TEST(Mapper, FollowsARobotThatBacksWhereItsOdometryTellsItGoingAhead) {
+  auto const building = testing::office(20.0, 12.0, 4.0, 1.0, 5);
+  auto drive = testing::drive(building, {{0, 0}, {14, 0}}, {.beams = 91});
+  // Back by the way it came: what was seen then is seen again, in the other order.
+  auto const count = drive.log.scans.size();
+  auto const backs = count / 3;
+  auto const step_s = drive.log.scans[1].time - drive.log.scans[0].time;
+  for (std::size_t i = 1; i <= backs; ++i) {
+    auto scan = drive.log.scans[count - 1 - i];
+    scan.time = drive.log.scans.back().time + step_s;
+    scan.odometry = drive.log.scans.back().odometry *
+                    between(drive.log.scans[count - 1 - i].odometry, drive.log.scans[count - i].odometry);
+    drive.log.scans.push_back(scan);
+    drive.truth.push_back(drive.truth[count - 1 - i]);
+  }
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.25);
 }
 
 TEST(Mapper, MapsByScansAloneWhereThereIsNoOdometry) {

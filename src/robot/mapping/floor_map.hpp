@@ -14,8 +14,9 @@ namespace lapwing::robot {
 struct MappingOptions {
   slam::FrameOptions frame;
   /// Of logs nobody knows what their wheels are worth; a robot's own odometry is good to a few percent of the way. Held
-  /// to less, somebody who walks along a corridor beside the robot takes its place on the map with them.
-  slam::FrontEndOptions front_end = {.odometry_spread = 0.25};
+  /// to less, somebody who walks along a corridor beside the robot, or before it while it waits, takes
+  /// its place on the map with them. Sensors that are stuck its watchdog names.
+  slam::FrontEndOptions front_end = {.odometry_spread = 0.25, .may_freeze = false};
   slam::LoopOptions loops;
   slam::BeamModel beam;
   /// Where the robot's map lies in its site. The map begins where the robot does, looking along x.

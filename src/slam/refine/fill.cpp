@@ -21,24 +21,30 @@ Around around(std::vector<WayPoint> const& way, int scan) {
   return {before, next == way.end() ? before : *next};
 }
 
-/// Where odometry puts the scan: carried from the nearer way point, or from the one before where odometry jumped on the
-/// way to the next, for that one was taken right after the jump.
-Pose2 carried(std::vector<Pose2> const& odometry, Around const& keys, int scan) {
-  constexpr double jump_m = 1.0;
-  constexpr double jump_rad = 0.5;
-  auto const& [before, after] = keys;
-  auto const told = between(odometry[before.scan], odometry[after.scan]);
-  auto const mapped = between(before.pose, after.pose);
-  auto const has_jumped = distance_m(told, mapped) > jump_m || turn_rad(told, mapped) > jump_rad;
-  auto const is_after_nearer = after.scan != before.scan && after.scan - scan < scan - before.scan && !has_jumped;
-  auto const& nearest = is_after_nearer ? after : before;
-  return nearest.pose * between(odometry[nearest.scan], odometry[scan]);
-}
-
 /// `share` of the way from one pose to the other.
 Pose2 mixed(Pose2 const& from, Pose2 const& to, double share) {
   auto const step = between(from, to);
   return from * Pose2{share * step.x, share * step.y, share * step.yaw};
+}
+
+/// Where odometry puts the scan: carried from the nearer way point. Where it says something else than the map of how
+/// the robot got from one to the other, it went evenly; if that was far, as in a gap of a recording, it stayed at the
+/// one before, for the one after was taken right after the gap.
+Pose2 carried(std::vector<Pose2> const& odometry, Around const& keys, int scan) {
+  constexpr double wrong_m = 0.15;
+  constexpr double wrong_rad = 0.1;
+  constexpr double far_m = 2.0;  // farther than wheels are found to slip
+  constexpr double far_rad = 1.0;
+  auto const& [before, after] = keys;
+  auto const told = between(odometry[before.scan], odometry[after.scan]);
+  auto const mapped = between(before.pose, after.pose);
+  auto const is_wrong = distance_m(told, mapped) > wrong_m || turn_rad(told, mapped) > wrong_rad;
+  auto const is_far = distance_m(before.pose, after.pose) > far_m || turn_rad(before.pose, after.pose) > far_rad;
+  if (is_wrong && !is_far)
+    return mixed(before.pose, after.pose, static_cast<double>(scan - before.scan) / (after.scan - before.scan));
+  auto const is_after_nearer = after.scan != before.scan && after.scan - scan < scan - before.scan && !is_wrong;
+  auto const& nearest = is_after_nearer ? after : before;
+  return nearest.pose * between(odometry[nearest.scan], odometry[scan]);
 }
 
 }  // namespace
