@@ -128,11 +128,16 @@ std::filesystem::path path_of(Beside const& beside) {
 
 /// What starts the processes: this program with another word, or one beside it.
 void complete_commands(OnboardConfig& config, std::string const& file) {
-  for (auto& [name, command, tells_life] : config.processes) {
-    if (!command.empty()) continue;
-    command = {this_program().string(), "onboard", "--config", file, "--only", name};
-    for (auto const& beside : {perceive, stream})
-      if (name == beside.process) command = {path_of(beside).string(), name, "--config", file};
+  // What sees may take all processors: who flies the drone and who decides come first.
+  constexpr int steps_back = 10;
+  for (auto& spec : config.processes) {
+    if (!spec.command.empty()) continue;
+    spec.command = {this_program().string(), "onboard", "--config", file, "--only", spec.name};
+    for (auto const& beside : {perceive, stream}) {
+      if (spec.name != beside.process) continue;
+      spec.command = {path_of(beside).string(), spec.name, "--config", file};
+      spec.niceness = steps_back;
+    }
   }
 }
 

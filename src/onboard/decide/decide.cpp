@@ -79,6 +79,7 @@ base::Result<> Decide::open_parts(bus::Bus& bus, DecideSettings settings) {
 base::Task<> Decide::decide() {
   for (auto next = loop_.now();; next = std::max(next + frame, loop_.now())) {
     co_await loop_.sleep_until(next);
+    lateness_.add(loop_.now() - next);
     step();
   }
 }
@@ -195,6 +196,7 @@ void Decide::leave_if_safe(autonomy::Told const& told) {
   if (!safe && loop_.now() < leaves_until_) return;
   if (!safe) log_.error("the drone was not seen to come down or to be disarmed before this program ended");
   if (safe && told.flight && told.flight->is_armed) log_.info(fmt::format("left in mode {}", told.flight->mode));
+  log_.info(to_string(lateness_));
   loop_.post(std::exchange(done_, {}));
 }
 

@@ -16,6 +16,7 @@
 #include "bus/participant/bus.hpp"
 #include "onboard/decide/flight_hand.hpp"
 #include "onboard/decide/flight_listener.hpp"
+#include "onboard/decide/lateness.hpp"
 #include "onboard/decide/operator_desk.hpp"
 #include "onboard/decide/survey_processes.hpp"
 
@@ -72,6 +73,7 @@ class Decide {
   std::vector<autonomy::Command> held_;  ///< for the next frame
   std::vector<std::string> to_tell_;     ///< to the operator, with the next frame
   std::optional<autonomy::State> logged_state_;
+  Lateness lateness_;
   std::function<void()> done_;
   base::TimePoint leaves_until_{};
   bool has_been_told_to_come_down_ = false;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -86,7 +87,12 @@ base::Result<Child> Child::start(ProcessSpec const& spec) {
   base::Descriptor const theirs(ends[1]);
   pid_t pid = 0;
   int const error = spawn(spec, theirs.get(), pid);
-  if (error == 0) return Child(pid, std::move(ours));
+  if (error == 0) {
+    // Its threads take it from the first one, which has just begun.
+    if (spec.niceness != 0)
+      (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), ::getpriority(PRIO_PROCESS, 0) + spec.niceness);
+    return Child(pid, std::move(ours));
+  }
   return base::fail(error == ENOENT ? base::ErrorKind::not_found : base::ErrorKind::io,
                     fmt::format("{} does not start: {}: {}", spec.name, spec.command.front(), std::strerror(error)),
                     "see `command` of this process in the configuration");

@@ -1,5 +1,6 @@
 #include "onboard/supervisor/supervisor.hpp"
 
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <array>
 #include <csignal>
@@ -54,6 +55,17 @@ struct SupervisorTest : ::testing::Test {
   Statuses told;
   std::optional<Supervisor> supervisor;
 };
+
+TEST_F(SupervisorTest, HasAProcessStepBackBehindTheOthersThatIsToldTo) {
+  auto nice = sleeper("perceive");
+  nice.niceness = 7;
+  supervise({sleeper("decide"), nice});
+  ASSERT_TRUE(comes_true([&] { return all_run(); }));
+  auto const niceness = [&](std::size_t process) {
+    return ::getpriority(PRIO_PROCESS, static_cast<id_t>(supervisor->status()[process].pid));
+  };
+  EXPECT_EQ(niceness(1) - niceness(0), 7);
+}
 
 TEST_F(SupervisorTest, StartsAnewWhatWasKilledAndLeavesTheOthersAlone) {
   supervise({sleeper("bridge"), sleeper("decide")});
