@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text/utc_text.hpp"
+#include "robot/poi/named_place.hpp"
 #include "robot/poi/placed_picture.hpp"
 #include "robot/words/vocabulary.hpp"
 #include "tasks/failed_run.hpp"
@@ -49,13 +50,6 @@ class DriveRun final : public tasks::TaskRun {
   Robot& robot_;
   std::shared_ptr<DriveRecord const> record_;
 };
-
-/// "room 221" is what people say of a door that is called "221".
-bool is_called(map::PointOfInterest const& point, std::string_view name) {
-  constexpr std::string_view room = "room ";
-  if (point.name == name || point.text == name) return true;
-  return name.starts_with(room) && point.name == name.substr(room.size());
-}
 
 }  // namespace
 
@@ -275,11 +269,10 @@ void RobotPlatform::end_drives(std::string const& reason) {
 base::Result<geo::Point<geo::SiteFrame>> RobotPlatform::find_place(RobotSpec const& spec,
                                                                    std::string const& name) const {
   auto const layer = map::LayerKind::points_of_interest;
-  for (auto const* record : around_.live_map.within(layer, spec.site, std::nullopt, around_.live_map.size(layer))) {
-    auto const& point = std::get<map::PointOfInterest>(record->feature.content);
-    if (record->feature.floor == spec.floor && is_called(point, name)) return point.position;
-  }
-  return fail(ErrorKind::not_found, fmt::format("the map has no place called '{}' on its floor", name));
+  std::vector<map::PointOfInterest const*> points;
+  for (auto const* record : around_.live_map.within(layer, spec.site, std::nullopt, around_.live_map.size(layer)))
+    if (record->feature.floor == spec.floor) points.push_back(&std::get<map::PointOfInterest>(record->feature.content));
+  return place_called(name, points);
 }
 
 void RobotPlatform::write(RobotSpec const& spec, map::OccupancyGrid const& grid,
