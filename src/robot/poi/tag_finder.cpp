@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "robot/poi/free_space.hpp"
+
 namespace lapwing::robot {
 
 using namespace std::chrono_literals;
@@ -30,7 +32,8 @@ constexpr double straight_rad = 0.15;
 /// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
 constexpr std::array parts_of_a_view{-0.32, -0.16, 0.0, 0.16, 0.32};
 constexpr double sign_reaches_m = 0.5;
-constexpr double elsewhere_m = 50.0;  ///< so much farther it goes for a wall that is beside an opening
+constexpr double elsewhere_m = 50.0;      ///< so much farther it goes for a wall that is beside an opening
+constexpr double round_a_corner_m = 6.0;  ///< what is not in sight is farther than it seems: behind a wall, mostly
 constexpr double unclear_px_m = 0.9 * LookBook::clear_px_m;  ///< at best, where something is not in the picture
 
 geo::Pose<geo::SiteFrame> level(vehicle::SitePose const& pose) {
@@ -137,6 +140,10 @@ base::Task<> TagFinder::look_again() {
   auto const is_worth_more = [this](std::uint32_t one) { return wants_a_look(book_.tags()[one - 1]); };
   bool const wants_more = (number > 0 && is_worth_more(number)) || std::ranges::any_of(*seen, is_worth_more);
   if (++retake_->looks < looks_a_try && wants_more) co_return;
+  // It has come all this way: what the other eyes see from here spares it another one.
+  auto rest = look_round(pose.yaw_rad);
+  co_await std::move(rest);
+  if (!retake_ || retake_->view.from != view.from) co_return;
   retake_.reset();
   if (number == 0) co_return;
   auto showing = show(number, pose);
@@ -253,24 +260,25 @@ std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& g
 
 std::optional<TagFinder::Retake> TagFinder::next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here) {
   struct Wanted {
-    OnWall what;
     WallPiece piece;
+    Viewpoint view;
     double cost_m = 0.0;
   };
+  FreeSpace const space(grid);
   std::vector<Wanted> wanted;
   for (auto const& wall : looks_.unclear()) {
     OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
-    if (!is_wide_enough(what, grid)) continue;
-    double const handicap_m = is_beside_an_opening(what, grid) ? 0.0 : elsewhere_m;
-    wanted.push_back({what, piece_of(wall), geo::distance_m(wall.position, here) + handicap_m});
+    auto const views = is_wide_enough(what, grid) ? viewpoints_for(what, grid, mounts()) : std::vector<Viewpoint>();
+    if (views.empty()) continue;
+    auto const& view = views.front();
+    double const handicap_m = (is_beside_an_opening(what, grid) ? 0.0 : elsewhere_m) +
+                              (space.is_clear(here, view.from) ? 0.0 : round_a_corner_m);
+    wanted.push_back({piece_of(wall), view, geo::distance_m(view.from, here) + handicap_m});
   }
-  std::ranges::sort(wanted, {}, &Wanted::cost_m);
-  for (auto const& [what, piece, cost_m] : wanted) {
-    looks_.give_up(piece);
-    auto const views = viewpoints_for(what, grid, mounts());
-    if (!views.empty()) return Retake{.view = views.front()};
-  }
-  return std::nullopt;
+  auto const next = std::ranges::min_element(wanted, {}, &Wanted::cost_m);
+  if (next == wanted.end()) return std::nullopt;
+  looks_.give_up(next->piece);
+  return Retake{.view = next->view};
 }
 
 bool TagFinder::is_there(Retake const& retake, vehicle::SitePose const& pose) const {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "robot/poi/free_space.hpp"
+
 namespace lapwing::robot {
 
 namespace {
@@ -12,47 +14,7 @@ namespace {
 /// How far off, and how far aside from straight before it, the better ones first.
 constexpr std::array<double, 6> ranges_m{1.2, 1.0, 1.5, 0.8, 2.0, 2.5};
 constexpr std::array<double, 5> asides_rad{0.0, 0.3, -0.3, 0.6, -0.6};
-constexpr double room_m = 0.3;       ///< around the robot's middle
 constexpr double off_wall_m = 0.15;  ///< where the line of sight ends, so that the wall's own cells do not count
-constexpr double taken = 0.6;
-
-map::SitePoint away(map::SitePoint const& from, double way_rad, double by_m) {
-  return {from.x() + by_m * std::cos(way_rad), from.y() + by_m * std::sin(way_rad)};
-}
-
-/// Of what is known to be free.
-class FreeSpace {
- public:
-  explicit FreeSpace(map::OccupancyGrid const& grid) : grid_(grid), grid_from_site_(grid.site_from_grid().inverse()) {}
-
-  [[nodiscard]] bool is_free(map::SitePoint const& place) const {
-    auto const evidence = grid_.at(grid_.cell_at(grid_from_site_ * place));
-    return evidence.is_seen() && evidence.probability() < taken;
-  }
-  [[nodiscard]] bool is_taken(map::SitePoint const& place) const {
-    auto const evidence = grid_.at(grid_.cell_at(grid_from_site_ * place));
-    return evidence.is_seen() && evidence.probability() >= taken;
-  }
-  [[nodiscard]] bool has_room(map::SitePoint const& place) const {
-    constexpr int directions = 12;
-    if (!is_free(place)) return false;
-    for (int k = 0; k < directions; ++k) {
-      double const way_rad = 2.0 * std::numbers::pi * k / directions;
-      if (!is_free(away(place, way_rad, room_m)) || !is_free(away(place, way_rad, room_m / 2.0))) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] bool is_clear(map::SitePoint const& from, double way_rad, double far_m) const {
-    double const step_m = grid_.resolution_m() / 2.0;
-    for (double along_m = 0.0; along_m < far_m; along_m += step_m)
-      if (!is_free(away(from, way_rad, along_m))) return false;
-    return true;
-  }
-
- private:
-  map::OccupancyGrid const& grid_;
-  geo::Transform<map::GridFrame, geo::SiteFrame> grid_from_site_;
-};
 
 /// The one that looks ahead most of those that show it: the robot turns least from the way that it came.
 std::optional<std::size_t> eye_for(std::span<CameraMount const> mounts, double height_m, double range_m) {
@@ -105,7 +67,7 @@ std::vector<Viewpoint> viewpoints_for(OnWall const& what, map::OccupancyGrid con
       auto const from = away(what.position, way_rad, range_m);
       auto const eye = eye_for(mounts, what.height_m, range_m);
       if (!eye || !space.has_room(from)) continue;
-      if (!space.is_clear(from, way_rad + std::numbers::pi, range_m - off_wall_m)) continue;
+      if (!space.is_clear(from, away(what.position, way_rad, off_wall_m))) continue;
       views.push_back({.from = from, .at = what.position, .eye = *eye, .bearing_rad = mounts[*eye].yaw_rad});
     }
   }
