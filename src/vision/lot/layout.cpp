@@ -34,6 +34,15 @@ std::vector<Depth> depths_of(LineRow const& row) {
   return {{0.0, *row.head}, {*row.head, 1.0}};
 }
 
+/// All of it on the car or close beside it: a sill, a roof rail, the edge of a window. Paint beside a car is longer.
+bool is_edge_of(TurnedBox car, PaintedLine const& line) {
+  constexpr double beside = 0.2;  // what stands up is seen aslant: sills lie beside the box of the roof
+  constexpr double beyond = 0.1;
+  car.width += 2.0 * beside;
+  car.length += 2.0 * beyond;
+  return contains(car, {line.from.x, line.from.y}) && contains(car, {line.to.x, line.to.y});
+}
+
 bool is_on_car(PaintedLine const& line, std::span<TurnedBox const> cars) {
   constexpr int tries = 15;
   constexpr double most = 0.6;
@@ -48,7 +57,8 @@ bool is_on_car(PaintedLine const& line, std::span<TurnedBox const> cars) {
         }))
       ++covered;
   }
-  return covered >= most * tries;
+  return covered >= most * tries ||
+         std::ranges::any_of(cars, [&](TurnedBox const& car) { return is_edge_of(car, line); });
 }
 
 /// Whether a car stands between two places of the row, as it would in a slot.

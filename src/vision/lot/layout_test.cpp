@@ -161,6 +161,54 @@ TEST(Layout, TheLineAlongTheHeadsEndsTheNearRowOfACutPicture) {
   for (auto const& slot : slots) EXPECT_NEAR(slot.middle().y, 4.0 + 0.5 * 5.6, 0.1);
 }
 
+TEST(Layout, ASideBesideTheEdgeOfThePictureIsNotCutOffByIt) {
+  // The picture's left edge goes along the first side, and shows both of its ends.
+  std::vector<PaintedLine> const lines{side(0), side(1), side(2)};
+  SeenGround const seen({{9.9, 0.0}, {40.0, 0.0}, {40.0, 40.0}, {9.9, 40.0}});
+  auto hidden = lines;
+  hidden[1].from.y += 1.1;
+  hidden[2].from.y += 1.9;
+  auto const slots = slots_between(hidden, {}, seen);
+  ASSERT_EQ(slots.size(), 2U);
+  for (auto const& slot : slots) EXPECT_NEAR(slot.middle().y, 6.5, 0.1);
+}
+
+TEST(Layout, EdgesOfCarsAreNoSides) {
+  std::vector<PaintedLine> lines{side(0), side(1), side(2), side(3), side(4)};
+  std::vector<TurnedBox> const cars{car(0), car(1), car(2), car(3)};
+  auto const painted = slots_between(lines, cars, everything);
+  ASSERT_EQ(painted.size(), 4U);
+  // Their paint is hidden, sills are seen.
+  for (std::size_t k : {1U, 2U, 3U})
+    lines[k] = {{cars[k].middle.x - 1.0, cars[k].middle.y - 1.6}, {cars[k].middle.x - 1.0, cars[k].middle.y + 1.6}};
+  for (auto const& slot : slots_between(lines, cars, everything)) {
+    bool const is_there = has_slot_at(painted, slot.middle().x, slot.middle().y);
+    EXPECT_TRUE(is_there) << slot.middle().x << ", " << slot.middle().y;
+  }
+}
+
+TEST(Layout, PaintBesideACarThatIsLongerThanTheCarStays) {
+  std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(3)};
+  // So far from below the camera that its roof is seen over the paint.
+  auto leaning = car(1);
+  leaning.middle.x -= 0.35;
+  EXPECT_EQ(slots_between(lines, std::vector{leaning}, everything).size(), 3U);
+}
+
+TEST(Layout, TwoOfThreeEndsThatCarsHideTellNoSlant) {
+  // Cut off at the far end; each nearer end but one is hidden by a car, the last two by as much more as sides lie
+  // apart.
+  std::vector<double> const hidden{0.0, 1.3, 2.6};
+  std::vector<PaintedLine> lines;
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    double const x = 10.0 + static_cast<double>(k) * pitch;
+    lines.push_back({{x, 4.0 + hidden[k]}, {x, 12.0}});
+  }
+  auto const slots = slots_between(lines, {}, SeenGround::rectangle(40.0, 12.1));
+  ASSERT_EQ(slots.size(), 2U);
+  for (auto const& slot : slots) EXPECT_NEAR(slot.middle().y, 6.5, 0.1);
+}
+
 TEST(Layout, SidesThatLeaveThePictureAtBothEndsAreNoSlots) {
   std::vector<PaintedLine> lines;
   for (int k = 0; k < 6; ++k) lines.push_back({{10.0 + k * pitch, 0.1}, {10.0 + k * pitch, 7.9}});

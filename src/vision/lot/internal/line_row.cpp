@@ -82,8 +82,8 @@ Tooth tooth_of(PaintedLine line, LineRow const& row, SeenGround const& seen) {
   return {.at = row.across.dot(0.5 * (line.from + line.to)),
           .begin = line.from.dot(row.along),
           .end = line.to.dot(row.along),
-          .is_begin_cut = seen.inside_by(line.from) < near,
-          .is_end_cut = seen.inside_by(line.to) < near};
+          .is_begin_cut = seen.inside_by(line.from - near * row.along) < 0.0,
+          .is_end_cut = seen.inside_by(line.to + near * row.along) < 0.0};
 }
 
 /// Two pieces of one side.
@@ -221,8 +221,12 @@ Ends ends_of(std::span<Tooth const> teeth) {
       }
     }
   }
+  // The two that tell a slope do not speak for it.
+  constexpr double telling = 2.0;
   constexpr double clearly = 1.3;
-  return static_cast<double>(best.agreed()) > clearly * static_cast<double>(straight.agreed()) ? best : straight;
+  bool const is_slanted =
+      static_cast<double>(best.agreed()) - telling > clearly * static_cast<double>(straight.agreed());
+  return is_slanted ? best : straight;
 }
 
 /// Kerbs and walls beside the row are parallel to its sides, too, but go beyond them at one end and not to the other.
