@@ -142,7 +142,7 @@ struct Signs {
 /// How sure a slot is, none if it is none.
 std::optional<double> surety_of(Signs const& signs) {
   constexpr double painted = 0.95;
-  constexpr double half_painted = 0.8;
+  constexpr double half_painted = 0.9;
   constexpr double by_rest = 0.6;
   if (signs.painted_sides == 2) return painted;
   if (signs.painted_sides == 1 && signs.has_car) return half_painted;

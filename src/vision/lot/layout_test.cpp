@@ -92,6 +92,20 @@ TEST(Layout, HiddenSidesAreCompletedWhereCarsStand) {
   for (int const k : {0, 1, 2, 4, 5, 6}) EXPECT_TRUE(has_slot_at(slots, 10.0 + (k + 0.5) * pitch, 6.5)) << k;
 }
 
+TEST(Layout, ACarBesideOneSideMakesASlotNearlyAsSureAsTwoSides) {
+  std::vector<PaintedLine> const lines{side(0), side(1), side(2), side(5), side(6)};
+  std::vector<TurnedBox> const cars{car(2), car(3), car(4)};
+  auto const slots = slots_between(lines, cars, everything);
+  auto const surety_at = [&](int k) {
+    auto const found = std::ranges::find_if(
+        slots, [&](auto const& slot) { return std::abs(slot.middle().x - 10.0 - (k + 0.5) * pitch) < 0.3; });
+    return found == slots.end() ? 0.0 : found->surety;
+  };
+  EXPECT_DOUBLE_EQ(surety_at(0), 0.95) << "two sides";
+  EXPECT_DOUBLE_EQ(surety_at(2), 0.9) << "one side and a car";
+  EXPECT_DOUBLE_EQ(surety_at(3), 0.6) << "a car alone, which may be passing";
+}
+
 TEST(Layout, OneSideThatIsMissingInALongRowIsCompleted) {
   std::vector<PaintedLine> const lines{side(0), side(1), side(3), side(4), side(5), side(6)};
   auto const slots = slots_between(lines, {}, everything);
