@@ -64,6 +64,7 @@ with Drone(decide='relies_on = ["vision", "planner"]') as drone:
         operator.wait_for_state("Malfunction", 5)
         operator.wait(lambda o: o.last["Health Status"] == 1 and "vision has failed: the camera is gone" in o.last["Health Reason"], "why")
         ros.wait(lambda r: r.state.mode == "RTL", "RTL", 5)
+        drone.wait_for_log("diagnostics are in")  # a thread beside the decisions writes them
         assert "the camera is gone" in (drone.folder / "state/malfunction.txt").read_text()
         survey.level = 0
         operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 90)
