@@ -1,21 +1,11 @@
 #include "slam/mapper.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/assert.hpp"
 
 namespace lapwing::slam {
-namespace {
-
-bool is_nothing(Pose2 const& motion) {
-  constexpr double still_m = 0.05;
-  constexpr double still_rad = 0.03;
-  return std::hypot(motion.x, motion.y) < still_m && std::abs(motion.yaw) < still_rad;
-}
-
-}  // namespace
 
 Mapper::Mapper(MapperOptions const& options, RobotKind const& kind, ForEach for_each)
     : options_(options_for(kind, options)),
@@ -76,7 +66,7 @@ Pose2 Mapper::follow(Scan const& scan, Sensor const& sensor) {
     auto const [motion, is_sure] = front_end_.seen_motion(graph_.frames, graph_.poses, *frame);
     if (front_end_.is_a_step(motion))
       add_key_frame(*std::move(frame), scan, sensor, OdometryDoubt::has_frozen);
-    else if (is_nothing(motion))
+    else if (is_rest(motion))
       watch_.found_still(is_sure);
   }
   return pose();

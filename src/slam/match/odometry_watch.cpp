@@ -18,12 +18,11 @@ bool is_leap(Pose2 const& motion, LogTime elapsed) {
   return std::hypot(motion.x, motion.y) > most_m_s * seconds || std::abs(motion.yaw) > most_rad_s * seconds;
 }
 
-/// Whether that is next to nothing: what spinning wheels tell of a robot that slides, or noise.
+}  // namespace
+
 bool is_rest(Pose2 const& motion) {
   return std::hypot(motion.x, motion.y) < 0.05 && std::abs(motion.yaw) < 0.03;
 }
-
-}  // namespace
 
 void OdometryWatch::follow(Pose2 const& odometry, LogTime elapsed) {
   has_leapt_ = has_leapt_ || (!is_first_ && is_leap(between(odometry_, odometry), elapsed));

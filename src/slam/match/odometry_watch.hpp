@@ -12,6 +12,9 @@ enum class OdometryDoubt {
   has_frozen,  ///< it says the same again and again while what is seen changes: it comes late, or its wheels are lifted
 };
 
+/// Whether that is next to nothing: what spinning wheels tell of a robot that slides, or noise.
+[[nodiscard]] bool is_rest(Pose2 const& motion);
+
 /// Watches what a robot's odometry says from scan to scan.
 class OdometryWatch {
  public:
