@@ -1,9 +1,11 @@
 // A robot maps a simulated building by itself and looks for name tags with the cameras at its sides, as it does in the
 // verbs; what it has put on the map is held against the truth, a row a seed.
-// usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE]
+// usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE] [--signs DIR]
+// DIR, which is there, gets the picture of each sign that was seen; what was read in all sights of it is told.
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host/session/session.hpp"
 
@@ -22,7 +25,8 @@ namespace building = sim::building;
 
 struct Options {
   std::string file;
-  std::string to;  ///< a place to drive to before it comes home; empty: none
+  std::string to;     ///< a place to drive to before it comes home; empty: none
+  std::string signs;  ///< a folder for their pictures; empty: none
   std::vector<std::uint64_t> seeds;
 };
 
@@ -54,13 +58,14 @@ class Trial {
     auto const walls = wall_errors();
     auto const within = std::ranges::count_if(walls, [](double error_m) { return error_m <= 0.1; });
     auto const doors = judge_doors();
-    fmt::print("| {} | {} | {:.3f} m | {:.3f} | {} of {} | {} | {} | {} | {:.0f} m | {} | {:.0f} s | {}| {} |\n", seed,
-               is_home ? "home" : "not home", walls.empty() ? 0.0 : walls[walls.size() * 95 / 100],
+    fmt::print("| {} | {} | {:.3f} m | {:.3f} | {} of {} | {} | {} | {} | {} | {:.0f} m | {} | {:.0f} s | {}| {} |\n",
+               seed, is_home ? "home" : "not home", walls.empty() ? 0.0 : walls[walls.size() * 95 / 100],
                walls.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(walls.size()), doors.right,
-               doors.all, doors.misread, doors.wrong, truth().collisions().size(),
+               doors.all, doors.unread, doors.misread, doors.wrong, truth().collisions().size(),
                session_.robots.robots().front()->state().motion.track_m,
                session_.robots.tags_of({"robot1"})->pictures(), wall_s, doors.missing,
                drive.error.empty() ? drive.remark : drive.error);
+    if (!options_.signs.empty()) tell_signs(seed);
     std::fflush(stdout);
   }
 
@@ -68,6 +73,7 @@ class Trial {
   struct Doors {
     int all = 0;               ///< with a sign
     int right = 0;             ///< have their number on the map
+    int unread = 0;            ///< are on the map without one
     int misread = 0;           ///< have another one instead
     int wrong = 0;             ///< tags on the map that are no door's
     std::string missing = {};  ///< the numbers that are not on the map
@@ -106,6 +112,15 @@ class Trial {
     return least_m;
   }
 
+  void tell_signs(std::uint64_t seed) const {
+    for (auto const& tag : session_.robots.tags_of({"robot1"})->book().tags()) {
+      auto const at = on_floor(tag.position);
+      fmt::print("{} at {:.2f}, {:.2f}, {} sights: {}; {}; confidence {:.2f}\n", tag.number, at.x(), at.y(), tag.sights,
+                 tag.names, tag.kinds, tag.confidence());
+      std::ofstream(fmt::format("{}/{}-{}.jpg", options_.signs, seed, tag.number), std::ios::binary) << tag.crop;
+    }
+  }
+
   /// A tag is a door's that hangs within reach of its middle, on its front.
   [[nodiscard]] Doors judge_doors() const {
     constexpr double reach_m = 1.2;
@@ -118,17 +133,21 @@ class Trial {
       ++doors.all;
       auto const number = door.text.substr(0, door.text.find('\n'));
       bool has_right = false;
-      bool has_any = false;
+      bool has_unread = false;
+      bool has_other = false;
       for (std::size_t i = 0; i < tags.size(); ++i) {
         auto const& tag = std::get<map::PointOfInterest>(tags[i]->feature.content);
         if (geo::distance_m(on_floor(tag.position), door.middle) > reach_m) continue;
-        has_any = true;
-        has_right = has_right || tag.name == number;
-        is_a_doors[i] = is_a_doors[i] || tag.name == number;
+        bool const is_right = tag.name == number;
+        has_right = has_right || is_right;
+        has_unread = has_unread || tag.name.empty();
+        has_other = has_other || (!is_right && !tag.name.empty());
+        is_a_doors[i] = is_a_doors[i] || is_right || tag.name.empty();
       }
       doors.right += has_right ? 1 : 0;
       if (!has_right) doors.missing += number + " ";
-      doors.misread += has_any && !has_right ? 1 : 0;
+      doors.misread += has_other && !has_right ? 1 : 0;
+      doors.unread += has_unread && !has_other && !has_right ? 1 : 0;
     }
     doors.wrong = static_cast<int>(std::ranges::count(is_a_doors, false));
     return doors;
@@ -146,6 +165,8 @@ std::optional<Options> options_of(std::vector<std::string_view> const& words) {
     std::uint64_t seed = 0;
     if (words[i] == "--to" && has_next) {
       options.to = words[++i];
+    } else if (words[i] == "--signs" && has_next) {
+      options.signs = words[++i];
     } else if (options.file.empty()) {
       options.file = words[i];
     } else if (std::from_chars(words[i].data(), words[i].data() + words[i].size(), seed).ec == std::errc()) {
@@ -162,13 +183,14 @@ std::optional<Options> options_of(std::vector<std::string_view> const& words) {
 int main(int argc, char** argv) {
   auto const options = options_of({argv + 1, argv + argc});
   if (!options) {
-    fmt::print(stderr, "usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE]\n");
+    fmt::print(stderr, "usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE] [--signs DIR]\n");
     return 2;
   }
   fmt::print(
-      "| seed | end | walls p95 | within 0.1 m | doors right | misread | wrong | collisions | travel | pictures | took "
+      "| seed | end | walls p95 | within 0.1 m | doors right | unread | misread | wrong | collisions | travel | "
+      "pictures | took "
       "| said |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (auto const seed : options->seeds) {
     auto const began = std::chrono::steady_clock::now();
     Trial trial(*options, seed);

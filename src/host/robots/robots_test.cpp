@@ -103,13 +103,28 @@ struct RobotsWithAStandInEye : RobotsInABuilding {
   base::Task<std::optional<robot::Look>> look() {
     auto const at = sim::building::pixel_of(sign, camera_on(building().robot(0).body().pose(), camera), camera);
     robot::Look seen;
+    ++looks;
     if (at && at->x() > 40.0 && at->x() < camera.width - 40.0 && at->y() > 20.0 && at->y() < camera.height - 20.0)
       seen.found.push_back({.what = {.category = "sign",
                                      .box = {.x = at->x() - 20.0, .y = at->y() - 10.0, .width = 40.0, .height = 20.0},
                                      .score = 0.9,
                                      .text = "221"},
                             .crop = "its letters"});
+    if (!seen.found.empty() && !is_before_the_sign() && reads == Reads::from_before) {
+      seen.found.front().what.text.reset();
+      seen.found.front().what.kind = "meeting room";
+    }
+    if (!seen.found.empty() && reads == Reads::another_each_time) {
+      seen.found.front().what.text = std::to_string(100 + looks);
+      seen.found.front().what.score = 0.3;
+    }
     co_return seen;
+  }
+  /// Nearer than 1.7 m, and not aslant.
+  [[nodiscard]] bool is_before_the_sign() const {
+    auto const& at = session.buildings.front()->building->robot(0).body().pose().position;
+    double const off_m = sign.y() - at.y();
+    return off_m < 1.7 && std::abs(sign.x() - at.x()) < 0.4 * off_m;
   }
   static base::Task<base::Result<robot::Photograph>> photograph() {
     co_return robot::Photograph{.jpeg = "all", .thumbnail = "small", .width_px = 960, .height_px = 720};
@@ -121,6 +136,8 @@ struct RobotsWithAStandInEye : RobotsInABuilding {
 
   sim::building::CameraSettings camera;
   Eigen::Vector3d const sign{6.0, 3.95, 1.5};  ///< on the far wall of the other room
+  enum class Reads { always, from_before, another_each_time } reads = Reads::always;
+  int looks = 0;
   std::vector<std::string> kept;
 };
 
@@ -151,6 +168,35 @@ TEST_F(RobotsWithAStandInEye, FindADoorGoToItAndPhotographIt) {
   auto const report = json::parse(to_json(session.report()))["vehicles"][0]["robot"];
   EXPECT_EQ(report["doors"], 1);
   EXPECT_EQ(report["signs"], json::parse(R"(["221"])"));
+}
+
+TEST_F(RobotsWithAStandInEye, GoBeforeASignOfWhichTheyReadAPart) {
+  reads = Reads::from_before;
+  EXPECT_EQ(run("robot = pick { type 'UGV'; payload 'Camera'; timeout 60 }\n"
+                "execute robot: drive { explore(); driveTo 'room 221'; returnToStart() }"),
+            "done")
+      << session.host.outcome()->message;
+  auto const tags = session.live_map.within(map::LayerKind::points_of_interest, "default", std::nullopt, 10);
+  ASSERT_EQ(tags.size(), 1U);
+  EXPECT_EQ(std::get<map::PointOfInterest>(tags.front()->feature.content).text, "221 meeting room");
+  EXPECT_TRUE(building().collisions().empty());
+}
+
+TEST_F(RobotsWithAStandInEye, LeaveASignThatCannotBeReadOnTheMapAsADoor) {
+  reads = Reads::another_each_time;
+  EXPECT_EQ(run("robot = pick { type 'UGV'; payload 'Camera'; timeout 60 }\n"
+                "execute robot: drive { explore() }"),
+            "done")
+      << session.host.outcome()->message;
+  auto const tags = session.live_map.within(map::LayerKind::points_of_interest, "default", std::nullopt, 10);
+  ASSERT_EQ(tags.size(), 1U);
+  auto const& door = std::get<map::PointOfInterest>(tags.front()->feature.content);
+  EXPECT_EQ(door.kind, "door");
+  EXPECT_EQ(door.text, "");
+  EXPECT_FALSE(door.picture.empty());
+  auto const report = json::parse(to_json(session.report()))["vehicles"][0]["robot"];
+  EXPECT_EQ(report["doors"], 0);
+  EXPECT_EQ(report["drives"][0]["remark"], "explore: 1 sign could not be read");
 }
 
 TEST_F(RobotsInABuilding, AreGuardedByWhatTheyHaveSeen) {

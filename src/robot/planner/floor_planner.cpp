@@ -19,6 +19,8 @@ namespace {
 
 constexpr double blocked_after_s = 25.0;  ///< the strategy is told then
 constexpr double home_within_m = 0.5;
+constexpr double give_up_look_s = 30.0;
+constexpr double turned_rad = 0.05;
 constexpr double mind_within_m = 2.5;  ///< what moves farther away may be gone when the robot gets there
 constexpr std::size_t most_obstacles = 200;
 /// Farther than the board's own safe distance, which would stop a robot that only just fits.
@@ -104,6 +106,7 @@ base::Result<> FloorPlanner::begin(Errand errand) {
   }
   errand_ = std::move(errand);
   order_ = {};
+  is_there_ = false;
   navigator_.stop();
   is_new_ = true;
   recovery_.rest();
@@ -238,13 +241,15 @@ Plan FloorPlanner::plan(Situation const& situation) {
     plan = explore(situation, pose);
   } else if (auto const* const driving = std::get_if<DriveErrand>(&errand_)) {
     plan = drive(situation, pose, driving->to, driving->within_m);
+  } else if (auto const* const looking = std::get_if<LookErrand>(&errand_)) {
+    plan = look(situation, pose, *looking);
   } else {
     plan = drive(situation, pose, Place(0.0, 0.0), home_within_m);
   }
   note_progress(situation, pose, plan);
   is_new_ = false;
   if (plan.state != Plan::State::under_way) return plan;
-  if (progress_.stalled_s(situation.time_s) > options_.give_up_s) return given_up(situation);
+  if (progress_.stalled_s(situation.time_s) > give_up_s()) return given_up(situation);
   if (auto way = recover(situation, plan)) plan.way = *std::move(way);
   return plan;
 }
@@ -321,6 +326,25 @@ Plan FloorPlanner::drive(Situation const& situation, explore::Pose const& pose, 
     navigator_.go_to(*goal);
   }
   return follow(situation, pose);
+}
+
+double FloorPlanner::give_up_s() const {
+  return std::holds_alternative<LookErrand>(errand_) ? std::min(give_up_look_s, options_.give_up_s)
+                                                     : options_.give_up_s;
+}
+
+Plan FloorPlanner::look(Situation const& situation, explore::Pose const& pose, LookErrand const& looking) {
+  if (!is_there_) {
+    auto plan = drive(situation, pose, looking.from, looking.within_m);
+    if (plan.state != Plan::State::done) return plan;
+    is_there_ = true;
+  }
+  // Where it has come to stand is not quite where it was to stand.
+  auto const& here = situation.pose;
+  double const yaw_rad =
+      geo::wrap_pi(std::atan2(looking.at.y() - here.y, looking.at.x() - here.x) - looking.bearing_rad);
+  if (std::abs(geo::wrap_pi(yaw_rad - here.yaw)) < turned_rad) return {.state = Plan::State::done};
+  return {.state = Plan::State::under_way, .way = {.yaw_rad = yaw_rad}};
 }
 
 Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose) {

@@ -30,8 +30,16 @@ struct DriveErrand {
   Place to = {};
   double within_m = 0.3;  ///< as near as one can stand, where nobody can stand there
 };
+/// To stand where something is seen well, turned so that one of its cameras looks at it. What it is for is not worth
+/// waiting long for whoever stands in the way.
+struct LookErrand {
+  Place from = {};
+  double within_m = 0.3;  ///< as near as one can stand, where nobody can stand there
+  Place at = {};
+  double bearing_rad = 0.0;  ///< that the camera looks along, on the body: counterclockwise from straight ahead
+};
 struct ReturnErrand {};
-using Errand = std::variant<std::monostate, ExploreErrand, DriveErrand, ReturnErrand>;
+using Errand = std::variant<std::monostate, ExploreErrand, DriveErrand, LookErrand, ReturnErrand>;
 
 struct PlannerOptions {
   Limits limits = {};
@@ -94,6 +102,8 @@ class FloorPlanner {
   [[nodiscard]] std::vector<explore::Disc> obstacles(Situation const& situation) const;
   [[nodiscard]] Plan explore(Situation const& situation, explore::Pose const& pose);
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
+  [[nodiscard]] Plan look(Situation const& situation, explore::Pose const& pose, LookErrand const& looking);
+  [[nodiscard]] double give_up_s() const;
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
   void learn(explore::Cell cell, explore::Knowledge knowledge);
@@ -119,6 +129,7 @@ class FloorPlanner {
   explore::Navigator navigator_;
   Errand errand_;
   explore::Order order_;
+  bool is_there_ = false;  ///< where it is to look from
   std::size_t free_cells_ = 0;
   DrivenTrack track_;
   Progress progress_;

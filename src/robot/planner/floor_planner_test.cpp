@@ -88,6 +88,37 @@ TEST(FloorPlanner, GoesAsNearAsOneCanStand) {
   EXPECT_NEAR(plan.goal->x(), 2.75, 0.1);
 }
 
+TEST(FloorPlanner, TurnsWhereItHasComeToStandSoThatACameraLooksAtThePlace) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  constexpr double left_rad = 0.87;
+  ASSERT_TRUE(planner.begin(LookErrand{.from = Place(2.0, 1.0), .at = Place(2.0, 2.0), .bearing_rad = left_rad}));
+  auto const plan = planner.plan({});
+  ASSERT_FALSE(plan.way.points.empty());
+  EXPECT_NEAR(plan.way.points.back().x(), 2.0, 0.1);
+  EXPECT_NEAR(plan.way.points.back().y(), 1.0, 0.1);
+  auto const there = planner.plan({.pose = {2.0, 1.0, 0.0}, .time_s = 10.0});
+  ASSERT_EQ(there.state, State::under_way);
+  EXPECT_TRUE(there.way.points.empty()) << "it turns on the spot";
+  EXPECT_EQ(there.way.speed_m_s, 0.0);
+  ASSERT_TRUE(there.way.yaw_rad);
+  EXPECT_NEAR(*there.way.yaw_rad, 1.5708 - left_rad, 0.01);
+  EXPECT_EQ(planner.plan({.pose = {2.0, 1.0, 1.5708 - left_rad}, .time_s = 12.0}).state, State::done);
+}
+
+TEST(FloorPlanner, DoesNotWaitLongForAPlaceToLookFrom) {
+  FloorPlanner planner(small());
+  learn_all(planner, drawn(in_room));
+  ASSERT_TRUE(planner.begin(LookErrand{.from = Place(2.0, 0.0), .at = Place(2.0, 2.0)}));
+  Plan plan = planner.plan({});
+  int time_s = 1;
+  for (; time_s < 100 && plan.state == State::under_way; ++time_s) plan = planner.plan({.time_s = 1.0 * time_s});
+  EXPECT_EQ(plan.state, State::failed);
+  EXPECT_LT(time_s, 40);
+  ASSERT_TRUE(planner.begin(LookErrand{.from = Place(7.0, 0.0), .at = Place(7.0, 2.0)}));
+  EXPECT_EQ(planner.plan({.time_s = 101.0}).state, State::failed) << "nobody can stand there";
+}
+
 TEST(FloorPlanner, ExploresTowardsWhatIsUnknownAndIsDoneWithoutIt) {
   FloorPlanner planner(small());
   learn_all(planner, drawn(in_room, 1.5));

@@ -24,6 +24,11 @@ constexpr base::Duration survey_period = 2s;
 constexpr base::Duration walls_period = 5s;
 constexpr base::Duration write_period = 500ms;
 constexpr base::Duration left_out_lately = 5s;
+constexpr base::Duration eyes_silent_after = 10s;  ///< the seed's override ends then
+constexpr base::Duration eyes_asked_every = 100ms;
+/// What looking again may cost, of what exploring did: at most so much of the way, and so much at any rate.
+constexpr double looks_of_way = 0.3;
+constexpr double looks_at_least_m = 30.0;
 
 geo::Transform<geo::SiteFrame, map::GridFrame> place_of(RobotSpec const& spec) {
   return {spec.start.position, spec.start.yaw_rad};
@@ -38,6 +43,7 @@ MappingOptions mapping_options(RobotSpec const& spec) {
 std::string mode_for(Errand const& errand) {
   if (std::holds_alternative<ExploreErrand>(errand)) return "EXPLORE";
   if (std::holds_alternative<DriveErrand>(errand)) return "DRIVE";
+  if (std::holds_alternative<LookErrand>(errand)) return "LOOK";
   if (std::holds_alternative<ReturnErrand>(errand)) return "RETURN";
   return "HOLD";
 }
@@ -180,7 +186,8 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
   input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
   input.wants_walls = around_.loop.now() - walls_at_ >= walls_period;
   auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
-  if (result.errand == last_errand_ && result.plan.state == Plan::State::failed) planner_code_ = code::no_way;
+  bool const has_failed = result.errand == last_errand_ && result.plan.state == Plan::State::failed;
+  if (has_failed && !is_looking_) planner_code_ = code::no_way;
   health_.say(Module::planner, ModuleState::ready, planner_code_);
   co_return result;
 }
@@ -231,6 +238,7 @@ void Robot::write_walls(WallBook::Changes const& changes) {
 void Robot::give(Errand errand) {
   // What became of an errand stands until there is another.
   if (!std::holds_alternative<std::monostate>(errand)) planner_code_ = code::none;
+  is_looking_ = std::holds_alternative<LookErrand>(errand);
   around_.registry.edit(id()).mode.set(mode_for(errand), around_.loop.now());
   around_.registry.touch(id());
   next_errand_ = NewErrand{.number = ++last_errand_, .errand = std::move(errand)};
@@ -282,8 +290,10 @@ base::Task<base::Result<std::string>> Robot::carry_out(Step step) {
     co_return co_await std::move(taking);
   }
   if (auto const* const exploring = std::get_if<ExploreStep>(&step)) {
-    give(ExploreErrand{exploring->strategy});
-  } else if (auto const* const by_name = std::get_if<DriveToNameStep>(&step)) {
+    auto explored = explore(exploring->strategy);
+    co_return co_await std::move(explored);
+  }
+  if (auto const* const by_name = std::get_if<DriveToNameStep>(&step)) {
     auto const found = around_.find_place(by_name->name);
     if (!found) co_return std::unexpected(found.error());
     constexpr double before_a_door_m = 1.0;  // what has a name stands in a wall or before it
@@ -295,9 +305,46 @@ base::Task<base::Result<std::string>> Robot::carry_out(Step step) {
   } else {
     give(ReturnErrand{});
   }
+  auto driven = see_through();
+  co_return co_await std::move(driven);
+}
+
+base::Task<base::Result<std::string>> Robot::see_through() {
   while (plan_.state == Plan::State::under_way || plan_.state == Plan::State::idle) co_await planned_.wait();
   if (plan_.state == Plan::State::failed) co_return base::fail(base::ErrorKind::refused, plan_.reason);
   co_return plan_.reason;
+}
+
+base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
+  double const began_m = driven_m_;
+  give(ExploreErrand{std::move(strategy)});
+  auto exploring = see_through();
+  auto explored = co_await std::move(exploring);
+  auto const& looks = around_.second_looks;
+  if (!explored || !looks.next) co_return explored;
+  auto looking = look_again(std::max(looks_at_least_m, looks_of_way * (driven_m_ - began_m)));
+  co_await std::move(looking);
+  auto const unread = looks.unread();
+  if (unread > 0)
+    *explored += fmt::format("{}{} could not be read", explored->empty() ? "" : "; ",
+                             unread == 1 ? "1 sign" : fmt::format("{} signs", unread));
+  co_return explored;
+}
+
+base::Task<> Robot::look_again(double most_m) {
+  double const began_m = driven_m_;
+  while (driven_m_ - began_m < most_m) {
+    auto const view = around_.second_looks.next();
+    if (!view) co_return;
+    give(LookErrand{.from = on_map(view->from), .at = on_map(view->at), .bearing_rad = view->bearing_rad});
+    auto driving = see_through();
+    auto const driven = co_await std::move(driving);
+    if (!driven) continue;  // there may be another place to see it from
+    auto const until = around_.loop.now() + eyes_silent_after;
+    while (!around_.second_looks.has_looked() && around_.loop.now() < until)
+      co_await around_.loop.sleep(eyes_asked_every);
+    if (!around_.second_looks.has_looked()) planner_code_ = code::override_ended;
+  }
 }
 
 void Robot::conclude(DriveRecord& record, Outcome outcome, std::string error) {

@@ -15,6 +15,7 @@
 #include "robot/platform/body.hpp"
 #include "robot/platform/robot_health.hpp"
 #include "robot/platform/thoughts.hpp"
+#include "robot/poi/viewpoint.hpp"
 #include "robot/words/drive_task.hpp"
 #include "tasks/platform.hpp"
 #include "vehicle/connection_timeout.hpp"
@@ -71,6 +72,13 @@ class Robot {
   using OnMap = std::function<void(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed)>;
   /// Called when walls have changed, every few seconds at most; in the map's frame.
   using OnWalls = std::function<void(WallBook::Changes const& changes)>;
+  /// What its eyes want to look at once more before an exploration is over, as TagFinder says it. All empty: it has
+  /// none.
+  struct SecondLooks {
+    std::function<std::optional<Viewpoint>()> next;
+    std::function<bool()> has_looked;
+    std::function<std::size_t()> unread;
+  };
   struct Surroundings {
     base::Loop& loop;
     vehicle::Registry& registry;
@@ -85,6 +93,7 @@ class Robot {
     std::function<std::optional<std::uint16_t>()> communication;
     /// What is wrong with its eyes, likewise; nothing where it has none, and while they do not answer.
     std::function<std::optional<std::uint16_t>()> points_of_interest;
+    SecondLooks second_looks;
     /// Whether what it maps is kept on the disk; empty: nobody keeps it.
     std::function<bool()> is_map_kept;
     base::Logger log;
@@ -151,6 +160,11 @@ class Robot {
   base::Task<> carry_out(std::shared_ptr<DriveRecord> record, std::vector<Step> steps);
   /// Gives what is to be said of a step that is done.
   [[nodiscard]] base::Task<base::Result<std::string>> carry_out(Step step);
+  [[nodiscard]] base::Task<base::Result<std::string>> explore(std::string strategy);
+  /// Drives before what its eyes could not read, and stands there until they have looked.
+  [[nodiscard]] base::Task<> look_again(double most_m);
+  /// How the errand that was given last ends.
+  [[nodiscard]] base::Task<base::Result<std::string>> see_through();
   void conclude(DriveRecord& record, DriveRecord::Outcome outcome, std::string error);
   [[nodiscard]] slam::Pose2 pose_now(slam::Pose2 const& odometry) const;
 
@@ -178,6 +192,7 @@ class Robot {
   std::optional<NewErrand> next_errand_;
   std::uint64_t last_errand_ = 0;   ///< that was given
   std::uint64_t known_errand_ = 0;  ///< that the planner has
+  bool is_looking_ = false;         ///< the last errand is its eyes' alone, and nobody misses it
   Plan plan_;                       ///< of the last errand
   std::optional<Located> here_;
   slam::Pose2 odometry_here_;

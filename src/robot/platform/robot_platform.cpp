@@ -109,6 +109,7 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
         return communication_();
       },
       .points_of_interest = [this, id = spec.id] { return trouble_of_eyes({id}); },
+      .second_looks = second_looks_of({spec.id}),
       .is_map_kept = [this] { return !is_map_kept_ || is_map_kept_(); },
       .log = log_};
   forget_walls(spec);
@@ -136,6 +137,19 @@ std::optional<std::uint16_t> RobotPlatform::trouble_of_eyes(VehicleId const& id)
   auto const found = sights_.find(id);
   if (found == sights_.end() || !found->second.eyes.trouble) return std::nullopt;
   return found->second.eyes.trouble();
+}
+
+Robot::SecondLooks RobotPlatform::second_looks_of(VehicleId const& id) {
+  auto const finder = [this, id]() -> TagFinder* {
+    auto const found = sights_.find(id);
+    return found == sights_.end() ? nullptr : found->second.tags.get();
+  };
+  return {.next = [finder]() -> std::optional<Viewpoint> {
+            auto* const tags = finder();
+            return tags ? tags->next_view() : std::nullopt;
+          },
+          .has_looked = [finder] { return !finder() || finder()->has_looked(); },
+          .unread = [finder] { return finder() ? finder()->unread() : std::size_t{0}; }};
 }
 
 TagFinder const* RobotPlatform::tags_of(VehicleId const& id) const {

@@ -77,6 +77,7 @@ class RobotPlatform final : public tasks::Platform {
   /// Of a robot that maps anew, so that what it found another time does not lie among what it finds now.
   void forget_walls(RobotSpec const& spec);
   [[nodiscard]] base::Task<base::Result<std::string>> photograph(vehicle::VehicleId id);
+  [[nodiscard]] Robot::SecondLooks second_looks_of(vehicle::VehicleId const& id);
   [[nodiscard]] std::optional<std::uint16_t> trouble_of_eyes(vehicle::VehicleId const& id) const;
   base::Task<> pass_on(Robot& robot);
   base::Task<> pass_on_membership();

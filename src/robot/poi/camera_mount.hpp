@@ -22,6 +22,10 @@ struct SightLine {
   double slope = 0.0;        ///< metres up for each metre along the floor
 };
 
+/// That what hangs at this height, so far off along the floor, is neither above nor below the picture nor cut off by
+/// its edge.
+[[nodiscard]] bool is_in_the_picture(CameraMount const& mount, double height_m, double range_m);
+
 [[nodiscard]] SightLine sight_line(CameraMount const& mount, vision::Point const& pixel);
 
 }  // namespace lapwing::robot

@@ -22,9 +22,26 @@ Eigen::Vector2d vector_of(map::SitePoint const& point) {
   return {point.x(), point.y()};
 }
 
+/// "106" is one of "B-106": who read it did not see the rest.
+bool is_part_of(std::string const& part, std::string const& whole) {
+  auto const is_between = [](char c) { return c == '-' || c == '.'; };
+  auto const at = whole.find(part);
+  if (part.empty() || at == std::string::npos || part.size() == whole.size()) return false;
+  auto const end = at + part.size();
+  return (at == 0 || is_between(whole[at - 1])) && (end == whole.size() || is_between(whole[end]));
+}
+
+/// Its own votes, and those for its parts.
+double votes_for(std::string const& name, std::map<std::string, double> const& votes) {
+  double sum = 0.0;
+  for (auto const& [other, score] : votes)
+    if (other == name || is_part_of(other, name)) sum += score;
+  return sum;
+}
+
 std::string most_voted(std::map<std::string, double> const& votes) {
   if (votes.empty()) return {};
-  return std::ranges::max_element(votes, {}, [](auto const& vote) { return vote.second; })->first;
+  return std::ranges::max_element(votes, {}, [&](auto const& vote) { return votes_for(vote.first, votes); })->first;
 }
 
 }  // namespace
@@ -43,8 +60,7 @@ double TagBook::Entry::confidence() const {
   auto const& votes = names.empty() ? kinds : names;
   double const all = std::accumulate(votes.begin(), votes.end(), votes_against,
                                      [](double sum, auto const& vote) { return sum + vote.second; });
-  auto const best = votes.find(name());
-  return best == votes.end() ? 0.0 : best->second / all;
+  return votes_for(name(), votes) / all;
 }
 
 TagBook::Entry* TagBook::nearest(TagSight const& sight) {
@@ -65,7 +81,7 @@ TagBook::Entry* TagBook::nearest(TagSight const& sight) {
   return found;
 }
 
-TagBook::Entry& TagBook::take(TagSight const& sight) {
+TagBook::Entry const& TagBook::take(TagSight const& sight) {
   auto* tag = nearest(sight);
   if (!tag) {
     tags_.push_back({.number = static_cast<std::uint32_t>(tags_.size()) + 1,

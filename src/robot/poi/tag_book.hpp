@@ -44,8 +44,10 @@ class TagBook {
   };
 
   /// The one that it was, or a new one, until the next call.
-  Entry& take(TagSight const& sight);
-  [[nodiscard]] std::vector<Entry> const& tags() const { return tags_; }
+  Entry const& take(TagSight const& sight);
+  [[nodiscard]] std::vector<Entry> const& tags() const { return tags_; }  ///< by their numbers
+  /// Where the crop of one of them is kept.
+  void keep_picture(std::uint32_t number, std::string picture) { tags_[number - 1].picture = std::move(picture); }
 
  private:
   [[nodiscard]] Entry* nearest(TagSight const& sight);

@@ -38,6 +38,18 @@ TEST(TagBook, TakesTheNameThatMostOfTheSightsRead) {
   EXPECT_EQ(book.tags().front().name(), "221");
 }
 
+TEST(TagBook, CountsWhatReadAPartOfTheNumberForTheWhole) {
+  TagBook book;
+  (void)book.take(sight(1.0, 2.0, "106", 0.9));
+  (void)book.take(sight(1.0, 2.0, "106", 0.9));
+  (void)book.take(sight(1.0, 2.0, "B-106", 0.8));
+  ASSERT_EQ(book.tags().size(), 1U);
+  EXPECT_EQ(book.tags().front().name(), "B-106");
+  EXPECT_NEAR(book.tags().front().confidence(), 2.6 / 3.1, 1e-9);
+  (void)book.take(sight(1.0, 2.0, "B-10", 0.8));
+  EXPECT_NEAR(book.tags().front().confidence(), 2.6 / 3.9, 1e-9) << "a number that is cut off is another one";
+}
+
 TEST(TagBook, IsNamedByANumberHoweverOftenTheKindOfRoomAloneWasRead) {
   TagBook book;
   auto kind_alone = sight(1.0, 2.0, "", 0.9);
@@ -73,13 +85,13 @@ TEST(TagBook, TellsNumberAndKindWhicheverWasReadMoreOften) {
 
 TEST(TagBook, KeepsThePictureOfTheSurestSightOfWhatItIsCalled) {
   TagBook book;
-  auto const seen = [&](std::string const& name, double score) -> TagBook::Entry& {
+  auto const seen = [&](std::string const& name, double score) -> TagBook::Entry const& {
     auto one = sight(1.0, 2.0, name, score);
     one.crop = name + " of " + std::to_string(score).substr(0, 3);
     return book.take(one);
   };
   EXPECT_EQ(seen("221", 0.8).crop, "221 of 0.8");
-  seen("221", 0.8).picture = "kept";
+  book.keep_picture(seen("221", 0.8).number, "kept");
   EXPECT_EQ(seen("271", 0.9).crop, "221 of 0.8") << "it is called 221";
   EXPECT_EQ(book.tags().front().picture, "kept");
   EXPECT_EQ(seen("221", 0.9).crop, "221 of 0.9");

@@ -1,11 +1,14 @@
 #include "robot/poi/tag_finder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
+
+#include "robot/poi/free_space.hpp"
 
 namespace lapwing::robot {
 
@@ -14,17 +17,23 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr base::Duration look_period = 300ms;
-constexpr double nearest_m = 0.6;       ///< nearer, a tag is out of the picture
 constexpr double farthest_m = 3.0;      ///< farther, its letters are too small
 constexpr double most_slant_rad = 1.0;  ///< more, and its letters are too narrow
 constexpr double most_turn_rad = 0.1;   ///< in a period: more, and pictures are smeared
-constexpr double patch_m = 0.4;
-constexpr int looks_a_patch = 6;
-constexpr int blank_look = 6;  ///< one is enough where nothing is written: the pieces beside it show it as well
-constexpr int sharp_look = 3;  ///< two sharp looks are enough
-constexpr int poor_look = 2;   ///< a blurred one, or with a sign cut off, is taken again, twice at most
+/// A picture that does not show the lower of these is not taken; in one that does not show both, a tag may be missing.
+constexpr double low_tag_m = 1.2;
+constexpr double high_tag_m = 1.5;
 constexpr double least_confidence = 0.55;  ///< more than a single sight of a kind without a number gives
 constexpr double edge_px = 4.0;
+constexpr int most_tries = 2;  ///< the seed's
+constexpr int looks_a_try = 3;
+constexpr double there_m = 0.6;  ///< from where it was to look from
+constexpr double straight_rad = 0.15;
+/// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
+constexpr std::array parts_of_a_view{-0.32, -0.16, 0.0, 0.16, 0.32};
+constexpr double sign_reaches_m = 0.5;
+constexpr double round_a_corner_m = 6.0;  ///< what is not in sight is farther than it seems: behind a wall, mostly
+constexpr double unclear_px_m = 0.9 * LookBook::clear_px_m;  ///< at best, where something is not in the picture
 
 geo::Pose<geo::SiteFrame> level(vehicle::SitePose const& pose) {
   return {map::SitePoint(pose.position.x(), pose.position.y()), pose.yaw_rad};
@@ -48,12 +57,8 @@ bool is_cut_off(vision::Box const& box, CameraMount const& mount) {
          box.y + box.height > mount.height_px - edge_px;
 }
 
-/// How much of what a piece of wall is to be looked at a look was.
-int worth_of(Look const& look, CameraMount const& mount) {
-  if (look.found.empty()) return blank_look;
-  bool const is_read = std::ranges::all_of(
-      look.found, [&](Seen const& seen) { return seen.what.text && !is_cut_off(seen.what.box, mount); });
-  return look.is_sharp && is_read ? sharp_look : poor_look;
+double way_to(WallPoint const& wall, vehicle::SitePose const& pose) {
+  return std::atan2(wall.position.y() - pose.position.y(), wall.position.x() - pose.position.x());
 }
 
 }  // namespace
@@ -70,71 +75,244 @@ TagFinder::TagFinder(base::Loop& loop, vehicle::Registry const& registry, map::L
   scope_.spawn(keep_looking());
 }
 
+std::optional<vehicle::SitePose> TagFinder::pose_now() const {
+  auto const* const state = registry_.find({setup_.vehicle});
+  return state ? state->motion.site_pose.value : std::nullopt;
+}
+
 base::Task<> TagFinder::keep_looking() {
   std::optional<double> yaw_rad;
   for (;;) {
     co_await loop_.sleep(look_period);
-    auto const* const state = registry_.find({setup_.vehicle});
-    if (!state || !state->motion.site_pose.value) continue;
-    auto const pose = *state->motion.site_pose.value;
-    bool const turns = !yaw_rad || std::abs(geo::wrap_pi(pose.yaw_rad - *yaw_rad)) > most_turn_rad;
-    yaw_rad = pose.yaw_rad;
+    auto const pose = pose_now();
+    if (!pose) continue;
+    note_passed(*pose);
+    bool const turns = !yaw_rad || std::abs(geo::wrap_pi(pose->yaw_rad - *yaw_rad)) > most_turn_rad;
+    yaw_rad = pose->yaw_rad;
     if (turns) continue;
-    for (auto const& eye : setup_.eyes.for_tags) {
-      // The robot drives on while somebody looks: each picture has the pose of its own moment.
-      auto const* const now = registry_.find({setup_.vehicle});
-      if (!now || !now->motion.site_pose.value) break;
-      if (std::abs(geo::wrap_pi(now->motion.site_pose.value->yaw_rad - pose.yaw_rad)) > most_turn_rad) break;
-      auto looking = look_with(eye, *now->motion.site_pose.value);
-      co_await std::move(looking);
-    }
+    auto looking = retake_ && is_there(*retake_, *pose) ? look_again() : look_round(pose->yaw_rad);
+    co_await std::move(looking);
   }
 }
 
-base::Task<> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
-  auto const patch = patch_before(eye, pose);
-  if (!patch || looks_[*patch] >= looks_a_patch) co_return;
-  auto looking = eye.look();
-  auto const look = co_await std::move(looking);
-  if (!look) co_return;
-  ++pictures_;
-  looks_[*patch] += worth_of(*look, eye.mount);
-  auto const* const grid = grid_of(pose);
-  if (!grid) co_return;
-  for (auto const& seen : look->found) {
-    if (seen.what.category != "sign" || is_cut_off(seen.what.box, eye.mount)) continue;
-    auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
-    auto const sight = place ? sight_of(seen, *place) : std::nullopt;
-    if (!sight) continue;
-    auto& tag = book_.take(*sight);
-    if (tag.confidence() < least_confidence) continue;
-    if (setup_.eyes.keep && tag.picture.empty() && !tag.crop.empty()) {
-      auto keeping = setup_.eyes.keep(tag.crop);
-      auto const kept = co_await std::move(keeping);
-      if (kept) tag.picture = *kept;
+void TagFinder::note_passed(vehicle::SitePose const& pose) {
+  for (auto const& eye : setup_.eyes.for_tags)
+    for (auto const& view : views_of(eye, pose)) looks_.pass(view.wall);
+}
+
+/// A look takes a while, in which the robot drives on: the eye that shows most that is worth it comes first, and each
+/// picture has the pose of its own moment.
+base::Task<> TagFinder::look_round(double yaw_rad) {
+  std::vector<Eye const*> left;
+  for (auto const& eye : setup_.eyes.for_tags) left.push_back(&eye);
+  while (!left.empty()) {
+    auto const pose = pose_now();
+    if (!pose || std::abs(geo::wrap_pi(pose->yaw_rad - yaw_rad)) > most_turn_rad) co_return;
+    Eye const* best = nullptr;
+    double most = 0.0;
+    for (auto const* eye : left) {
+      double worth = 0.0;
+      for (auto const& [wall, clear] : views_of(*eye, *pose))
+        if (looks_.is_due(piece_of(wall), clear)) worth += std::min(clear, LookBook::clear_px_m);
+      if (worth <= most) continue;
+      best = eye;
+      most = worth;
     }
-    write(tag, pose);
+    if (!best) co_return;
+    std::erase(left, best);
+    auto looking = look_with(*best, *pose);
+    co_await std::move(looking);
   }
 }
+
+base::Task<> TagFinder::look_again() {
+  auto const view = retake_->view;
+  auto const pose = *pose_now();
+  auto looking = look_with(setup_.eyes.for_tags[view.eye], pose);
+  auto const seen = co_await std::move(looking);
+  if (!seen || !retake_ || retake_->view.from != view.from) co_return;
+  auto const number = retake_->tag;
+  if (number > 0) {
+    ++tries_[number].looks;
+    if (std::ranges::find(*seen, number) != seen->end()) ++tries_[number].sights;
+  }
+  auto const is_worth_more = [this](std::uint32_t one) { return wants_a_look(book_.tags()[one - 1]); };
+  bool const wants_more = (number > 0 && is_worth_more(number)) || std::ranges::any_of(*seen, is_worth_more);
+  if (++retake_->looks < looks_a_try && wants_more) co_return;
+  // It has come all this way: what the other eyes see from here spares it another one.
+  auto rest = look_round(pose.yaw_rad);
+  co_await std::move(rest);
+  if (!retake_ || retake_->view.from != view.from) co_return;
+  retake_.reset();
+  if (number == 0) co_return;
+  auto showing = show(number, pose);
+  co_await std::move(showing);
+}
+
+base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
+  auto const views = views_of(eye, pose);
+  auto looking = eye.look();
+  auto const look = co_await std::move(looking);
+  if (!look) co_return std::nullopt;
+  ++pictures_;
+  std::vector<std::uint32_t> numbers;
+  auto const* const grid = grid_of(pose);
+  if (!grid) co_return numbers;
+  std::map<WallPiece, std::pair<double, LookBook::Outcome>> shown;
+  for (auto const& [wall, clear] : views) shown.emplace(piece_of(wall), std::pair(clear, LookBook::Outcome::blank));
+  for (auto const& seen : look->found) {
+    if (seen.what.category != "sign") continue;
+    auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
+    if (!place) continue;
+    bool const is_whole = !is_cut_off(seen.what.box, eye.mount);
+    auto const outcome = !is_whole                          ? LookBook::Outcome::cut_off
+                         : look->is_sharp && seen.what.text ? LookBook::Outcome::read
+                                                            : LookBook::Outcome::poor;
+    for (auto const& [wall, clear] : views)
+      if (geo::distance_m(wall.position, place->wall.position) < sign_reaches_m)
+        shown[piece_of(wall)] = {clear, outcome};
+    auto sight = is_whole ? sight_of(seen, *place) : std::nullopt;
+    if (!sight) continue;
+    // Small letters are easily taken for others.
+    double const clear = clearness(eye.mount, place->wall, way_to(place->wall, pose));
+    sight->score *= std::min(1.0, clear / LookBook::clear_px_m);
+    numbers.push_back(book_.take(*sight).number);
+  }
+  for (auto const& [piece, look_at] : shown) looks_.note(piece, look_at.first, look_at.second);
+  for (auto const number : numbers) {
+    auto showing = show(number, pose);
+    co_await std::move(showing);
+  }
+  co_return numbers;
+}
+
+base::Task<> TagFinder::show(std::uint32_t number, vehicle::SitePose pose) {
+  auto const& tag = book_.tags()[number - 1];
+  if (!is_sure(tag) && !is_unread(tag) && !shown_.contains(number)) co_return;
+  if (setup_.eyes.keep && tag.picture.empty() && !tag.crop.empty()) {
+    auto keeping = setup_.eyes.keep(tag.crop);
+    auto const kept = co_await std::move(keeping);
+    if (kept) book_.keep_picture(number, *kept);
+  }
+  write(book_.tags()[number - 1], pose);
+}
+
+// ---- what it wants to look at again
+
+TagFinder::Tries TagFinder::tries_of(Entry const& tag) const {
+  auto const found = tries_.find(tag.number);
+  return found == tries_.end() ? Tries() : found->second;
+}
+
+bool TagFinder::is_sure(Entry const& tag) const {
+  return tag.confidence() >= least_confidence;
+}
+
+/// A kind of room without a number may be all that is written there: who has looked from before it knows.
+bool TagFinder::wants_a_look(Entry const& tag) const {
+  if (!is_sure(tag)) return true;
+  return tag.names.empty() && tries_of(tag).sights == 0;
+}
+
+/// It was seen from before it, or could not be got at, and is not read.
+bool TagFinder::is_unread(Entry const& tag) const {
+  auto const tries = tries_of(tag);
+  bool const is_over = tries.begun >= most_tries && !(retake_ && retake_->tag == tag.number);
+  return !is_sure(tag) && (tries.sights > 0 || (is_over && tries.looks == 0));
+}
+
+std::size_t TagFinder::unread() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(book_.tags(), [this](Entry const& tag) { return is_unread(tag); }));
+}
+
+std::vector<CameraMount> TagFinder::mounts() const {
+  std::vector<CameraMount> mounts;
+  for (auto const& eye : setup_.eyes.for_tags) mounts.push_back(eye.mount);
+  return mounts;
+}
+
+std::optional<Viewpoint> TagFinder::next_view() {
+  retake_.reset();
+  auto const pose = pose_now();
+  auto const* const grid = pose ? grid_of(*pose) : nullptr;
+  if (!grid) return std::nullopt;
+  map::SitePoint const here(pose->position.x(), pose->position.y());
+  retake_ = next_tag(*grid, here);
+  if (!retake_) retake_ = next_wall(*grid, here);
+  return retake_ ? std::optional(retake_->view) : std::nullopt;
+}
+
+std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here) {
+  std::vector<Entry const*> wanted;
+  for (auto const& tag : book_.tags())
+    if (wants_a_look(tag) && tries_of(tag).begun < most_tries) wanted.push_back(&tag);
+  std::ranges::sort(wanted, {}, [&](Entry const* tag) { return geo::distance_m(tag->position, here); });
+  for (auto const* tag : wanted) {
+    auto const views = viewpoints_for(
+        {.position = tag->position, .height_m = tag->height_m, .facing_rad = tag->facing_rad}, grid, mounts());
+    auto const nth = static_cast<std::size_t>(tries_[tag->number].begun++);
+    if (!views.empty()) return Retake{.tag = tag->number, .view = views[std::min(nth, views.size() - 1)]};
+  }
+  return std::nullopt;
+}
+
+std::optional<TagFinder::Retake> TagFinder::next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here) {
+  struct Wanted {
+    WallPiece piece;
+    Viewpoint view;
+    double cost_m = 0.0;
+  };
+  FreeSpace const space(grid);
+  std::vector<Wanted> wanted;
+  for (auto const& [wall, shows_something] : looks_.unclear()) {
+    OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
+    // A building has more walls than anybody wants to drive along.
+    if (!shows_something && !is_beside_an_opening(what, grid)) continue;
+    auto const views = is_wide_enough(what, grid) ? viewpoints_for(what, grid, mounts()) : std::vector<Viewpoint>();
+    if (views.empty()) continue;
+    auto const& view = views.front();
+    double const handicap_m = space.is_clear(here, view.from) ? 0.0 : round_a_corner_m;
+    wanted.push_back({piece_of(wall), view, geo::distance_m(view.from, here) + handicap_m});
+  }
+  auto const next = std::ranges::min_element(wanted, {}, &Wanted::cost_m);
+  if (next == wanted.end()) return std::nullopt;
+  looks_.give_up(next->piece);
+  return Retake{.view = next->view};
+}
+
+bool TagFinder::is_there(Retake const& retake, vehicle::SitePose const& pose) const {
+  auto const at = level(pose);
+  if (geo::distance_m(at.position, retake.view.from) > there_m) return false;
+  double const way_rad = std::atan2(retake.view.at.y() - at.position.y(), retake.view.at.x() - at.position.x());
+  return std::abs(geo::wrap_pi(way_rad - at.yaw_rad - retake.view.bearing_rad)) < straight_rad;
+}
+
+// ---- what it knows and shows
 
 std::vector<std::string> TagFinder::texts() const {
   std::vector<std::string> texts;
   for (auto const& tag : book_.tags())
-    if (tag.confidence() >= least_confidence) texts.push_back(tag.text());
+    if (is_sure(tag)) texts.push_back(tag.text());
   std::ranges::sort(texts);
   return texts;
 }
 
-std::optional<TagFinder::Patch> TagFinder::patch_before(Eye const& eye, vehicle::SitePose const& pose) const {
+std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose) const {
+  std::vector<View> views;
   auto const* const grid = grid_of(pose);
-  if (!grid) return std::nullopt;
-  auto const wall = wall_seen(*grid, level(pose), eye.mount, eye.mount.yaw_rad);
-  if (!wall || wall->range_m < nearest_m || wall->range_m > farthest_m) return std::nullopt;
-  double const straight_rad = wall->facing_rad + std::numbers::pi;
-  if (std::abs(geo::wrap_pi(pose.yaw_rad + eye.mount.yaw_rad - straight_rad)) > most_slant_rad) return std::nullopt;
-  return Patch{static_cast<int>(std::floor(wall->position.x() / patch_m)),
-               static_cast<int>(std::floor(wall->position.y() / patch_m)),
-               static_cast<int>(std::lround(wall->facing_rad / (std::numbers::pi / 2.0)))};
+  if (!grid) return views;
+  for (double const part : parts_of_a_view) {
+    double const bearing_rad = eye.mount.yaw_rad + part * eye.mount.view_rad;
+    auto const wall = wall_seen(*grid, level(pose), eye.mount, bearing_rad);
+    if (!wall || wall->range_m > farthest_m || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m)) continue;
+    double const way_rad = pose.yaw_rad + bearing_rad;
+    if (std::abs(geo::wrap_pi(wall->facing_rad + std::numbers::pi - way_rad)) > most_slant_rad) continue;
+    double const clear = clearness(eye.mount, *wall, way_rad);
+    bool const shows_all = is_in_the_picture(eye.mount, high_tag_m, wall->range_m);
+    views.push_back({.wall = *wall, .clearness = shows_all ? clear : std::min(clear, unclear_px_m)});
+  }
+  return views;
 }
 
 map::OccupancyGrid const* TagFinder::grid_of(vehicle::SitePose const& pose) const {
@@ -142,16 +320,19 @@ map::OccupancyGrid const* TagFinder::grid_of(vehicle::SitePose const& pose) cons
   return found == live_map_.grids().end() ? nullptr : &found->second.grid;
 }
 
-void TagFinder::write(TagBook::Entry const& tag, vehicle::SitePose const& pose) {
+/// What is not read is a door all the same, with the picture of its sign.
+void TagFinder::write(Entry const& tag, vehicle::SitePose const& pose) {
+  bool const is_read = is_sure(tag);
   map::PointOfInterest const point{.position = tag.position,
                                    .height_m = tag.height_m,
-                                   .kind = "name tag",
-                                   .name = tag.name(),
-                                   .text = tag.text(),
+                                   .kind = is_read ? "name tag" : "door",
+                                   .name = is_read ? tag.name() : "",
+                                   .text = is_read ? tag.text() : "",
                                    .picture = tag.picture,
                                    .facing_rad = tag.facing_rad,
                                    .confidence = tag.confidence(),
                                    .covariance_m2 = tag.covariance_m2};
+  shown_.insert(tag.number);
   auto const written = live_map_.put({.id = tag_id(setup_.vehicle, tag.number),
                                       .site = pose.site,
                                       .floor = pose.floor,

@@ -1,23 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "base/async/scope.hpp"
 #include "base/log.hpp"
 #include "map/live/live_map.hpp"
 #include "robot/poi/eye.hpp"
+#include "robot/poi/look_book.hpp"
 #include "robot/poi/tag_book.hpp"
+#include "robot/poi/viewpoint.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::robot {
 
 /// Finds name tags on the way of one robot: looks at each piece of wall that comes before one of its cameras, places
-/// what is read there by the robot's pose and map, and puts it on the map as points of interest. It steers nothing.
+/// what is read there by the robot's pose and map, and puts it on the map as points of interest. It steers nothing, but
+/// says from where it wants to look once more at what it could not read for sure.
 ///
 /// Thread-bound; ends with its destruction.
 class TagFinder {
@@ -34,18 +38,57 @@ class TagFinder {
 
   [[nodiscard]] TagBook const& book() const { return book_; }
   [[nodiscard]] int pictures() const { return pictures_; }
-  /// The texts of those that it is sure enough of to have put them on the map.
+  /// The texts of those that were read for sure, or as far as somebody before them can.
   [[nodiscard]] std::vector<std::string> texts() const;
 
+  /// From where it wants to look now: at the nearest of the tags that it is not sure of, and when there are none, at
+  /// the nearest wall that came before its cameras and was not seen clearly. A tag has two tries, of which this may be
+  /// one, and a wall one, so that there is an end. Who drives there stands until `has_looked`. Nothing: there is no
+  /// more to be looked at, or nowhere to stand.
+  [[nodiscard]] std::optional<Viewpoint> next_view();
+  [[nodiscard]] bool has_looked() const { return !retake_; }
+  /// How many were seen and could not be read.
+  [[nodiscard]] std::size_t unread() const;
+
  private:
-  /// A piece of wall, as wide as a camera's middle surely shows: its place in such widths, and the quarter it faces.
-  using Patch = std::tuple<int, int, int>;
+  using Entry = TagBook::Entry;
+  /// What came of looking at a tag again.
+  struct Tries {
+    int begun = 0;
+    int looks = 0;   ///< from before it
+    int sights = 0;  ///< in these
+  };
+  /// That is to be done now.
+  struct Retake {
+    std::uint32_t tag = 0;  ///< 0: no tag, but a wall that has not been seen clearly
+    Viewpoint view;
+    int looks = 0;
+  };
 
   base::Task<> keep_looking();
-  base::Task<> look_with(Eye const& eye, vehicle::SitePose pose);
-  [[nodiscard]] std::optional<Patch> patch_before(Eye const& eye, vehicle::SitePose const& pose) const;
+  base::Task<> look_round(double yaw_rad);
+  base::Task<> look_again();
+  /// Gives what was seen, as the numbers of tags; nothing: there was no look.
+  base::Task<std::optional<std::vector<std::uint32_t>>> look_with(Eye const& eye, vehicle::SitePose pose);
+  base::Task<> show(std::uint32_t number, vehicle::SitePose pose);
+  [[nodiscard]] std::optional<vehicle::SitePose> pose_now() const;
+  /// One of the pieces of wall that a picture shows.
+  struct View {
+    WallPoint wall;
+    double clearness = 0.0;
+  };
+  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose) const;
+  void note_passed(vehicle::SitePose const& pose);
+  [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
+  [[nodiscard]] std::optional<Retake> next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here);
+  [[nodiscard]] std::vector<CameraMount> mounts() const;
+  [[nodiscard]] bool is_there(Retake const& retake, vehicle::SitePose const& pose) const;
+  [[nodiscard]] Tries tries_of(Entry const& tag) const;
+  [[nodiscard]] bool is_sure(Entry const& tag) const;
+  [[nodiscard]] bool wants_a_look(Entry const& tag) const;
+  [[nodiscard]] bool is_unread(Entry const& tag) const;
   [[nodiscard]] map::OccupancyGrid const* grid_of(vehicle::SitePose const& pose) const;
-  void write(TagBook::Entry const& tag, vehicle::SitePose const& pose);
+  void write(Entry const& tag, vehicle::SitePose const& pose);
   void forget();
 
   base::Loop& loop_;
@@ -54,7 +97,10 @@ class TagFinder {
   Setup setup_;
   base::Logger log_;
   TagBook book_;
-  std::map<Patch, int> looks_;  ///< poor ones count for less: see `worth_of`
+  LookBook looks_;
+  std::map<std::uint32_t, Tries> tries_;  ///< by the tag's number
+  std::set<std::uint32_t> shown_;         ///< on the map
+  std::optional<Retake> retake_;
   int pictures_ = 0;
   base::Scope scope_;
 };

@@ -26,14 +26,30 @@ struct TagFinderAtAWall : ::testing::Test {
                                    {.writer = "robot1", .at = loop.utc_now()}));
     stand_at(1.0);
   }
-  void stand_at(double x) {
+  void stand_at(double x, double y = 0.4) {
     registry.edit({"robot1"})
-        .motion.site_pose.set({.site = "site", .floor = {}, .position = {x, 0.4, 0.0}, .yaw_rad = 0.0}, loop.now());
+        .motion.site_pose.set({.site = "site", .floor = {}, .position = {x, y, 0.0}, .yaw_rad = 0.0}, loop.now());
   }
-  /// Sees what `look` is now, in the middle of its picture.
+  /// Sees what `look` is now, in the middle of its picture; of the texts another one each time, where there are some.
   Eye eye() {
     return {.mount = {.x_m = 0.0, .yaw_rad = std::numbers::pi / 2.0},
-            .look = [this]() -> base::Task<std::optional<Look>> { co_return look; }};
+            .look = [this]() -> base::Task<std::optional<Look>> {
+              if (!texts.empty() && !look.found.empty())
+                look.found.front().what.text = texts[static_cast<std::size_t>(looked++) % texts.size()];
+              co_return look;
+            }};
+  }
+  /// As the robot does for it: false when it asks for nothing.
+  bool go_and_look(TagFinder& finds) {
+    auto const view = finds.next_view();
+    if (!view) return false;
+    EXPECT_FALSE(finds.has_looked());
+    stand_at(view->from.x(), view->from.y());
+    pass(3s);
+    return true;
+  }
+  [[nodiscard]] map::PointOfInterest point() const {
+    return std::get<map::PointOfInterest>(on_map().front()->feature.content);
   }
   std::unique_ptr<TagFinder> finder() {
     TagFinder::Setup setup{.vehicle = "robot1", .grid = "robot 1", .eyes = {.for_tags = {eye()}}};
@@ -62,6 +78,8 @@ struct TagFinderAtAWall : ::testing::Test {
                                 .text = "221",
                                 .kind = "office"},
                        .crop = "its letters"}}};
+  std::vector<std::string> texts;
+  int looked = 0;
   std::vector<std::string> kept;
 };
 
@@ -123,6 +141,104 @@ TEST_F(TagFinderAtAWall, BelievesAKindOfRoomAloneWhenItIsSeenTwice) {
   pass(300ms);
   ASSERT_EQ(on_map().size(), 1U);
   EXPECT_EQ(std::get<map::PointOfInterest>(on_map().front()->feature.content).text, "office");
+}
+
+TEST_F(TagFinderAtAWall, AsksToLookFromBeforeASignOfWhichItReadNoNumber) {
+  look.found.front().what.text.reset();
+  auto const finds = finder();
+  pass(3s);
+  look.found.front().what.text = "223";
+  look.found.front().crop = "sharper letters";
+  auto const view = finds->next_view();
+  ASSERT_TRUE(view);
+  EXPECT_NEAR(view->at.x(), 1.0, 0.1);
+  EXPECT_NEAR(view->at.y(), 2.0, 0.1);
+  EXPECT_NEAR(view->from.x(), 1.0, 0.1);
+  EXPECT_LT(view->from.y(), 1.4);
+  EXPECT_NEAR(view->bearing_rad, std::numbers::pi / 2.0, 1e-9);
+  stand_at(4.0);
+  pass(3s);
+  EXPECT_FALSE(finds->has_looked()) << "not from anywhere";
+  stand_at(view->from.x(), view->from.y());
+  pass(3s);
+  EXPECT_TRUE(finds->has_looked());
+  EXPECT_EQ(point().name, "223");
+  EXPECT_EQ(kept.back(), "sharper letters");
+  EXPECT_FALSE(finds->next_view()) << "it is sure now";
+  EXPECT_EQ(finds->unread(), 0U);
+}
+
+TEST_F(TagFinderAtAWall, BelievesThatThereIsNoNumberWhenItReadsNoneFromBefore) {
+  look.found.front().what.text.reset();
+  auto const finds = finder();
+  pass(3s);
+  EXPECT_TRUE(go_and_look(*finds));
+  EXPECT_FALSE(finds->next_view());
+  EXPECT_EQ(point().name, "office");
+}
+
+TEST_F(TagFinderAtAWall, LooksAgainTwiceAndThenLeavesAnUnreadDoorOnTheMap) {
+  look.found.front().what.kind.reset();
+  look.found.front().what.score = 0.3;
+  texts = {"221", "227", "271", "277", "211"};
+  auto const finds = finder();
+  pass(3s);
+  EXPECT_TRUE(on_map().empty());
+  EXPECT_TRUE(go_and_look(*finds));
+  EXPECT_TRUE(go_and_look(*finds));
+  EXPECT_FALSE(go_and_look(*finds));
+  EXPECT_EQ(finds->unread(), 1U);
+  ASSERT_EQ(on_map().size(), 1U);
+  EXPECT_EQ(point().kind, "door");
+  EXPECT_EQ(point().name, "");
+  EXPECT_EQ(point().text, "");
+  EXPECT_FALSE(point().picture.empty());
+  EXPECT_TRUE(finds->texts().empty());
+}
+
+TEST_F(TagFinderAtAWall, ForgetsWhatIsNoSignFromNearBy) {
+  look.found.front().what.score = 0.3;
+  auto const finds = finder();
+  pass(700ms);
+  look.found.clear();
+  EXPECT_TRUE(go_and_look(*finds));
+  EXPECT_TRUE(go_and_look(*finds));
+  EXPECT_FALSE(go_and_look(*finds));
+  EXPECT_EQ(finds->unread(), 0U);
+  EXPECT_TRUE(on_map().empty());
+}
+
+TEST_F(TagFinderAtAWall, AsksAgainWhenTheRobotDidNotGetThereAndThenTellsOfTheDoor) {
+  look.found.front().what.score = 0.3;
+  auto const finds = finder();
+  pass(700ms);
+  stand_at(6.0);
+  look.found.clear();
+  ASSERT_TRUE(finds->next_view());
+  pass(3s);
+  ASSERT_TRUE(finds->next_view());
+  pass(3s);
+  EXPECT_FALSE(finds->next_view());
+  EXPECT_EQ(finds->unread(), 1U);
+}
+
+TEST_F(TagFinderAtAWall, DoesNotGoBackToAWallThatShowedNothingFromAfar) {
+  look.found.clear();
+  stand_at(1.0, -0.4);
+  auto const finds = finder();
+  pass(3s);
+  EXPECT_FALSE(finds->next_view());
+}
+
+TEST_F(TagFinderAtAWall, GoesBackToASignThatWasSeenFromAfarAndNotReadAtAll) {
+  look.found.front().what.text.reset();
+  look.found.front().what.kind.reset();
+  stand_at(1.0, -0.4);
+  auto const finds = finder();
+  pass(3s);
+  look.found.front().what.text = "223";
+  EXPECT_TRUE(go_and_look(*finds));
+  EXPECT_EQ(point().name, "223");
 }
 
 TEST_F(TagFinderAtAWall, LooksOnceWhereNothingIsWritten) {

@@ -128,7 +128,7 @@ std::string code_page() {
       "([guide](../guide/robots.md#whether-it-is-well)). This page is made from `src/robot/watch/codes.cpp`, which "
       "both "
       "speak from as well.\n"
-      "Nothing says 402, 403, 502, 602, 701 and 801 yet.\n";
+      "Nothing says 403, 502, 602, 701 and 801 yet.\n";
   std::optional<Module> module;
   for (auto const& entry : table) {
     if (module != entry.module) {

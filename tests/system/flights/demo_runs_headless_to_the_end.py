@@ -10,7 +10,7 @@ import harness
 
 with tempfile.TemporaryDirectory() as folder:
     path = pathlib.Path(folder, "report.json")
-    out, err = harness.expect_exit(0, "demo", "--headless", "--report", str(path), seconds=840)
+    out, err = harness.expect_exit(0, "demo", "--headless", "--report", str(path), seconds=1200)
     report = json.loads(path.read_text())
 
 assert report["outcome"] == "done", report

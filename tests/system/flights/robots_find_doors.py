@@ -33,7 +33,7 @@ def robot_of(folder: pathlib.Path, script: str) -> tuple[dict, str, str]:
     report = folder / "report.json"
     out, err = harness.expect_exit(0, "run", "--robot", f"sim:{building}", "--seed", "1", "--report", str(report), "--pictures",
                                    str(folder / "pictures"), str(folder / "find.dolphin"),
-                                   seconds=200)
+                                   seconds=400)
     return json.loads(report.read_text())["vehicles"][0]["robot"], out, err
 
 

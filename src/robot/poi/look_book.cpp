@@ -1,0 +1,68 @@
+#include "robot/poi/look_book.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geo/position.hpp"
+
+namespace lapwing::robot {
+
+namespace {
+
+constexpr double piece_m = 0.4;
+constexpr double clearer = 1.3;       ///< by so much, and what could not be told may be told now
+constexpr double much_clearer = 2.0;  ///< by so much, and something may be seen where nothing was
+constexpr int enough_reads = 2;
+constexpr int most_tries = 3;
+
+}  // namespace
+
+WallPiece piece_of(WallPoint const& wall) {
+  return {static_cast<int>(std::floor(wall.position.x() / piece_m)),
+          static_cast<int>(std::floor(wall.position.y() / piece_m)),
+          static_cast<int>(std::lround(wall.facing_rad / (std::numbers::pi / 2.0)))};
+}
+
+double clearness(CameraMount const& mount, WallPoint const& wall, double way_rad) {
+  double const focal_px = mount.width_px / 2.0 / std::tan(mount.view_rad / 2.0);
+  double const slant_rad = geo::wrap_pi(wall.facing_rad + std::numbers::pi - way_rad);
+  return focal_px * std::max(0.0, std::cos(slant_rad)) / std::max(wall.range_m, 0.1);
+}
+
+void LookBook::pass(WallPoint const& wall) {
+  auto& known = pieces_[piece_of(wall)].wall;
+  if (!known || wall.range_m < known->range_m) known = wall;
+}
+
+bool LookBook::is_due(WallPiece const& piece, double clearness) const {
+  auto const found = pieces_.find(piece);
+  if (found == pieces_.end() || found->second.tries == 0) return true;
+  auto const& looks = found->second;
+  if (looks.reads >= enough_reads) return false;
+  bool const is_blank = looks.last == Outcome::blank;
+  if (is_blank) return clearness >= looks.clearest * much_clearer && looks.clearest < clear_px_m;
+  if (clearness >= looks.clearest * clearer) return true;
+  return looks.tries < most_tries && clearness * clearer >= looks.clearest;
+}
+
+void LookBook::note(WallPiece const& piece, double clearness, Outcome outcome) {
+  auto& looks = pieces_[piece];
+  if (clearness >= looks.clearest * clearer) looks.tries = 0;
+  looks.clearest = std::max(looks.clearest, clearness);
+  looks.last = outcome;
+  ++looks.tries;
+  if (outcome == Outcome::read) ++looks.reads;
+}
+
+std::vector<LookBook::Unclear> LookBook::unclear() const {
+  std::vector<Unclear> walls;
+  for (auto const& [key, piece] : pieces_) {
+    bool const is_clear = piece.reads > 0 || (piece.clearest >= clear_px_m && piece.last != Outcome::cut_off);
+    if (piece.wall && !is_clear && !piece.is_given_up)
+      walls.push_back({.wall = *piece.wall, .shows_something = piece.last != Outcome::blank});
+  }
+  return walls;
+}
+
+}  // namespace lapwing::robot

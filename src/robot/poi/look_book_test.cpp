@@ -1,0 +1,96 @@
+#include "robot/poi/look_book.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace lapwing::robot {
+namespace {
+
+using Outcome = LookBook::Outcome;
+
+constexpr WallPiece piece{3, 4, 1};
+constexpr double clear = 2.0 * LookBook::clear_px_m;
+constexpr double aslant = 0.5 * LookBook::clear_px_m;
+
+/// How often it is looked at in a row, with the same outcome each time.
+int looks(LookBook& book, double clearness, Outcome outcome) {
+  int count = 0;
+  for (; count < 100 && book.is_due(piece, clearness); ++count) book.note(piece, clearness, outcome);
+  return count;
+}
+
+TEST(LookBook, LooksOnceWhereNothingIsWrittenTwiceWhereSomethingIsAndThreeTimesWhereThatIsNotRead) {
+  for (auto const& [outcome, times] : {std::pair(Outcome::blank, 1), {Outcome::read, 2}, {Outcome::poor, 3}}) {
+    LookBook book;
+    EXPECT_EQ(looks(book, clear, outcome), times);
+  }
+}
+
+TEST(LookBook, LooksAgainWhenWhatCouldNotBeReadIsSeenClearer) {
+  LookBook book;
+  EXPECT_EQ(looks(book, aslant, Outcome::poor), 3);
+  EXPECT_FALSE(book.is_due(piece, 1.1 * aslant));
+  EXPECT_EQ(looks(book, clear, Outcome::read), 2);
+  EXPECT_FALSE(book.is_due(piece, 2.0 * clear)) << "it has been read";
+}
+
+TEST(LookBook, DoesNotBelieveFromAfarThatNothingIsWritten) {
+  LookBook book;
+  EXPECT_EQ(looks(book, aslant, Outcome::blank), 1);
+  EXPECT_FALSE(book.is_due(piece, 0.9 * aslant));
+  EXPECT_EQ(looks(book, clear, Outcome::blank), 1);
+  EXPECT_FALSE(book.is_due(piece, 3.0 * clear)) << "it was seen clearly";
+}
+
+TEST(LookBook, KnowsWhatItPassedAndNeverSawClearly) {
+  LookBook book;
+  WallPoint const wall{.position = {1.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  EXPECT_TRUE(book.unclear().empty());
+  book.pass(wall);
+  ASSERT_EQ(book.unclear().size(), 1U) << "nobody has looked";
+  book.note(piece_of(wall), aslant, Outcome::blank);
+  ASSERT_EQ(book.unclear().size(), 1U);
+  EXPECT_EQ(book.unclear().front().wall.position.x(), 1.3);
+  EXPECT_FALSE(book.unclear().front().shows_something);
+  book.note(piece_of(wall), clear, Outcome::cut_off);
+  ASSERT_EQ(book.unclear().size(), 1U);
+  EXPECT_TRUE(book.unclear().front().shows_something);
+  book.note(piece_of(wall), clear, Outcome::poor);
+  EXPECT_TRUE(book.unclear().empty()) << "who looks again looks for the sign";
+
+  WallPoint const other{.position = {5.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  book.pass(other);
+  book.give_up(piece_of(other));
+  book.pass(other);
+  EXPECT_TRUE(book.unclear().empty());
+}
+
+TEST(LookBook, IsDoneWithAPieceHoweverItIsSeen) {
+  LookBook book;
+  int count = 0;
+  for (double clearness = 100.0; clearness < 1'600.0; clearness += 1.0) count += looks(book, clearness, Outcome::poor);
+  EXPECT_LT(count, 35);
+}
+
+TEST(LookBook, TakesFewPicturesOfWallsWithNothingOnThem) {
+  LookBook book;
+  int count = 0;
+  for (double clearness = 60.0; clearness < 1'600.0; clearness += 1.0) count += looks(book, clearness, Outcome::blank);
+  EXPECT_LE(count, 4);
+}
+
+TEST(Clearness, IsLessFromAfarAndAslant) {
+  CameraMount const mount;
+  WallPoint wall{.position = {1.0, 2.0}, .range_m = 1.5, .facing_rad = -std::numbers::pi / 2.0};
+  double const straight_rad = std::numbers::pi / 2.0;
+  double const near = clearness(mount, wall, straight_rad);
+  EXPECT_NEAR(near, 630.0, 15.0) << "960 pixels for the 1.52 m that it shows";
+  EXPECT_NEAR(clearness(mount, wall, straight_rad + 1.0472), near / 2.0, 1.0);
+  wall.range_m = 3.0;
+  EXPECT_NEAR(clearness(mount, wall, straight_rad), near / 2.0, 1.0);
+  EXPECT_EQ(clearness(mount, wall, -straight_rad), 0.0) << "from behind";
+}
+
+}  // namespace
+}  // namespace lapwing::robot
