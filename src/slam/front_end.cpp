@@ -118,7 +118,7 @@ void FrontEnd::draw_last(std::vector<KeyFrame> const& frames, std::vector<Pose2>
 FrontEnd::Found FrontEnd::search(Frame const& frame, Guess const& guess) const {
   auto const found = correlate(grid_, frame, guess.pose, window_of(guess.spread));
   auto const slid = options_.may_slip ? correlate_along(grid_, frame, found) : std::nullopt;
-  return slid ? Found{slid->pose, true} : Found{found.pose, false};
+  return slid ? Found{slid->pose, slid->score, true} : Found{found.pose, found.score, false};
 }
 
 FrontEnd::Guess FrontEnd::by_odometry(Pose2 const& last, Pose2 const& driven) const {
@@ -174,8 +174,11 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   auto const is_wrong = is_misled || found.has_slipped;
   auto const error = between(told.pose, found.pose);
   constexpr double incredible = 4.5;
-  // By how well the wheels have done, not by how much they are trusted: who walks before the robot refutes nothing.
-  auto const is_refuted = is_wrong || is_beyond(incredible, error, noise_.of(driven));
+  // By how well the wheels have done, not by how much they are trusted. A search that ends elsewhere by a hair, as
+  // along a corridor, refutes nothing.
+  constexpr double clearly = 0.06;
+  auto const is_refuted = is_wrong || (options_.may_be_refuted && is_beyond(incredible, error, noise_.of(driven)) &&
+                                       found.fit > fit(grid_, frame, told.pose) + clearly);
   auto const held_to = is_refuted ? Guess{.pose = found.pose, .spread = unknown} : guess;
   auto const aligned = lay_on_last(frames, poses, frame, found.pose, held_to);
   constexpr int while_distrusted = 5;

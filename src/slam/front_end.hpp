@@ -21,6 +21,7 @@ struct FrontEndOptions {
   double odometry_spread = 1.0;  ///< times what is usual
   bool may_freeze = true;        ///< odometry that stands still while the scans do not is late or stuck
   bool may_slip = true;          ///< what fits clearly better farther along the way speaks against the wheels
+  bool may_be_refuted = true;    ///< what fits clearly better than odometry ever errs speaks against it
   double edge_share =
       0.1;  ///< of a key frame's information that its edge to the last one has, as neighbours err together
 };
@@ -74,6 +75,7 @@ class FrontEnd {
   };
   struct Found {
     Pose2 pose;
+    double fit;
     bool has_slipped;  ///< far from where odometry has it
   };
   void draw_last(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Pose2 const& around);

@@ -1,6 +1,9 @@
 // A simulated drive through an office, scan by scan.
 #include "robot/mapping/floor_map.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "slam/testing/simulated_drive.hpp"
@@ -89,6 +92,49 @@ TEST(FloorMap, IsNotTakenAlongByWhoWalksBeforeTheRobot) {
   wary.front_end.odometry_spread = 1.0;
   auto const dragged = map_of(drive, drive.log.scans.size(), wary);
   EXPECT_LT(dragged.poses.back().x, drive.truth.back().x - 1.0) << "or this test shows nothing";
+}
+
+/// Along a corridor that shows next to nothing but the people who come towards the robot, one after the other.
+slam::testing::Drive drive_past_people(std::uint64_t seed) {
+  slam::testing::Building const corridor{{{-10, -1.4}, {40, -1.4}},
+                                         {{-10, 1.4}, {40, 1.4}},
+                                         {{12, 1.4}, {12, 1.2}},
+                                         {{13, 1.4}, {13, 1.2}},
+                                         {{20, -1.4}, {20, -1.2}}};
+  auto drive = slam::testing::drive(corridor, {{0, 0}, {24, 0}},
+                                    {.beams = 360,
+                                     .field_of_view_rad = 2.0 * std::numbers::pi,
+                                     .most_range_m = 8.0,
+                                     .shift_noise = 0.02,
+                                     .scale_bias = 0.0,
+                                     .seed = seed});
+  constexpr double step_m = 0.2;  // between two scans
+  constexpr double least_m = 0.4;
+  for (std::size_t i = 0; i < drive.log.scans.size(); ++i) {
+    auto const& pose = drive.truth[i];
+    for (double const begins_m : {6.0, 12.0, 20.0, 30.0, 40.0}) {
+      Eigen::Vector2d const there(begins_m - step_m * static_cast<double>(i) - pose.x, 0.6 - pose.y);
+      if (there.norm() > least_m)
+        put_before(drive.log.scans[i], drive.log.sensors.front(), Eigen::Rotation2Dd(-pose.yaw) * there);
+    }
+  }
+  return drive;
+}
+
+TEST(FloorMap, IsNotTakenAlongByWhoComesTowardsTheRobot) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    auto const drive = drive_past_people(seed);
+    auto const mapped = map_of(drive, drive.log.scans.size());
+    double most_m = 0.0;
+    for (std::size_t i = 0; i < drive.truth.size(); ++i)
+      most_m = std::max(most_m, slam::distance_m(mapped.poses[i], drive.truth[i]));
+    EXPECT_LT(most_m, 0.15) << "seed " << seed;
+  }
+  MappingOptions as_for_logs;
+  as_for_logs.front_end.may_be_refuted = true;
+  auto const drive = drive_past_people(1);
+  auto const taken_along = map_of(drive, drive.log.scans.size(), as_for_logs);
+  EXPECT_GT(slam::distance_m(taken_along.poses.back(), drive.truth.back()), 1.0) << "or this test shows nothing";
 }
 
 TEST(FloorMap, DrawsWhatIsTakenAndWhatIsFree) {

@@ -97,6 +97,10 @@ void LocalGrid::add(Frame const& frame, Pose2 const& pose) {
   }
 }
 
+double fit(LocalGrid const& grid, Frame const& frame, Pose2 const& pose) {
+  return score(grid, frame, pose, 1);
+}
+
 Correlation correlate(LocalGrid const& grid, Frame const& frame, Pose2 const& guess, SearchWindow const& window) {
   if (frame.points.empty()) return {guess, 0.0};
   auto best = coarse(grid, frame, guess, window);

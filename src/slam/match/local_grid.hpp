@@ -48,8 +48,11 @@ struct SearchWindow {
 
 struct Correlation {
   Pose2 pose;
-  double score = 0.0;  ///< mean over the points, 1 when every one lies on a wall
+  double score = 0.0;  ///< its fit
 };
+
+/// Mean over the points of how near each lies to what the grid has, 1 when every one lies on a wall.
+[[nodiscard]] double fit(LocalGrid const& grid, Frame const& frame, Pose2 const& pose);
 
 /// The pose near `guess` at which the frame's points lie best on what the grid has: every pose of the window in steps
 /// of 0.1 m and 1 degree with some of the points, then downhill in smaller steps with all of them.
