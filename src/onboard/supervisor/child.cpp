@@ -41,6 +41,15 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return all;
 }
 
+/// Whoever steps back is also the first to go when memory runs out, which the system would otherwise decide by size.
+void step_back(pid_t pid, int niceness) {
+  constexpr auto goes_first = "500";
+  // Its threads take it from the first one, which has just begun.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), ::getpriority(PRIO_PROCESS, 0) + niceness);
+  base::Descriptor const score(::open(fmt::format("/proc/{}/oom_score_adj", pid).c_str(), O_WRONLY | O_CLOEXEC));
+  if (score.is_open()) (void)score.write_all(goes_first);
+}
+
 int spawn(ProcessSpec const& spec, int life, pid_t& pid) {
   auto words = spec.command;
   auto variables = environment_with(std::to_string(life_number));
@@ -88,9 +97,7 @@ base::Result<Child> Child::start(ProcessSpec const& spec) {
   pid_t pid = 0;
   int const error = spawn(spec, theirs.get(), pid);
   if (error == 0) {
-    // Its threads take it from the first one, which has just begun.
-    if (spec.niceness != 0)
-      (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), ::getpriority(PRIO_PROCESS, 0) + spec.niceness);
+    if (spec.niceness != 0) step_back(pid, spec.niceness);
     return Child(pid, std::move(ours));
   }
   return base::fail(error == ENOENT ? base::ErrorKind::not_found : base::ErrorKind::io,

@@ -17,7 +17,9 @@ struct ProcessSpec {
   std::vector<std::string> command = {};  ///< the program and its words
   /// It says over the life line that it lives (life_line.hpp), and is ended when it does not.
   bool tells_life = true;
-  int niceness = 0;  ///< 0 to 19: how far it steps back behind the supervisor where processors are scarce
+  /// 0 to 19: how far it steps back behind the supervisor where processors are scarce. One that does is also ended
+  /// before the others where memory is.
+  int niceness = 0;
 };
 
 /// What the system says of a child.

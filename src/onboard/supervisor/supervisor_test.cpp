@@ -4,7 +4,9 @@
 #include <sys/socket.h>
 #include <array>
 #include <csignal>
+#include <fstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "onboard/life/life_line.hpp"
@@ -65,6 +67,14 @@ TEST_F(SupervisorTest, HasAProcessStepBackBehindTheOthersThatIsToldTo) {
     return ::getpriority(PRIO_PROCESS, static_cast<id_t>(supervisor->status()[process].pid));
   };
   EXPECT_EQ(niceness(1) - niceness(0), 7);
+  auto const goes_before_others = [&](std::size_t process) {
+    std::ifstream file(fmt::format("/proc/{}/oom_score_adj", supervisor->status()[process].pid));
+    int score = 0;
+    file >> score;
+    return score;
+  };
+  EXPECT_GE(goes_before_others(1), 500);
+  EXPECT_LT(goes_before_others(0), 500);
 }
 
 TEST_F(SupervisorTest, StartsAnewWhatWasKilledAndLeavesTheOthersAlone) {
