@@ -15,6 +15,7 @@
 #include "host/files/secret_file.hpp"
 #include "host/session/signals.hpp"
 #include "onboard/life/life_line.hpp"
+#include "onboard/supervisor/process_ledger.hpp"
 #include "onboard/supervisor/supervisor.hpp"
 
 namespace lapwing::apps {
@@ -161,18 +162,48 @@ bool is_sound(Beside const& beside, std::string const& file) {
   return outcome->exit_code == host::exit_done;
 }
 
+/// What is written whenever a process has another state: for people and their programs, and for the next start.
+class Notes {
+ public:
+  /// `ledger`: null where there is none.
+  Notes(std::filesystem::path health_file, onboard::ProcessLedger const* ledger, base::Logger log)
+      : health_file_(std::move(health_file)), ledger_(ledger), log_(std::move(log)) {}
+
+  void write(std::vector<onboard::ProcessStatus> const& all) {
+    if (!health_file_.empty())
+      warn_once(told_of_health_, "health is not written",
+                base::replace_file(health_file_, onboard::status_text(all, base::wall_now())));
+    if (ledger_ != nullptr) warn_once(told_of_ledger_, "the processes are not written down", ledger_->note(all));
+  }
+
+ private:
+  void warn_once(bool& told, std::string_view what, base::Result<> const& written) const {
+    if (!written && !told) log_.warn(fmt::format("{}: {}", what, written.error().message));
+    told = !written;
+  }
+
+  std::filesystem::path health_file_;
+  onboard::ProcessLedger const* ledger_;
+  base::Logger log_;
+  bool told_of_health_ = false;
+  bool told_of_ledger_ = false;
+};
+
 int supervise(OnboardConfig config, std::string const& file) {
   complete_commands(config, file);
   base::LogHub hub;
   hub.add_sink(base::standard_error_sink(base::LogLevel::info));
   base::Logger const log(hub, "onboard");
+  auto ledger = onboard::ProcessLedger::open(config.decide.state_folder);
+  if (!ledger && ledger.error().kind == base::ErrorKind::refused) return host::refuse(ledger.error());
+  // A disk that takes nothing keeps no drone from flying.
+  if (!ledger) log.warn(fmt::format("the processes are not written down: {}", ledger.error().message));
   base::Loop loop;
-  auto const write_health = [&](std::vector<onboard::ProcessStatus> const& all) {
-    if (config.health_file.empty()) return;
-    auto const written = base::replace_file(config.health_file, onboard::status_text(all, base::wall_now()));
-    if (!written) log.warn(fmt::format("health is not written: {}", written.error().message));
-  };
-  onboard::Supervisor supervisor(loop, {.processes = config.processes}, log, write_health);
+  Notes notes(std::move(config.health_file), ledger ? &*ledger : nullptr, log);
+  onboard::Supervisor supervisor(
+      loop,
+      {.processes = config.processes, .left_over = ledger ? ledger->left_over() : std::vector<onboard::ProcessMark>{}},
+      log, [&notes](std::vector<onboard::ProcessStatus> const& all) { notes.write(all); });
   host::StopSignals const signals(loop, [&] {
     log.info("stops: the drone comes down or is disarmed first");
     supervisor.stop([&loop] { loop.stop(); });

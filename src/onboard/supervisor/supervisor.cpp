@@ -62,9 +62,29 @@ void Supervisor::tell() const {
 }
 
 base::Task<> Supervisor::supervise() {
+  tell();
+  auto ending = end_left_over();
+  co_await std::move(ending);
   for (;;) {
     for (auto& process : processes_) look_after(process);
     co_await loop_.sleep(look_period);
+  }
+}
+
+base::Task<> Supervisor::end_left_over() {
+  for (auto const& mark : std::views::reverse(options_.left_over)) {
+    if (!still_runs(mark)) continue;
+    log_.warn(fmt::format("{} of an earlier start still runs, process {}: it is told to end", mark.name, mark.pid));
+    ::kill(-mark.pid, SIGTERM);
+    ::kill(-mark.pid, SIGCONT);  // one that was stopped does not hear it otherwise
+    auto const deadline = loop_.now() + options_.stop_patience;
+    while (still_runs(mark) && loop_.now() < deadline) co_await loop_.sleep(look_period);
+    if (!still_runs(mark)) continue;
+    log_.error(fmt::format("{} of an earlier start does not end: it is ended by force", mark.name));
+    ::kill(-mark.pid, SIGKILL);
+    // It goes at once, unless the system waits for a disk or a device on its behalf.
+    auto const last = loop_.now() + options_.longest_silence;
+    while (still_runs(mark) && loop_.now() < last) co_await loop_.sleep(look_period);
   }
 }
 

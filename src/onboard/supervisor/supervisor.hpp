@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "link/operator_link/back_off.hpp"
 #include "onboard/supervisor/child.hpp"
+#include "onboard/supervisor/process_mark.hpp"
 
 namespace lapwing::onboard {
 
@@ -29,6 +30,9 @@ struct ProcessStatus {
 
 struct SupervisorOptions {
   std::vector<ProcessSpec> processes;  ///< started in this order, stopped in the other one
+  /// Of an earlier supervisor, in the order in which it had started them: they are ended first, since they hold the
+  /// ports and steer the drone.
+  std::vector<ProcessMark> left_over = {};
   base::Duration longest_silence = std::chrono::seconds(3);
   base::Duration stop_patience = std::chrono::seconds(12);  ///< until one that was told to end is killed
   base::Duration well_after = std::chrono::seconds(10);     ///< one that has lived so long did not fail at its start
@@ -63,6 +67,8 @@ class Supervisor {
     base::TimePoint next_start{};
   };
   base::Task<> supervise();
+  /// As the one that started them would have: the last one first, each when the one before it has ended.
+  base::Task<> end_left_over();
   base::Task<> end_all(std::function<void()> done);
   void look_after(Process& process);
   void start(Process& process);
