@@ -179,6 +179,10 @@ case $target in
     printf '{"Type":"Autonomous Move","X":-3.5,"Y":4,"w":0.5}' | seed move
     printf '{"Type":"CompulsiveMove","Lat":43.001,"Long":-79}' | seed globe
     printf '{"Type":"Compulsive Move","X":1,"Y":2}{"Type":"Kill"}' | seed two
+    printf '{"Type":"Map","Send":"Changes"}' | seed map-request
+    { printf '{"Type":"Map","Revision":1,"Columns":3,"Rows":2,"Resolution":0.5,"Origin X":-1,"Origin Y":2,"Cells":[-1,0,100,50,7,-1]}\n'
+      printf '{"Type":"Map Changes","Revision":2,"Since":1,"Changes":[[0,5,6],[4,-1]]}\n'
+      printf '{"Type":"Map Changes","Revision":4,"Since":3,"Changes":[[5,9]]}\n'; } | seed map
     printf '# x\nmin_hover_height_m = 7\ndesired_hover_height_m = 10\nmax_hover_height_m = 20\n# crc32 = 00000000\n' | seed settings
     ;;
   robot_frames)

@@ -1,14 +1,18 @@
 // What an operator sends to a drone and a drone to its operator, and what the drone's own settings may hold. A command
 // that is read goes to a drone that hovers, which answers it; whatever it asks for afterwards is finite.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "autonomy/operator/command_text.hpp"
+#include "autonomy/operator/map_follower.hpp"
+#include "autonomy/operator/map_request.hpp"
 #include "autonomy/operator/report_reader.hpp"
 #include "autonomy/operator/report_text.hpp"
 #include "autonomy/settings/heights_text.hpp"
@@ -58,6 +62,20 @@ void obey(Command const& command) {
   }
 }
 
+/// A line each: what a drone says of its map, as an operator's program puts it together.
+void follow(std::string_view lines) {
+  MapFollower follower;
+  while (!lines.empty()) {
+    auto const end = std::min(lines.find('\n'), lines.size());
+    auto report = parse_report(lines.substr(0, end));
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+    if (!report) continue;
+    if (auto* const whole = std::get_if<report::Map>(&*report)) follower.take(std::move(*whole));
+    if (auto const* const changes = std::get_if<report::MapChanges>(&*report)) follower.take(*changes);
+    fuzz::require(!follower.map() || is_sound(*follower.map()));
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
@@ -69,6 +87,9 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   if (auto const report = parse_report(text))
     if (auto const* const heartbeat = std::get_if<report::Heartbeat>(&*report); heartbeat && heartbeat->map)
       fuzz::require(heartbeat->map->cells.size() == std::size_t{heartbeat->map->columns} * heartbeat->map->rows);
+  follow(text);
+  if (auto const request = parse_map_request(text); request && !*request)
+    fuzz::require(error_log_text(request->error()).size() < 8 * longest_error_log);
   if (auto const heights = parse_heights("settings", text)) fuzz::require(!heights_fault(*heights));
   return 0;
 }

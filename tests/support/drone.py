@@ -31,6 +31,9 @@ class Operator:
         self.heartbeats: list[dict] = []
         self.errors: list[str] = []
         self.slots: list[dict] = []  # GeoJSON features, as they were told last
+        self.map: dict | None = None  # put together of the whole one and its changes, once `follow_map` has asked for them
+        self.map_messages: list[dict] = []  # all that have come of it
+        self.misses = 0  # changes that did not follow what was there
         self._changed = threading.Condition()
         self._station = Station(port, name=name, token=token)
         self._ends = False
@@ -91,9 +94,28 @@ class Operator:
                 self.heartbeats.append(message)
             elif message["Type"] == "Slots":
                 self.slots = message["Features"]["features"]
+            elif message["Type"] in ("Map", "Map Changes"):
+                self.map_messages.append(message)
+                self._take_map(message)
             else:
                 self.errors.append(message["Message"])
             self._changed.notify_all()
+
+    def follow_map(self) -> None:
+        """The whole map comes next, and then what changes."""
+        self.command("Map", Send="Changes")
+
+    def _take_map(self, message: dict) -> None:
+        if message["Type"] == "Map":
+            self.map = {**message, "Cells": list(message["Cells"])}
+        elif self.map is not None and message["Since"] == self.map["Revision"]:
+            for first, *cells in message["Changes"]:
+                self.map["Cells"][first:first + len(cells)] = cells
+            self.map["Revision"] = message["Revision"]
+        elif self.map is not None:  # something is missing; nothing is known until the whole map is here again
+            self.map = None
+            self.misses += 1
+            self.follow_map()
 
     def say(self, text: str) -> None:
         if self.plain:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,6 +94,54 @@ base::Result<Report> heartbeat(Json const& object) {
   return heartbeat;
 }
 
+/// From 1 on, and as exact as every reader of JSON has it.
+std::optional<std::uint64_t> revision(Json const& object, char const* key) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 53U;
+  auto const found = object.find(key);
+  if (found == object.end() || !found->is_number_unsigned()) return std::nullopt;
+  auto const value = found->get<std::uint64_t>();
+  return value >= 1 && value <= most ? std::optional(value) : std::nullopt;
+}
+
+base::Result<Report> map(Json const& object) {
+  auto const number_of_it = revision(object, "Revision");
+  if (!number_of_it) return wrong("a map without its Revision");
+  auto whole = occupancy_map(object);
+  if (!whole) return std::unexpected(whole.error());
+  return report::Map{.revision = *number_of_it, .map = *std::move(whole)};
+}
+
+/// The number of its first cell, and what that one and those behind it are now.
+std::optional<report::MapChanges::Run> run(Json const& cells) {
+  if (!cells.is_array() || cells.size() < 2 || cells.size() > most_map_cells + 1) return std::nullopt;
+  auto const& first = cells[0];
+  if (!first.is_number_unsigned() || first.get<std::uint64_t>() > most_map_cells) return std::nullopt;
+  report::MapChanges::Run run{.first = first.get<std::uint32_t>(), .cells = {}};
+  for (auto const& cell : cells | std::views::drop(1)) {
+    if (!is_percent(cell)) return std::nullopt;
+    run.cells.push_back(cell.get<std::int8_t>());
+  }
+  return run;
+}
+
+base::Result<Report> map_changes(Json const& object) {
+  auto const number_of_it = revision(object, "Revision");
+  auto const since = revision(object, "Since");
+  auto const changes = object.find("Changes");
+  if (!number_of_it || !since || changes == object.end() || !changes->is_array())
+    return wrong("changes of a map without Revision, Since or Changes");
+  report::MapChanges read{.revision = *number_of_it, .since = *since, .runs = {}};
+  std::size_t next = 0;
+  for (auto const& one : *changes) {
+    auto cells = run(one);
+    if (!cells || cells->first < next || cells->first + cells->cells.size() > most_map_cells)
+      return wrong("changes of a map that are no runs of cells, one behind the other");
+    next = cells->first + cells->cells.size();
+    read.runs.push_back(*std::move(cells));
+  }
+  return read;
+}
+
 std::optional<vehicle::SlotCounts> slot_counts(Json const& survey) {
   constexpr double most = 1e6;
   auto const all = number(survey, "slots", 0, most);
@@ -133,6 +182,8 @@ base::Result<Report> parse_report(std::string_view text) {
   if (name == "Heartbeat") return heartbeat(object);
   if (name == "ErrorLog") return report::ErrorLog{words(object, "Message")};
   if (name == "Slots") return slots(object);
+  if (name == "Map") return map(object);
+  if (name == "Map Changes") return map_changes(object);
   return wrong(fmt::format("a drone's message of the unknown type '{}'", base::printable(name.substr(0, 40))));
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
-#include "autonomy/operator/report_text.hpp"
+#include "autonomy/operator/occupancy_map.hpp"
 #include "base/error.hpp"
 #include "geo/position.hpp"
 #include "vehicle/slot_counts.hpp"
@@ -50,16 +52,33 @@ struct Slots {
   std::optional<Survey> survey = {};  ///< nothing where the drone does not tell
 };
 
+/// The whole occupancy map, for who has asked for it and its changes.
+struct Map {
+  std::uint64_t revision = 0;  ///< from 1 on
+  OccupancyMap map;
+};
+
+/// What is another one in the map `revision` than in the map `since`.
+struct MapChanges {
+  struct Run {
+    std::uint32_t first = 0;  ///< the number of the first cell
+    std::vector<std::int8_t> cells;
+  };
+  std::uint64_t revision = 0;
+  std::uint64_t since = 0;
+  std::vector<Run> runs;
+};
+
 }  // namespace report
 
-using Report = std::variant<report::Heartbeat, report::ErrorLog, report::Slots>;
+using Report = std::variant<report::Heartbeat, report::ErrorLog, report::Slots, report::Map, report::MapChanges>;
 
 /// Longer texts of one member are cut.
 inline constexpr std::size_t longest_report_text = 1'000;
 
 /// Of one JSON object, of which `Type` decides. Numbers that are out of their range are as if they were not there.
 /// Errors (invalid_input): no JSON, no object, an unknown type, a map whose cells are not as many as it says or not
-/// from -1 to 100.
+/// from -1 to 100, a map or changes without their numbers, changes beyond what a map may have.
 [[nodiscard]] base::Result<Report> parse_report(std::string_view text);
 
 }  // namespace lapwing::autonomy

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "autonomy/operator/report_text.hpp"
 #include "autonomy/testing/bench.hpp"
 
 namespace lapwing::autonomy {

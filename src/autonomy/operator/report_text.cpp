@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "autonomy/operator/map_text.hpp"
 #include "base/text/json.hpp"
 #include "base/text/printable.hpp"
 
@@ -16,20 +17,6 @@ using Json = nlohmann::ordered_json;
 
 Json number(std::optional<double> const& value) {
   return value ? base::json_number<Json>(*value) : Json(nullptr);
-}
-
-Json map_json(OccupancyMap const& map) {
-  return {{"Columns", map.columns},
-          {"Rows", map.rows},
-          {"Resolution", base::json_number<Json>(map.resolution_m)},
-          {"Origin X", base::json_number<Json>(map.origin.x())},
-          {"Origin Y", base::json_number<Json>(map.origin.y())},
-          {"Cells", map.cells}};
-}
-
-bool is_sound(OccupancyMap const& map) {
-  auto const cells = std::uint64_t{map.columns} * map.rows;
-  return cells == map.cells.size() && cells <= most_map_cells;
 }
 
 /// No more than that, and no character cut in two (UTF-8: bytes that go on begin with 10).

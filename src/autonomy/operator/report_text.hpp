@@ -1,29 +1,17 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "autonomy/interface/said.hpp"
 #include "autonomy/interface/told.hpp"
+#include "autonomy/operator/occupancy_map.hpp"
 #include "base/error.hpp"
 
 namespace lapwing::autonomy {
 
-/// The occupancy map as ROS has it (nav_msgs/OccupancyGrid): row by row from the lower left corner, -1 unknown, else
-/// percent.
-struct OccupancyMap {
-  std::uint32_t columns = 0;
-  std::uint32_t rows = 0;
-  double resolution_m = 0.0;
-  geo::Point<ArmingFrame> origin = {};  ///< of the lower left corner
-  std::vector<std::int8_t> cells = {};
-};
-
-/// As large as one message of the operator link carries with every cell at its longest.
-inline constexpr std::size_t most_map_cells = 200'000;
 inline constexpr std::size_t longest_error_log = 1'000;
 
 /// The drone's word to the operator, twice a second: one JSON object with the keys that old operators' programs know.

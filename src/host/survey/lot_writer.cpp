@@ -21,10 +21,6 @@ constexpr auto site_id = "default";
   return ::lapwing::map::Evidence::of_probability(std::clamp(percent / 100.0, 1.0 - surest, surest));
 }
 
-bool is_alike(autonomy::OccupancyMap const& a, autonomy::OccupancyMap const& b) {
-  return a.columns == b.columns && a.rows == b.rows && a.resolution_m == b.resolution_m && a.origin == b.origin;
-}
-
 }  // namespace
 
 void LotWriter::note_origin(autonomy::report::Heartbeat const& heartbeat) {

@@ -140,9 +140,7 @@ void Decide::carry_out(autonomy::Said const& said, autonomy::Told const& told) {
     else
       log_.warn(text.error().message);
   }
-  if (!said.sends_heartbeat) return;
-  auto text = autonomy::heartbeat_text(said, told, processes_->map());
-  if (text) desk_->heartbeat(*std::move(text));
+  if (said.sends_heartbeat) desk_->heartbeat(said, told, processes_->map());
 }
 
 // ---- what is kept

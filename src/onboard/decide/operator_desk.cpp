@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "autonomy/operator/command_text.hpp"
+#include "autonomy/operator/map_request.hpp"
 #include "autonomy/operator/report_text.hpp"
 
 namespace lapwing::onboard {
@@ -39,6 +40,7 @@ std::vector<autonomy::Command> OperatorDesk::take_commands() {
   for (auto const& fault : std::exchange(malformed_, {})) tell(fmt::format("what came is no message: {}", fault));
   for (auto* const session : server_->sessions()) {
     while (auto const message = session->take()) {
+      if (is_map_request(*session, message->text)) continue;
       auto command = autonomy::parse_command(message->text);
       if (command) {
         log_.info(fmt::format("{} commands {}", session->peer(), autonomy::name_of(*command)));
@@ -66,8 +68,37 @@ autonomy::OperatorLink OperatorDesk::link() const {
   return link;
 }
 
-void OperatorDesk::heartbeat(std::string text) {
-  (void)server_->send_to_all({.kind = wire::Kind::latest, .text = std::move(text), .key = "heartbeat"});
+bool OperatorDesk::is_map_request(wire::PeerSession& session, std::string const& text) {
+  auto const request = autonomy::parse_map_request(text);
+  if (!request) return false;
+  if (!*request) {
+    log_.warn(fmt::format("{} sent no request: {}", session.peer(), request->error().message));
+    (void)session.send({.text = autonomy::error_log_text(request->error())});
+  } else if (**request == autonomy::MapRequest::as_changes) {
+    map_post_.follow(session);
+  } else {
+    map_post_.leave(session);
+  }
+  return true;
+}
+
+void OperatorDesk::heartbeat(autonomy::Said const& said, autonomy::Told const& told,
+                             std::optional<autonomy::OccupancyMap> const& map) {
+  map_post_.put(map);
+  // A map of a whole lot is many times as long as the rest: it is written for those alone that want it.
+  std::optional<std::string> with_map;
+  std::optional<std::string> without_map;
+  for (auto* const session : server_->sessions()) {
+    bool const follows = map_post_.is_followed_by(*session);
+    auto& text = follows ? without_map : with_map;
+    if (!text) {
+      auto made = autonomy::heartbeat_text(said, told, follows ? std::nullopt : map);
+      if (!made) continue;
+      text = *std::move(made);
+    }
+    (void)session->send({.kind = wire::Kind::latest, .text = *text, .key = "heartbeat"});
+    if (follows) map_post_.tell(*session);
+  }
 }
 
 void OperatorDesk::slots(std::string text) {

@@ -1,14 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "autonomy/interface/command.hpp"
+#include "autonomy/interface/said.hpp"
 #include "autonomy/interface/told.hpp"
+#include "autonomy/operator/occupancy_map.hpp"
 #include "base/async/loop.hpp"
 #include "base/log.hpp"
 #include "link/operator_link/endpoints.hpp"
+#include "onboard/decide/map_post.hpp"
 
 namespace lapwing::onboard {
 
@@ -30,7 +34,9 @@ class OperatorDesk {
   /// started anew in flight.
   [[nodiscard]] autonomy::OperatorLink link() const;
 
-  void heartbeat(std::string text);
+  /// With the map to everybody but those that are told of its changes.
+  void heartbeat(autonomy::Said const& said, autonomy::Told const& told,
+                 std::optional<autonomy::OccupancyMap> const& map);
   /// To everybody, and to who connects later; not in JSON mode, whose old programs know two kinds of messages.
   void slots(std::string text);
   /// An ErrorLog to everybody; waits for those who are away.
@@ -41,11 +47,14 @@ class OperatorDesk {
   OperatorDesk(base::Loop& loop, base::Logger log, bool is_plain)
       : loop_(loop), log_(std::move(log)), is_plain_(is_plain), began_(loop.now()) {}
   void note(link::operator_link::Event const& event);
+  /// Whether it was about how the operator wants the map.
+  [[nodiscard]] bool is_map_request(link::operator_link::PeerSession& session, std::string const& text);
 
   base::Loop& loop_;
   base::Logger log_;
   bool is_plain_;
   base::TimePoint began_;
+  MapPost map_post_;
   std::string slots_;                   ///< as they were told last
   std::vector<std::string> malformed_;  ///< in JSON mode: to be answered
   std::unique_ptr<link::operator_link::Server> server_;

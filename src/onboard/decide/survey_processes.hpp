@@ -9,7 +9,7 @@
 #include "autonomy/interface/heights.hpp"
 #include "autonomy/interface/said.hpp"
 #include "autonomy/interface/told.hpp"
-#include "autonomy/operator/report_text.hpp"
+#include "autonomy/operator/occupancy_map.hpp"
 #include "base/async/loop.hpp"
 #include "bus/messages/arrays.hpp"
 #include "bus/messages/diagnostics.hpp"
