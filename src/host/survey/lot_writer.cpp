@@ -39,8 +39,16 @@ void LotWriter::note_origin(autonomy::report::Heartbeat const& heartbeat) {
 
 base::Result<> LotWriter::take(autonomy::report::Heartbeat const& heartbeat, base::UtcTime at) {
   note_origin(heartbeat);
-  if (!origin_ || !heartbeat.map) return {};
-  return put_grid(*heartbeat.map, at);
+  if (heartbeat.map) return take(*heartbeat.map, at);
+  auto const waiting = std::exchange(waiting_, std::nullopt);
+  return waiting ? take(*waiting, at) : base::Result<>();
+}
+
+base::Result<> LotWriter::take(autonomy::OccupancyMap const& told, base::UtcTime at) {
+  waiting_.reset();
+  if (origin_) return put_grid(told, at);
+  waiting_ = told;
+  return {};
 }
 
 base::Result<> LotWriter::put_grid(autonomy::OccupancyMap const& told, base::UtcTime at) {

@@ -21,6 +21,8 @@ class LotWriter {
   /// Where its local frame lies is told by the first heartbeat that has both places, and again by one that is more than
   /// `moved_m` off: it was armed elsewhere. Error: what is wrong with the map.
   [[nodiscard]] base::Result<> take(autonomy::report::Heartbeat const& heartbeat, base::UtcTime at);
+  /// The whole map, of who is told of it beside heartbeats. It waits until a heartbeat tells where it lies.
+  [[nodiscard]] base::Result<> take(autonomy::OccupancyMap const& told, base::UtcTime at);
   /// All that the drone knows: others of its slots are taken off the map. Errors: those of `read_features` and
   /// `LiveMap`.
   [[nodiscard]] base::Result<> take(autonomy::report::Slots const& told, base::UtcTime at);
@@ -39,6 +41,7 @@ class LotWriter {
   std::string drone_;
   std::optional<geo::Point<geo::SiteFrame>> origin_;  ///< of the local frame
   std::optional<autonomy::OccupancyMap> shown_;       ///< as it is on the map
+  std::optional<autonomy::OccupancyMap> waiting_;     ///< until it is known where it lies
 };
 
 }  // namespace lapwing::host

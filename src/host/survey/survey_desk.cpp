@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "autonomy/operator/command_text.hpp"
+#include "autonomy/operator/map_follower.hpp"
+#include "autonomy/operator/map_request.hpp"
 #include "link/pictures/whep_client.hpp"
 
 namespace lapwing::host {
@@ -54,6 +56,7 @@ struct SurveyDesk::Seat {
   std::deque<vehicle::SurveyWords> words = {};
   std::string complaint = {};  ///< the last one of the map, so that it is told once
   LotWriter lot;
+  autonomy::MapFollower occupancy = {};
   std::unique_ptr<wire::Client> client = {};
 
   /// Of one view of the camera.
@@ -95,6 +98,7 @@ base::Result<std::unique_ptr<SurveyDesk>> SurveyDesk::open(base::Loop& loop, ::l
                       {.arrived = [raw = desk.get(), one = seat.get()] { raw->hear(*one); },
                        .event =
                            [raw = desk.get(), one = seat.get()](wire::Event const& event) {
+                             if (event.kind == wire::EventKind::connected) raw->ask_for_map(*one);
                              auto const text = event.text.empty() ? "" : ": " + event.text;
                              raw->log_.info(fmt::format("{}: {}{}", one->name, wire::to_string(event.kind), text));
                              raw->heard_.notify_all();
@@ -115,18 +119,40 @@ void SurveyDesk::take(Seat& seat, std::string const& text) {
   auto report = autonomy::parse_report(text);
   if (!report) return say(seat, report.error().message);
   if (auto const* const log = std::get_if<autonomy::report::ErrorLog>(&*report)) return say(seat, log->message);
-  base::Result<> shown;
-  if (auto const* const slots = std::get_if<autonomy::report::Slots>(&*report)) {
-    if (slots->survey) seat.survey = slots->survey;
-    shown = seat.lot.take(*slots, loop_.utc_now());
-  } else {
-    seat.heartbeat = std::get<autonomy::report::Heartbeat>(*std::move(report));
-    shown = seat.lot.take(*seat.heartbeat, loop_.utc_now());
-    seat.heartbeat->map.reset();
-  }
+  auto const shown = show(seat, *std::move(report));
   auto complaint = shown ? std::string() : fmt::format("the map does not take it: {}", shown.error().message);
   if (!complaint.empty() && complaint != seat.complaint) say(seat, complaint);
   if (!complaint.empty()) seat.complaint = std::move(complaint);
+}
+
+base::Result<> SurveyDesk::show(Seat& seat, autonomy::Report report) {
+  auto const now = loop_.utc_now();
+  if (auto const* const slots = std::get_if<autonomy::report::Slots>(&report)) {
+    if (slots->survey) seat.survey = slots->survey;
+    return seat.lot.take(*slots, now);
+  }
+  if (auto* const whole = std::get_if<autonomy::report::Map>(&report)) {
+    seat.occupancy.take(std::move(*whole));
+    return seat.lot.take(*seat.occupancy.map(), now);
+  }
+  if (auto const* const changes = std::get_if<autonomy::report::MapChanges>(&report)) {
+    using enum autonomy::MapFollower::Outcome;
+    auto const outcome = seat.occupancy.take(*changes);
+    if (outcome == missed) ask_for_map(seat);
+    return outcome == shown ? seat.lot.take(*seat.occupancy.map(), now) : base::Result<>();
+  }
+  seat.heartbeat = std::get<autonomy::report::Heartbeat>(std::move(report));
+  auto taken = seat.lot.take(*seat.heartbeat, now);
+  seat.heartbeat->map.reset();
+  return taken;
+}
+
+/// A drone that does not know of it says so once, and goes on sending the map in its heartbeats.
+void SurveyDesk::ask_for_map(Seat& seat) {
+  (void)seat.client->session().send({.kind = wire::Kind::command,
+                                     .text = std::string(map_request_text(autonomy::MapRequest::as_changes)),
+                                     .key = "map",
+                                     .lifetime = command_lives});
 }
 
 void SurveyDesk::say(Seat& seat, std::string words) {

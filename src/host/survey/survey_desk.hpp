@@ -67,6 +67,10 @@ class SurveyDesk final : public vehicle::SurveyDrones {
   [[nodiscard]] base::Result<> send(Seat& seat, autonomy::Command const& command, std::string const& text);
   void hear(Seat& seat);
   void take(Seat& seat, std::string const& text);
+  /// On the map, or with the seat. Errors: those of LotWriter.
+  [[nodiscard]] base::Result<> show(Seat& seat, autonomy::Report report);
+  /// As changes: it is the larger part of what a drone says.
+  void ask_for_map(Seat& seat);
   void say(Seat& seat, std::string words);
   /// Looks at the drone's camera until nobody has asked for a while.
   [[nodiscard]] base::Result<> look(Seat& seat, vehicle::PictureView view);

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/operator/map_request.hpp"
+#include "autonomy/operator/map_text.hpp"
 #include "autonomy/operator/report_text.hpp"
 #include "base/log.hpp"
 #include "link/pictures/picture_server.hpp"
@@ -31,6 +33,7 @@ class Desk : public ::testing::Test {
     reached.client.back_off = {.first = 10ms, .most = 50ms};
     desk = SurveyDesk::open(loop, map, base::Logger(hub, "survey"), {{.name = "hawk", .settings = reached}}).value();
     until([&] { return view().is_connected; });
+    EXPECT_EQ(heard(), map_request_text(autonomy::MapRequest::as_changes)) << "it asks for changes of the map first";
   }
   template <class Condition>
   void until(Condition condition) {
@@ -141,6 +144,29 @@ TEST_F(Desk, PutsTheOccupancyMapWhereTheDroneIs) {
   say_heartbeat({}, found);
   until([&] { return record.grid.at({0, 0}).is_seen(); });
   EXPECT_FALSE(record.grid.at({0, 1}).is_seen()) << "what the drone does not know any more";
+}
+
+TEST_F(Desk, FollowsTheMapByItsChangesAndAsksAgainWhenItHasMissedSome) {
+  autonomy::OccupancyMap const first{
+      .columns = 2, .rows = 2, .resolution_m = 0.5, .origin = {-1, 2}, .cells = {-1, 0, 100, 50}};
+  auto second = first;
+  second.cells = {0, 0, -1, 50};
+  auto third = second;
+  third.cells[2] = 100;
+  say(autonomy::map_text(first, 1).value());
+  say_heartbeat({});  // only now it is known where the map lies
+  until([&] { return !map.grids().empty(); });
+  auto const& record = map.grids().begin()->second;
+  EXPECT_FALSE(record.grid.at({0, 0}).is_seen());
+  EXPECT_NEAR(record.grid.at({0, 1}).probability(), 0.98, 0.002);
+  say(autonomy::map_changes_text(first, 1, second, 2));
+  until([&] { return record.grid.at({0, 0}).is_seen(); });
+  EXPECT_FALSE(record.grid.at({0, 1}).is_seen());
+
+  say(autonomy::map_changes_text(third, 3, first, 4));
+  EXPECT_EQ(heard(), map_request_text(autonomy::MapRequest::as_changes));
+  say(autonomy::map_text(third, 4).value());
+  until([&] { return record.grid.at({0, 1}).is_seen(); });
 }
 
 TEST_F(Desk, PutsSlotsOnTheMapAndCountsThem) {
