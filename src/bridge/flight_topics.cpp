@@ -68,7 +68,11 @@ void FlightTopics::tell_pose(mavlink::LocalPosition const& position) {
 }
 
 void FlightTopics::tell_home(mavlink::HomePosition const& home) {
-  if (!home.position || !flight_.origin) return;
+  if (!home.position) return;
+  if (!flight_.origin) {
+    home_without_origin_ = home;
+    return;
+  }
   auto told = ros_home(*home.position, *flight_.origin, geoid_m_);
   told.header = header(world_frame);
   home_->publish(told);
@@ -88,6 +92,8 @@ void FlightTopics::tell(mavlink::Message const& message) {
   if (auto const* const position = std::get_if<mavlink::GlobalPosition>(&message)) return tell_position(*position);
   if (auto const* const local = std::get_if<mavlink::LocalPosition>(&message)) return tell_pose(*local);
   if (auto const* const home = std::get_if<mavlink::HomePosition>(&message)) return tell_home(*home);
+  if (std::holds_alternative<mavlink::GpsGlobalOrigin>(message) && home_without_origin_)
+    return tell_home(*std::exchange(home_without_origin_, std::nullopt));
   if (auto const* const status = std::get_if<mavlink::SysStatus>(&message)) return tell_health(*status);
   if (auto const* const text = std::get_if<mavlink::StatusText>(&message))
     texts_->publish({.header = header(), .severity = static_cast<std::uint8_t>(text->severity), .text = text->text});

@@ -34,6 +34,7 @@ class FlightTopics {
   base::Loop& loop_;
   FlightController const& flight_;
   double geoid_m_;
+  std::optional<mavlink::HomePosition> home_without_origin_;  ///< waits for what its place is told by
   std::optional<bus::Publisher<bus::mavros::State>> state_;
   std::optional<bus::Publisher<bus::mavros::SysStatus>> system_status_;
   std::optional<bus::Publisher<bus::BatteryState>> battery_;

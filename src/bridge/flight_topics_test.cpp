@@ -1,0 +1,73 @@
+#include "bridge/flight_topics.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bus/messages/mavros_names.hpp"
+#include "bus/participant/topics.hpp"
+
+namespace lapwing::bridge {
+namespace {
+
+using namespace std::chrono_literals;
+
+auto const origin = geo::Wgs84::from_degrees(43.2585, -79.9201, 100.0);
+
+struct HomeTest : ::testing::Test {
+  HomeTest() {
+    flight.heartbeat = mavlink::Heartbeat{};
+    topics = FlightTopics::open(loop, *bus, flight, 0.0).value();
+    reading.emplace(bus::Subscription<bus::mavros::HomePosition>::open(
+                        *bus, bus::mavros::names::home, bus::Profile::latched,
+                        [this](bus::mavros::HomePosition const& home) { heard.push_back(home); })
+                        .value());
+  }
+  bool comes_true(std::function<bool()> const& holds) {
+    return loop.run_until_done([](base::Loop& on, std::function<bool()> wanted) -> base::Task<bool> {
+      auto const deadline = on.now() + 10s;
+      while (!wanted() && on.now() < deadline) co_await on.sleep(5ms);
+      co_return wanted();
+    }(loop, holds));
+  }
+  void hear_home(double north_m) {
+    topics->tell(mavlink::HomePosition{.position = geo::displaced(origin, {.north = north_m})});
+  }
+  void hear_origin() {
+    flight.origin = origin;
+    topics->tell(mavlink::GpsGlobalOrigin{.position = origin});
+  }
+
+  base::Loop loop;
+  std::unique_ptr<bus::Bus> bus =
+      bus::Bus::open(loop, {.domain = 1U + static_cast<std::uint32_t>(::getpid()) % 100U}).value();
+  FlightController flight;
+  std::unique_ptr<FlightTopics> topics;
+  std::vector<bus::mavros::HomePosition> heard;
+  std::optional<bus::Subscription<bus::mavros::HomePosition>> reading;
+};
+
+// Both are told every two seconds: whoever waits for the next home waits for up to four.
+TEST_F(HomeTest, IsToldAsSoonAsTheOriginIsKnownToo) {
+  hear_home(7.0);
+  hear_origin();
+  ASSERT_TRUE(comes_true([&] { return !heard.empty(); }));
+  EXPECT_NEAR(heard[0].position.y, 7.0, 1e-3);
+}
+
+TEST_F(HomeTest, IsToldOnceForEachTimeThatItComes) {
+  hear_home(7.0);
+  hear_origin();
+  hear_origin();
+  hear_home(9.0);
+  ASSERT_TRUE(comes_true([&] { return !heard.empty() && heard.back().position.y > 8.0; }));
+  EXPECT_LE(heard.size(), 2U);
+}
+
+}  // namespace
+}  // namespace lapwing::bridge
