@@ -306,6 +306,9 @@ base::Result<std::unique_ptr<Bus::Writer>> Bus::write_to(std::string_view topic,
   auto const made = parts_->topic(topic, type, lane);
   if (!made) return std::unexpected(made.error());
   auto qos = qos_of<dds::DataWriterQos>(profile);
+  // What came to a reader before it had found the writer is told again with the next heartbeat: by default after 3 s.
+  constexpr std::uint32_t soon_ns = 200'000'000;
+  qos.reliable_writer_qos().times.heartbeatPeriod = eprosima::fastrtps::Duration_t(0, soon_ns);
   // Messages of several packets cannot be written at once, and whoever writes has better things to do.
   qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
   auto* writer = parts_->publisher->create_datawriter(*made, qos);
