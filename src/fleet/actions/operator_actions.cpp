@@ -280,7 +280,8 @@ bool is_moving(MavlinkVehicle const& craft, mavlink::Message const& message) {
     constexpr std::uint8_t climb_there = 3;
     return item->current == go_there || item->current == climb_there;
   }
-  return std::holds_alternative<mavlink::SetPositionTargetGlobalInt>(message);
+  return std::holds_alternative<mavlink::SetPositionTargetGlobalInt>(message) ||
+         std::holds_alternative<mavlink::SetPositionTargetLocalNed>(message);
 }
 
 bool passes_stop(MavlinkVehicle const& craft, mavlink::Message const& message) {

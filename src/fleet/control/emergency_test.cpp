@@ -124,6 +124,7 @@ TEST(EmergencyStop, LetsNothingMoveAVehicleWhileItIsLatched) {
   EXPECT_FALSE(world.send_message("1", "COMMAND_LONG", fields));
   mavlink::SetPositionTargetGlobalInt const setpoint{};
   EXPECT_FALSE(world.connection.send({1, 1}, setpoint));
+  EXPECT_FALSE(world.connection.send({1, 1}, mavlink::SetPositionTargetLocalNed{}));
   EXPECT_FALSE(world.connection.send({1, 1}, mavlink::SetMode{1, 1, copter_mode::automatic}));
   EXPECT_TRUE(world.connection.send({1, 1}, mavlink::ParamRequestList{}));
   EXPECT_EQ(copter.mode, copter_mode::brake);

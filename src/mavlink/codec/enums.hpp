@@ -134,6 +134,7 @@ enum class MavFrame : std::uint8_t {
   body_offset_ned = 9,
   global_terrain_alt = 10,
   global_terrain_alt_int = 11,
+  body_frd = 12,
 };
 /// Whether x and y of this frame are latitude and longitude.
 [[nodiscard]] bool is_global(MavFrame frame);
@@ -374,6 +375,7 @@ enum class MessageId : std::uint32_t {
   radio_status = 109,
   timesync = 111,
   camera_trigger = 112,
+  distance_sensor = 132,
   battery_status = 147,
   autopilot_version = 148,
   mount_status = 158,
@@ -392,6 +394,7 @@ enum class MessageId : std::uint32_t {
   gimbal_manager_information = 280,
   gimbal_device_attitude_status = 285,
   protocol_version = 300,
+  obstacle_distance = 330,
   available_modes = 435,
   current_mode = 436,
   available_modes_monitor = 437,

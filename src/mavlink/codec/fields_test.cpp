@@ -109,6 +109,11 @@ class Filler {
     if (known()) si = real(0.001, 1e6);
   }
   void any(double& si, DegreesE7, auto) { si = real(-std::numbers::pi, std::numbers::pi); }
+  template <class Wire>
+  void any(std::vector<float>& si, Centimetres, Wire const& wire) {
+    for (std::size_t i = 0; i < wire.size(); ++i)
+      si.push_back(known() || i + 1 == wire.size() ? static_cast<float>(real(0, 600)) : not_a_number);
+  }
   void any(std::optional<std::chrono::microseconds>& si, Utc, auto) {
     if (known()) si = std::chrono::microseconds(whole<std::int64_t>(946'684'800'000'000, 4'200'000'000'000'000));
   }
@@ -163,6 +168,13 @@ void expect_close(S const& sent, S const& got, Resolution const& within) {
     expect_close(sent.north, got.north, within);
     expect_close(sent.east, got.east, within);
     expect_close(sent.down, got.down, within);
+  } else if constexpr (std::is_same_v<S, std::vector<float>>) {
+    ASSERT_EQ(sent.size(), got.size());
+    for (std::size_t i = 0; i < sent.size(); ++i)
+      if (std::isnan(sent[i]))
+        EXPECT_TRUE(std::isnan(got[i]));
+      else
+        EXPECT_NEAR(sent[i], got[i], 0.5 * centi + 1e-4);
   } else if constexpr (std::is_same_v<S, double>) {
     EXPECT_NEAR(sent, got, within.step + within.relative * std::abs(sent));
   } else {

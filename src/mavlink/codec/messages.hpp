@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "base/time.hpp"
 #include "geo/position.hpp"
@@ -211,6 +212,34 @@ struct GpsGlobalOrigin {
   std::optional<geo::Wgs84> position{};
 };
 
+/// Where the estimator's origin shall be, for who has no satellites to find it by.
+struct SetGpsGlobalOrigin {
+  std::uint8_t target_system = 0;
+  std::optional<geo::Wgs84> position{};
+};
+
+/// What one range sensor measures.
+struct DistanceSensor {
+  Duration since_boot{};
+  std::optional<double> least_m{};  ///< that it can measure
+  std::optional<double> most_m{};
+  std::optional<double> distance_m{};
+  std::uint8_t id = 0;
+  std::uint8_t orientation = 0;  ///< MAV_SENSOR_ORIENTATION: 0 to 7 are yaws of 45 degrees each, clockwise from ahead
+};
+
+/// The nearest obstacle in each of up to 72 directions, clockwise.
+struct ObstacleDistance {
+  std::chrono::microseconds time{};
+  std::vector<float> distances_m{};        ///< not a number: not measured; beyond `most_m`: nothing is there
+  std::optional<double> step_rad{};        ///< from one direction to the next, to whole degrees; nothing: see below
+  std::optional<double> exact_step_rad{};  ///< used instead where it is not zero
+  std::optional<double> least_m{};         ///< that can be measured
+  std::optional<double> most_m{};
+  std::optional<double> first_bearing_rad{};  ///< of the first one
+  MavFrame frame = MavFrame::global;          ///< body_frd: from ahead; global: from north
+};
+
 struct CameraFeedback {
   std::chrono::microseconds time{};
   std::uint8_t camera = 0;
@@ -250,6 +279,19 @@ struct SetPositionTargetGlobalInt {
   Address target{};
   Duration since_boot{};
   GlobalSetpoint setpoint{};
+};
+
+/// The same in metres, along the axes of a local frame or of the body.
+struct SetPositionTargetLocalNed {
+  Address target{};
+  Duration since_boot{};
+  MavFrame frame = MavFrame::local_ned;
+  std::uint16_t ignore = 0;
+  geo::Ned position_m{};
+  geo::Ned velocity_m_s{};
+  geo::Ned acceleration_m_s2{};
+  double yaw_rad = 0.0;
+  double yaw_rate_rad_s = 0.0;
 };
 
 struct PositionTargetGlobalInt {
@@ -459,7 +501,8 @@ using Message =
                  MissionRequestList, MissionRequestPartialList, MissionWritePartialList, MissionAck, MissionClearAll,
                  MissionSetCurrent, MissionCurrent, MissionItemReached, WindCov, RcChannels, CameraTrigger,
                  CameraImageCaptured, CameraInformation, GimbalManagerInformation, GimbalDeviceAttitudeStatus,
-                 MountStatus, AvailableModes, CurrentMode, AvailableModesMonitor>;
+                 MountStatus, AvailableModes, CurrentMode, AvailableModesMonitor, SetGpsGlobalOrigin, DistanceSensor,
+                 ObstacleDistance, SetPositionTargetLocalNed>;
 
 /// Who is meant, or nothing for a message that has no target.
 [[nodiscard]] std::optional<Address> target_of(Message const& message);

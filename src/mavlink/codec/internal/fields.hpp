@@ -10,6 +10,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include <ardupilotmega/ardupilotmega.hpp>
 #include <development/mavlink_msg_available_modes.hpp>
@@ -137,6 +138,25 @@ struct DegreesE7 {
   static void write(std::int32_t& wire, double si) { wire = degrees_e7(si); }
 };
 inline constexpr DegreesE7 in_degrees_e7;
+
+/// Distances in whole centimetres, without what is unknown at the end of them; the greatest number is the unknown.
+struct Centimetres {
+  template <std::size_t size>
+  static void read(std::vector<float>& si, std::array<std::uint16_t, size> const& wire, std::string_view, Intake&) {
+    auto used = size;
+    while (used > 0 && wire[used - 1] == unknown16) --used;
+    si.resize(used);
+    for (std::size_t i = 0; i < used; ++i)
+      si[i] = wire[i] == unknown16 ? not_a_number : narrow(static_cast<double>(wire[i]) * centi);
+  }
+  template <std::size_t size>
+  static void write(std::array<std::uint16_t, size>& wire, std::vector<float> const& si) {
+    wire.fill(unknown16);
+    for (std::size_t i = 0; i < std::min(size, si.size()); ++i)
+      if (!std::isnan(si[i])) wire[i] = rounded<std::uint16_t>(double{si[i]} / centi);
+  }
+};
+inline constexpr Centimetres in_centimetres;
 
 /// Of the world's clock. Zero: the vehicle does not know.
 struct Utc {

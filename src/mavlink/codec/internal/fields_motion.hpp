@@ -96,6 +96,34 @@ inline constexpr auto gps_global_origin = layout<M, W>(std::tuple{
     place<&M::position, &W::latitude, &W::longitude, &W::altitude>,
 });
 
+template <class M = SetGpsGlobalOrigin, class W = dialect::SET_GPS_GLOBAL_ORIGIN>
+inline constexpr auto set_gps_global_origin = layout<M, W>(std::tuple{
+    field<&M::target_system, &W::target_system>(),
+    place<&M::position, &W::latitude, &W::longitude, &W::altitude>,
+});
+
+template <class M = DistanceSensor, class W = dialect::DISTANCE_SENSOR>
+inline constexpr auto distance_sensor = layout<M, W>(std::tuple{
+    field<&M::since_boot, &W::time_boot_ms>(),
+    field<&M::least_m, &W::min_distance>(limit::range_m, centi),
+    field<&M::most_m, &W::max_distance>(limit::range_m, centi),
+    field<&M::distance_m, &W::current_distance>(limit::range_m, centi),
+    field<&M::id, &W::id>(),
+    field<&M::orientation, &W::orientation>(),
+});
+
+template <class M = ObstacleDistance, class W = dialect::OBSTACLE_DISTANCE>
+inline constexpr auto obstacle_distance = layout<M, W>(std::tuple{
+    field<&M::time, &W::time_usec>(),
+    field<&M::distances_m, &W::distances>(in_centimetres),
+    field<&M::step_rad, &W::increment>(limit::angle_rad, degree, 0),
+    field<&M::exact_step_rad, &W::increment_f>(limit::angle_rad, degree),
+    field<&M::least_m, &W::min_distance>(limit::range_m, centi),
+    field<&M::most_m, &W::max_distance>(limit::range_m, centi),
+    field<&M::first_bearing_rad, &W::angle_offset>(limit::angle_rad, degree),
+    field<&M::frame, &W::frame>(),
+});
+
 template <class M = CameraFeedback, class W = dialect::CAMERA_FEEDBACK>
 inline constexpr auto camera_feedback = layout<M, W>(std::tuple{
     field<&M::time, &W::time_usec>(),
@@ -107,6 +135,18 @@ inline constexpr auto camera_feedback = layout<M, W>(std::tuple{
     field<&M::pitch_rad, &W::pitch>(limit::angle_rad, degree),
     field<&M::yaw_rad, &W::yaw>(limit::angle_rad, degree),
     field<&M::completed_captures, &W::completed_captures>(),
+});
+
+template <class M = SetPositionTargetLocalNed, class W = dialect::SET_POSITION_TARGET_LOCAL_NED>
+inline constexpr auto local_setpoint = layout<M, W>(std::tuple{
+    field<&M::since_boot, &W::time_boot_ms>(),
+    field<&M::frame, &W::coordinate_frame>(),
+    field<&M::ignore, &W::type_mask>(),
+    wanted_vector<&M::position_m, &W::x, &W::y, &W::z>,
+    wanted_vector<&M::velocity_m_s, &W::vx, &W::vy, &W::vz>,
+    wanted_vector<&M::acceleration_m_s2, &W::afx, &W::afy, &W::afz>,
+    field<&M::yaw_rad, &W::yaw>(),
+    field<&M::yaw_rate_rad_s, &W::yaw_rate>(),
 });
 
 template <class M, class W>
@@ -129,7 +169,8 @@ inline constexpr auto position_target = layout<M, W>(std::tuple{
 
 using MotionLayouts =
     Layouts<gps_raw<>, attitude<>, global_position<>, local_position<>, vfr_hud<>, nav_controller_output<>, wind<>,
-            wind_cov<>, home_position<>, gps_global_origin<>, camera_feedback<>,
+            wind_cov<>, home_position<>, gps_global_origin<>, camera_feedback<>, set_gps_global_origin<>,
+            distance_sensor<>, obstacle_distance<>, local_setpoint<>,
             position_target<SetPositionTargetGlobalInt, dialect::SET_POSITION_TARGET_GLOBAL_INT>,
             position_target<PositionTargetGlobalInt, dialect::POSITION_TARGET_GLOBAL_INT>>;
 

@@ -23,6 +23,7 @@ inline constexpr Range latitude_rad{-pi / 2 - rounding, pi / 2 + rounding, "rad"
 inline constexpr Range longitude_rad{-pi - rounding, pi + rounding, "rad"};
 inline constexpr Range altitude_m{-12'000.0, 60'000.0, "m"};  ///< from the deepest trench to the highest balloon
 inline constexpr Range offset_m{-2.1e7, 2.1e7, "m"};          ///< half around the earth
+inline constexpr Range range_m{0.0, 655.4, "m"};              ///< as far as the wire holds
 inline constexpr Range accuracy_m{0.0, 1e6, "m"};             ///< worse is none
 inline constexpr Range speed_m_s{0.0, 300.0, "m/s"};          ///< nothing that speaks MAVLink breaks the sound barrier
 inline constexpr Range velocity_m_s{-300.0, 300.0, "m/s"};    ///< one component
