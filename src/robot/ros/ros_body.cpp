@@ -18,8 +18,6 @@ namespace {
 
 /// Readings and commands go ten times a second, whatever the rate of the odometry.
 constexpr base::Duration reading_period = 95ms;
-/// So long a scan waits for the frame of its laser to be told.
-constexpr base::Duration frames_come_within = 3s;
 /// A command may get lost on its way; what makes it stand is said a few times.
 constexpr int zeros = 3;
 constexpr base::Duration kill_period = 50ms;
@@ -64,11 +62,6 @@ base::Result<> RosBody::open_topics() {
   auto commands = bus::Publisher<bus::Twist>::open(*bus_, named("cmd_vel"), standard);
   if (!commands) return std::unexpected(commands.error());
   commands_.emplace(*std::move(commands));
-  // Frames are told before what is measured in them.
-  if (auto done = open.operator()<bus::TFMessage>(frames_heard_, "/tf_static", latched,
-                                                  [this](auto const& frames) { frames_.take(frames); });
-      !done)
-    return done;
   if (auto done = open.operator()<bus::Odometry>(odometry_, named("odom"), sensor_data,
                                                  [this](auto const& odometry) { take(odometry); });
       !done)
@@ -77,7 +70,16 @@ base::Result<> RosBody::open_topics() {
                                                      [this](auto const& battery) { take(battery); });
       !done)
     return done;
-  return open.operator()<bus::LaserScan>(laser_, named("scan"), sensor_data, [this](auto const& scan) { take(scan); });
+  auto laser = RosLaser::open(
+      loop_, *bus_, named("scan"),
+      [this](RosLaser::Seen seen) {
+        waiting_ = std::move(seen);
+        tell_scan();
+      },
+      log_);
+  if (!laser) return std::unexpected(laser.error());
+  laser_ = *std::move(laser);
+  return {};
 }
 
 std::string RosBody::link() const {
@@ -92,7 +94,7 @@ void RosBody::take(bus::Odometry const& odometry) {
                       .pose = {pose.position.x, pose.position.y, scans::yaw_of(pose.orientation)},
                       .speed_m_s = odometry.twist.twist.linear.x};
   if (!is_finite(moment.pose) || !std::isfinite(moment.speed_m_s)) return;
-  base_frame_ = odometry.child_frame_id;
+  laser_->set_base_frame(odometry.child_frame_id);
   // A driver that was started anew begins a new clock, maybe.
   before_ = now_ && now_->stamp < moment.stamp ? now_ : std::nullopt;
   now_ = moment;
@@ -104,45 +106,22 @@ void RosBody::take(bus::BatteryState const& battery) {
   if (battery.percentage >= 0.0F && battery.percentage <= 1.0F) battery_ = battery.percentage;
 }
 
-void RosBody::take(bus::LaserScan const& scan) {
-  if (!now_) return;
-  if (!scans_) {
-    auto const mount = mount_of(scan);
-    if (!mount) return;
-    scans_ = scans::ScanReader::make(scan, *mount);
-    if (!scans_) return;
-    log_.info(fmt::format("a laser of {} beams, {:.2f} m ahead and {:.2f} m to the left of {}", scan.ranges.size(),
-                          mount->pose.x, mount->pose.y, base_frame_));
-  }
-  waiting_ = scan;
-  tell_scan();
-}
-
-std::optional<scans::PlanarFrame> RosBody::mount_of(bus::LaserScan const& scan) {
-  if (!laser_since_) laser_since_ = loop_.now();
-  if (auto const mount = frames_.find(scan.header.frame_id, base_frame_)) return mount;
-  if (loop_.now() - *laser_since_ < frames_come_within) return std::nullopt;
-  log_.warn(fmt::format("/tf_static does not say where {} is on {}: it is taken for its middle, looking ahead",
-                        scan.header.frame_id, base_frame_));
-  return scans::PlanarFrame{};
-}
-
 // ---- on to the robot
 
 void RosBody::tell_scan() {
   if (!waiting_ || !now_) return;
-  auto const stamp = scans::since_epoch(waiting_->header.stamp);
+  auto const stamp = waiting_->stamp;
   if (stamp > now_->stamp) return;
   auto pose = now_->pose;
   if (before_ && stamp > before_->stamp) {
     double const share = std::chrono::duration<double>(stamp - before_->stamp) / (now_->stamp - before_->stamp);
     pose = scans::on_the_way(before_->pose, now_->pose, share);
   }
-  auto ranges = scans_->ranges(*std::exchange(waiting_, std::nullopt));
-  if (!ranges) return;  // of another laser on the same topic
-  sides_ = sides_of(scans_->sensor(), *ranges);
+  auto ranges = std::move(waiting_->ranges_m);
+  waiting_.reset();
+  sides_ = sides_of(*laser(), ranges);
   if (listener_.on_scan)
-    listener_.on_scan({.time = slam::LogTime(stamp), .odometry = pose, .ranges_m = *std::move(ranges)});
+    listener_.on_scan({.time = slam::LogTime(stamp), .odometry = pose, .ranges_m = std::move(ranges)});
 }
 
 void RosBody::tell_reading() {

@@ -12,8 +12,7 @@
 #include "bus/messages/navigation.hpp"
 #include "bus/participant/topics.hpp"
 #include "robot/platform/body.hpp"
-#include "scans/planar.hpp"
-#include "scans/scan_reader.hpp"
+#include "robot/ros/ros_laser.hpp"
 
 namespace lapwing::robot::ros {
 
@@ -41,7 +40,7 @@ class RosBody final : public Body {
   ~RosBody() override;
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
-  [[nodiscard]] slam::Sensor const* laser() const override { return scans_ ? &scans_->sensor() : nullptr; }
+  [[nodiscard]] slam::Sensor const* laser() const override { return laser_ ? laser_->sensor() : nullptr; }
   [[nodiscard]] std::string link() const override;
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;
@@ -52,9 +51,7 @@ class RosBody final : public Body {
   RosBody(base::Loop& loop, RosBodyOptions const& options, std::unique_ptr<bus::Bus> bus, base::Logger log);
   base::Result<> open_topics();
   void take(bus::Odometry const& odometry);
-  void take(bus::LaserScan const& scan);
   void take(bus::BatteryState const& battery);
-  [[nodiscard]] std::optional<scans::PlanarFrame> mount_of(bus::LaserScan const& scan);
   void tell_reading();
   void tell_scan();
   void send(Motion motion);
@@ -72,19 +69,14 @@ class RosBody final : public Body {
   std::unique_ptr<bus::Bus> bus_;
   std::optional<bus::Publisher<bus::Twist>> commands_;
   std::optional<bus::Subscription<bus::Odometry>> odometry_;
-  std::optional<bus::Subscription<bus::LaserScan>> laser_;
   std::optional<bus::Subscription<bus::BatteryState>> batteries_;
-  std::optional<bus::Subscription<bus::TFMessage>> frames_heard_;
+  std::unique_ptr<RosLaser> laser_;
   Listener listener_;
 
-  scans::StaticFrames frames_;
-  std::string base_frame_;
   std::optional<Moment> before_;  ///< the newest
   std::optional<Moment> now_;
   std::optional<double> battery_;
-  std::optional<scans::ScanReader> scans_;
-  std::optional<base::TimePoint> laser_since_;
-  std::optional<bus::LaserScan> waiting_;  ///< that odometry has not caught up with
+  std::optional<RosLaser::Seen> waiting_;  ///< that odometry has not caught up with
   explore::SideDistances sides_{.left_m = 5.0, .front_m = 7.5, .right_m = 5.0};
   base::TimePoint told_at_{};
   base::TimePoint carrier_told_{};  ///< of which reading the carrier's code was told last
