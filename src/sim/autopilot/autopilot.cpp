@@ -262,6 +262,12 @@ MavResult Autopilot::guide_velocity(geo::Ned velocity_m_s) {
   return MavResult::accepted;
 }
 
+MavResult Autopilot::guide_wheels(Steer const& wanted) {
+  if (mode_->behaviour != Behaviour::guided || airframe_.family != Family::rover) return MavResult::failed;
+  guided().steer(wanted, now_);
+  return MavResult::accepted;
+}
+
 MavResult Autopilot::change_speed(double speed_m_s) {
   if (!(speed_m_s > 0.0)) return MavResult::denied;
   speed_override_ = speed_m_s;

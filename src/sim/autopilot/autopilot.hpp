@@ -48,6 +48,8 @@ class Autopilot {
   /// Guided flight to a point; `change_mode` allows leaving another mode for it. A radius makes a plane circle there.
   mavlink::MavResult reposition(geo::Ned point, bool change_mode, double radius_m = 0.0);
   mavlink::MavResult guide_velocity(geo::Ned velocity_m_s);
+  /// What wheels alone can do.
+  mavlink::MavResult guide_wheels(Steer const& wanted);
   mavlink::MavResult change_speed(double speed_m_s);
   mavlink::MavResult turn_to(double yaw_rad);
   mavlink::MavResult pause(bool paused);

@@ -156,11 +156,18 @@ Goal Autopilot::hold_on_the_ground(Goal goal, FlightContext const& flight) {
 
 /// Where ArduPilot's avoidance is on, a velocity setpoint takes no vehicle nearer to its fence than the margin.
 Goal Autopilot::kept_in_the_fence(Goal goal) const {
-  auto* const cruise = std::get_if<Cruise>(&goal);
+  auto const* const cruise = std::get_if<Cruise>(&goal);
+  auto const* const steered = std::get_if<Steer>(&goal);
   auto const family = airframe_.family;
   bool const avoids = tuning_.avoids_fence && (family == Family::copter || family == Family::rover);
-  if (!cruise || !avoids || !fence_enabled() || fence_.breached() != 0) return goal;
-  auto const& v = cruise->velocity_m_s;
+  if ((!cruise && !steered) || !avoids || !fence_enabled() || fence_.breached() != 0) return goal;
+  double const yaw = body_.attitude.yaw_rad;
+  auto const v = cruise ? cruise->velocity_m_s
+                        : geo::Ned{steered->speed_m_s * std::cos(yaw), steered->speed_m_s * std::sin(yaw), 0.0};
+  auto const slowed = [&](double share) -> Goal {
+    if (steered) return Steer{steered->speed_m_s * share, steered->turn_rate_rad_s};
+    return Cruise{{v.north * share, v.east * share, v.down}};
+  };
   double const speed = std::hypot(v.north, v.east);
   double const reach_s = 1.0 + speed / (2.0 * std::max(0.5, pace_.accel_m_s2));
   for (double const share : {1.0, 0.5, 0.25, 0.1}) {
@@ -168,9 +175,9 @@ Goal Autopilot::kept_in_the_fence(Goal goal) const {
     double const margin_s = speed > 0.0 ? safety_.fence.margin_m / speed : 0.0;
     point.north += v.north * (reach_s * share * share + margin_s);
     point.east += v.east * (reach_s * share * share + margin_s);
-    if (fence_.allows(point, home_, safety_.fence)) return Cruise{{v.north * share, v.east * share, v.down}};
+    if (fence_.allows(point, home_, safety_.fence)) return slowed(share);
   }
-  return Cruise{{0.0, 0.0, v.down}};
+  return slowed(0.0);
 }
 
 void Autopilot::follow_trail() {

@@ -307,6 +307,46 @@ TEST(RoverFlight, DrivesToAGuidedPointAndHome) {
   EXPECT_TRUE(ground.pilot().armed());
 }
 
+SetPositionTargetLocalNed wheels(double speed_m_s, double turn_rate_rad_s) {
+  SetPositionTargetLocalNed target;
+  target.frame = MavFrame::body_ned;
+  target.ignore = 0b010111000111;
+  target.velocity_m_s = {speed_m_s, 0, 0};
+  target.yaw_rate_rad_s = turn_rate_rad_s;
+  return target;
+}
+
+TEST(RoverFlight, IsSteeredBySpeedAndTurnRate) {
+  TestGround ground("rover");
+  ground.arm_in(rover_guided);
+  auto const steer = [&](double speed_m_s, double turn_rate_rad_s) {
+    ground.send(wheels(speed_m_s, turn_rate_rad_s));
+    ground.run_for(2s);
+  };
+  steer(0.3, 0.0);
+  EXPECT_NEAR(ground.pilot().body().ground_speed_m_s(), 0.3, 0.02);
+  steer(0.0, 0.5);
+  EXPECT_NEAR(ground.pilot().body().yaw_rate_rad_s, 0.5, 0.02) << "on the spot, clockwise";
+  EXPECT_LT(ground.pilot().body().ground_speed_m_s(), 0.02);
+  steer(-0.2, 0.0);
+  auto const& body = ground.pilot().body();
+  EXPECT_NEAR(body.velocity_m_s.north * std::cos(body.attitude.yaw_rad) +
+                  body.velocity_m_s.east * std::sin(body.attitude.yaw_rad),
+              -0.2, 0.02)
+      << "backwards";
+  ground.run_for(3s);
+  EXPECT_LT(ground.pilot().body().ground_speed_m_s(), 0.02) << "the last setpoint is older than three seconds";
+}
+
+TEST(RoverFlight, ObeysNoSetpointInAnotherMode) {
+  TestGround ground("rover");
+  ground.arm_in(rover_guided);
+  ground.set_mode(4);  // HOLD
+  ground.send(wheels(0.3, 0.0));
+  ground.run_for(2s);
+  EXPECT_LT(ground.pilot().body().ground_speed_m_s(), 0.01);
+}
+
 TEST(World, SameSeedGivesTheSameTrajectory) {
   auto fly = [](std::uint64_t seed) {
     TestGround ground("copter", {.seed = seed, .wind_m_s = {3, 0, 0}, .gust_m_s = 2.0});

@@ -43,11 +43,16 @@ struct Descend {
 struct Cruise {
   geo::Ned velocity_m_s;
 };
+/// On wheels: a speed ahead, or backwards below zero, and a turn rate clockwise.
+struct Steer {
+  double speed_m_s = 0.0;
+  double turn_rate_rad_s = 0.0;
+};
 /// Sink steadily with level attitude: what a rotorcraft does in a pilot-flown mode while the throttle stick is down.
 struct Sink {
   double speed_m_s = 2.5;
 };
-using Goal = std::variant<StandStill, Idle, HoldAt, FlyTo, Circle, TakeOff, Descend, Cruise, Sink>;
+using Goal = std::variant<StandStill, Idle, HoldAt, FlyTo, Circle, TakeOff, Descend, Cruise, Steer, Sink>;
 
 /// How briskly goals are pursued: the vehicle's speed parameters, SI.
 struct Pace {

@@ -44,6 +44,7 @@ Demand steer_wheels(Goal const& goal, Body const& body, Pace const& pace) {
   }
   if (auto const* way = std::get_if<FlyTo>(&goal)) return towards(way->point, body, pace, way->passing);
   if (auto const* circle = std::get_if<Circle>(&goal)) return around(*circle, body, pace);
+  if (auto const* wanted = std::get_if<Steer>(&goal)) return WheelDemand{wanted->speed_m_s, wanted->turn_rate_rad_s};
   if (auto const* cruise = std::get_if<Cruise>(&goal)) {
     double const speed = std::hypot(cruise->velocity_m_s.north, cruise->velocity_m_s.east);
     if (speed < 0.05) return WheelDemand{};

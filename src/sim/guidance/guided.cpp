@@ -7,6 +7,11 @@ void Guided::set_velocity(geo::Ned velocity_m_s, base::Duration now) {
   velocity_set_at_ = now;
 }
 
+void Guided::steer(Steer const& wanted, base::Duration now) {
+  goal_ = wanted;
+  velocity_set_at_ = now;
+}
+
 void Guided::pause(geo::Ned here) {
   if (paused_) return;
   paused_ = goal_;
@@ -20,7 +25,8 @@ void Guided::resume() {
 }
 
 Goal Guided::update(FlightContext const& context) {
-  if (std::holds_alternative<Cruise>(goal_) && context.now - velocity_set_at_ > context.tuning.guided_timeout) {
+  bool const is_renewed = std::holds_alternative<Cruise>(goal_) || std::holds_alternative<Steer>(goal_);
+  if (is_renewed && context.now - velocity_set_at_ > context.tuning.guided_timeout) {
     goal_ = HoldAt{stopping_point(context.body, context.airframe, context.pace)};
   }
   if (auto const* take_off = std::get_if<TakeOff>(&goal_)) {

@@ -18,6 +18,8 @@ class Guided {
   void circle(geo::Ned center, double radius_m) { goal_ = Circle{center, radius_m}; }
   /// Good for the guided time-out.
   void set_velocity(geo::Ned velocity_m_s, base::Duration now);
+  /// Likewise.
+  void steer(Steer const& wanted, base::Duration now);
   void pause(geo::Ned here);
   void resume();
 

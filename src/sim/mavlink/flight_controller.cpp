@@ -259,6 +259,8 @@ void FlightController::dispatch(Message const& message, Address from) {
       broadcast_report(MessageId::mission_current);
   } else if (auto const* position = std::get_if<SetPositionTargetGlobalInt>(&message)) {
     on(*position);
+  } else if (auto const* steering = std::get_if<SetPositionTargetLocalNed>(&message)) {
+    on(*steering);
   } else if (auto const* setup = std::get_if<SetupSigning>(&message)) {
     on(*setup);
   } else {
@@ -301,6 +303,19 @@ void FlightController::on(SetPositionTargetGlobalInt const& target) {
   } else if ((setpoint.ignore & velocity_ignored) == 0) {
     (void)autopilot_.guide_velocity(setpoint.velocity_m_s);
   }
+}
+
+/// As ArduRover takes it: a speed along the body and a turn rate. Its other forms are not simulated.
+void FlightController::on(SetPositionTargetLocalNed const& target) {
+  constexpr std::uint16_t velocity_ignored = 0b000000111000;
+  constexpr std::uint16_t acceleration_ignored = 0b000111000000;
+  constexpr std::uint16_t turn_rate_ignored = 0b100000000000;
+  bool const is_in_body = target.frame == MavFrame::body_ned || target.frame == MavFrame::body_offset_ned;
+  bool const is_wheels = (target.ignore & (velocity_ignored | turn_rate_ignored)) == 0 &&
+                         (target.ignore & acceleration_ignored) == acceleration_ignored;
+  if (is_px4() || !is_in_body || !is_wheels) return;
+  autopilot_.setpoint_heard();
+  (void)autopilot_.guide_wheels({target.velocity_m_s.north, target.yaw_rate_rad_s});
 }
 
 MavMissionResult FlightController::go_to_item(MissionItem const& item) {

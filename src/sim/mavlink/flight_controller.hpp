@@ -79,6 +79,7 @@ class FlightController {
   void dispatch_parameter(mavlink::Message const& message, mavlink::Address from);
   void on(mavlink::CommandInt const& command, mavlink::Address from);
   void on(mavlink::SetPositionTargetGlobalInt const& target);
+  void on(mavlink::SetPositionTargetLocalNed const& target);
   void on(mavlink::ParamRequestRead const& request, mavlink::Address from);
   void on(mavlink::ParamSet const& set);
   void on(mavlink::SetupSigning const& setup);
