@@ -48,6 +48,8 @@ auto constexpr table = std::to_array<CodeEntry>({
     {code::battery_low, Module::carrier, degraded, "The battery is low.", "Let it return, and charge it."},
     {code::line_damaged, Module::carrier, degraded, "Much of what comes over the line is damaged.",
      "Look at the cable, its length and the baud rate."},
+    {code::not_let_drive, Module::carrier, degraded, "The autopilot does not let it drive.",
+     "The log has its reason: a check before arming, a place that it does not know, somebody else who drives it."},
 
     {code::no_scans, Module::mapping, degraded, "No scan has come for a second; the pose goes on by odometry.",
      "Look at the laser's supply and whether it turns."},
