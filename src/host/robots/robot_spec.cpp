@@ -15,6 +15,9 @@ namespace {
 constexpr int most_robots = 8;
 constexpr std::string_view ros_here = "ros2://";
 constexpr std::string_view ros_in_the_network = "ros2-lan://";
+constexpr std::string_view mavlink = "mavlink:";
+constexpr std::string_view laser_mark = ",laser=";
+constexpr int most_system_id = 254;  ///< 255 is a ground station's
 
 std::unexpected<base::Error> refuse(std::string_view text, std::string_view why) {
   return base::fail(base::ErrorKind::invalid_input, fmt::format("--robot {}: {}", text, why),
@@ -62,6 +65,42 @@ base::Result<RobotRequest> on_ros(std::string_view text, std::string_view addres
   return request;
 }
 
+/// Error: as of a robot on ROS; nothing where it is no address of ROS.
+std::optional<base::Result<RobotRequest>> by_ros(std::string_view text, std::string_view address,
+                                                 geo::Pose<geo::SiteFrame> const& start) {
+  if (address.starts_with(ros_here))
+    return on_ros(text, address.substr(ros_here.size()), {.is_local = true, .start = start});
+  if (address.starts_with(ros_in_the_network))
+    return on_ros(text, address.substr(ros_in_the_network.size()), {.is_local = false, .start = start});
+  return std::nullopt;
+}
+
+base::Result<RobotRequest> over_mavlink(std::string_view text, std::string_view address, MavlinkRobot request) {
+  auto const colon = address.find(':');
+  auto const digits = address.substr(0, colon);
+  int system_id = 0;
+  auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), system_id);
+  bool const is_id = error == std::errc() && end == digits.data() + digits.size() && colon != std::string_view::npos;
+  if (!is_id || system_id < 1 || system_id > most_system_id)
+    return refuse(text, fmt::format("'{}' is no MAVLink system id from 1 to {}; write mavlink:1:udpin://0.0.0.0:14560",
+                                    digits, most_system_id));
+  request.system_id = static_cast<std::uint8_t>(system_id);
+  address = address.substr(colon + 1);
+  if (auto const comma = address.find(laser_mark); comma != std::string_view::npos) {
+    auto const named = address.substr(comma + laser_mark.size());
+    auto const laser = by_ros(text, named, {});
+    if (!laser) return refuse(text, fmt::format("'{}' is no laser on ROS 2: write ,laser=ros2://0/robot1", named));
+    if (!*laser) return std::unexpected(laser->error());
+    auto const& ros = std::get<RosRobot>(**laser);
+    request.laser = {.domain = ros.domain, .name_space = ros.name_space, .is_local = ros.is_local};
+    address = address.substr(0, comma);
+  }
+  auto const url = link::parse_url(address);
+  if (!url) return std::unexpected(url.error());
+  request.url = *url;
+  return request;
+}
+
 }  // namespace
 
 base::Result<RobotRequest> parse_robot(std::string_view text) {
@@ -76,10 +115,9 @@ base::Result<RobotRequest> parse_robot(std::string_view text) {
     request.start = {{east_m, north_m}, yaw_deg * std::numbers::pi / 180.0};
     address = text.substr(0, at);
   }
-  if (address.starts_with(ros_here))
-    return on_ros(text, address.substr(ros_here.size()), {.is_local = true, .start = request.start});
-  if (address.starts_with(ros_in_the_network))
-    return on_ros(text, address.substr(ros_in_the_network.size()), {.is_local = false, .start = request.start});
+  if (auto const ros = by_ros(text, address, request.start)) return *ros;
+  if (address.starts_with(mavlink))
+    return over_mavlink(text, address.substr(mavlink.size()), {.url = {}, .start = request.start});
   auto const url = link::parse_url(address);
   if (!url) return std::unexpected(url.error());
   request.url = *url;

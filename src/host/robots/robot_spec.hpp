@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -8,6 +10,7 @@
 #include "geo/site.hpp"
 #include "geo/transform.hpp"
 #include "link/url.hpp"
+#include "robot/rover/laser_on_ros.hpp"
 
 namespace lapwing::host {
 
@@ -37,14 +40,25 @@ struct RosRobot {
   friend bool operator==(RosRobot const&, RosRobot const&) = default;
 };
 
-using RobotRequest = std::variant<SimulatedRobots, LinkedRobot, RosRobot>;
+/// A robot whose carrier is a MAVLink rover: `mavlink:1:serial:///dev/ttyACM0:115200`, its system id and its link;
+/// with `,laser=ros2://0/robot1` its ranges come from a laser on ROS 2, else over MAVLink too. Where it stands as
+/// above.
+struct MavlinkRobot {
+  std::uint8_t system_id = 1;
+  link::Url url;
+  std::optional<robot::rover::LaserOnRos> laser = std::nullopt;
+  geo::Pose<geo::SiteFrame> start = {};
+  friend bool operator==(MavlinkRobot const&, MavlinkRobot const&) = default;
+};
+
+using RobotRequest = std::variant<SimulatedRobots, LinkedRobot, RosRobot, MavlinkRobot>;
 
 /// What `--robot` says. Errors: invalid_input, with an example.
 [[nodiscard]] base::Result<RobotRequest> parse_robot(std::string_view text);
 inline constexpr auto robot_help =
     "A robot (may be repeated): sim:BUILDING.toml[:COUNT] in a simulated building, its link, "
-    "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, or "
+    "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, "
     "ros2://DOMAIN[/NAMESPACE][@...], "
-    "ros2-lan:// beyond this machine";
+    "ros2-lan:// beyond this machine, or a MAVLink rover, mavlink:SYSTEM:LINK[,laser=ros2://DOMAIN[/NAMESPACE]][@...]";
 
 }  // namespace lapwing::host

@@ -32,6 +32,18 @@ TEST(RobotSpec, NamesARobotOnRos) {
   EXPECT_FALSE(std::get<RosRobot>(*parse_robot("ros2-lan://0/robot1")).is_local);
 }
 
+TEST(RobotSpec, NamesAMavlinkRover) {
+  auto const plain = std::get<MavlinkRobot>(*parse_robot("mavlink:3:serial:///dev/ttyACM0:115200"));
+  EXPECT_EQ(plain.system_id, 3);
+  EXPECT_EQ(plain.url, (link::Url{link::Transport::serial, "/dev/ttyACM0", 115200}));
+  EXPECT_FALSE(plain.laser);
+  auto const whole =
+      std::get<MavlinkRobot>(*parse_robot("mavlink:1:udpin://0.0.0.0:14560,laser=ros2-lan://7/r@1,2,90"));
+  EXPECT_EQ(whole.url.port_or_baud, 14560u);
+  EXPECT_EQ(whole.laser, (robot::rover::LaserOnRos{.domain = 7, .name_space = "/r", .is_local = false}));
+  EXPECT_EQ(whole.start.position, geo::Point<geo::SiteFrame>(1.0, 2.0));
+}
+
 TEST(RobotSpec, SaysWhatIsWrong) {
   auto const wrong = [](std::string_view text) { return parse_robot(text).error().message; };
   EXPECT_EQ(wrong("sim:"), "--robot sim:: it names no building");
@@ -45,6 +57,17 @@ TEST(RobotSpec, SaysWhatIsWrong) {
             "--robot serial:///dev/ttyUSB0:115200@1,nan,3: '1,nan,3' is not EAST,NORTH,YAW");
   EXPECT_EQ(wrong("ros2://"), "--robot ros2://: '' is no domain of ROS 2 from 0 to 101");
   EXPECT_EQ(wrong("ros2://102/r"), "--robot ros2://102/r: '102' is no domain of ROS 2 from 0 to 101");
+  EXPECT_EQ(wrong("mavlink:udpin://0.0.0.0:14560"),
+            "--robot mavlink:udpin://0.0.0.0:14560: 'udpin' is no MAVLink system id from 1 to 254; write "
+            "mavlink:1:udpin://0.0.0.0:14560");
+  EXPECT_EQ(wrong("mavlink:255:udpin://0.0.0.0:14560"),
+            "--robot mavlink:255:udpin://0.0.0.0:14560: '255' is no MAVLink system id from 1 to 254; write "
+            "mavlink:1:udpin://0.0.0.0:14560");
+  EXPECT_EQ(wrong("mavlink:1:udpin://0.0.0.0:14560,laser=/dev/ttyUSB0"),
+            "--robot mavlink:1:udpin://0.0.0.0:14560,laser=/dev/ttyUSB0: '/dev/ttyUSB0' is no laser on ROS 2: write "
+            ",laser=ros2://0/robot1");
+  EXPECT_FALSE(parse_robot("mavlink:1:"));
+  EXPECT_FALSE(parse_robot("mavlink:1:udpin://0.0.0.0:14560,laser=ros2://500"));
   EXPECT_FALSE(parse_robot("office"));
 }
 

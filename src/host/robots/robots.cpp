@@ -11,6 +11,7 @@
 #include "host/files/files.hpp"
 #include "robot/platform/linked_body.hpp"
 #include "robot/ros/ros_body.hpp"
+#include "robot/rover/rover_body.hpp"
 #include "sim/building/plan/building_file.hpp"
 
 namespace lapwing::host {
@@ -86,6 +87,24 @@ class Maker {
     robots_.push_back({.spec = std::move(spec), .body = *std::move(body), .anchor = anchor_});
     return add_cameras(
         [this, request] { return bus::Bus::open(loop_, {.domain = request.domain, .is_local = request.is_local}); });
+  }
+
+  base::Result<> operator()(MavlinkRobot const& request) {
+    auto link = link::open(loop_, request.url);
+    if (!link) return std::unexpected(link.error());
+    auto spec = next_spec(request.start);
+    auto body = std::make_unique<robot::rover::RoverBody>(
+        loop_, *std::move(link), robot::rover::RoverBodyOptions{.system_id = request.system_id, .origin = anchor_},
+        log_.named(spec.id));
+    if (request.laser)
+      if (auto used = body->use(*request.laser); !used) return used;
+    robots_.push_back({.spec = std::move(spec), .body = std::move(body), .anchor = anchor_});
+    OpenBus open_bus;
+    if (request.laser)
+      open_bus = [this, laser = *request.laser] {
+        return bus::Bus::open(loop_, {.domain = laser.domain, .is_local = laser.is_local});
+      };
+    return add_cameras(open_bus);
   }
 
   [[nodiscard]] std::vector<RobotToAdd> take() { return std::move(robots_); }
