@@ -98,6 +98,10 @@ FRAMES = [
     m.MAVLink_param_error_message(255, 190, b"NO_SUCH_PARAM", -1, 1),
     m.MAVLink_setup_signing_message(1, 1, list(range(32)), 0x0102030405),
     m.MAVLink_autopilot_version_message(0xFBEF, 0x04070000, 0, 0, 77, [0] * 8, [0] * 8, [0] * 8, 0, 0, 0, list(range(1, 19))),
+    m.MAVLink_set_gps_global_origin_message(1, LAT, LON, 820000),
+    m.MAVLink_distance_sensor_message(5, 20, 700, 123, 0, 3, 2, 0),
+    m.MAVLink_obstacle_distance_message(5, 0, [100, 65535, 801] + [250] * 69, 5, 20, 800, 2.5, -90, 12),
+    m.MAVLink_set_position_target_local_ned_message(5, 1, 1, 8, 0b010111000111, 1, 2, 3, 0.25, 0, 0, 4, 5, 6, 0.5, -0.25),
 ]
 
 
