@@ -91,7 +91,7 @@ struct SingleSensors : ::testing::Test {
   std::optional<std::vector<float>> hear_all() {
     now += 100ms;
     std::optional<std::vector<float>> scan;
-    for (std::uint8_t const orientation : {0, 2, 6})
+    for (std::uint8_t const orientation : std::initializer_list<std::uint8_t>{0, 2, 6})
       if (auto made = hear(orientation, 1.0 + orientation)) scan = made;
     return scan;
   }

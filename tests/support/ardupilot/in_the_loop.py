@@ -16,6 +16,7 @@ import threading
 PROGRAMS = {  # model and parameters of each, as ArduPilot's own sim_vehicle.py starts it
     "copter": ("arducopter", "+", ("default_params/copter.parm",)),
     "rover": ("ardurover", "rover", ("default_params/rover.parm",)),
+    "skid": ("ardurover", "rover-skid", ("default_params/rover.parm", "default_params/rover-skid.parm")),
     "plane": ("arduplane", "plane", ("models/plane.parm",)),
     "boat": ("ardurover", "motorboat", ("default_params/rover.parm", "default_params/motorboat.parm")),
 }
