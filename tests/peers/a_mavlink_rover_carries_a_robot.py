@@ -122,7 +122,7 @@ def one_that_is_cut_off_stops_by_itself():
         board.is_cut = True
         harness.wait_until(lambda: time.sleep(0.02) or board.speed < 0.05, 8, "the autopilot stops")
         took = time.monotonic() - cut
-        harness.wait_until(lambda: station.vehicle("robot1").get("connection") == "lost", 20, "it is known to be lost")
+        harness.wait_until(lambda: station.vehicle("robot1").get("connection") == "lost", 40, "it is known to be lost")
         print(f"    the autopilot stood within {took:.2f} s of the cut")
         assert took < 5.0, took
 

@@ -215,7 +215,9 @@ base::Task<> RoverBody::keep_asking() {
     if (!helm_.knows_it()) continue;
     auto const now = loop_.now();
     bool const is_placed = placed_ && now - *placed_ < telemetry_is_missing;
-    if (known == base::TimePoint{} || is_placed) known = now;
+    bool const is_away = !heard_ || now - *heard_ >= telemetry_is_missing;
+    // Of who is not heard at all nobody knows what it lacks.
+    if (known == base::TimePoint{} || is_placed || is_away) known = now;
     if (is_placed) {
       has_told = false;
     } else {

@@ -80,6 +80,8 @@ TEST_F(RoverBodyTest, FallsSilentWithItsAutopilot) {
   run_for(2s);
   EXPECT_TRUE(readings.empty());
   EXPECT_EQ(body->take_carrier_code(), code::board_away);
+  run_for(20s);
+  EXPECT_FALSE(has_logged("does not say where it is")) << "it says nothing";
   rover->is_mute = false;
   run_for(1s);
   EXPECT_EQ(body->take_carrier_code(), code::none);
