@@ -17,9 +17,9 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr base::Duration look_period = 300ms;
-constexpr double farthest_m = 3.0;      ///< farther, its letters are too small
-constexpr double most_slant_rad = 1.0;  ///< more, and its letters are too narrow
-constexpr double most_turn_rad = 0.1;   ///< in a period: more, and pictures are smeared
+constexpr TagFinder::Reach to_read{.farthest_m = 3.0, .most_slant_rad = 1.0};  ///< beyond, letters are too small
+constexpr TagFinder::Reach to_notice{.farthest_m = 5.0, .most_slant_rad = 1.4};
+constexpr double most_turn_rad = 0.1;  ///< in a period: more, and pictures are smeared
 /// A picture that does not show the lower of these is not taken; in one that does not show both, a tag may be missing.
 constexpr double low_tag_m = 1.2;
 constexpr double high_tag_m = 1.5;
@@ -97,7 +97,7 @@ base::Task<> TagFinder::keep_looking() {
 
 void TagFinder::note_passed(vehicle::SitePose const& pose) {
   for (auto const& eye : setup_.eyes.for_tags)
-    for (auto const& view : views_of(eye, pose)) looks_.pass(view.wall);
+    for (auto const& view : views_of(eye, pose, to_notice)) looks_.pass(view.wall);
 }
 
 /// A look takes a while, in which the robot drives on: the eye that shows most that is worth it comes first, and each
@@ -112,7 +112,7 @@ base::Task<> TagFinder::look_round(double yaw_rad) {
     double most = 0.0;
     for (auto const* eye : left) {
       double worth = 0.0;
-      for (auto const& [wall, clear] : views_of(*eye, *pose))
+      for (auto const& [wall, clear] : views_of(*eye, *pose, to_read))
         if (looks_.is_due(piece_of(wall), clear)) worth += std::min(clear, LookBook::clear_px_m);
       if (worth <= most) continue;
       best = eye;
@@ -150,7 +150,7 @@ base::Task<> TagFinder::look_again() {
 }
 
 base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
-  auto const views = views_of(eye, pose);
+  auto const views = views_of(eye, pose, to_read);
   auto looking = eye.look();
   auto const look = co_await std::move(looking);
   if (!look) co_return std::nullopt;
@@ -298,16 +298,17 @@ std::vector<std::string> TagFinder::texts() const {
   return texts;
 }
 
-std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose) const {
+std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose,
+                                                 Reach const& reach) const {
   std::vector<View> views;
   auto const* const grid = grid_of(pose);
   if (!grid) return views;
   for (double const part : parts_of_a_view) {
     double const bearing_rad = eye.mount.yaw_rad + part * eye.mount.view_rad;
     auto const wall = wall_seen(*grid, level(pose), eye.mount, bearing_rad);
-    if (!wall || wall->range_m > farthest_m || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m)) continue;
+    if (!wall || wall->range_m > reach.farthest_m || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m)) continue;
     double const way_rad = pose.yaw_rad + bearing_rad;
-    if (std::abs(geo::wrap_pi(wall->facing_rad + std::numbers::pi - way_rad)) > most_slant_rad) continue;
+    if (std::abs(geo::wrap_pi(wall->facing_rad + std::numbers::pi - way_rad)) > reach.most_slant_rad) continue;
     double const clear = clearness(eye.mount, *wall, way_rad);
     bool const shows_all = is_in_the_picture(eye.mount, high_tag_m, wall->range_m);
     views.push_back({.wall = *wall, .clearness = shows_all ? clear : std::min(clear, unclear_px_m)});

@@ -31,6 +31,11 @@ class TagFinder {
     std::string grid;  ///< what its map is called on the map
     Eyes eyes;
   };
+  /// How far off a wall is looked at, and how much aslant.
+  struct Reach {
+    double farthest_m;
+    double most_slant_rad;
+  };
   /// All of these, and what the eyes need, outlive it. What the robot put on the map another time goes.
   TagFinder(base::Loop& loop, vehicle::Registry const& registry, map::LiveMap& live_map, Setup setup, base::Logger log);
   TagFinder(TagFinder const&) = delete;
@@ -77,7 +82,7 @@ class TagFinder {
     WallPoint wall;
     double clearness = 0.0;
   };
-  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose) const;
+  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose, Reach const& reach) const;
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
   [[nodiscard]] std::optional<Retake> next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here);
