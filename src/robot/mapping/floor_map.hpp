@@ -14,9 +14,9 @@ namespace lapwing::robot {
 struct MappingOptions {
   slam::FrameOptions frame;
   /// Of logs nobody knows what their wheels are worth; a robot's own odometry is good to a few percent of the way. Held
-  /// to less, or doubted where scans fit better elsewhere, somebody who walks along a corridor beside the robot, towards
-  /// it, or before it while it waits, takes its place on the map with them. Sensors that are stuck and wheels that slip
-  /// its watchdog names.
+  /// to less, or doubted where scans fit better elsewhere, somebody who walks along a corridor beside the robot,
+  /// towards it, or before it while it waits, takes its place on the map with them. Sensors that are stuck and wheels
+  /// that slip its watchdog names.
   slam::FrontEndOptions front_end = {
       .odometry_spread = 0.25, .may_freeze = false, .may_slip = false, .may_be_refuted = false};
   slam::LoopOptions loops;
