@@ -3,6 +3,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
 
 #include "geo/position.hpp"
 
@@ -54,10 +57,52 @@ std::optional<SitePoint> neighbour(map::OccupancyGrid const& grid, SitePoint con
   return nearest;
 }
 
-double facing_of(SitePoint const& met, SitePoint const& beside, double way_rad) {
-  double const along_rad = std::atan2(beside.y() - met.y(), beside.x() - met.x());
+/// Of a line both ways, the one from which it is seen.
+double facing_of(double along_rad, double way_rad) {
   double const normal_rad = along_rad + std::numbers::pi / 2.0;
   return geo::wrap_pi(std::cos(normal_rad - way_rad) < 0.0 ? normal_rad : normal_rad + std::numbers::pi);
+}
+
+/// Which way the wall runs by its cells around `met` that are seen from there; nothing where these are no line, as in a
+/// corner. Two beams tell it badly where they meet a wall aslant.
+std::optional<double> direction_of_cells(map::OccupancyGrid const& grid, SitePoint const& from, SitePoint const& met) {
+  constexpr double least_cells = 5.0;
+  constexpr double least_elongation = 5.0;  // of a corner it is 4
+  auto const grid_from_site = grid.site_from_grid().inverse();
+  auto const eye = grid_from_site * from;
+  auto const middle = grid.cell_at(grid_from_site * met);
+  auto const is_taken = [&](map::Cell const& cell) {
+    return grid.at(cell).is_seen() && grid.at(cell).probability() >= taken;
+  };
+  auto const is_lit = [&](map::Cell const& cell) {
+    double const far_m = geo::distance_m(grid.centre_of(cell), eye);
+    for (auto const& [x, y] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      map::Cell const beside{cell.x + x, cell.y + y};
+      if (grid.at(beside).is_seen() && !is_taken(beside) && geo::distance_m(grid.centre_of(beside), eye) < far_m)
+        return true;
+    }
+    return false;
+  };
+  auto const reach = static_cast<std::int32_t>(beside_m / grid.resolution_m());
+  double count = 0.0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (auto y = -reach; y <= reach; ++y) {
+    for (auto x = -reach; x <= reach; ++x) {
+      map::Cell const cell{middle.x + x, middle.y + y};
+      if (!is_taken(cell) || !is_lit(cell)) continue;
+      Eigen::Vector2d const at(x, y);
+      count += 1.0;
+      sum += at;
+      squares += at * at.transpose();
+    }
+  }
+  if (count < least_cells) return std::nullopt;
+  Eigen::Matrix2d const spread = squares / count - sum * sum.transpose() / (count * count);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> const solver(spread);
+  if (solver.eigenvalues()(1) < least_elongation * solver.eigenvalues()(0)) return std::nullopt;
+  auto const along = solver.eigenvectors().col(1);
+  return std::atan2(along.y(), along.x()) + grid.site_from_grid().yaw_rad();
 }
 
 /// Along the line of sight a wall that is seen aslant is the less sure.
@@ -82,9 +127,13 @@ std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<Sit
   auto const range_m = range_to_wall(grid, from, way_rad);
   if (!range_m) return std::nullopt;
   auto const met = ahead_of(from, way_rad, *range_m);
-  auto const beside = neighbour(grid, from, way_rad, met, *range_m);
-  if (!beside) return std::nullopt;
-  return WallPoint{.position = met, .range_m = *range_m, .facing_rad = facing_of(met, *beside, way_rad)};
+  auto along_rad = direction_of_cells(grid, from, met);
+  if (!along_rad) {
+    auto const beside = neighbour(grid, from, way_rad, met, *range_m);
+    if (!beside) return std::nullopt;
+    along_rad = std::atan2(beside->y() - met.y(), beside->x() - met.x());
+  }
+  return WallPoint{.position = met, .range_m = *range_m, .facing_rad = facing_of(*along_rad, way_rad)};
 }
 
 std::optional<TagPlace> tag_place(map::OccupancyGrid const& grid, geo::Pose<SiteFrame> const& body,

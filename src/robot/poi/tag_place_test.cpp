@@ -51,6 +51,19 @@ TEST(TagPlace, IsOnTheWallThatTheMapHasWhereTheTagIsSeen) {
   }
 }
 
+TEST(WallSeen, FacesItsSideHoweverAslantItIsMet) {
+  auto const grid = hall();
+  CameraMount const ahead{.x_m = 0.0};
+  Body const body{{0.0, 0.4}, 0.0};
+  for (double const bearing_rad : {0.35, 0.45, 0.6, 1.0, 1.57}) {
+    auto const wall = wall_seen(grid, body, ahead, bearing_rad);
+    if (!wall) continue;
+    EXPECT_NEAR(wall->facing_rad, -std::numbers::pi / 2.0, 0.1) << bearing_rad;
+  }
+  auto const aslant = wall_seen(grid, body, ahead, 0.6);
+  ASSERT_TRUE(aslant);
+}
+
 TEST(TagPlace, IsLessSureAlongAWallThatIsSeenAslant) {
   auto const grid = hall();
   CameraMount const mount{.yaw_rad = std::numbers::pi / 4.0};

@@ -34,7 +34,7 @@ bool is_wide_enough(OnWall const& what, map::OccupancyGrid const& grid) {
   double const along_rad = what.facing_rad + std::numbers::pi / 2.0;
   auto const is_wall_at = [&](double along_m) {
     auto const beside = away(what.position, along_rad, along_m);
-    for (double const deep_m : {-0.05, 0.0, 0.05})
+    for (double const deep_m : {-0.1, -0.05, 0.0, 0.05})
       if (space.is_taken(away(beside, what.facing_rad, deep_m))) return true;
     return false;
   };

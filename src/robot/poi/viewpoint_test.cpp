@@ -96,6 +96,9 @@ TEST(Opening, IsADoorwayNearBy) {
 TEST(WideEnough, IsAWallAndNotItsEnd) {
   auto grid = wall_with([](double, double) { return true; });
   EXPECT_TRUE(is_wide_enough(sign, grid));
+  auto before = sign;
+  before.position = {2.0, 1.92};
+  EXPECT_TRUE(is_wide_enough(before, grid)) << "whose place came out before the wall";
   for (std::int32_t x = 42; x < 60; ++x) grid.set({x, 40}, map::Evidence::of_probability(0.1));
   EXPECT_FALSE(is_wide_enough(sign, grid)) << "it ends 10 cm beside";
 }
