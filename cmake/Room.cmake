@@ -30,6 +30,9 @@ function(lapwing_room name)
     lapwing_together(${name}_test)
     if(ROOM_COMPUTES)
       lapwing_optimised(${name}_test)
+    else()
+      # What only checks is compiled in three quarters of the time with half of the optimiser.
+      target_compile_options(${name}_test PRIVATE $<$<CONFIG:Release>:-O1>)
     endif()
     # Only tests that read others from the sources get the path: a compiler cache serves the rest to every checkout.
     foreach(test IN LISTS ROOM_TESTS)

@@ -27,7 +27,7 @@ case "$(basename "$0") $*" in
 esac
 exit 0
 """
-TOOLS = ("cmake", "ninja", "dpkg-query", "apt-get", "node", "npm", "sudo")
+TOOLS = ("cmake", "ctest", "ninja", "dpkg-query", "apt-get", "node", "npm", "sudo")
 
 
 class Checkout:
@@ -37,8 +37,9 @@ class Checkout:
         self.root = root
         shutil.copy(REPO / "lapwing", root)
         shutil.copytree(REPO / "setup", root / "setup")
-        (root / "web").mkdir()
-        shutil.copy(REPO / "web/package-lock.json", root / "web")
+        for packages in ("web", "editors/vscode"):
+            (root / packages).mkdir(parents=True)
+            shutil.copy(REPO / packages / "package-lock.json", root / packages)
         self.script(root / "program", '#!/bin/bash\necho "lapwing $*" >> "$CALLS"\n')
         self.script(root / ".venv/bin/python", "#!/bin/bash\nexit 0\n")
         for tool in TOOLS:
@@ -103,6 +104,10 @@ with tempfile.TemporaryDirectory() as folder:
     (here.root / "build/release/build.ninja").write_text("")
     calls = here.run("detect", "doors")
     assert called(calls, "cmake --preset release"), calls  # a build folder from before knows no such program
+
+    # Long flights are left to `verify long`, but what is asked for by its name is run.
+    assert any(call.startswith("ctest") and call.endswith("-LE ^long$") for call in here.run("test")), calls
+    assert not any("-LE" in call for call in here.run("test", "-R", "^system")), calls
 
     # A changed source: one build, and a second launcher waits for it.
     (here.root / "built").unlink()

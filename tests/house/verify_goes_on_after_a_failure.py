@@ -56,5 +56,5 @@ with tempfile.TemporaryDirectory() as folder:
         code, said, calls = verify(root, *words)
         assert code == 2 and wrong in said and not calls, said
     code, said, calls = verify(root, "--list")
-    assert code == 0 and len(said.splitlines()) == 6 and not calls, said
+    assert code == 0 and len(said.splitlines()) == 7 and not calls, said
 print("verify goes on after a failure")

@@ -64,6 +64,11 @@ def cross_checks(run: Run) -> None:
     run("ctest", "--test-dir", str(ROOT / "build/release"), "-R", CROSS_CHECKS, "-j", JOBS, "--output-on-failure", "--no-tests=error")
 
 
+def long_flights(run: Run) -> None:
+    # They wait for a clock more than for a processor.
+    run("ctest", "--test-dir", str(ROOT / "build/release"), "-L", "^long$", "-j", str(2 * int(JOBS)), "--output-on-failure", "--no-tests=error")
+
+
 def sanitized(run: Run, preset: str) -> None:
     folder = build(run, preset)
     run("ctest", "--test-dir", str(folder), "-L", "^unit$", "-j", JOBS, "--output-on-failure", "--no-tests=error",
@@ -96,6 +101,7 @@ def fuzz(run: Run, seconds: int) -> None:
 def parts(fuzz_seconds: int) -> list[Part]:
     return [
         Part("sources", "includes, folders, format; pages, protocol and grammar are what the sources say", cross_checks),
+        Part("long", "flights and drives of minutes, which others of their kind stand for in ./lapwing test", long_flights),
         Part("clang", "everything builds with clang, warnings as errors", lambda run: build(run, CLANG) and None),
         Part("tidy", "clang-tidy: mistakes, names, sizes of functions", tidy),
         Part("asan", "every unit test under the address and undefined behaviour sanitizers", lambda run: sanitized(run, CLANG)),
