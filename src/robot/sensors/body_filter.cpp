@@ -186,12 +186,16 @@ double BodyFilter::distance2(Observation const& observation, Covariance const& c
   return observation.residual.dot(innovation.inverse() * observation.residual);
 }
 
-/// K = P Hᵀ (H P Hᵀ + V)⁻¹ and the covariance in Joseph's form, which stays positive whatever is rounded (6.1).
+/// K = P Hᵀ (H P Hᵀ + V)⁻¹ and the covariance in Joseph's form, which stays positive whatever is rounded (6.1) and is
+/// right for any gain: for that of the considered states, too, which is zero.
 void BodyFilter::correct(Observation const& observation) {
   auto const& h = observation.jacobian;
   Matrix3 const noise = observation.variance.asDiagonal();
   Matrix3 const innovation = h * covariance_ * h.transpose() + noise;
-  Eigen::Matrix<double, 15, 3> const gain = covariance_ * h.transpose() * innovation.inverse();
+  Eigen::Matrix<double, 15, 3> gain = covariance_ * h.transpose() * innovation.inverse();
+  Vector const up = state_.orientation.inverse() * Vector::UnitZ();
+  gain.middleRows<3>(at_position).setZero();
+  gain.middleRows<3>(at_turn) -= (up * (up.transpose() * gain.middleRows<3>(at_turn))).eval();
   Covariance const rest = Covariance::Identity() - gain * h;
   covariance_ = rest * covariance_ * rest.transpose() + gain * noise * gain.transpose();
   inject(gain * observation.residual);

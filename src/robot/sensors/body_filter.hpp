@@ -11,7 +11,7 @@ namespace lapwing::robot {
 /// are means over a tenth of a second (0.005 deg/s/√Hz, 400 ug/√Hz by its data sheet, several times that for
 /// vibration), and geared wheels on a hard floor.
 struct FilterNoise {
-  double rate_rad_s = 6e-4;
+  double rate_rad_s = 1e-3;
   double acceleration_m_s2 = 0.05;
   double rate_bias_walk = 3e-6;  ///< rad/s in a square root of a second
   double acceleration_bias_walk = 1e-3;
@@ -34,6 +34,10 @@ struct FilterNoise {
 /// and 6.3 for the injection and the reset, with local angular errors. Gravity is known and no part of the state. The
 /// wheels are observed as a velocity of the body that has no sideways part (a nonholonomic constraint, Dissanayake et
 /// al. 2001).
+///
+/// Position and yaw are considered, not estimated (S. F. Schmidt, "Application of state-space methods to navigation
+/// problems", 1966): nothing that is learned later moves them back to where they should have been. Who follows them is
+/// told a motion where there is one, and corrects by the map what has added up (REP 105's `odom`).
 class BodyFilter {
  public:
   using Vector = Eigen::Vector3d;

@@ -80,6 +80,28 @@ TEST(SensorInterface, SaysHowWrongItMayBe) {
   EXPECT_LE(outside, 1);
 }
 
+TEST(SensorInterface, DoesNotMoveThePlaceWhenItLearnsTheBiasAfterALongDrive) {
+  // It set off at once, so that the first that is known of the gyroscope is known minutes later.
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    SimulatedDrive drive(body(), seed, {.rate_noise_rad_s = 1e-3, .rate_bias_rad_s = 0.002});
+    SensorInterface sensors(body());
+    Sensed last;
+    auto const feed = [&](double speed_m_s, double turn_rad_s) {
+      if (auto const sensed = sensors.feed(drive.step(speed_m_s, turn_rad_s))) last = *sensed;
+    };
+    for (int i = 0; i < 3; ++i) feed(0, 0);
+    for (int i = 0; i < 2'000; ++i) feed(0.16, 0.1 * std::sin(i * 0.01));
+    for (int i = 0; i < 10; ++i) feed(0, 0);
+    auto const stopped = last;
+    for (int i = 0; i < 50; ++i) feed(0, 0);
+    auto const moved_m = std::hypot(last.pose.position.x() - stopped.pose.position.x(),
+                                    last.pose.position.y() - stopped.pose.position.y());
+    EXPECT_LT(moved_m, 0.01) << "seed " << seed;
+    EXPECT_NEAR(std::remainder(last.pose.yaw_rad - stopped.pose.yaw_rad, 2 * std::numbers::pi), 0, 0.01)
+        << "seed " << seed;
+  }
+}
+
 TEST(SensorInterface, TellsTheSpeedToACentimetreASecond) {
   SimulatedDrive drive(body(), 3, {.wheel_scale = 0});
   SensorInterface sensors(body());
