@@ -1,5 +1,6 @@
 #include "robot/poi/viewpoint.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -26,6 +27,12 @@ std::optional<std::size_t> eye_for(std::span<CameraMount const> mounts, double h
   return best;
 }
 
+/// At a place that was told by a few cells, and may have come out a little before or behind it.
+bool is_wall(FreeSpace const& space, map::SitePoint const& place, double facing_rad) {
+  constexpr std::array deep_m{-0.1, -0.05, 0.0, 0.05};
+  return std::ranges::any_of(deep_m, [&](double deep) { return space.is_taken(away(place, facing_rad, deep)); });
+}
+
 }  // namespace
 
 bool is_wide_enough(OnWall const& what, map::OccupancyGrid const& grid) {
@@ -33,10 +40,7 @@ bool is_wide_enough(OnWall const& what, map::OccupancyGrid const& grid) {
   FreeSpace const space(grid);
   double const along_rad = what.facing_rad + std::numbers::pi / 2.0;
   auto const is_wall_at = [&](double along_m) {
-    auto const beside = away(what.position, along_rad, along_m);
-    for (double const deep_m : {-0.1, -0.05, 0.0, 0.05})
-      if (space.is_taken(away(beside, what.facing_rad, deep_m))) return true;
-    return false;
+    return is_wall(space, away(what.position, along_rad, along_m), what.facing_rad);
   };
   return is_wall_at(-half_m) && is_wall_at(-half_m / 2.0) && is_wall_at(half_m / 2.0) && is_wall_at(half_m);
 }
@@ -45,6 +49,7 @@ bool is_beside_an_opening(OnWall const& what, map::OccupancyGrid const& grid) {
   constexpr double reach_m = 0.8;
   constexpr double step_m = 0.1;
   constexpr double doorway_m = 0.6;
+  constexpr double widest_m = 1.6;
   // A place on a wall, and which way that faces, are told by a few cells: one may come out just before the wall, so
   // that an opening has to lead through it.
   constexpr double before_m = 0.15;
@@ -56,9 +61,15 @@ bool is_beside_an_opening(OnWall const& what, map::OccupancyGrid const& grid) {
   for (double const side : {-1.0, 1.0}) {
     double const along_rad = what.facing_rad + side * std::numbers::pi / 2.0;
     double open_m = 0.0;
-    for (double along_m = step_m; along_m < reach_m + doorway_m; along_m += step_m) {
-      open_m = leads_through(away(what.position, along_rad, along_m)) ? open_m + step_m : 0.0;
-      if (open_m >= doorway_m) return true;
+    for (double along_m = step_m; along_m - open_m < reach_m && open_m <= widest_m; along_m += step_m) {
+      auto const place = away(what.position, along_rad, along_m);
+      if (leads_through(place)) {
+        open_m += step_m;
+      } else if (open_m >= doorway_m && is_wall(space, place, what.facing_rad)) {
+        return true;
+      } else {
+        open_m = 0.0;
+      }
     }
   }
   return false;

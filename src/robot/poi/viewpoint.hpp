@@ -28,7 +28,7 @@ struct OnWall {
 /// That the wall there is as wide as a sign: not the edge of a door, nor a leg of something.
 [[nodiscard]] bool is_wide_enough(OnWall const& what, map::OccupancyGrid const& grid);
 
-/// That the wall has an opening as wide as a doorway near by: there signs hang first of all.
+/// That the wall has an opening as wide as a doorway near by, and goes on behind it: there signs hang first of all.
 [[nodiscard]] bool is_beside_an_opening(OnWall const& what, map::OccupancyGrid const& grid);
 
 /// From where it is seen squarely and from near, the best first: where the map is free for the robot and nothing stands

@@ -91,6 +91,9 @@ TEST(Opening, IsADoorwayNearBy) {
   auto far = sign;
   far.position = {0.0, 2.0};
   EXPECT_FALSE(is_beside_an_opening(far, grid));
+  open(46, 90);
+  EXPECT_FALSE(is_beside_an_opening(sign, grid))
+      << "the wall ends there, as a door's leaf does and walls between rooms";
 }
 
 TEST(WideEnough, IsAWallAndNotItsEnd) {
