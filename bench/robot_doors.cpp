@@ -3,6 +3,7 @@
 // usage: bench_robot_doors BUILDING.toml SEED... [--to PLACE] [--signs DIR]
 // DIR, which is there, gets the picture of each sign that was seen; what was read in all sights of it is told.
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <fstream>
@@ -121,6 +122,8 @@ class Trial {
     }
   }
 
+  static char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
   /// A tag is a door's that hangs within reach of its middle, on its front.
   [[nodiscard]] Doors judge_doors() const {
     constexpr double reach_m = 1.2;
@@ -138,7 +141,8 @@ class Trial {
       for (std::size_t i = 0; i < tags.size(); ++i) {
         auto const& tag = std::get<map::PointOfInterest>(tags[i]->feature.content);
         if (geo::distance_m(on_floor(tag.position), door.middle) > reach_m) continue;
-        bool const is_right = tag.name == number;
+        // A sign without a number is called by its kind of room.
+        bool const is_right = std::ranges::equal(tag.name, number, {}, lower, lower);
         has_right = has_right || is_right;
         has_unread = has_unread || tag.name.empty();
         has_other = has_other || (!is_right && !tag.name.empty());

@@ -150,6 +150,11 @@ bool is_number(std::string_view word) {
   return parts <= 3;
 }
 
+/// "A1", "2B": too little to be told from what only looks like letters, where it does not stand alone.
+bool is_short_number(std::string_view word) {
+  return word.size() >= 2 && word.size() <= 3 && std::ranges::count_if(word, is_digit) == 1 && is_number_part(word);
+}
+
 /// One letter more, less or another.
 bool is_almost(std::string_view a, std::string_view b) {
   if (a.size() > b.size()) std::swap(a, b);
@@ -192,6 +197,7 @@ RoomText room_text(std::string_view line) {
     if (k + 1 < words.size()) found.number = joined_number(words[k], words[k + 1]);
     if (!found.number && is_number(words[k])) found.number = words[k];
   }
+  if (!found.number && words.size() == 1 && is_short_number(words.front())) found.number = words.front();
   return found;
 }
 

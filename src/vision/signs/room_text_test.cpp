@@ -16,7 +16,8 @@ TEST(RoomText, NumbersAsSignsHaveThem) {
        {Case{"16-188", "16-188"}, Case{"W20-205", "W20-205"}, Case{"ITB-221", "ITB-221"}, Case{"A113", "A113"},
         Case{"2.004", "2.004"}, Case{"76\u00B7155", "76-155"}, Case{"76\u2013100SC", "76-100SC"},
         Case{"Room 305", "305"}, Case{"Lab 2.17", "2.17"}, Case{"E25    143", "E25-143"}, Case{"C 118", "C-118"},
-        Case{"e14-102.", "E14-102"}, Case{"3F-22", "3F-22"}, Case{"E201B", "E201B"}}) {
+        Case{"A1", "A1"}, Case{"2b", "2B"}, Case{"e14-102.", "E14-102"}, Case{"3F-22", "3F-22"},
+        Case{"E201B", "E201B"}}) {
     auto const text = room_text(line);
     ASSERT_TRUE(text.number) << line;
     EXPECT_EQ(*text.number, number) << line;
@@ -30,7 +31,7 @@ TEST(RoomText, LettersBetweenDigitsAreDigits) {
 }
 
 TEST(RoomText, WhatIsNoNumberIsNone) {
-  for (auto const* line : {"", "---", "PUSH", "4", "617-253-1000", "12345678", "ROOM", "a,b;c"})
+  for (auto const* line : {"", "---", "PUSH", "4", "617-253-1000", "12345678", "ROOM", "a,b;c", "Gate A1", "A1 B2"})
     EXPECT_FALSE(room_text(line).number) << line;
 }
 
