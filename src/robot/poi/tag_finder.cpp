@@ -31,6 +31,8 @@ constexpr double there_m = 0.6;  ///< from where it was to look from
 constexpr double straight_rad = 0.15;
 /// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
 constexpr std::array parts_of_a_view{-0.32, -0.16, 0.0, 0.16, 0.32};
+/// Where what comes before a camera is noticed: so near to each other that no sign hangs between two of them.
+constexpr std::array parts_to_notice{-0.45, -0.36, -0.27, -0.18, -0.09, 0.0, 0.09, 0.18, 0.27, 0.36, 0.45};
 constexpr double sign_reaches_m = 0.5;
 constexpr double round_a_corner_m = 6.0;  ///< what is not in sight is farther than it seems: behind a wall, mostly
 constexpr double unclear_px_m = 0.9 * LookBook::clear_px_m;  ///< at best, where something is not in the picture
@@ -97,7 +99,7 @@ base::Task<> TagFinder::keep_looking() {
 
 void TagFinder::note_passed(vehicle::SitePose const& pose) {
   for (auto const& eye : setup_.eyes.for_tags)
-    for (auto const& view : views_of(eye, pose, to_notice)) looks_.pass(view.wall);
+    for (auto const& view : views_of(eye, pose, to_notice, parts_to_notice)) looks_.pass(view.wall);
 }
 
 /// A look takes a while, in which the robot drives on: the eye that shows most that is worth it comes first, and each
@@ -112,7 +114,7 @@ base::Task<> TagFinder::look_round(double yaw_rad) {
     double most = 0.0;
     for (auto const* eye : left) {
       double worth = 0.0;
-      for (auto const& [wall, clear] : views_of(*eye, *pose, to_read))
+      for (auto const& [wall, clear] : views_of(*eye, *pose, to_read, parts_of_a_view))
         if (looks_.is_due(piece_of(wall), clear)) worth += std::min(clear, LookBook::clear_px_m);
       if (worth <= most) continue;
       best = eye;
@@ -150,7 +152,7 @@ base::Task<> TagFinder::look_again() {
 }
 
 base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
-  auto const views = views_of(eye, pose, to_read);
+  auto const views = views_of(eye, pose, to_read, parts_of_a_view);
   auto looking = eye.look();
   auto const look = co_await std::move(looking);
   if (!look) co_return std::nullopt;
@@ -298,12 +300,12 @@ std::vector<std::string> TagFinder::texts() const {
   return texts;
 }
 
-std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose,
-                                                 Reach const& reach) const {
+std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose, Reach const& reach,
+                                                 std::span<double const> parts) const {
   std::vector<View> views;
   auto const* const grid = grid_of(pose);
   if (!grid) return views;
-  for (double const part : parts_of_a_view) {
+  for (double const part : parts) {
     double const bearing_rad = eye.mount.yaw_rad + part * eye.mount.view_rad;
     auto const wall = wall_seen(*grid, level(pose), eye.mount, bearing_rad);
     if (!wall || wall->range_m > reach.farthest_m || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m)) continue;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,8 @@ class TagFinder {
     WallPoint wall;
     double clearness = 0.0;
   };
-  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose, Reach const& reach) const;
+  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose, Reach const& reach,
+                                           std::span<double const> parts) const;
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
   [[nodiscard]] std::optional<Retake> next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here);

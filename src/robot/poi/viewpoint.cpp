@@ -1,6 +1,5 @@
 #include "robot/poi/viewpoint.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -27,10 +26,12 @@ std::optional<std::size_t> eye_for(std::span<CameraMount const> mounts, double h
   return best;
 }
 
-/// At a place that was told by a few cells, and may have come out a little before or behind it.
-bool is_wall(FreeSpace const& space, map::SitePoint const& place, double facing_rad) {
-  constexpr std::array deep_m{-0.1, -0.05, 0.0, 0.05};
-  return std::ranges::any_of(deep_m, [&](double deep) { return space.is_taken(away(place, facing_rad, deep)); });
+/// From `from_m` to `to_m` before a place, which was told by a few cells and may have come out beside its wall.
+bool is_wall(FreeSpace const& space, map::SitePoint const& place, double facing_rad, double from_m, double to_m) {
+  constexpr double step_m = 0.05;
+  for (double before_m = from_m; before_m < to_m + step_m / 2.0; before_m += step_m)
+    if (space.is_taken(away(place, facing_rad, before_m))) return true;
+  return false;
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ bool is_wide_enough(OnWall const& what, map::OccupancyGrid const& grid) {
   FreeSpace const space(grid);
   double const along_rad = what.facing_rad + std::numbers::pi / 2.0;
   auto const is_wall_at = [&](double along_m) {
-    return is_wall(space, away(what.position, along_rad, along_m), what.facing_rad);
+    return is_wall(space, away(what.position, along_rad, along_m), what.facing_rad, -0.1, 0.05);
   };
   return is_wall_at(-half_m) && is_wall_at(-half_m / 2.0) && is_wall_at(half_m / 2.0) && is_wall_at(half_m);
 }
@@ -54,6 +55,7 @@ bool is_beside_an_opening(OnWall const& what, map::OccupancyGrid const& grid) {
   // that an opening has to lead through it.
   constexpr double before_m = 0.15;
   constexpr double behind_m = 0.25;
+  constexpr double astray_m = 0.2;  // by a few degrees, over a doorway
   FreeSpace const space(grid);
   auto const leads_through = [&](map::SitePoint const& place) {
     return space.is_clear(away(place, what.facing_rad, before_m), away(place, what.facing_rad, -behind_m));
@@ -62,14 +64,15 @@ bool is_beside_an_opening(OnWall const& what, map::OccupancyGrid const& grid) {
     double const along_rad = what.facing_rad + side * std::numbers::pi / 2.0;
     double open_m = 0.0;
     for (double along_m = step_m; along_m - open_m < reach_m && open_m <= widest_m; along_m += step_m) {
-      auto const place = away(what.position, along_rad, along_m);
-      if (leads_through(place)) {
+      if (leads_through(away(what.position, along_rad, along_m))) {
         open_m += step_m;
-      } else if (open_m >= doorway_m && is_wall(space, place, what.facing_rad)) {
-        return true;
-      } else {
-        open_m = 0.0;
+        continue;
       }
+      for (double const further_m : {0.0, step_m, 2.0 * step_m}) {
+        auto const place = away(what.position, along_rad, along_m + further_m);
+        if (open_m >= doorway_m && is_wall(space, place, what.facing_rad, -astray_m, astray_m)) return true;
+      }
+      open_m = 0.0;
     }
   }
   return false;
