@@ -33,11 +33,11 @@ class LookBook {
   /// Less clear, and what shows nothing may have something written on it: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
 
-  /// It came before a camera, whether that looked or not.
+  /// The robot came past it, whether a camera looked or not.
   void pass(WallPoint const& wall);
   [[nodiscard]] bool is_due(WallPiece const& piece, double clearness) const;
   void note(WallPiece const& piece, double clearness, Outcome outcome);
-  /// What came before a camera and was never seen clearly.
+  /// What it came past and never saw clearly.
   struct Unclear {
     WallPoint wall;
     bool shows_something = false;  ///< a sign, that could not be read or was cut off

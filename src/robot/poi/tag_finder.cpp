@@ -17,8 +17,14 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr base::Duration look_period = 300ms;
-constexpr TagFinder::Reach to_read{.farthest_m = 3.0, .most_slant_rad = 1.0};  ///< beyond, letters are too small
-constexpr TagFinder::Reach to_notice{.farthest_m = 5.0, .most_slant_rad = 1.4};
+
+/// How far off a wall is seen, and how much aslant.
+struct Reach {
+  double farthest_m;
+  double most_slant_rad;
+};
+constexpr Reach to_read{.farthest_m = 3.0, .most_slant_rad = 1.0};  ///< beyond, letters are too small
+constexpr Reach to_notice{.farthest_m = most_range_m, .most_slant_rad = 1.4};
 constexpr double most_turn_rad = 0.1;  ///< in a period: more, and pictures are smeared
 /// A picture that does not show the lower of these is not taken; in one that does not show both, a tag may be missing.
 constexpr double low_tag_m = 1.2;
@@ -31,8 +37,8 @@ constexpr double there_m = 0.6;  ///< from where it was to look from
 constexpr double straight_rad = 0.15;
 /// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
 constexpr std::array parts_of_a_view{-0.32, -0.16, 0.0, 0.16, 0.32};
-/// Where what comes before a camera is noticed: so near to each other that no sign hangs between two of them.
-constexpr std::array parts_to_notice{-0.45, -0.36, -0.27, -0.18, -0.09, 0.0, 0.09, 0.18, 0.27, 0.36, 0.45};
+/// All round, so near to each other that on its way it notices all that is as wide as a sign.
+constexpr int lines_to_notice = 120;
 constexpr double sign_reaches_m = 0.5;
 constexpr double round_a_corner_m = 6.0;  ///< what is not in sight is farther than it seems: behind a wall, mostly
 constexpr double unclear_px_m = 0.9 * LookBook::clear_px_m;  ///< at best, where something is not in the picture
@@ -57,6 +63,11 @@ std::optional<TagSight> sight_of(Seen const& seen, TagPlace const& place) {
 bool is_cut_off(vision::Box const& box, CameraMount const& mount) {
   return box.x < edge_px || box.y < edge_px || box.x + box.width > mount.width_px - edge_px ||
          box.y + box.height > mount.height_px - edge_px;
+}
+
+bool is_within(Reach const& reach, WallPoint const& wall, double way_rad) {
+  double const slant_rad = std::abs(geo::wrap_pi(wall.facing_rad + std::numbers::pi - way_rad));
+  return wall.range_m <= reach.farthest_m && slant_rad <= reach.most_slant_rad;
 }
 
 double way_to(WallPoint const& wall, vehicle::SitePose const& pose) {
@@ -98,8 +109,14 @@ base::Task<> TagFinder::keep_looking() {
 }
 
 void TagFinder::note_passed(vehicle::SitePose const& pose) {
-  for (auto const& eye : setup_.eyes.for_tags)
-    for (auto const& view : views_of(eye, pose, to_notice, parts_to_notice)) looks_.pass(view.wall);
+  auto const* const grid = grid_of(pose);
+  if (!grid || setup_.eyes.for_tags.empty()) return;
+  CameraMount const middle{.x_m = 0.0, .y_m = 0.0};
+  for (int k = 0; k < lines_to_notice; ++k) {
+    double const bearing_rad = 2.0 * std::numbers::pi * k / lines_to_notice;
+    auto const wall = wall_seen(*grid, level(pose), middle, bearing_rad);
+    if (wall && is_within(to_notice, *wall, pose.yaw_rad + bearing_rad)) looks_.pass(*wall);
+  }
 }
 
 /// A look takes a while, in which the robot drives on: the eye that shows most that is worth it comes first, and each
@@ -114,7 +131,7 @@ base::Task<> TagFinder::look_round(double yaw_rad) {
     double most = 0.0;
     for (auto const* eye : left) {
       double worth = 0.0;
-      for (auto const& [wall, clear] : views_of(*eye, *pose, to_read, parts_of_a_view))
+      for (auto const& [wall, clear] : views_of(*eye, *pose))
         if (looks_.is_due(piece_of(wall), clear)) worth += std::min(clear, LookBook::clear_px_m);
       if (worth <= most) continue;
       best = eye;
@@ -152,7 +169,7 @@ base::Task<> TagFinder::look_again() {
 }
 
 base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
-  auto const views = views_of(eye, pose, to_read, parts_of_a_view);
+  auto const views = views_of(eye, pose);
   auto looking = eye.look();
   auto const look = co_await std::move(looking);
   if (!look) co_return std::nullopt;
@@ -300,17 +317,16 @@ std::vector<std::string> TagFinder::texts() const {
   return texts;
 }
 
-std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose, Reach const& reach,
-                                                 std::span<double const> parts) const {
+std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose) const {
   std::vector<View> views;
   auto const* const grid = grid_of(pose);
   if (!grid) return views;
-  for (double const part : parts) {
+  for (double const part : parts_of_a_view) {
     double const bearing_rad = eye.mount.yaw_rad + part * eye.mount.view_rad;
     auto const wall = wall_seen(*grid, level(pose), eye.mount, bearing_rad);
-    if (!wall || wall->range_m > reach.farthest_m || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m)) continue;
     double const way_rad = pose.yaw_rad + bearing_rad;
-    if (std::abs(geo::wrap_pi(wall->facing_rad + std::numbers::pi - way_rad)) > reach.most_slant_rad) continue;
+    if (!wall || !is_within(to_read, *wall, way_rad) || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m))
+      continue;
     double const clear = clearness(eye.mount, *wall, way_rad);
     bool const shows_all = is_in_the_picture(eye.mount, high_tag_m, wall->range_m);
     views.push_back({.wall = *wall, .clearness = shows_all ? clear : std::min(clear, unclear_px_m)});

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -32,11 +31,6 @@ class TagFinder {
     std::string grid;  ///< what its map is called on the map
     Eyes eyes;
   };
-  /// How far off a wall is looked at, and how much aslant.
-  struct Reach {
-    double farthest_m;
-    double most_slant_rad;
-  };
   /// All of these, and what the eyes need, outlive it. What the robot put on the map another time goes.
   TagFinder(base::Loop& loop, vehicle::Registry const& registry, map::LiveMap& live_map, Setup setup, base::Logger log);
   TagFinder(TagFinder const&) = delete;
@@ -48,7 +42,7 @@ class TagFinder {
   [[nodiscard]] std::vector<std::string> texts() const;
 
   /// From where it wants to look now: at the nearest of the tags that it is not sure of, and when there are none, at
-  /// the nearest wall that came before its cameras and was not seen clearly. A tag has two tries, of which this may be
+  /// the nearest wall that it came past and did not see clearly. A tag has two tries, of which this may be
   /// one, and a wall one, so that there is an end. Who drives there stands until `has_looked`. Nothing: there is no
   /// more to be looked at, or nowhere to stand.
   [[nodiscard]] std::optional<Viewpoint> next_view();
@@ -83,8 +77,7 @@ class TagFinder {
     WallPoint wall;
     double clearness = 0.0;
   };
-  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose, Reach const& reach,
-                                           std::span<double const> parts) const;
+  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose) const;
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
   [[nodiscard]] std::optional<Retake> next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here);
