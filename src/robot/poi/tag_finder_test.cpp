@@ -15,20 +15,22 @@ struct TagFinderAtAWall : ::testing::Test {
     auto const site = geo::Site::make("site", geo::Wgs84::from_degrees(41.0, -8.0, 90.0));
     ASSERT_TRUE(site);
     live_map.put_site(*site);
-    map::OccupancyGrid grid(0.05);
     for (std::int32_t x = -40; x < 160; ++x) {
       for (std::int32_t y = -10; y < 40; ++y) grid.set({x, y}, map::Evidence::of_probability(0.1));
       grid.set({x, 40}, map::Evidence::of_probability(0.9));
     }
+    put_grid();
+    stand_at(1.0);
+  }
+  void put_grid() {
     std::vector<map::TileKey> tiles;
     for (auto const& [key, tile] : grid.tiles()) tiles.push_back(key);
     ASSERT_TRUE(live_map.put_tiles({.site = "site", .floor = "", .name = "robot 1"}, grid, tiles,
                                    {.writer = "robot1", .at = loop.utc_now()}));
-    stand_at(1.0);
   }
-  void stand_at(double x, double y = 0.4) {
+  void stand_at(double x, double y = 0.4, double yaw_rad = 0.0) {
     registry.edit({"robot1"})
-        .motion.site_pose.set({.site = "site", .floor = {}, .position = {x, y, 0.0}, .yaw_rad = 0.0}, loop.now());
+        .motion.site_pose.set({.site = "site", .floor = {}, .position = {x, y, 0.0}, .yaw_rad = yaw_rad}, loop.now());
   }
   /// Sees what `look` is now, in the middle of its picture; of the texts another one each time, where there are some.
   Eye eye() {
@@ -68,6 +70,7 @@ struct TagFinderAtAWall : ::testing::Test {
     return live_map.within(map::LayerKind::points_of_interest, "site", std::nullopt, 100);
   }
 
+  map::OccupancyGrid grid{0.05};
   base::LogHub hub;
   base::Loop loop{base::Loop::Pace{.unpaced = true, .begins_at = base::UtcTime(std::chrono::hours(24 * 365 * 30))}};
   vehicle::Registry registry{loop};
@@ -239,6 +242,21 @@ TEST_F(TagFinderAtAWall, GoesBackToASignThatWasSeenFromAfarAndNotReadAtAll) {
   look.found.front().what.text = "223";
   EXPECT_TRUE(go_and_look(*finds));
   EXPECT_EQ(point().name, "223");
+}
+
+TEST_F(TagFinderAtAWall, GoesBackToAWallBesideADoorwayThatItsCamerasDidNotFace) {
+  for (std::int32_t x = 46; x < 64; ++x)
+    for (std::int32_t y = 40; y < 60; ++y) grid.set({x, y}, map::Evidence::of_probability(0.1));
+  put_grid();
+  stand_at(1.5, 0.8, std::numbers::pi);
+  auto const finds = finder();
+  pass(3s);
+  EXPECT_EQ(finds->pictures(), 0);
+  auto const view = finds->next_view();
+  ASSERT_TRUE(view);
+  EXPECT_NEAR(view->at.y(), 2.0, 0.05);
+  EXPECT_GT(view->at.x(), 1.4);
+  EXPECT_LT(view->at.x(), 2.3);
 }
 
 TEST_F(TagFinderAtAWall, LooksOnceWhereNothingIsWritten) {
