@@ -46,6 +46,9 @@ constexpr std::array kinds{Kind{"WOMEN", "women"},
                            Kind{"LIBRARY", "library"},
                            Kind{"FLOOR", "floor"}};
 
+/// Many things look like a letter and a digit.
+constexpr double least_of_short = 0.6;
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -210,7 +213,9 @@ std::optional<Vote> vote_on_number(std::span<Reading const> readings) {
   }
   auto const best = std::ranges::max_element(votes, {}, [](auto const& vote) { return vote.second; });
   if (best == votes.end() || all <= 0.0) return std::nullopt;
-  return Vote{best->first, best->second / static_cast<double>(readings.size())};
+  Vote const vote{best->first, best->second / static_cast<double>(readings.size())};
+  if (is_short_number(vote.number) && vote.confidence < least_of_short) return std::nullopt;
+  return vote;
 }
 
 }  // namespace lapwing::vision

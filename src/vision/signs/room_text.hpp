@@ -22,6 +22,7 @@ struct RoomText {
 [[nodiscard]] std::optional<std::string> joined_number(std::string const& building, std::string const& room);
 
 /// The number that most of the readings of one line say, each counted by its confidence; and how sure that is, 0 to 1.
+/// Of a letter and a digit ("A1") at least 0.6, or it is none.
 struct Vote {
   std::string number;
   double confidence = 0.0;

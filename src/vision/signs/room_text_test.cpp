@@ -61,5 +61,14 @@ TEST(RoomText, ReadersVote) {
   EXPECT_FALSE(vote_on_number({}));
 }
 
+TEST(RoomText, ReadersAgreeOnALetterAndADigit) {
+  std::array agree{Reading{"A1", 0.9}, Reading{"A1", 0.5}};
+  auto const vote = vote_on_number(agree);
+  ASSERT_TRUE(vote);
+  EXPECT_EQ(vote->number, "A1");
+  agree[1].text = "AT";
+  EXPECT_FALSE(vote_on_number(agree));
+}
+
 }  // namespace
 }  // namespace lapwing::vision

@@ -20,13 +20,6 @@ namespace {
 constexpr int working_side = 1440;
 /// Of a number, below which it is rather something else that looks like one.
 constexpr double least_confidence = 0.25;
-/// With one digit, as many things do.
-constexpr double least_of_short = 0.6;
-
-bool is_short_and_doubtful(Vote const& number) {
-  auto const digits = std::ranges::count_if(number.number, [](char c) { return c >= '0' && c <= '9'; });
-  return digits < 2 && number.confidence < least_of_short;
-}
 
 /// What one row says.
 struct ReadLine {
@@ -176,8 +169,7 @@ std::vector<Detection> SignFinder::find(cv::Mat const& pixels) {
   cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
   std::vector<Sign> signs;
   for (auto const& line : find_text_lines(grey)) {
-    auto read = read_line(small, line, readers_);
-    if (read.number && is_short_and_doubtful(*read.number)) read.number.reset();
+    auto const read = read_line(small, line, readers_);
     if (!read.kind && (!read.number || read.number->confidence < least_confidence)) continue;
     auto const other =
         std::ranges::find_if(signs, [&](auto const& sign) { return belong_together(sign.detection.box, read); });
