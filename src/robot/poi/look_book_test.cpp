@@ -97,5 +97,18 @@ TEST(Clearness, IsLessFromAfarAndAslant) {
   EXPECT_EQ(clearness(mount, wall, -straight_rad), 0.0) << "from behind";
 }
 
+TEST(LookBook, BelievesInASignThatWasCutOffUntilItIsRead) {
+  // A picture that shows the piece's edge alone tells nothing of what was cut off in another.
+  LookBook book;
+  WallPoint const wall{.position = {2.0, 2.0}, .range_m = 1.2, .facing_rad = -1.5};
+  book.pass(wall);
+  book.note(piece_of(wall), 360.0, LookBook::Outcome::cut_off);
+  book.note(piece_of(wall), 870.0, LookBook::Outcome::blank);
+  ASSERT_EQ(book.unclear().size(), 1U);
+  EXPECT_TRUE(book.unclear().front().shows_something);
+  book.note(piece_of(wall), 870.0, LookBook::Outcome::read);
+  EXPECT_TRUE(book.unclear().empty());
+}
+
 }  // namespace
 }  // namespace lapwing::robot
