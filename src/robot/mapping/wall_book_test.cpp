@@ -51,6 +51,14 @@ TEST(WallBook, GivesNoNumberTwice) {
   EXPECT_EQ(book.take({line(0, 0, 3, 0)}).put.front().number, 2U);
 }
 
+TEST(WallBook, KeepsTheTwoFacesOfAThinWallApartWhicheverIsFoundFirst) {
+  WallBook book;
+  (void)book.take({line(0, 0, 4, 0), line(0, 0.12, 4, 0.12)});
+  auto const changes = book.take({line(0, 0.12, 4, 0.12), line(0, 0, 4, 0)});
+  EXPECT_TRUE(changes.put.empty());
+  EXPECT_TRUE(changes.removed.empty());
+}
+
 TEST(WallBook, KeepsTheTwoSidesOfAWallApart) {
   WallBook book;
   (void)book.take({line(0, 0, 4, 0)});

@@ -23,9 +23,15 @@ using map::Cell;
 struct Piece {
   Eigen::Vector2d at;     ///< its middle, metres
   Eigen::Vector2d along;  ///< unit length, either way round; zero where there is no direction
+  Eigen::Vector2d open;   ///< unit length, to the side that is free; zero where both are
   double straight = 0.0;  ///< 1 where all around lies on one line
   bool is_used = false;
 };
+
+/// That both can be of one surface by the sides that are free beside them.
+bool face_alike(Eigen::Vector2d const& a, Eigen::Vector2d const& b) {
+  return a.dot(b) >= 0.0;
+}
 
 /// Where a set of places lies: the line with the least squared distances, and its ends.
 struct Fit {
@@ -34,6 +40,7 @@ struct Fit {
   double first = 0.0;  ///< of the ends along the line, from the middle
   double last = 0.0;
   double spread = 0.0;
+  double straight = 0.0;  ///< 1 where they lie on the line, 0 where they lie as far to all sides
 
   [[nodiscard]] double beside(Eigen::Vector2d const& place) const {
     Eigen::Vector2d const way = place - middle;
@@ -99,11 +106,15 @@ class CellNumbers {
   mutable std::uint64_t last_key_ = 0;
 };
 
-/// The taken cells of a grid, by where they lie.
+/// The taken cells of a grid that have free ground beside them, by where they lie.
 class Pieces {
  public:
   Pieces(map::OccupancyGrid const& grid, WallOptions const& options)
-      : cell_m_(grid.resolution_m()), reach_(std::max(1, static_cast<int>(std::lround(options.around_m / cell_m_)))) {
+      : grid_(grid),
+        cell_m_(grid.resolution_m()),
+        reach_(cells_in(options.around_m)),
+        open_reach_(cells_in(options.open_m)),
+        free_up_to_(1.0 - options.taken_from) {
     for (auto const& [key, tile] : grid.tiles()) {
       for (int i = 0; i < map::tile_cells * map::tile_cells; ++i) {
         auto const evidence = tile->cells[static_cast<std::size_t>(i)];
@@ -132,9 +143,19 @@ class Pieces {
 
  private:
   void add(Cell cell) {
+    if (!has_free_ground(cell)) return;
     numbers_.set(cell, static_cast<std::int32_t>(pieces_.size()));
     cells_.push_back(cell);
-    pieces_.push_back({.at = {(cell.x + 0.5) * cell_m_, (cell.y + 0.5) * cell_m_}, .along = Eigen::Vector2d::Zero()});
+    pieces_.push_back({.at = {(cell.x + 0.5) * cell_m_, (cell.y + 0.5) * cell_m_},
+                       .along = Eigen::Vector2d::Zero(),
+                       .open = Eigen::Vector2d::Zero()});
+  }
+  [[nodiscard]] int cells_in(double length_m) const {
+    return std::max(1, static_cast<int>(std::lround(length_m / cell_m_)));
+  }
+  [[nodiscard]] bool is_free(Cell cell) const {
+    auto const evidence = grid_.at(cell);
+    return evidence.is_seen() && evidence.probability() <= free_up_to_;
   }
   void look_around(std::size_t i) {
     constexpr double fewest = 3.0;
@@ -143,28 +164,60 @@ class Pieces {
     for_each_near(i, reach_, [&](std::size_t other) { around.add(pieces_[other].at - pieces_[i].at); });
     if (around.count < fewest) return;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> const axes(around.covariance());
-    pieces_[i].along = axes.eigenvectors().col(1);
-    pieces_[i].straight = 1.0 - axes.eigenvalues()(0) / axes.eigenvalues()(1);
+    auto& piece = pieces_[i];
+    piece.along = axes.eigenvectors().col(1);
+    piece.straight = 1.0 - axes.eigenvalues()(0) / axes.eigenvalues()(1);
+    look_for_free_ground(piece, cells_[i]);
+  }
+  [[nodiscard]] bool has_free_ground(Cell cell) const {
+    for (int y = -open_reach_; y <= open_reach_; ++y)
+      for (int x = -open_reach_; x <= open_reach_; ++x)
+        if (is_free({cell.x + x, cell.y + y})) return true;
+    return false;
+  }
+  void look_for_free_ground(Piece& piece, Cell cell) const {
+    constexpr double least_beside = 0.5;  // cells; what lies on the line is on neither side
+    constexpr int one_sided = 3;          // times as many there as on the other
+    Eigen::Vector2d const left(-piece.along.y(), piece.along.x());
+    int on_left = 0;
+    int on_right = 0;
+    for (int y = -open_reach_; y <= open_reach_; ++y) {
+      for (int x = -open_reach_; x <= open_reach_; ++x) {
+        double const beside = left.dot(Eigen::Vector2d(x, y));
+        if (std::abs(beside) < least_beside || !is_free({cell.x + x, cell.y + y})) continue;
+        ++(beside > 0.0 ? on_left : on_right);
+      }
+    }
+    if (on_left > one_sided * on_right) piece.open = left;
+    if (on_right > one_sided * on_left) piece.open = -left;
   }
 
+  map::OccupancyGrid const& grid_;
   double cell_m_;
   int reach_;
+  int open_reach_;
+  double free_up_to_;
   std::vector<Cell> cells_;
   std::vector<Piece> pieces_;
   CellNumbers numbers_;
 };
 
-/// Places that lie along one line.
-using Region = std::vector<Eigen::Vector2d>;
+/// Places that lie along one line, with free ground on the same side.
+struct Region {
+  std::vector<Eigen::Vector2d> places;
+  Eigen::Vector2d open = Eigen::Vector2d::Zero();  ///< as of a piece
+};
 
 Fit fit(Region const& region) {
+  auto const& begin = region.places.front();
   Moments moments;
-  for (auto const& place : region) moments.add(place - region.front());
+  for (auto const& place : region.places) moments.add(place - begin);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> const axes(moments.covariance());
-  Fit line{.middle = region.front() + moments.sum / moments.count,
+  Fit line{.middle = begin + moments.sum / moments.count,
            .along = axes.eigenvectors().col(1),
-           .spread = std::sqrt(std::max(0.0, axes.eigenvalues()(0)))};
-  for (auto const& place : region) {
+           .spread = std::sqrt(std::max(0.0, axes.eigenvalues()(0))),
+           .straight = 1.0 - axes.eigenvalues()(0) / axes.eigenvalues()(1)};
+  for (auto const& place : region.places) {
     line.first = std::min(line.first, line.on_line(place));
     line.last = std::max(line.last, line.on_line(place));
   }
@@ -177,22 +230,24 @@ double turn_between(Eigen::Vector2d const& a, Eigen::Vector2d const& b) {
 }
 
 Region grow(Pieces& pieces, std::size_t seed, WallOptions const& options) {
-  constexpr int step_cells = 2;  // over a cell that no beam has met
+  constexpr int step_cells = 2;           // over a cell that no beam has met
+  constexpr double least_straight = 0.9;  // a few cells of a thick surface lie along any line
   std::vector<std::size_t> members{seed};
   pieces[seed].is_used = true;
-  Region region{pieces[seed].at};
+  Region region{.places = {pieces[seed].at}, .open = pieces[seed].open};
   Fit line{.middle = pieces[seed].at, .along = pieces[seed].along};
   std::size_t next_fit = 8;
   for (std::size_t i = 0; i < members.size(); ++i) {
     pieces.for_each_near(members[i], step_cells, [&](std::size_t near) {
       auto& piece = pieces[near];
       if (piece.is_used || piece.straight == 0.0 || turn_between(piece.along, line.along) > options.most_turn) return;
-      if (line.beside(piece.at) > options.beside_m) return;
+      if (!face_alike(piece.open, region.open) || line.beside(piece.at) > options.beside_m) return;
       piece.is_used = true;
       members.push_back(near);
-      region.push_back(piece.at);
-      if (region.size() < next_fit) return;
-      line = fit(region);
+      region.places.push_back(piece.at);
+      if (region.open.isZero()) region.open = piece.open;
+      if (region.places.size() < next_fit) return;
+      if (auto const grown = fit(region); grown.straight >= least_straight) line = grown;
       next_fit += next_fit / 2;
     });
   }
@@ -203,7 +258,7 @@ Region grow(Pieces& pieces, std::size_t seed, WallOptions const& options) {
 double filled(Region const& region, Fit const& line, double cell_m) {
   double const step = 2.0 * cell_m;
   std::set<int> steps;
-  for (auto const& place : region) steps.insert(static_cast<int>((line.on_line(place) - line.first) / step));
+  for (auto const& place : region.places) steps.insert(static_cast<int>((line.on_line(place) - line.first) / step));
   return static_cast<double>(steps.size()) / (std::floor(line.length() / step) + 1.0);
 }
 
@@ -214,6 +269,7 @@ struct Wall {
 
 bool continue_each_other(Wall const& a, Wall const& b, WallOptions const& options) {
   constexpr double most_turn = 0.09;
+  if (!face_alike(a.region.open, b.region.open)) return false;
   if (turn_between(a.line.along, b.line.along) > most_turn) return false;
   auto const& longer = a.line.length() >= b.line.length() ? a.line : b.line;
   auto const& shorter = a.line.length() >= b.line.length() ? b.line : a.line;
@@ -228,7 +284,9 @@ void join(std::vector<Wall>& walls, WallOptions const& options) {
   for (std::size_t i = 0; i < walls.size(); ++i) {
     for (std::size_t j = i + 1; j < walls.size(); ++j) {
       if (!continue_each_other(walls[i], walls[j], options)) continue;
-      walls[i].region.insert(walls[i].region.end(), walls[j].region.begin(), walls[j].region.end());
+      auto& places = walls[i].region.places;
+      places.insert(places.end(), walls[j].region.places.begin(), walls[j].region.places.end());
+      if (walls[i].region.open.isZero()) walls[i].region.open = walls[j].region.open;
       walls[i].line = fit(walls[i].region);
       walls.erase(walls.begin() + static_cast<std::ptrdiff_t>(j));
       j = i;  // the longer one may continue what it did not before
@@ -273,7 +331,7 @@ std::vector<WallLine> find_walls(map::OccupancyGrid const& grid, WallOptions con
   for (auto const seed : order) {
     if (pieces[seed].is_used) continue;
     auto region = grow(pieces, seed, options);
-    if (region.size() < least_cells) continue;
+    if (region.places.size() < least_cells) continue;
     auto const line = fit(region);
     walls.push_back({std::move(region), line});
   }

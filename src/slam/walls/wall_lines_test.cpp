@@ -11,11 +11,20 @@ namespace {
 
 using GridPoint = geo::Point<map::GridFrame>;
 
-/// A grid in which surfaces are drawn as a laser leaves them: the cells that they cross.
+/// A grid in which surfaces are drawn as a laser leaves them: the cells that they cross, in free ground.
 struct WallLinesTest : ::testing::Test {
   map::OccupancyGrid grid{0.05};
 
-  void take(double x, double y) { grid.set(grid.cell_at(GridPoint(x, y)), map::Evidence::of_probability(0.95)); }
+  void take(double x, double y) {
+    auto const cell = grid.cell_at(GridPoint(x, y));
+    constexpr int around = 3;
+    for (int down = -around; down <= around; ++down)
+      for (int right = -around; right <= around; ++right) set_free({cell.x + right, cell.y + down});
+    grid.set(cell, map::Evidence::of_probability(0.95));
+  }
+  void set_free(map::Cell cell) {
+    if (!grid.at(cell).is_seen()) grid.set(cell, map::Evidence::of_probability(0.1));
+  }
   void draw(GridPoint const& from, GridPoint const& to) {
     auto const way = to - from;
     int const steps = static_cast<int>(way.length() / 0.01);
@@ -72,6 +81,35 @@ TEST_F(WallLinesTest, AreTwoWhereAWallWasSeenFromBothSides) {
   draw(GridPoint(0, 1.02), GridPoint(4, 1.02));
   draw(GridPoint(0, 1.27), GridPoint(4, 1.27));
   EXPECT_EQ(find_walls(grid).size(), 2U);
+}
+
+TEST_F(WallLinesTest, AreTheTwoFacesOfAThinWallThatRangesBlurIntoOneBand) {
+  for (double const yaw : {0.0, 0.5, 1.5707963}) {
+    grid = map::OccupancyGrid(0.05);
+    auto const at = [&](double x, double y) {
+      return GridPoint(x * std::cos(yaw) - y * std::sin(yaw), x * std::sin(yaw) + y * std::cos(yaw));
+    };
+    for (double const y : {0.93, 0.97, 1.02, 1.07, 1.1}) draw(at(0, y), at(5, y));
+    for (double x = -0.5; x < 5.5; x += 0.02)
+      for (double y = 0.4; y < 1.7; y += 0.02) set_free(grid.cell_at(at(x, y)));
+    auto const lines = find_walls(grid);
+    ASSERT_GE(lines.size(), 2U) << yaw;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(lines[i].length_m(), 5.0, 0.3) << yaw;
+    EXPECT_LT(off(lines, at(0, 0.96), at(5, 0.96)), 0.06) << yaw;
+    EXPECT_LT(off(lines, at(0, 1.08), at(5, 1.08)), 0.06) << yaw;
+    for (std::size_t i = 2; i < lines.size(); ++i) EXPECT_LT(lines[i].length_m(), 0.5) << "across the wall, " << yaw;
+  }
+}
+
+TEST_F(WallLinesTest, AreNoneWhereFarBeamsEndedBehindAFace) {
+  for (double x = 0.0; x < 5.0; x += 0.02) {
+    grid.set(grid.cell_at(GridPoint(x, 1.02)), map::Evidence::of_probability(0.95));
+    grid.set(grid.cell_at(GridPoint(x, 1.22)), map::Evidence::of_probability(0.8));
+    for (double y = 0.0; y < 1.0; y += 0.05) set_free(grid.cell_at(GridPoint(x, y)));
+  }
+  auto const lines = find_walls(grid);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NEAR(lines.front().from.y(), 1.025, 0.01);
 }
 
 TEST_F(WallLinesTest, AreNotMadeOfClutter) {
