@@ -49,6 +49,23 @@ vision::SeenGround shown_ground(GroundPicture const& ground, geo::GroundView con
   return vision::SeenGround(outline);
 }
 
+/// Where vehicles are, those that the picture's edge cuts off, too.
+cv::Mat standing_on(GroundPicture const& ground, vision::Overhead const& seen) {
+  constexpr double on = 255.0;
+  constexpr double likely = 0.2;
+  cv::Mat standing = cv::Mat::zeros(ground.pixels.size(), CV_8U);
+  if (!seen.covered.empty()) {
+    cv::Mat const covered = seen.covered > likely;
+    cv::resize(covered, standing, standing.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  }
+  for (auto const& car : seen.cars) {
+    std::vector<cv::Point> outline;
+    for (auto const& corner : vision::corners_of(car.box)) outline.push_back(cv::Point2d(corner.x, corner.y));
+    cv::fillConvexPoly(standing, outline, cv::Scalar(on));
+  }
+  return standing;
+}
+
 }  // namespace
 
 base::Result<LotEye> LotEye::make(std::string const& network, explore::LotSettings settings) {
@@ -85,6 +102,7 @@ std::optional<explore::LotSight> LotEye::look(cv::Mat const& picture, geo::Groun
     auto const outline = on_ground(*ground, vision::corners_of(car.box));
     if (is_seen(outline, view)) sight.cars.push_back({.outline = outline, .chance = car.score});
   }
+  ties_.tie(sight, *ground, explore::well_seen_ground(view, settings_), standing_on(*ground, seen));
   return sight;
 }
 

@@ -8,11 +8,13 @@
 #include "base/error.hpp"
 #include "explore/lot/lot_settings.hpp"
 #include "explore/lot/lot_sight.hpp"
+#include "perceive/ties/tie_finder.hpp"
 #include "vision/cars/car_network.hpp"
 
 namespace lapwing::perceive {
 
-/// Looks at pictures of the ground from above: which slots and vehicles there are, and where they lie on the ground.
+/// Looks at pictures of the ground from above: which slots and vehicles there are, where they lie on the ground, and
+/// what of the ground earlier pictures showed, too.
 class LotEye {
  public:
   /// `network`: the content of models/cars.onnx; empty: vehicles are looked for by their contrast alone. Errors: those
@@ -29,6 +31,7 @@ class LotEye {
 
   explore::LotSettings settings_;
   std::optional<vision::CarNetwork> network_;
+  TieFinder ties_;
 };
 
 /// Why a picture cannot show anything ("it is black"); nothing for one that can.

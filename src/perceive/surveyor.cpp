@@ -254,6 +254,12 @@ SurveyFigures Surveyor::figures() const {
   return told;
 }
 
+std::vector<map::Slot> Surveyor::slots() const {
+  std::vector<map::Slot> slots;
+  for (auto const& [id, feature] : slots_) slots.push_back(std::get<map::Slot>(feature.content));
+  return slots;
+}
+
 std::string Surveyor::slots_line() const {
   auto features = map::Json::array();
   for (auto const& [id, feature] : slots_) features.push_back(map::feature_json(feature, site_));

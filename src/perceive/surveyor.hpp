@@ -69,6 +69,8 @@ class Surveyor {
   [[nodiscard]] Conclusion think(News news);
   /// In whose frame the map is.
   [[nodiscard]] geo::Site const& site() const { return site_; }
+  /// Those on the map.
+  [[nodiscard]] std::vector<map::Slot> slots() const;
   /// The slots as GeoJSON, on one line, and how far the survey is as its member `survey`.
   [[nodiscard]] std::string slots_line() const;
   /// The same for people, with their ages and the survey's figures.

@@ -29,6 +29,15 @@ struct CarSight {
   double chance = 0.0;  ///< that there is one
 };
 
+/// A place on the ground that an earlier picture of the same vehicle shows, too: a tie point. However far off both
+/// poses are, it is the same place.
+struct TiePoint {
+  base::UtcTime earlier;  ///< when that picture was taken
+  map::SitePoint here;    ///< as this picture's pose has it
+  map::SitePoint there;   ///< as the earlier one's pose has it
+  double sigma_m = 0.0;   ///< of what the two pictures may be laid onto each other wrongly
+};
+
 /// How far the camera may be from where it says that it is: standard deviations.
 struct PoseDoubt {
   double position_m = 0.3;    ///< level, beside what all pictures have in common
@@ -45,6 +54,8 @@ struct LotSight {
   PoseDoubt doubt = {};
   std::vector<SlotSight> slots = {};
   std::vector<CarSight> cars = {};
+  std::vector<TiePoint> tie_points = {};
+  bool ties_later = false;  ///< later pictures may have tie points with it
 };
 
 /// Pixels on the ground, by where the camera was; nothing where one of them shows the sky or lies more than

@@ -23,7 +23,7 @@ Corners mean_outline(KnownSlot const& slot, PictureBlock const& block) {
 
 }  // namespace
 
-/// One slot's rows.
+/// The rows of one slot, or of one tie point.
 struct PictureBlock::Sheaf {
   /// Where the slot's middle lies by one picture.
   struct Row {
@@ -33,7 +33,23 @@ struct PictureBlock::Sheaf {
     double weight;
   };
   std::vector<Row> rows;
-  double weight = 0.0;  ///< of all rows, and of what is fixed
+  double weight = 0.0;                                  ///< of all rows, and of what is fixed
+  Eigen::Vector2d fixed_sum = Eigen::Vector2d::Zero();  ///< of what is fixed, times its weight
+
+  void fix(map::SitePoint const& at, double by) {
+    weight += by;
+    fixed_sum += by * at.v;
+  }
+  void add(Row row) {
+    weight += row.weight;
+    rows.push_back(std::move(row));
+  }
+  /// As no picture is moved.
+  [[nodiscard]] Eigen::Vector2d mean() const {
+    Eigen::Vector2d sum = fixed_sum;
+    for (auto const& row : rows) sum += row.weight * row.at;
+    return sum / weight;
+  }
 };
 
 /// H x = b in the pictures' shifts, with the slots eliminated: a slot lies at the weighted mean of its rows.
@@ -42,6 +58,16 @@ struct PictureBlock::Equations {
   std::vector<Expectation> expectations;  ///< of each picture's pose
   Eigen::VectorXd right;
   std::vector<Eigen::Matrix4d> preconditioner;  ///< inverse diagonal blocks of H
+
+  void add(Sheaf sheaf, std::vector<Eigen::Matrix4d>& blocks) {
+    Eigen::Vector2d const mean = sheaf.mean();
+    for (auto const& row : sheaf.rows) {
+      right.segment<4>(row.picture) += row.weight * row.parts.transpose() * (mean - row.at);
+      blocks[static_cast<std::size_t>(row.picture / 4)] +=
+          row.weight * (1.0 - row.weight / sheaf.weight) * row.parts.transpose() * row.parts;
+    }
+    sheaves.push_back(std::move(sheaf));
+  }
 
   /// A row of the expectations, s (x_i - k x_before)^2, as part of a product with `x`.
   void add_expectation(std::size_t picture, Eigen::VectorXd const& x, Eigen::VectorXd& product) const {
@@ -100,36 +126,88 @@ struct PictureBlock::Equations {
 };
 
 void PictureBlock::add(PlacedSight const& placed) {
-  pictures_.push_back({.below = below_camera(placed.sight),
-                       .came_by = placed.shift.v,
-                       .expected = placed.expected,
-                       .vehicle = placed.sight.vehicle,
-                       .at = placed.sight.at,
-                       .moved = {}});
+  auto const below = below_camera(placed.sight);
+  Picture picture{.told_below = map::SitePoint(Eigen::Vector2d(below.v - placed.shift.v.head<2>())),
+                  .below = below,
+                  .came_by = placed.shift.v,
+                  .expected = placed.expected,
+                  .vehicle = placed.sight.vehicle,
+                  .at = placed.sight.at,
+                  .moved = {}};
+  hold(picture, placed.sight.tie_points);
+  pictures_.push_back(std::move(picture));
+}
+
+void PictureBlock::hold(Picture& picture, std::span<TiePoint const> ties) const {
+  for (auto const& tie : ties) {
+    auto const earlier = number_of(picture.vehicle, tie.earlier);
+    if (!earlier) continue;
+    auto const& other = this->picture(*earlier);
+    constexpr double both = 2.0;  // the one errs no more than the other
+    picture.ties.push_back({.earlier = earlier,
+                            .here = tie.here,
+                            .there = PictureShift{other.came_by}.of(tie.there, other.told_below),
+                            .weight = both / (tie.sigma_m * tie.sigma_m)});
+  }
+}
+
+std::optional<std::size_t> PictureBlock::number_of(std::string const& vehicle, base::UtcTime at) const {
+  for (std::size_t i = pictures_.size(); i-- > 0;)
+    if (pictures_[i].at == at && pictures_[i].vehicle == vehicle) return first_ + i;
+  return std::nullopt;
+}
+
+std::optional<map::SitePoint> PictureBlock::placed(TiePoint const& tie, std::string const& vehicle) const {
+  auto const number = number_of(vehicle, tie.earlier);
+  if (!number) return std::nullopt;
+  auto const& earlier = picture(*number);
+  return earlier.moved.of(PictureShift{earlier.came_by}.of(tie.there, earlier.told_below), earlier.below);
 }
 
 Corners PictureBlock::placed(SlotFind const& find) const {
-  auto const& picture = pictures_[find.picture - first_];
+  auto const& by = picture(find.picture);
   auto corners = find.in_picture;
-  for (auto& corner : corners) corner = picture.moved.of(corner, picture.below);
+  for (auto& corner : corners) corner = by.moved.of(corner, by.below);
   return corners;
 }
 
 /// What pictures say of a slot, and how much each counts where it lies now.
 PictureBlock::Sheaf PictureBlock::sheaf_of(KnownSlot const& slot) const {
-  Sheaf sheaf{.rows = {}, .weight = slot.fixed_weight};
+  Sheaf sheaf;
+  if (slot.fixed_weight > 0.0) sheaf.fix(middle_of(slot.fixed), slot.fixed_weight);
   auto const middle = middle_of(slot.outline);
   for (auto const& find : slot.finds) {
-    auto const& picture = pictures_[find.picture - first_];
+    auto const& by = picture(find.picture);
     auto const at = middle_of(find.in_picture);
-    double const left_m = geo::distance_m(picture.moved.of(at, picture.below), middle);
-    double const weight = find.weight * huber_share(left_m * std::sqrt(find.weight));
-    sheaf.rows.push_back({.picture = static_cast<Eigen::Index>(4 * (find.picture - first_)),
-                          .parts = shift_of_place(at.v - picture.below.v),
-                          .at = at.v,
-                          .weight = weight});
-    sheaf.weight += weight;
+    double const left_m = geo::distance_m(by.moved.of(at, by.below), middle);
+    sheaf.add({.picture = static_cast<Eigen::Index>(4 * (find.picture - first_)),
+               .parts = shift_of_place(at.v - by.below.v),
+               .at = at.v,
+               .weight = find.weight * huber_share(left_m * std::sqrt(find.weight))});
   }
+  return sheaf;
+}
+
+PictureBlock::Sheaf PictureBlock::sheaf_of(std::size_t number, HeldTie const& tie) const {
+  auto const place = [&](std::size_t of, map::SitePoint const& at) {
+    auto const& by = picture(of);
+    return by.moved.of(at, by.below);
+  };
+  auto const there = tie.earlier ? place(*tie.earlier, tie.there) : tie.there;
+  double const left_m = geo::distance_m(place(number, tie.here), there);
+  double const weight = tie.weight * huber_share(left_m * std::sqrt(tie.weight / 2.0));
+  Sheaf sheaf;
+  auto const add = [&](std::size_t of, map::SitePoint const& at) {
+    sheaf.add({.picture = static_cast<Eigen::Index>(4 * (of - first_)),
+               .parts = shift_of_place(at.v - picture(of).below.v),
+               .at = at.v,
+               .weight = weight});
+  };
+  add(number, tie.here);
+  if (tie.earlier)
+    add(*tie.earlier, tie.there);
+  else
+    sheaf.fix(tie.there, weight);
   return sheaf;
 }
 
@@ -140,17 +218,10 @@ PictureBlock::Equations PictureBlock::equations(std::span<KnownSlot const> slots
   expect_poses(all, blocks);
   for (auto const& slot : slots) {
     if (slot.finds.size() + (slot.fixed_weight > 0.0 ? 1 : 0) < 2) continue;
-    auto sheaf = sheaf_of(slot);
-    Eigen::Vector2d mean = slot.fixed_weight * middle_of(slot.fixed).v;
-    for (auto const& row : sheaf.rows) mean += row.weight * row.at;
-    mean /= sheaf.weight;
-    for (auto const& row : sheaf.rows) {
-      all.right.segment<4>(row.picture) += row.weight * row.parts.transpose() * (mean - row.at);
-      blocks[static_cast<std::size_t>(row.picture / 4)] +=
-          row.weight * (1.0 - row.weight / sheaf.weight) * row.parts.transpose() * row.parts;
-    }
-    all.sheaves.push_back(std::move(sheaf));
+    all.add(sheaf_of(slot), blocks);
   }
+  for (std::size_t i = 0; i < pictures_.size(); ++i)
+    for (auto const& tie : pictures_[i].ties) all.add(sheaf_of(first_ + i, tie), blocks);
   for (auto const& block : blocks) all.preconditioner.emplace_back(block.inverse());
   return all;
 }
@@ -196,12 +267,20 @@ void PictureBlock::settle(std::span<KnownSlot> slots) {
     if (!slot.finds.empty()) slot.outline = mean_outline(slot, *this);
 }
 
-/// What the oldest picture says of the slots is kept as it lies now.
+/// What the oldest picture says of the slots, and what others have in common with it, is kept as it lies now.
 void PictureBlock::fix_oldest(std::span<KnownSlot> slots) {
   for (auto& slot : slots) {
     for (auto const& find : slot.finds)
       if (find.picture == first_) slot.fix(placed(find), find.weight);
     std::erase_if(slot.finds, [&](SlotFind const& find) { return find.picture == first_; });
+  }
+  auto const& oldest = pictures_.front();
+  for (auto& picture : pictures_) {
+    for (auto& tie : picture.ties) {
+      if (tie.earlier != first_) continue;
+      tie.there = oldest.moved.of(tie.there, oldest.below);
+      tie.earlier.reset();
+    }
   }
   pictures_.pop_front();
   ++first_;

@@ -31,6 +31,8 @@ struct PlacedSight {
 /// process of Ornstein and Uhlenbeck (1930) with `errors_last` as its time, so that a hundred pictures of one place are
 /// no hundred opinions about where that is.
 ///
+/// Tie points of two pictures are slots of a kind that are seen in these two alone.
+///
 /// The oldest of more than `most_pictures` does not move any more.
 class PictureBlock {
  public:
@@ -44,15 +46,27 @@ class PictureBlock {
   void settle(std::span<KnownSlot> slots);
   /// Where a find lies now.
   [[nodiscard]] Corners placed(SlotFind const& find) const;
+  /// Where the earlier picture has a tie point now; nothing where that picture was not added, or does not move any
+  /// more.
+  [[nodiscard]] std::optional<map::SitePoint> placed(TiePoint const& tie, std::string const& vehicle) const;
 
  private:
+  /// A tie point with an earlier picture.
+  struct HeldTie {
+    std::optional<std::size_t> earlier;  ///< its number; nothing: it does not move any more
+    map::SitePoint here;                 ///< where this picture lay when it came
+    map::SitePoint there;                ///< where the earlier one lay when it came, or where it lies
+    double weight = 0.0;                 ///< 1 / sigma^2 of each of the two
+  };
   struct Picture {
-    map::SitePoint below;
+    map::SitePoint told_below;                          ///< the ground below the camera, as its pose has it
+    map::SitePoint below;                               ///< the same where it was put when it came
     Eigen::Vector4d came_by = Eigen::Vector4d::Zero();  ///< from the camera's pose to where it was put when it came
     Eigen::Vector4d expected = Eigen::Vector4d::Ones();
     std::string vehicle = {};
     base::UtcTime at = {};
     PictureShift moved = {};  ///< since it came
+    std::vector<HeldTie> ties = {};
   };
   /// What a picture's shift is expected to be by the one before of the same vehicle; by nothing where there is none.
   struct Expectation {
@@ -62,7 +76,11 @@ class PictureBlock {
   };
   struct Sheaf;
   struct Equations;
+  [[nodiscard]] std::optional<std::size_t> number_of(std::string const& vehicle, base::UtcTime at) const;
+  [[nodiscard]] Picture const& picture(std::size_t number) const { return pictures_[number - first_]; }
+  void hold(Picture& picture, std::span<TiePoint const> ties) const;
   [[nodiscard]] Sheaf sheaf_of(KnownSlot const& slot) const;
+  [[nodiscard]] Sheaf sheaf_of(std::size_t number, HeldTie const& tie) const;
   [[nodiscard]] Equations equations(std::span<KnownSlot const> slots) const;
   [[nodiscard]] Expectation expectation(std::size_t picture) const;
   void expect_poses(Equations& all, std::vector<Eigen::Matrix4d>& blocks) const;

@@ -119,9 +119,14 @@ TEST(PictureBlock, SettlesWhereDenseLeastSquaresDoes) {
     slots.push_back({.id = "slot", .outline = slot, .finds = {}, .fixed = slot, .fixed_weight = 0.0});
   slots[0].fixed_weight = 4.0;
   constexpr double weight = 25.0;
+  constexpr double tie_sigma_m = 2.0;
   std::vector<LotSight> sights;
   for (std::size_t k = 0; k < 5; ++k) {
-    sights.push_back(camera.look(8.0 + 6.0 * static_cast<double>(k), 19.0, 5.0 * static_cast<double>(k), truth));
+    double const x = 8.0 + 6.0 * static_cast<double>(k);
+    sights.push_back(camera.look(x, 19.0, 5.0 * static_cast<double>(k), truth));
+    if (k > 0)
+      for (double const y : {15.0, 22.0})
+        sights[k].tie_points.push_back({sights[k - 1].at, {x - 3.0, y}, {x - 2.6, y - 0.3}, tie_sigma_m});
     auto const number = block.next_number();
     block.add({.sight = sights[k], .expected = expected_shift(sights[k])});
     for (auto const& seen : sights[k].slots)
@@ -129,7 +134,7 @@ TEST(PictureBlock, SettlesWhereDenseLeastSquaresDoes) {
         if (geo::distance_m(middle_of(slot.outline), middle_of(seen.outline)) < 1.25)
           slot.finds.push_back({.picture = number, .in_picture = seen.outline, .weight = weight / 25.0});
   }
-  // Unknowns: four of each picture, two of each slot; every find and every expectation is a row.
+  // Unknowns: four of each picture, two of each slot; every find, every tie point and every expectation is a row.
   auto const pictures = static_cast<Eigen::Index>(4 * sights.size());
   auto const unknowns = pictures + static_cast<Eigen::Index>(2 * slots.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -142,6 +147,16 @@ TEST(PictureBlock, SettlesWhereDenseLeastSquaresDoes) {
     if (k > 0) row.middleCols<4>(at - 4) = -kept * Eigen::Matrix4d::Identity();
     Eigen::Vector4d const rest = (k > 0 ? 1.0 - kept * kept : 1.0) * expected_shift(sights[k]).cwiseAbs2();
     normal += row.transpose() * rest.cwiseInverse().asDiagonal() * row;
+  }
+  for (std::size_t k = 1; k < sights.size(); ++k) {
+    for (auto const& tie : sights[k].tie_points) {
+      auto const at = static_cast<Eigen::Index>(4 * k);
+      Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, unknowns);
+      row.middleCols<4>(at) = shift_of_place(tie.here.v - below_camera(sights[k]).v);
+      row.middleCols<4>(at - 4) = -shift_of_place(tie.there.v - below_camera(sights[k - 1]).v);
+      normal += row.transpose() * row / (tie_sigma_m * tie_sigma_m);
+      right -= row.transpose() * (tie.here.v - tie.there.v) / (tie_sigma_m * tie_sigma_m);
+    }
   }
   for (std::size_t j = 0; j < slots.size(); ++j) {
     auto const at = pictures + static_cast<Eigen::Index>(2 * j);
@@ -164,6 +179,82 @@ TEST(PictureBlock, SettlesWhereDenseLeastSquaresDoes) {
     Eigen::Vector2d const dense = best.segment<2>(pictures + static_cast<Eigen::Index>(2 * j));
     EXPECT_LT((middle_of(slots[j].outline).v - dense).norm(), 1e-5) << j;
   }
+}
+
+/// Along one row, round its end, and back along the other one, which no picture shows together with it; the drone errs
+/// another way on the way back. Each picture shows four places of the one before it.
+std::vector<LotSight> there_and_back(std::vector<Corners> const& truth, bool has_ties) {
+  std::vector<map::SitePoint> way;
+  for (double x = 6.0; x < 58.0; x += 3.0) way.emplace_back(x, 4.0);
+  for (double y = 7.0; y < 34.0; y += 3.0) way.emplace_back(58.0, y);
+  for (double x = 58.0; x > 5.0; x -= 3.0) way.emplace_back(x, 34.0);
+  std::vector<LotSight> sights;
+  PictureShift before;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    bool const is_back = 2 * k > way.size();
+    PictureShift const off{.v = {is_back ? -0.5 : 0.5, is_back ? 0.4 : -0.4, 0.0, 0.0}};
+    auto sight = sight_at(way[k].x(), way[k].y(), 0.6 * static_cast<double>(k));
+    sight.doubt = {.position_m = 0.5, .angle_rad = 0.0, .heading_rad = 0.03, .height_m = 0.4};
+    for (auto slot : truth) {
+      auto const middle = middle_of(slot);
+      if (std::abs(middle.x() - way[k].x()) > 9.0 || std::abs(middle.y() - way[k].y()) > 9.0) continue;
+      for (auto& corner : slot) corner = off.of(corner, way[k]);
+      sight.slots.push_back({.outline = slot, .surety = 0.95});
+    }
+    if (has_ties && k > 0) {
+      for (double const east : {-5.0, 5.0}) {
+        for (double const north : {-4.0, 4.0}) {
+          map::SitePoint const place(way[k].x() + east, way[k].y() + north);
+          sight.tie_points.push_back({sights.back().at, off.of(place, way[k]), before.of(place, way[k - 1]), 0.005});
+        }
+      }
+    }
+    sight.ties_later = has_ties;
+    sights.push_back(std::move(sight));
+    before = off;
+  }
+  return sights;
+}
+
+/// How far the two rows lie elsewhere to each other than they do.
+double torn_m(std::vector<LotSight> const& sights, std::vector<Corners> const& truth) {
+  auto lot = lot_map();
+  for (auto const& sight : sights) lot.add(sight);
+  Eigen::Vector2d apart = Eigen::Vector2d::Zero();
+  for (auto const& slot : truth)
+    for (auto const& known : lot.slots().slots())
+      if (Eigen::Vector2d const off = middle_of(known.outline).v - middle_of(slot).v; off.norm() < 1.2)
+        apart += (middle_of(slot).y() < 20.0 ? 1.0 : -1.0) * off / (0.5 * static_cast<double>(truth.size()));
+  return apart.norm();
+}
+
+TEST(PictureBlock, TiePointsHoldRowsTogetherThatNoPictureShowsTogether) {
+  auto const truth = two_rows();
+  auto const by_poses_alone_m = torn_m(there_and_back(truth, false), truth);
+  EXPECT_GT(by_poses_alone_m, 0.5);
+  EXPECT_LT(torn_m(there_and_back(truth, true), truth), 0.2 * by_poses_alone_m);
+}
+
+TEST(PictureBlock, ATiePointHoldsWhenItsEarlierPictureDoesNotMoveAnyMore) {
+  auto const truth = two_rows();
+  auto lot = lot_map();
+  for (std::size_t k = 0; k < PictureBlock::most_pictures + 60; ++k) {
+    double const x = 6.0 + 3.0 * static_cast<double>(k % 17);
+    auto sight = sight_at(x, 12.0, 0.6 * static_cast<double>(k));
+    PictureShift const off{.v = {0.3, 0.2, 0.0, 0.0}};
+    for (auto slot : truth) {
+      if (geo::distance_m(middle_of(slot), {x, 12.0}) > 9.0) continue;
+      for (auto& corner : slot) corner = off.of(corner, {x, 12.0});
+      sight.slots.push_back({.outline = slot, .surety = 0.95});
+    }
+    // The first that was kept, however long ago: dropped when it is not there any more.
+    sight.tie_points.push_back({testing::after(0.0), {x, 12.0}, {x, 12.0}, 0.05});
+    if (k > 0)
+      sight.tie_points.push_back({testing::after(0.6 * static_cast<double>(k - 1)), {x, 12.0}, {x, 12.0}, 0.05});
+    sight.ties_later = true;
+    lot.add(sight);
+  }
+  for (auto const& one : offsets(lot, truth)) EXPECT_LT((one - Eigen::Vector2d(0.3, 0.2)).norm(), 0.02);
 }
 
 TEST(PictureBlock, SlotsOfTheMapHoldThePicturesInPlace) {

@@ -30,6 +30,7 @@ LotSight shifted(LotSight sight, PictureShift const& shift) {
   };
   for (auto& slot : sight.slots) shift_all(slot.outline);
   for (auto& car : sight.cars) shift_all(car.outline);
+  for (auto& tie : sight.tie_points) tie.here = shift.of(tie.here, below);
   auto& view = sight.view;
   auto const at = view.site_from_camera.origin();
   Eigen::Quaterniond const turn(Eigen::AngleAxisd(shift.v[2], Eigen::Vector3d::UnitZ()));

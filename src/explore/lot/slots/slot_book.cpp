@@ -101,6 +101,14 @@ std::vector<Tie> SlotBook::ties(LotSight const& told, PictureShift const& shift)
   return ties;
 }
 
+std::vector<Tie> SlotBook::ground_ties(LotSight const& told) const {
+  std::vector<Tie> ties;
+  for (auto const& tie : told.tie_points)
+    if (auto const there = block_.placed(tie, told.vehicle))
+      ties.push_back({.in_picture = tie.here, .on_map = *there, .sigma_m = tie.sigma_m});
+  return ties;
+}
+
 PictureShift SlotBook::last_shift(LotSight const& sight) const {
   auto const last = last_.find(sight.vehicle);
   bool const lasts = last != last_.end() && std::chrono::abs(sight.at - last->second.at) < shift_lasts;
@@ -117,10 +125,14 @@ std::vector<SlotGuess> SlotBook::guesses(base::UtcTime now) const {
 }
 
 PlacedSight SlotBook::placed(LotSight const& sight) const {
-  FittedShift fit{.shift = first_shift(sight, guesses(sight.at), last_shift(sight)), .sigma = expected_shift(sight)};
+  auto const ground = ground_ties(sight);
+  auto fit = !ground.empty() ? fitted_shift(sight, ground)
+                             : FittedShift{.shift = first_shift(sight, guesses(sight.at), last_shift(sight)),
+                                           .sigma = expected_shift(sight)};
   constexpr int rounds = 2;  // what is found to be the same depends on how the picture lies
   for (int round = 0; round < rounds; ++round) {
-    auto const found = ties(sight, fit.shift);
+    auto found = ties(sight, fit.shift);
+    found.insert(found.end(), ground.begin(), ground.end());
     if (found.empty()) break;
     fit = fitted_shift(sight, found);
   }
@@ -161,7 +173,7 @@ void SlotBook::add(PlacedSight const& placed, geo::Polygon<geo::SiteFrame> const
   for (std::size_t i = 0; i < sight.slots.size(); ++i)
     if (!is_known[i]) begin(added, sight.slots[i]);
   // A drone that hovers tells nothing new of where slots lie, and is not to push out those that do.
-  if (added.tells_places) {
+  if (added.tells_places || sight.ties_later) {
     block_.add(placed);
     block_.settle(slots_);
   }

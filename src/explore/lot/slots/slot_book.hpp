@@ -59,6 +59,8 @@ class SlotBook {
   };
   [[nodiscard]] std::vector<Pair> pairs(LotSight const& sight) const;
   [[nodiscard]] std::vector<Tie> ties(LotSight const& told, PictureShift const& shift) const;
+  /// To earlier pictures, by what both show.
+  [[nodiscard]] std::vector<Tie> ground_ties(LotSight const& told) const;
   [[nodiscard]] std::vector<SlotGuess> guesses(base::UtcTime now) const;
   [[nodiscard]] PictureShift last_shift(LotSight const& sight) const;
   void found(KnownSlot& slot, Added& added, SlotSight const& as, double novelty);
