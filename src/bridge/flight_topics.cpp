@@ -1,5 +1,6 @@
 #include "bridge/flight_topics.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "base/wall_clock.hpp"
@@ -14,6 +15,20 @@ namespace names = bus::mavros::names;
 using bus::Profile;
 
 namespace {
+
+/// The attitude was measured some time before or after the place, and a drone turns by a degree in that.
+Attitude attitude_at(mavlink::Duration since_boot, mavlink::Attitude const& attitude) {
+  constexpr double longest_s = 0.3;  // what it turns by is known for a short while alone
+  double const apart_s = base::to_seconds(since_boot - attitude.since_boot);
+  double const turning_s = std::abs(apart_s) <= longest_s ? apart_s : 0.0;
+  // A copter's angles from level are small: their rates are those about its axes.
+  auto const turned = [&](std::optional<double> const& angle, std::optional<double> const& rate) {
+    return angle.value_or(0.0) + turning_s * rate.value_or(0.0);
+  };
+  return {.roll_rad = turned(attitude.roll_rad, attitude.roll_rate_rad_s),
+          .pitch_rad = turned(attitude.pitch_rad, attitude.pitch_rate_rad_s),
+          .yaw_rad = turned(attitude.yaw_rad, attitude.yaw_rate_rad_s)};
+}
 
 /// Of the world and of the body, as MAVROS names them (REP 105).
 constexpr auto world_frame = "map";
@@ -41,6 +56,12 @@ bus::Header FlightTopics::header(std::string frame) const {
   return bus::header_at(base::wall_now(), std::move(frame));
 }
 
+bus::Header FlightTopics::header_of(mavlink::Duration since_boot, std::string frame) {
+  auto const now = loop_.now();
+  auto const late = now - clock_.here(since_boot, now);
+  return bus::header_at(base::wall_now() - std::chrono::duration_cast<base::UtcTime::duration>(late), std::move(frame));
+}
+
 void FlightTopics::tell_state() {
   auto state = ros_state(flight_, loop_.now());
   state.header = header();
@@ -50,7 +71,7 @@ void FlightTopics::tell_state() {
 void FlightTopics::tell_position(mavlink::GlobalPosition const& position) {
   if (position.position) {
     auto fix = ros_fix(position, flight_.gps, geoid_m_);
-    fix.header = header(body_frame);
+    fix.header = header_of(position.since_boot, body_frame);
     position_->publish(fix);
   }
   if (position.relative_alt_m) relative_altitude_->publish({*position.relative_alt_m});
@@ -59,11 +80,9 @@ void FlightTopics::tell_position(mavlink::GlobalPosition const& position) {
 void FlightTopics::tell_pose(mavlink::LocalPosition const& position) {
   auto const& attitude = flight_.attitude;
   if (!position.position_m || !attitude) return;
-  bus::PoseStamped pose{.header = header(world_frame)};
+  bus::PoseStamped pose{.header = header_of(position.since_boot, world_frame)};
   pose.pose.position = ros_point(*position.position_m);
-  pose.pose.orientation = ros_orientation({.roll_rad = attitude->roll_rad.value_or(0.0),
-                                           .pitch_rad = attitude->pitch_rad.value_or(0.0),
-                                           .yaw_rad = attitude->yaw_rad.value_or(0.0)});
+  pose.pose.orientation = ros_orientation(attitude_at(position.since_boot, *attitude));
   pose_->publish(pose);
 }
 

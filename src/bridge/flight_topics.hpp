@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/async/loop.hpp"
+#include "base/clock_offset.hpp"
 #include "bridge/flight_controller.hpp"
 #include "bus/messages/mavros.hpp"
 #include "bus/messages/sensors.hpp"
@@ -10,8 +11,9 @@
 
 namespace lapwing::bridge {
 
-/// What the flight controller says, on the bus. All are reliable, so that readers of either sort hear them; state and
-/// home are latched.
+/// What the flight controller says, on the bus. Places and poses are stamped with when they were measured, as far as
+/// messages that were not held up on their way tell how its clock lies to ours. All are reliable, so that readers of
+/// either sort hear them; state and home are latched.
 class FlightTopics {
  public:
   /// `flight` outlives it. Errors: those of the bus.
@@ -30,10 +32,13 @@ class FlightTopics {
   void tell_home(mavlink::HomePosition const& home);
   void tell_health(mavlink::SysStatus const& status);
   [[nodiscard]] bus::Header header(std::string frame = {}) const;
+  /// Of what was measured then, by the flight controller's clock.
+  [[nodiscard]] bus::Header header_of(mavlink::Duration since_boot, std::string frame);
 
   base::Loop& loop_;
   FlightController const& flight_;
   double geoid_m_;
+  base::ClockOffset clock_;
   std::optional<mavlink::HomePosition> home_without_origin_;  ///< waits for what its place is told by
   std::optional<bus::Publisher<bus::mavros::State>> state_;
   std::optional<bus::Publisher<bus::mavros::SysStatus>> system_status_;

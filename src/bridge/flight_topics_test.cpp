@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "bridge/frames.hpp"
 #include "bus/messages/mavros_names.hpp"
 #include "bus/participant/topics.hpp"
 
@@ -67,6 +68,51 @@ TEST_F(HomeTest, IsToldOnceForEachTimeThatItComes) {
   hear_home(9.0);
   ASSERT_TRUE(comes_true([&] { return !heard.empty() && heard.back().position.y > 8.0; }));
   EXPECT_LE(heard.size(), 2U);
+}
+
+struct PoseTest : HomeTest {
+  PoseTest() {
+    poses.emplace(
+        bus::Subscription<bus::PoseStamped>::open(*bus, bus::mavros::names::local_pose, bus::Profile::standard,
+                                                  [this](bus::PoseStamped const& pose) { told.push_back(pose); })
+            .value());
+  }
+  /// Tells it again until the reader has been found.
+  void hear(base::Duration since_boot) {
+    mavlink::LocalPosition const position{.since_boot = since_boot, .position_m = geo::Ned{.north = 3.0}};
+    auto const before = told.size();
+    ASSERT_TRUE(comes_true([&, this] {
+      if (told.size() == before) topics->tell(position);
+      return told.size() > before;
+    }));
+  }
+  [[nodiscard]] static double seconds(bus::PoseStamped const& pose) {
+    return static_cast<double>(pose.header.stamp.sec) + 1e-9 * static_cast<double>(pose.header.stamp.nanosec);
+  }
+
+  std::vector<bus::PoseStamped> told;
+  std::optional<bus::Subscription<bus::PoseStamped>> poses;
+};
+
+TEST_F(PoseTest, IsStampedWithWhenItWasMeasuredAndNotWithWhenItCame) {
+  flight.attitude = mavlink::Attitude{};
+  hear(1000ms);
+  auto const held_up_until = loop.now() + 200ms;
+  ASSERT_TRUE(comes_true([&] { return loop.now() > held_up_until; }));
+  hear(1020ms);
+  EXPECT_NEAR(seconds(told.back()) - seconds(told.front()), 0.02, 0.01);
+}
+
+TEST_F(PoseTest, IsTurnedAsItWasAtThatMoment) {
+  flight.attitude = mavlink::Attitude{.since_boot = 900ms, .yaw_rad = 0.5, .yaw_rate_rad_s = 1.0};
+  hear(1000ms);
+  auto const as_then = ros_orientation({.yaw_rad = 0.6});
+  EXPECT_NEAR(told.back().pose.orientation.z, as_then.z, 1e-6);
+  EXPECT_NEAR(told.back().pose.orientation.w, as_then.w, 1e-6);
+  // What is older says nothing of how it turns now.
+  flight.attitude->since_boot = 100ms;
+  hear(1010ms);
+  EXPECT_NEAR(told.back().pose.orientation.z, ros_orientation({.yaw_rad = 0.5}).z, 1e-6);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "base/async/loop.hpp"
 #include "base/async/scope.hpp"
+#include "base/clock_offset.hpp"
 #include "base/log.hpp"
 #include "link/byte_link.hpp"
 #include "mavlink/connection/connection.hpp"
@@ -76,7 +77,7 @@ class RoverBody final : public Body {
   RoverHelm helm_;
   RoverTrack track_;
   RoverRanges ranges_;
-  ClockOffset laser_clock_;
+  base::ClockOffset laser_clock_;
   std::unique_ptr<bus::Bus> bus_;
   std::unique_ptr<ros::RosLaser> laser_;
   Listener listener_;

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "base/clock_offset.hpp"
 #include "mavlink/codec/messages.hpp"
-#include "robot/rover/clock_offset.hpp"
 #include "slam/pose2.hpp"
 
 namespace lapwing::robot::rover {
@@ -48,7 +48,7 @@ class RoverTrack {
   };
   [[nodiscard]] slam::Pose2 step_between(Raw const& from, Raw const& to);
 
-  ClockOffset clock_;
+  base::ClockOffset clock_;
   std::optional<Heading> heading_;
   std::optional<Raw> raw_;
   std::optional<Moment> before_;

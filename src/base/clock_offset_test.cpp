@@ -1,14 +1,14 @@
-#include "robot/rover/clock_offset.hpp"
+#include "base/clock_offset.hpp"
 
 #include <gtest/gtest.h>
 
-namespace lapwing::robot::rover {
+namespace lapwing::base {
 namespace {
 
 using namespace std::chrono_literals;
 
-base::TimePoint at(base::Duration since) {
-  return base::TimePoint(since);
+TimePoint at(Duration since) {
+  return TimePoint(since);
 }
 
 TEST(ClockOffset, LaysWhatWasHeldUpWhereItWasMeasured) {
@@ -21,7 +21,7 @@ TEST(ClockOffset, LaysWhatWasHeldUpWhereItWasMeasured) {
 
 TEST(ClockOffset, FollowsClocksThatGoApart) {
   ClockOffset clock;
-  base::TimePoint last;
+  TimePoint last;
   for (int i = 0; i < 1000; ++i) last = clock.here(i * 100ms, at(i * 100ms + i * 10us));
   EXPECT_GE(last, at(999 * 100ms + 9ms - 3ms)) << "not by what was so a minute ago";
 }
@@ -35,4 +35,4 @@ TEST(ClockOffset, BeginsAnewWhenTheOtherClockDoes) {
 }
 
 }  // namespace
-}  // namespace lapwing::robot::rover
+}  // namespace lapwing::base
