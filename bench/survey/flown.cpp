@@ -152,6 +152,7 @@ Row fly(Options const& options, std::uint64_t seed) {
   video::CameraSettings camera{.lens = geo::pinhole(640, 480, across_rad), .seed = seed, .faults = options.faults};
   order.planner.camera = camera.lens;
   auto eye = perceive::LotEye::make(options.network, order.lot).value();
+  eye.tie_pictures();
   auto surveyor = perceive::Surveyor::make(order, {.anchor = anchor}, {7.0, 9.0, 14.0}).value();
   video::SimulatedCamera pictures(camera, park, {});
 

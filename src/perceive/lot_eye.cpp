@@ -102,7 +102,7 @@ std::optional<explore::LotSight> LotEye::look(cv::Mat const& picture, geo::Groun
     auto const outline = on_ground(*ground, vision::corners_of(car.box));
     if (is_seen(outline, view)) sight.cars.push_back({.outline = outline, .chance = car.score});
   }
-  ties_.tie(sight, *ground, explore::well_seen_ground(view, settings_), standing_on(*ground, seen));
+  if (ties_) ties_->tie(sight, *ground, explore::well_seen_ground(view, settings_), standing_on(*ground, seen));
   return sight;
 }
 

@@ -13,13 +13,16 @@
 
 namespace lapwing::perceive {
 
-/// Looks at pictures of the ground from above: which slots and vehicles there are, where they lie on the ground, and
-/// what of the ground earlier pictures showed, too.
+/// Looks at pictures of the ground from above: which slots and vehicles there are, and where they lie on the ground.
 class LotEye {
  public:
   /// `network`: the content of models/cars.onnx; empty: vehicles are looked for by their contrast alone. Errors: those
   /// of `CarNetwork::load`.
   [[nodiscard]] static base::Result<LotEye> make(std::string const& network, explore::LotSettings settings);
+
+  /// From now on tells what of the ground earlier pictures showed, too. For who looks at one vehicle's pictures, in the
+  /// order in which they were taken.
+  void tie_pictures() { ties_.emplace(); }
 
   /// Nothing when no ground is seen well enough.
   [[nodiscard]] std::optional<explore::LotSight> look(cv::Mat const& picture, geo::GroundView const& view,
@@ -31,7 +34,7 @@ class LotEye {
 
   explore::LotSettings settings_;
   std::optional<vision::CarNetwork> network_;
-  TieFinder ties_;
+  std::optional<TieFinder> ties_;
 };
 
 /// Why a picture cannot show anything ("it is black"); nothing for one that can.

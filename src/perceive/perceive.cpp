@@ -56,6 +56,7 @@ base::Result<std::unique_ptr<Perceive>> Perceive::open(base::Loop& loop, bus::Bu
                       fmt::format("{} cannot be made: {}", settings.folder.string(), error.message()));
   auto eye = LotEye::make(settings.network, settings.order.lot);
   if (!eye) return std::unexpected(eye.error());
+  eye->tie_pictures();
   auto topics = Topics::open(loop, bus);
   if (!topics) return std::unexpected(topics.error());
   std::unique_ptr<LiveView> live_view;
