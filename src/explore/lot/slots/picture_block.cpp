@@ -127,28 +127,27 @@ struct PictureBlock::Equations {
 
 void PictureBlock::add(PlacedSight const& placed) {
   auto const below = below_camera(placed.sight);
-  Picture picture{.told_below = map::SitePoint(Eigen::Vector2d(below.v - placed.shift.v.head<2>())),
-                  .below = below,
-                  .came_by = placed.shift.v,
-                  .expected = placed.expected,
-                  .vehicle = placed.sight.vehicle,
-                  .at = placed.sight.at,
-                  .moved = {}};
-  hold(picture, placed.sight.tie_points);
-  pictures_.push_back(std::move(picture));
+  pictures_.push_back({.told_below = map::SitePoint(Eigen::Vector2d(below.v - placed.shift.v.head<2>())),
+                       .below = below,
+                       .came_by = placed.shift.v,
+                       .expected = placed.expected,
+                       .vehicle = placed.sight.vehicle,
+                       .at = placed.sight.at,
+                       .moved = {},
+                       .ties = held(placed.sight.tie_points, placed.sight.vehicle)});
 }
 
-void PictureBlock::hold(Picture& picture, std::span<TiePoint const> ties) const {
-  for (auto const& tie : ties) {
-    auto const earlier = number_of(picture.vehicle, tie.earlier);
-    if (!earlier) continue;
-    auto const& other = this->picture(*earlier);
-    constexpr double both = 2.0;  // the one errs no more than the other
-    picture.ties.push_back({.earlier = earlier,
-                            .here = tie.here,
-                            .there = PictureShift{other.came_by}.of(tie.there, other.told_below),
-                            .weight = both / (tie.sigma_m * tie.sigma_m)});
-  }
+std::vector<PictureBlock::HeldTie> PictureBlock::held(std::span<TiePoint const> ties,
+                                                      std::string const& vehicle) const {
+  constexpr double both = 2.0;  // the one errs no more than the other
+  std::vector<HeldTie> held;
+  for (auto const& tie : ties)
+    if (auto const earlier = number_of(vehicle, tie.earlier))
+      held.push_back({.earlier = earlier,
+                      .here = tie.here,
+                      .there = picture(*earlier).came_to(tie.there),
+                      .weight = both / (tie.sigma_m * tie.sigma_m)});
+  return held;
 }
 
 std::optional<std::size_t> PictureBlock::number_of(std::string const& vehicle, base::UtcTime at) const {
@@ -161,13 +160,13 @@ std::optional<map::SitePoint> PictureBlock::placed(TiePoint const& tie, std::str
   auto const number = number_of(vehicle, tie.earlier);
   if (!number) return std::nullopt;
   auto const& earlier = picture(*number);
-  return earlier.moved.of(PictureShift{earlier.came_by}.of(tie.there, earlier.told_below), earlier.below);
+  return earlier.now_at(earlier.came_to(tie.there));
 }
 
 Corners PictureBlock::placed(SlotFind const& find) const {
   auto const& by = picture(find.picture);
   auto corners = find.in_picture;
-  for (auto& corner : corners) corner = by.moved.of(corner, by.below);
+  for (auto& corner : corners) corner = by.now_at(corner);
   return corners;
 }
 
@@ -179,7 +178,7 @@ PictureBlock::Sheaf PictureBlock::sheaf_of(KnownSlot const& slot) const {
   for (auto const& find : slot.finds) {
     auto const& by = picture(find.picture);
     auto const at = middle_of(find.in_picture);
-    double const left_m = geo::distance_m(by.moved.of(at, by.below), middle);
+    double const left_m = geo::distance_m(by.now_at(at), middle);
     sheaf.add({.picture = static_cast<Eigen::Index>(4 * (find.picture - first_)),
                .parts = shift_of_place(at.v - by.below.v),
                .at = at.v,
@@ -189,12 +188,8 @@ PictureBlock::Sheaf PictureBlock::sheaf_of(KnownSlot const& slot) const {
 }
 
 PictureBlock::Sheaf PictureBlock::sheaf_of(std::size_t number, HeldTie const& tie) const {
-  auto const place = [&](std::size_t of, map::SitePoint const& at) {
-    auto const& by = picture(of);
-    return by.moved.of(at, by.below);
-  };
-  auto const there = tie.earlier ? place(*tie.earlier, tie.there) : tie.there;
-  double const left_m = geo::distance_m(place(number, tie.here), there);
+  auto const there = tie.earlier ? picture(*tie.earlier).now_at(tie.there) : tie.there;
+  double const left_m = geo::distance_m(picture(number).now_at(tie.here), there);
   double const weight = tie.weight * huber_share(left_m * std::sqrt(tie.weight / 2.0));
   Sheaf sheaf;
   auto const add = [&](std::size_t of, map::SitePoint const& at) {
@@ -278,7 +273,7 @@ void PictureBlock::fix_oldest(std::span<KnownSlot> slots) {
   for (auto& picture : pictures_) {
     for (auto& tie : picture.ties) {
       if (tie.earlier != first_) continue;
-      tie.there = oldest.moved.of(tie.there, oldest.below);
+      tie.there = oldest.now_at(tie.there);
       tie.earlier.reset();
     }
   }

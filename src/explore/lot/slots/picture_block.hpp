@@ -67,6 +67,13 @@ class PictureBlock {
     base::UtcTime at = {};
     PictureShift moved = {};  ///< since it came
     std::vector<HeldTie> ties = {};
+
+    /// Where it put, when it came, what its pose has at `place`.
+    [[nodiscard]] map::SitePoint came_to(map::SitePoint const& place) const {
+      return PictureShift{came_by}.of(place, told_below);
+    }
+    /// Where it has now what it had at `place` when it came.
+    [[nodiscard]] map::SitePoint now_at(map::SitePoint const& place) const { return moved.of(place, below); }
   };
   /// What a picture's shift is expected to be by the one before of the same vehicle; by nothing where there is none.
   struct Expectation {
@@ -78,7 +85,7 @@ class PictureBlock {
   struct Equations;
   [[nodiscard]] std::optional<std::size_t> number_of(std::string const& vehicle, base::UtcTime at) const;
   [[nodiscard]] Picture const& picture(std::size_t number) const { return pictures_[number - first_]; }
-  void hold(Picture& picture, std::span<TiePoint const> ties) const;
+  [[nodiscard]] std::vector<HeldTie> held(std::span<TiePoint const> ties, std::string const& vehicle) const;
   [[nodiscard]] Sheaf sheaf_of(KnownSlot const& slot) const;
   [[nodiscard]] Sheaf sheaf_of(std::size_t number, HeldTie const& tie) const;
   [[nodiscard]] Equations equations(std::span<KnownSlot const> slots) const;

@@ -236,25 +236,40 @@ TEST(PictureBlock, TiePointsHoldRowsTogetherThatNoPictureShowsTogether) {
 }
 
 TEST(PictureBlock, ATiePointHoldsWhenItsEarlierPictureDoesNotMoveAnyMore) {
-  auto const truth = two_rows();
-  auto lot = lot_map();
-  for (std::size_t k = 0; k < PictureBlock::most_pictures + 60; ++k) {
-    double const x = 6.0 + 3.0 * static_cast<double>(k % 17);
-    auto sight = sight_at(x, 12.0, 0.6 * static_cast<double>(k));
-    PictureShift const off{.v = {0.3, 0.2, 0.0, 0.0}};
-    for (auto slot : truth) {
-      if (geo::distance_m(middle_of(slot), {x, 12.0}) > 9.0) continue;
-      for (auto& corner : slot) corner = off.of(corner, {x, 12.0});
-      sight.slots.push_back({.outline = slot, .surety = 0.95});
-    }
-    // The first that was kept, however long ago: dropped when it is not there any more.
-    sight.tie_points.push_back({testing::after(0.0), {x, 12.0}, {x, 12.0}, 0.05});
-    if (k > 0)
-      sight.tie_points.push_back({testing::after(0.6 * static_cast<double>(k - 1)), {x, 12.0}, {x, 12.0}, 0.05});
-    sight.ties_later = true;
-    lot.add(sight);
+  auto const truth = slot_at(20.0, 20.0);
+  PictureShift const off{.v = {0.5, -0.4, 0.0, 0.0}};
+  auto const told = [&](LotSight const& sight) {
+    auto slot = truth;
+    for (auto& corner : slot) corner = off.of(corner, below_camera(sight));
+    return slot;
+  };
+  PictureBlock block;
+  std::vector<KnownSlot> slots(2);
+  slots[0] = {.id = "of the map", .outline = truth, .finds = {}, .fixed = truth, .fixed_weight = 1e4};
+  slots[1] = {.id = "new", .outline = truth, .finds = {}};
+
+  // The map has the slot of the first picture, which lies right by that; the second one has its slot for itself.
+  auto const first = sight_at(20.0, 20.0, 0.0);
+  auto second = sight_at(20.0, 20.0, 0.6);
+  for (double const x : {14.0, 26.0})
+    for (double const y : {15.0, 25.0}) second.tie_points.push_back({first.at, {x, y}, {x, y}, 0.01});
+  slots[0].finds.push_back({.picture = block.next_number(), .in_picture = told(first), .weight = 1e4});
+  block.add({.sight = first, .expected = expected_shift(first)});
+  slots[1].finds.push_back({.picture = block.next_number(), .in_picture = told(second), .weight = 25.0});
+  block.add({.sight = second, .expected = expected_shift(second)});
+  auto const is_right = [&] { return geo::distance_m(middle_of(slots[1].outline), middle_of(truth)) < 0.05; };
+  block.settle(slots);
+  EXPECT_TRUE(is_right());
+  // Until the first one is the oldest of too many.
+  for (std::size_t k = 1; k < PictureBlock::most_pictures; ++k) {
+    auto other = sight_at(50.0, 20.0, 0.6 * static_cast<double>(k));
+    other.vehicle = "drone 2";
+    block.add({.sight = other, .expected = expected_shift(other)});
   }
-  for (auto const& one : offsets(lot, truth)) EXPECT_LT((one - Eigen::Vector2d(0.3, 0.2)).norm(), 0.02);
+  block.settle(slots);
+  EXPECT_TRUE(slots[0].finds.empty()) << "it does not move any more";
+  EXPECT_FALSE(slots[1].finds.empty());
+  EXPECT_TRUE(is_right());
 }
 
 TEST(PictureBlock, SlotsOfTheMapHoldThePicturesInPlace) {

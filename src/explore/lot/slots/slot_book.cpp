@@ -172,7 +172,7 @@ void SlotBook::add(PlacedSight const& placed, geo::Polygon<geo::SiteFrame> const
   }
   for (std::size_t i = 0; i < sight.slots.size(); ++i)
     if (!is_known[i]) begin(added, sight.slots[i]);
-  // A drone that hovers tells nothing new of where slots lie, and is not to push out those that do.
+  // A drone that hovers tells nothing new of where slots or other pictures lie, and is not to push out those that do.
   if (added.tells_places || sight.ties_later) {
     block_.add(placed);
     block_.settle(slots_);
