@@ -7,6 +7,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "base/median.hpp"
+
 namespace lapwing::perceive {
 
 namespace {
@@ -126,12 +128,6 @@ std::optional<TiePoint> tie_point(GroundPlan const& plan, GroundPlan const& earl
                   .sigma_m = sigma_m};
 }
 
-double median(std::vector<double> values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Those whose pieces lie elsewhere by about the same.
 std::vector<TiePoint> agreeing(std::vector<TiePoint> ties, double most_apart_m, std::size_t fewest) {
   if (ties.size() < fewest) return {};
@@ -141,7 +137,7 @@ std::vector<TiePoint> agreeing(std::vector<TiePoint> ties, double most_apart_m, 
     east.push_back(tie.there.x() - tie.here.x());
     north.push_back(tie.there.y() - tie.here.y());
   }
-  Eigen::Vector2d const usual(median(east), median(north));
+  Eigen::Vector2d const usual(base::median(east), base::median(north));
   std::erase_if(ties, [&](TiePoint const& tie) { return (tie.there.v - tie.here.v - usual).norm() > most_apart_m; });
   return ties.size() < fewest ? std::vector<TiePoint>() : ties;
 }

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/median.hpp"
+
 namespace lapwing::vision::internal {
 
 namespace {
@@ -19,12 +21,6 @@ constexpr double deepest_slot = 7.6;  // what is deeper is two slots head to hea
 constexpr double shortest_side = 1.8;
 constexpr double same_direction = 0.1;  // radians
 constexpr double same_tooth = 0.6;      // both lines of a hairpin
-
-double median(std::vector<double> values) {
-  auto const middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 cv::Point2d direction_of(PaintedLine const& line) {
   return (line.to - line.from) * (1.0 / line.length());
@@ -119,7 +115,7 @@ std::optional<double> pitch_of(std::span<Tooth const> teeth) {
     if (gap > narrowest_pitch && gap < widest_pitch) gaps.push_back(gap);
   }
   if (gaps.size() < 2) return std::nullopt;
-  return median(std::move(gaps));
+  return base::median(std::move(gaps));
 }
 
 /// How many others stand whole pitches away, and how long it is: edges of cars that stand side by side have a pitch,
@@ -263,7 +259,7 @@ std::optional<double> spine_of(LineRow const& row, std::span<PaintedLine const> 
   }
   constexpr double least_share = 0.2;
   if (covered < least_share * (last - first)) return std::nullopt;
-  return median(std::move(places));
+  return base::median(std::move(places));
 }
 
 /// Two rows head to head are equally deep: where the sides say otherwise, what more of them agree on tells the other.
