@@ -17,7 +17,9 @@ using explore::TiePoint;
 
 constexpr int piece_px = 42;
 /// Beside where a piece is looked for: less than half of a slot's width, as slots look alike.
-constexpr double search_m = 0.84;
+constexpr double search_m = 0.6;
+/// From a peak of the score to where it is to have fallen.
+constexpr int around_px = 4;
 constexpr double sigma_m = 0.08;
 /// Plans that are kept: of at most half a megabyte each.
 constexpr std::size_t most_plans = 100;
@@ -39,7 +41,7 @@ double share_of(cv::Mat const& mask, cv::Rect const& at) {
 class Overlay {
  public:
   Overlay(GroundPlan const& plan, GroundPlan const& earlier)
-      : plan_(plan), earlier_(earlier), search_px_(plan.in_pixels(search_m)) {
+      : plan_(plan), earlier_(earlier), search_px_(plan.in_pixels(search_m) + around_px) {
     Eigen::Vector2d const expected = plan.shift - earlier.shift;
     corner_ = {plan.in_pixels(earlier.north_west.x() - expected.x() - plan.north_west.x()),
                plan.in_pixels(plan.north_west.y() + expected.y() - earlier.north_west.y())};
@@ -95,7 +97,6 @@ std::vector<Piece> pieces_of(GroundPlan const& plan, GroundPlan const& earlier, 
 /// Where the score is greatest, to parts of a pixel; nothing where it says little of where that is.
 std::optional<cv::Point2d> peak_of(cv::Mat const& scores) {
   constexpr double least = 0.55;
-  constexpr int around_px = 4;
   constexpr float least_fall = 0.08F;
   double most = 0.0;
   cv::Point at;

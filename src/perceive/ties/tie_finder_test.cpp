@@ -80,7 +80,6 @@ class Drone {
     ties_.tie(sight, seen, explore::well_seen_ground(told, {}), standing);
     return sight;
   }
-  void wait(base::Duration time) { now_ += std::chrono::duration_cast<base::UtcTime::duration>(time); }
 
  private:
   TieFinder ties_;
@@ -178,6 +177,21 @@ TEST(TieFinder, KeepsNoPictureThatShowsWhatTheLastDid) {
   EXPECT_TRUE(drone.look(ground, view_at(0.0, 0.0), {0.0, 0.0}).ties_later);
   EXPECT_FALSE(drone.look(ground, view_at(0.2, 0.0), {0.0, 0.0}).ties_later);
   EXPECT_TRUE(drone.look(ground, view_at(4.0, 0.0), {0.0, 0.0}).ties_later);
+}
+
+TEST(TieFinder, FindsItFromHighAboveToo) {
+  auto const ground = asphalt();
+  Drone drone;
+  auto const from_high = [](double east_m, double north_m) {
+    auto view = view_at(east_m, north_m, std::numbers::pi / 2.0, 32.0);
+    view.lens = geo::pinhole(640, 480, 1.08);
+    return view;
+  };
+  drone.look(ground, from_high(0.0, 0.0), {0.3, -0.2});
+  auto const second = drone.look(ground, from_high(6.0, 1.0), {-0.1, 0.2});
+  EXPECT_GE(second.tie_points.size(), 2U);
+  for (auto const& tie : second.tie_points)
+    EXPECT_LT((tie.there.v - tie.here.v - Eigen::Vector2d(-0.4, 0.4)).norm(), 0.1) << "a pixel measures 0.12 m";
 }
 
 TEST(TieFinder, PicturesFromHighAboveAreCoarser) {
