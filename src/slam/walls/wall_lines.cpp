@@ -143,7 +143,9 @@ class Pieces {
 
  private:
   void add(Cell cell) {
-    if (!has_free_ground(cell)) return;
+    bool has_free_ground = false;
+    for_each_free_near(cell, [&](Eigen::Vector2d const&) { has_free_ground = true; });
+    if (!has_free_ground) return;
     numbers_.set(cell, static_cast<std::int32_t>(pieces_.size()));
     cells_.push_back(cell);
     pieces_.push_back({.at = {(cell.x + 0.5) * cell_m_, (cell.y + 0.5) * cell_m_},
@@ -169,11 +171,12 @@ class Pieces {
     piece.straight = 1.0 - axes.eigenvalues()(0) / axes.eigenvalues()(1);
     look_for_free_ground(piece, cells_[i]);
   }
-  [[nodiscard]] bool has_free_ground(Cell cell) const {
+  /// Calls with the way to each free cell within reach, in cells.
+  template <class Visit>
+  void for_each_free_near(Cell cell, Visit const& visit) const {
     for (int y = -open_reach_; y <= open_reach_; ++y)
       for (int x = -open_reach_; x <= open_reach_; ++x)
-        if (is_free({cell.x + x, cell.y + y})) return true;
-    return false;
+        if (is_free({cell.x + x, cell.y + y})) visit(Eigen::Vector2d(x, y));
   }
   void look_for_free_ground(Piece& piece, Cell cell) const {
     constexpr double least_beside = 0.5;  // cells; what lies on the line is on neither side
@@ -181,13 +184,10 @@ class Pieces {
     Eigen::Vector2d const left(-piece.along.y(), piece.along.x());
     int on_left = 0;
     int on_right = 0;
-    for (int y = -open_reach_; y <= open_reach_; ++y) {
-      for (int x = -open_reach_; x <= open_reach_; ++x) {
-        double const beside = left.dot(Eigen::Vector2d(x, y));
-        if (std::abs(beside) < least_beside || !is_free({cell.x + x, cell.y + y})) continue;
-        ++(beside > 0.0 ? on_left : on_right);
-      }
-    }
+    for_each_free_near(cell, [&](Eigen::Vector2d const& way) {
+      double const beside = left.dot(way);
+      if (std::abs(beside) >= least_beside) ++(beside > 0.0 ? on_left : on_right);
+    });
     if (on_left > one_sided * on_right) piece.open = left;
     if (on_right > one_sided * on_left) piece.open = -left;
   }
