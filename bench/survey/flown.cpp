@@ -144,7 +144,7 @@ void compare(Row& row, video::CarPark const& park, perceive::Surveyor const& sur
 /// At 5 m/s, and pictures on the way.
 Row fly(Options const& options, std::uint64_t seed) {
   auto const scene = drawn(seed);
-  auto park = video::car_park_of("drawn.toml", scene.text).value();
+  auto const park = video::car_park_of("drawn.toml", scene.text).value();
   auto const site = geo::Site::make("lot", anchor).value();
   perceive::SurveyOrder order;
   for (auto const& corner : scene.area)
@@ -162,7 +162,6 @@ Row fly(Options const& options, std::uint64_t seed) {
   geo::Point3<geo::SiteFrame> drone(0.0, 0.0, 9.0);
   double yaw_rad = 0.0;
   Row row;
-  std::optional<explore::LotSight> seen;
   for (double now_s = 0.0; now_s < most_s; now_s += picture_s) {
     auto const now = at(now_s);
     auto const place = geo::camera_at(drone, yaw_rad, 0.0);
@@ -197,7 +196,10 @@ void print(std::string const& name, Row const& row) {
 std::optional<Options> options_of(std::vector<std::string_view> const& words) {
   if (words.size() < 2) return std::nullopt;
   auto network = video::bytes_of(words[0], std::size_t{64} << 20);
-  if (!network) return std::nullopt;
+  if (!network) {
+    fmt::print(stderr, "{}\n", network.error().message);
+    return std::nullopt;
+  }
   Options options{.network = *std::move(network), .seeds = {}};
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i] == "--faults" && i + 2 < words.size()) {
