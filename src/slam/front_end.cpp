@@ -16,6 +16,9 @@ bool is_pinned(Eigen::Matrix3d const& seen) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(seen.topLeftCorner<2, 2>()).eigenvalues()(0) > enough;
 }
 
+/// Of a search's fit: what fits less well, as leaves and legs do, may have been found anywhere.
+constexpr double well = 0.45;
+
 /// Whether most beams of the two end at about the same range.
 bool look_alike(Frame const& a, Frame const& b) {
   constexpr double most = 0.7;
@@ -118,7 +121,7 @@ void FrontEnd::draw_last(std::vector<KeyFrame> const& frames, std::vector<Pose2>
 FrontEnd::Found FrontEnd::search(Frame const& frame, Guess const& guess) const {
   auto const found = correlate(grid_, frame, guess.pose, window_of(guess.spread));
   auto const slid = options_.may_slip ? correlate_along(grid_, frame, found) : std::nullopt;
-  return slid ? Found{slid->pose, slid->score, true} : Found{found.pose, found.score, false};
+  return slid && slid->score > well ? Found{slid->pose, slid->score, true} : Found{found.pose, found.score, false};
 }
 
 FrontEnd::Guess FrontEnd::by_odometry(Pose2 const& last, Pose2 const& driven) const {
@@ -177,8 +180,13 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   // By how well the wheels have done, not by how much they are trusted. A search that ends elsewhere by a hair, as
   // along a corridor, refutes nothing.
   constexpr double clearly = 0.06;
+  // Nor does one that fits by a few points and nothing holds.
+  auto const shows_where = [&] {
+    return found.fit > well ||
+           is_pinned(lay_on_last(frames, poses, frame, found.pose, {.pose = found.pose, .spread = unknown}).seen);
+  };
   auto const is_refuted = is_wrong || (options_.may_be_refuted && is_beyond(incredible, error, noise_.of(driven)) &&
-                                       found.fit > fit(grid_, frame, told.pose) + clearly);
+                                       found.fit > fit(grid_, frame, told.pose) + clearly && shows_where());
   auto const held_to = is_refuted ? Guess{.pose = found.pose, .spread = unknown} : guess;
   auto const aligned = lay_on_last(frames, poses, frame, found.pose, held_to);
   constexpr int while_distrusted = 5;

@@ -1,6 +1,8 @@
 #include "slam/mapper.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +118,29 @@ TEST(Mapper, FollowsARobotThatBacksWhereItsOdometryTellsItGoingAhead) {
     drive.truth.push_back(drive.truth[count - 1 - i]);
   }
   EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.25);
+}
+
+TEST(Mapper, BelievesOdometryRatherThanAScanOfNothingInParticular) {
+  auto drive = round_the_office(1.0);
+  std::mt19937_64 chance(3);
+  std::uniform_real_distribution<float> range_m(0.4F, 3.0F);
+  constexpr std::size_t every = 60;
+  constexpr std::size_t a_few = 9;  // beams, a leaf or a leg each
+  auto& scans = drive.log.scans;
+  for (std::size_t i = every; i < scans.size(); i += every)
+    for (std::size_t beam = 0; beam < scans[i].ranges_m.size(); ++beam)
+      scans[i].ranges_m[beam] = beam % a_few == 0 ? range_m(chance) : 0.0F;
+  Mapper mapper({}, {}, one_by_one);
+  Pose2 pose;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    auto const before = pose;
+    pose = mapper.follow(scans[i], drive.log.sensors[0]);
+    if (i > 0 && i % every == 0) {
+      auto const off = between(between(drive.truth[i - 1], drive.truth[i]), between(before, pose));
+      EXPECT_LT(std::hypot(off.x, off.y), 0.1) << i;
+      EXPECT_LT(std::abs(off.yaw), 0.1) << i;
+    }
+  }
 }
 
 TEST(Mapper, MapsByScansAloneWhereThereIsNoOdometry) {
