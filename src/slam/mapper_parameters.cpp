@@ -61,6 +61,7 @@ constexpr std::array table{
     rate<&DriftRates::shift_per_sqrt_m>("loops.drift_shift"),
     rate<&DriftRates::turn_per_sqrt_m>("loops.drift_turn"),
     rate<&DriftRates::turn_per_rad>("loops.drift_turn_per_rad"),
+    rate<&DriftRates::unseen_share>("loops.drift_unseen"),
     parameter<&M::prune, &PruneOptions::passes>("prune.passes"),
     parameter<&M::prune, &PruneOptions::near_m>("prune.near_m"),
     parameter<&M::prune, &PruneOptions::near_rad>("prune.near_rad"),

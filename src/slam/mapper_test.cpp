@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <ranges>
 
 #include <gtest/gtest.h>
 
@@ -118,6 +119,33 @@ TEST(Mapper, FollowsARobotThatBacksWhereItsOdometryTellsItGoingAhead) {
     drive.truth.push_back(drive.truth[count - 1 - i]);
   }
   EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.25);
+}
+
+/// Once round and on: at the far corner the scans see nothing for 4 m and the turn, where wheels turn too far by as
+/// much.
+testing::Drive round_a_corner_unseen(double too_far_rad) {
+  auto drive = round_the_office(1.0);
+  auto& scans = drive.log.scans;
+  auto const is_unseen = [&](std::size_t i) {
+    return std::hypot(drive.truth[i].x - 20.0, drive.truth[i].y - 12.0) < 2.0;
+  };
+  auto const unseen = std::ranges::count_if(std::views::iota(std::size_t{0}, scans.size()), is_unseen);
+  std::vector<Pose2> told{scans[0].odometry};
+  for (std::size_t i = 1; i < scans.size(); ++i) {
+    auto step = between(scans[i - 1].odometry, scans[i].odometry);
+    if (is_unseen(i)) step.yaw += too_far_rad / static_cast<double>(unseen);
+    told.push_back(told.back() * step);
+  }
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    scans[i].odometry = told[i];
+    if (is_unseen(i)) std::ranges::fill(scans[i].ranges_m, 0.0F);
+  }
+  return drive;
+}
+
+TEST(Mapper, ClosesALoopAfterATurnThatNoScanSaw) {
+  auto const drive = round_a_corner_unseen(0.5);
+  EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.5);
 }
 
 TEST(Mapper, BelievesOdometryRatherThanAScanOfNothingInParticular) {

@@ -66,6 +66,8 @@ MapperOptions options_for(RobotKind const& kind, MapperOptions options) {
   constexpr double drifts_more = 2.0;
   loops.rates.shift_per_sqrt_m *= drifts_more;
   loops.rates.turn_per_sqrt_m *= drifts_more;
+  // Few readings leave much unseen at every step, and what that adds up to is in the rates.
+  loops.rates.unseen_share = 0.0;
   options.front_end.may_slip = false;
   options.front_end.odometry_spread = options.gather.odometry_spread;
   options.front_end.point_information = options.gather.point_information;

@@ -14,7 +14,10 @@ Graph there_and_back(double drift_m) {
     graph.frames.push_back({.scan = k, .frame = {}, .path_m = static_cast<double>(k)});
     graph.poses.push_back(pose);
     if (k > 0)
-      graph.constraints.push_back({.from = k - 1, .to = k, .from_to = between(graph.poses[k - 1], graph.poses[k])});
+      graph.constraints.push_back({.from = k - 1,
+                                   .to = k,
+                                   .from_to = between(graph.poses[k - 1], graph.poses[k]),
+                                   .information = 1e6 * Eigen::Matrix3d::Identity()});
   };
   for (int k = 0; k <= 40; ++k) add({static_cast<double>(k), 0.0, 0.0});
   for (int k = 40; k >= 0; --k) add({static_cast<double>(k), drift_m, 3.14159265358979});

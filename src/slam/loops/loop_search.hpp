@@ -45,6 +45,7 @@ class LoopSearch {
   [[nodiscard]] std::vector<int> renumber(Graph const& graph, Renumbering const& renumbering);
 
   struct Scope {
+    DriftRates rates;  ///< of the graph, which say how far is looked
     double window_sigmas = 2.5;
     int most_places = 4;
     bool skips_joined = false;  ///< leaves out pairs of places between which there is a loop already

@@ -17,7 +17,10 @@ struct DriftRates {
   double shift_per_sqrt_m = 0.03;  ///< of one metre driven
   double turn_per_sqrt_m = 0.006;  ///< radians
   double turn_per_rad = 0.01;      ///< radians of each radian turned
-  double loop_shift_m = 0.05;      ///< of a closure
+  /// A step's turn errs by that much of the deviation that its information leaves, if that is more: what no scan saw is
+  /// as odometry told it. `edge_share` has it some three times as unsure as it is, so this is all of it.
+  double unseen_share = 0.3;
+  double loop_shift_m = 0.05;  ///< of a closure
   double loop_turn_rad = 0.005;
 };
 
