@@ -18,6 +18,7 @@ import documents
 import harness
 
 SPEEDUP = 20
+LONGEST_S = 240  # of a step: a survey that takes 90 s alone took more than 120 beside other tests
 # Verbs that listen to vehicles on UDP port 14550 when no link is given.
 LISTENERS = re.compile(r"lapwing (?:run|param|signing setup|mission (?:upload|download|clear))\b")
 SERVERS = re.compile(r"lapwing (?:demo|station|replay)\b")
@@ -114,8 +115,11 @@ class Reader:
     def type(self, line: str, step: documents.Block) -> str:
         if line.startswith("curl") and not shutil.which("curl"):
             return ""
-        done = subprocess.run(["bash", "-c", self.adapted(line)], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+        try:
+            done = subprocess.run(["bash", "-c", self.adapted(line)], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=LONGEST_S)
+        except subprocess.TimeoutExpired as late:
+            raise AssertionError(f"{step.place}: {self.adapted(line)} has not ended after {LONGEST_S} s\n{(late.stdout or b'').decode()}") from late
         allowed = [int(code) for code in step.words.get("exit", "0").split("|")]
         assert done.returncode in allowed, f"{step.place}: {self.adapted(line)} ends with {done.returncode}\n{done.stdout}"
         return done.stdout
