@@ -121,8 +121,8 @@ TEST(Mapper, FollowsARobotThatBacksWhereItsOdometryTellsItGoingAhead) {
   EXPECT_LT(testing::greatest_error_m(mapped(drive.log).trajectory, drive.truth), 0.25);
 }
 
-/// Once round and on: at the far corner the scans see nothing for 4 m and the turn, where wheels turn too far by as
-/// much.
+/// Once round and on: at the far corner the scans see nothing for 4 m and the turn, over which the wheels tell so much
+/// too far a turn in all.
 testing::Drive round_a_corner_unseen(double too_far_rad) {
   auto drive = round_the_office(1.0);
   auto& scans = drive.log.scans;

@@ -164,11 +164,9 @@ void LoopCloser::note(Graph const& graph, Closure const& closure, int witnesses,
 
 bool LoopCloser::look(Graph& graph, int query) {
   bool has_closed = false;
-  // A window that is wide for what no scan saw holds many places, and on the way little speaks against a wrong one yet.
-  auto seen = options_.rates;
-  seen.unseen_share = 0.0;
-  LoopSearch::Scope const scope{
-      .rates = seen, .window_sigmas = options_.window_sigmas, .most_places = options_.most_candidates};
+  // Not as far as what no scan saw may be off: that window holds many places, and on the way little speaks against a
+  // wrong one yet.
+  LoopSearch::Scope const scope{.window_sigmas = options_.window_sigmas, .most_places = options_.most_candidates};
   for (auto& closure : search_.look(graph, query, scope)) {
     if (is_small(graph, closure)) {
       note(graph, closure, 0, Verdict::doubted);
@@ -229,9 +227,9 @@ bool LoopCloser::follow(Graph& graph) {
 }
 
 bool LoopCloser::look_everywhere(Graph& graph, int first) {
-  LoopSearch::Scope const scope{.rates = options_.rates,
-                                .window_sigmas = options_.late_sigmas,
+  LoopSearch::Scope const scope{.window_sigmas = options_.late_sigmas,
                                 .most_places = 2 * options_.most_candidates,
+                                .counts_unseen = true,
                                 .skips_joined = true};
   Group claims;
   auto next_m = options_.least_gap_m;

@@ -104,7 +104,9 @@ std::vector<int> LoopSearch::renumber(Graph const& graph, Renumbering const& ren
 }
 
 std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, int query, Scope const& scope) const {
-  auto const drifts = drift_from(query, graph.poses, graph.constraints, scope.rates);
+  auto rates = options_.rates;
+  if (!scope.counts_unseen) rates.unseen_share = 0.0;
+  auto const drifts = drift_from(query, graph.poses, graph.constraints, rates);
   auto const joined = scope.skips_joined ? joined_with(graph, query, options_.query_frames) : std::vector<int>();
   struct Near {
     double apart_m;

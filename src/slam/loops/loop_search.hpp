@@ -45,10 +45,10 @@ class LoopSearch {
   [[nodiscard]] std::vector<int> renumber(Graph const& graph, Renumbering const& renumbering);
 
   struct Scope {
-    DriftRates rates;  ///< of the graph, which say how far is looked
     double window_sigmas = 2.5;
     int most_places = 4;
-    bool skips_joined = false;  ///< leaves out pairs of places between which there is a loop already
+    bool counts_unseen = false;  ///< looks as far as odometry may have erred where no scan saw a turn
+    bool skips_joined = false;   ///< leaves out pairs of places between which there is a loop already
   };
   /// At most one a place. None of them is believed yet.
   [[nodiscard]] std::vector<Closure> look(Graph const& graph, int query, Scope const& scope);

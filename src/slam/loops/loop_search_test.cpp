@@ -62,7 +62,7 @@ std::vector<Closure> claims_of_the_last(Graph const& whole) {
     graph.poses.push_back(whole.poses[k]);
     search.follow(graph);
   }
-  return search.look(whole, whole.size() - 1, {.rates = options.rates, .window_sigmas = 2.5, .most_places = 4});
+  return search.look(whole, whole.size() - 1, {.window_sigmas = 2.5, .most_places = 4});
 }
 
 TEST(LoopSearch, CallsAClaimAmbiguousThatFitsAsWellAtAnotherPlace) {

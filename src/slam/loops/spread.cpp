@@ -22,14 +22,14 @@ struct Sums {
     auto const length = std::hypot(edge.from_to.x, edge.from_to.y);
     auto turn = rates.turn_per_sqrt_m * rates.turn_per_sqrt_m * length +
                 rates.turn_per_rad * rates.turn_per_rad * std::abs(edge.from_to.yaw);
-    if (rates.unseen_share > 0.0)
-      turn = std::max(turn, rates.unseen_share * rates.unseen_share * edge.information.inverse()(2, 2));
     auto shift = rates.shift_per_sqrt_m * rates.shift_per_sqrt_m * length;
     if (edge.is_loop) {
       turn = rates.loop_turn_rad * rates.loop_turn_rad;
       shift = rates.loop_shift_m * rates.loop_shift_m;
     } else {
       path += length;
+      if (rates.unseen_share > 0.0)
+        turn = std::max(turn, rates.unseen_share * rates.unseen_share * edge.information.inverse()(2, 2));
     }
     shift2 += shift;
     turn2 += turn;
