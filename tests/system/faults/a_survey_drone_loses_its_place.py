@@ -10,10 +10,10 @@ from drone import Drone, Operator, take_off
 from ros_drone import RosDrone, integer
 
 
-def sees_satellites(ros: RosDrone, does: bool) -> None:
+def show_satellites(ros: RosDrone, are_shown: bool) -> None:
     """Newer ArduPilots have the switch the other way round."""
-    is_set = any(ros.set_parameter(False, name, integer(value)).success
-                 for name, value in (("SIM_GPS_DISABLE", not does), ("SIM_GPS1_ENABLE", does)))
+    is_set = any(ros.set_parameter(False, name, integer(int(value))).success
+                 for name, value in (("SIM_GPS_DISABLE", not are_shown), ("SIM_GPS1_ENABLE", are_shown)))
     assert is_set, "no switch for satellites"
 
 
@@ -21,7 +21,7 @@ with Drone() as drone:
     ros = RosDrone(drone.domain)
     operator = Operator(drone.port)
     take_off(operator)
-    sees_satellites(ros, False)
+    show_satellites(ros, False)
     operator.wait_for_state("Malfunction", 15)
     operator.wait(lambda o: "does not know where it is" in o.last["Health Reason"], "why")
     assert "does not know where it is" in (drone.folder / "state/malfunction.txt").read_text()
@@ -31,7 +31,7 @@ with Drone() as drone:
     operator.command("Arm")
     operator.wait(lambda o: any("Arm is refused" in one for one in o.errors[told:]), "it is not armed so", 10)
     print(operator.errors[-1])
-    sees_satellites(ros, True)
+    show_satellites(ros, True)
 
     take_off(operator)
     bridge, decide = drone.pid("bridge"), drone.pid("decide")
