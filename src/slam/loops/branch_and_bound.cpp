@@ -1,6 +1,7 @@
 #include "slam/loops/branch_and_bound.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
@@ -32,7 +33,8 @@ class Search {
         count_(static_cast<double>(query.size())),
         shifts_(static_cast<int>(std::ceil(window.reach_m / Pyramid::cell_m))),
         turns_(static_cast<int>(std::ceil(window.reach_rad / step_rad))),
-        turned_(static_cast<std::size_t>(2 * turns_ + 1)) {
+        turned_(static_cast<std::size_t>(2 * turns_ + 1)),
+        coarse_sums_(2 * shifts_ / StridedLevel::stride + 1) {
     for (int a = 0; a <= 2 * turns_; ++a) {
       auto const cosine = static_cast<float>(std::cos(yaw(a)));
       auto const sine = static_cast<float>(std::sin(yaw(a)));
@@ -49,10 +51,7 @@ class Search {
 
   std::optional<LoopMatch> run(double least_score) {
     least_share_ = least_score;
-    constexpr int top = Pyramid::levels - 1;
-    for (int a = 0; a <= 2 * turns_; ++a)
-      for (int x = -shifts_; x <= shifts_; x += 1 << top)
-        for (int y = -shifts_; y <= shifts_; y += 1 << top) push(top, x, y, a);
+    for (int a = 0; a <= 2 * turns_; ++a) push_coarsest(a);
     std::optional<Branch> best;
     for (int count = 0; !queue_.empty() && count < window_.most_branches; ++count) {
       auto const branch = queue_.top();
@@ -74,6 +73,7 @@ class Search {
 
  private:
   static constexpr double rival_share = 0.7;
+  static constexpr double most_of_a_point = 255.0;
 
   [[nodiscard]] double yaw(int turn) const { return window_.guess.yaw + (turn - turns_) * step_rad; }
 
@@ -89,29 +89,50 @@ class Search {
   }
 
   /// Of the branch's pose that is nearest to the guess.
-  [[nodiscard]] double cost(int level, int x, int y, int turn) const {
+  [[nodiscard]] double cost(Branch const& branch) const {
     constexpr double of_deviation = 0.015;  // of the score a squared standard deviation costs
-    auto const width = (1 << level) - 1;
+    auto const width = (1 << branch.level) - 1;
     auto const off = [&](int low) { return Pyramid::cell_m * static_cast<double>(std::max({0, low, -(low + width)})); };
-    auto const shift2 = (off(x) * off(x) + off(y) * off(y)) / (window_.sigma_m * window_.sigma_m);
-    auto const turned = (turn - turns_) * step_rad / window_.sigma_rad;
+    auto const shift2 =
+        (off(branch.x) * off(branch.x) + off(branch.y) * off(branch.y)) / (window_.sigma_m * window_.sigma_m);
+    auto const turned = (branch.turn - turns_) * step_rad / window_.sigma_rad;
     return of_deviation * (shift2 + turned * turned);
   }
 
-  void push(int level, int x, int y, int turn) {
-    int sum = 0;
-    for (auto const& p : turned_[turn]) sum += pyramid_.at(level, p.x() + x, p.y() + y);
-    auto const share = sum / (255.0 * count_);
+  /// All shifts of one turn, in steps of the coarsest level.
+  void push_coarsest(int turn) {
+    constexpr int level = Pyramid::levels - 1;
+    coarse_sums_.clear();
+    for (auto const& p : turned_[turn]) pyramid_.coarsest().add(p.x() - shifts_, p.y() - shifts_, coarse_sums_);
+    for (int j = 0; j < coarse_sums_.side(); ++j)
+      for (int i = 0; i < coarse_sums_.side(); ++i)
+        push({.level = level, .x = (i << level) - shifts_, .y = (j << level) - shifts_, .turn = turn},
+             coarse_sums_.at(i, j));
+  }
+
+  /// A branch over which the points have this sum.
+  void push(Branch branch, int sum) {
+    auto const share = sum / (most_of_a_point * count_);
     if (share <= least_share_) return;
-    auto const score = share - cost(level, x, y, turn);
-    if (score > floor_) queue_.push({score, level, x, y, turn});
+    branch.score = share - cost(branch);
+    if (branch.score > floor_) queue_.push(branch);
   }
 
   void split(Branch const& branch) {
-    auto const half = 1 << (branch.level - 1);
-    for (auto const x : {branch.x, branch.x + half})
-      for (auto const y : {branch.y, branch.y + half})
-        if (x <= shifts_ && y <= shifts_) push(branch.level - 1, x, y, branch.turn);
+    auto const level = branch.level - 1;
+    std::array<int, 4> sums{};
+    for (auto const& p : turned_[branch.turn]) {
+      auto const quarters = pyramid_.quarters(level, p.x() + branch.x, p.y() + branch.y);
+      for (std::size_t q = 0; q < sums.size(); ++q) sums[q] += quarters[q];
+    }
+    auto const half = 1 << level;
+    for (auto const q : {0, 1, 2, 3}) {
+      Branch const quarter{.level = level,
+                           .x = branch.x + (q % 2 == 0 ? 0 : half),
+                           .y = branch.y + (q / 2 == 0 ? 0 : half),
+                           .turn = branch.turn};
+      if (quarter.x <= shifts_ && quarter.y <= shifts_) push(quarter, sums[static_cast<std::size_t>(q)]);
+    }
   }
 
   [[nodiscard]] LoopMatch match(Branch const& best, double rival) const {
@@ -131,6 +152,7 @@ class Search {
   double least_share_ = 0.0;
   double floor_ = 0.0;
   std::vector<std::vector<Eigen::Vector2i>> turned_;  ///< the query's cells at each turn
+  ShiftSums coarse_sums_;
   std::priority_queue<Branch> queue_;
 };
 

@@ -45,34 +45,51 @@ TEST(BranchAndBound, FindsWhereThePointsLieAndSaysThatNothingElseLooksLikeIt) {
   EXPECT_LT(match->rival, 0.85 * match->score);
 }
 
-TEST(BranchAndBound, IsAsGoodAsTryingEveryPose) {
+/// What is looked for, and in which window.
+struct Search {
+  Pose2 truth;
+  LoopWindow window;
+};
+class EveryPose : public testing::TestWithParam<Search> {};
+
+TEST_P(EveryPose, IsNoBetterThanTheOneFound) {
   Pyramid const pyramid(room());
-  auto const query = seen_from(room(), {2.03, 1.47, 0.31});
-  LoopWindow const window{{2.4, 1.2, 0.25}, 0.8, 0.12};
+  auto const& window = GetParam().window;
+  auto const query = seen_from(room(), GetParam().truth);
   auto const match = branch_and_bound(pyramid, query, window, 0.3);
   ASSERT_TRUE(match);
   double best = 0.0;
   constexpr double degree = 3.14159265358979 / 180.0;
-  for (int a = -7; a <= 7; ++a) {
-    for (int x = -8; x <= 8; ++x) {
-      for (int y = -8; y <= 8; ++y) {
-        auto const yaw = window.guess.yaw + a * degree;
-        auto const cosine = static_cast<float>(std::cos(yaw));
-        auto const sine = static_cast<float>(std::sin(yaw));
+  auto const turns = static_cast<int>(std::ceil(window.reach_rad / degree));
+  auto const shifts = static_cast<int>(std::ceil(window.reach_m / Pyramid::cell_m));
+  for (int a = -turns; a <= turns; ++a) {
+    auto const yaw = window.guess.yaw + a * degree;
+    auto const cosine = static_cast<float>(std::cos(yaw));
+    auto const sine = static_cast<float>(std::sin(yaw));
+    std::vector<Eigen::Vector2i> cells;
+    for (auto const& p : query) {
+      Eigen::Vector2f const at =
+          (place(window.guess).cast<float>() +
+           Eigen::Vector2f(cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()) - pyramid.origin()) /
+          Pyramid::cell_m;
+      cells.emplace_back(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())));
+    }
+    for (int x = -shifts; x <= shifts; ++x) {
+      for (int y = -shifts; y <= shifts; ++y) {
         int sum = 0;
-        for (auto const& p : query) {
-          Eigen::Vector2f const at =
-              (place(window.guess).cast<float>() +
-               Eigen::Vector2f(cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()) - pyramid.origin()) /
-              Pyramid::cell_m;
-          sum += pyramid.at(0, static_cast<int>(std::floor(at.x())) + x, static_cast<int>(std::floor(at.y())) + y);
-        }
+        for (auto const& cell : cells) sum += pyramid.at(0, cell.x() + x, cell.y() + y);
         best = std::max(best, sum / (255.0 * static_cast<double>(query.size())));
       }
     }
   }
   EXPECT_NEAR(match->score, best, 1e-9);
 }
+
+INSTANTIATE_TEST_SUITE_P(BranchAndBound, EveryPose,
+                         testing::Values(Search{{2.03, 1.47, 0.31}, {{2.4, 1.2, 0.25}, 0.8, 0.12}},
+                                         // Most of the window lies beyond the map, and there are several shifts to each
+                                         // side on the coarsest level.
+                                         Search{{2.03, 1.47, 0.31}, {{-3.0, 5.5, 0.3}, 6.0, 0.05}}));
 
 TEST(BranchAndBound, ACorridorHasARival) {
   Points corridor;
