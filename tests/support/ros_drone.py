@@ -217,7 +217,8 @@ def integer(value: int) -> ParameterValue:
 
 
 class Asker:
-    """Asks one service, one thing at a time. Cyclone DDS for Python has no related sample identity, so an answer is known by its coming."""
+    """Asks one service, one thing at a time. Cyclone DDS for Python has no related sample identity, so an answer is known by its coming: what others were answered
+    before is passed over, and nobody else may ask meanwhile."""
 
     def __init__(self, participant, name: str, request, response):
         self._requests = DataWriter(participant, Topic(participant, f"rq{name}Request", request), qos=ros_robot._STANDARD)
@@ -229,6 +230,8 @@ class Asker:
         while not (self._requests.get_matched_subscriptions() and self._replies.get_matched_publications()):
             assert time.monotonic() < deadline, f"nobody offers {self._request.__name__}"
             time.sleep(0.02)
+        while self._replies.take(50):
+            pass
         self._requests.write(self._request(*fields))
         while time.monotonic() < deadline:
             for reply in self._replies.take(1):

@@ -24,7 +24,8 @@ with Drone() as drone:
     show_satellites(ros, False)
     operator.wait_for_state("Malfunction", 15)
     operator.wait(lambda o: "does not know where it is" in o.last["Health Reason"], "why")
-    assert "does not know where it is" in (drone.folder / "state/malfunction.txt").read_text()
+    written = drone.folder / "state/malfunction.txt"
+    harness.wait_until(lambda: written.exists() and "does not know where it is" in written.read_text(), 5, "it is written down")
     ros.wait(lambda r: r.state.mode == "LAND", "it lands, since it cannot return", 15)
     operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 60)
     told = len(operator.errors)
