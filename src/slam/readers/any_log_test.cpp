@@ -74,6 +74,21 @@ TEST(AnyLog, TakesEverythingElseForALogOfCarmen) {
   EXPECT_EQ(message(""), "no FLASER or ROBOTLASER1 line");
 }
 
+TEST(AnyLog, SaysOfAPackedLogWhatUnpacksIt) {
+  using namespace std::string_view_literals;
+  auto const said = [](std::string_view begins) {
+    auto const log = read_log(begins);
+    return log ? "read" : log.error().message + ": " + log.error().hint;
+  };
+  EXPECT_EQ(said("\x1F\x8B\x08\x00..."sv), "a file packed by gzip: unpack it first: 'gzip -dk LOG'");
+  EXPECT_EQ(said("\xFD"
+                 "7zXZ\x00..."sv),
+            "a file packed by xz: unpack it first: 'xz -dk LOG'");
+  EXPECT_EQ(said("BZh91AY..."sv), "a file packed by bzip2: unpack it first: 'bzip2 -dk LOG'");
+  EXPECT_EQ(said("\x28\xB5\x2F\xFD..."sv), "a file packed by zstd: unpack it first: 'zstd -dk LOG'");
+  EXPECT_EQ(said("PK\x03\x04..."sv), "a file packed by zip: unpack it first: 'unzip LOG'");
+}
+
 TEST(AnyLog, SaysInWhichLineWhatIsWrong) {
   EXPECT_EQ(message("1 2 3 4 5 6 7 8\n1 2 3 4 5 6 x 8\n"),
             "line 2: expected the eight numbers t x y yaw right front left back");
