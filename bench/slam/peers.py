@@ -7,14 +7,13 @@ by one function. Cartographer has a second thread for its loops, which its proce
 
 import argparse
 import bisect
+import json
 import math
-import os
 import pathlib
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 import carmen_logs as logs
 from variants import LAPWING, trajectory
@@ -55,15 +54,23 @@ def errors_of(poses: list, relations: list) -> dict:
     return {"shift_m": statistics.mean(shifts), "median_m": statistics.median(shifts), "most_m": max(shifts), "turn_deg": statistics.mean(turns)}
 
 
+# A process of its own, for the memory that a child is charged with begins with that of who forks it.
+ACCOUNT = """
+import json, os, subprocess, sys, time
+begun = time.monotonic()
+process = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+_, status, used = os.wait4(process.pid, 0)
+print(json.dumps({"ended": os.waitstatus_to_exitcode(status), "wall_s": time.monotonic() - begun, "cpu_s": used.ru_utime + used.ru_stime, "peak_mb": used.ru_maxrss / 1024}))
+"""
+
+
 def run(command: list) -> dict:
     """Seconds and megabytes of a program, until it has ended."""
-    begun = time.monotonic()
-    process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        raise SystemExit(f"peers: {command[0]} ended with {process.returncode}")
-    return {"wall_s": time.monotonic() - begun, "cpu_s": used.ru_utime + used.ru_stime, "peak_mb": used.ru_maxrss / 1024}
+    done = subprocess.run([sys.executable, "-c", ACCOUNT, *[str(word) for word in command]], check=True, text=True, stdout=subprocess.PIPE)
+    account = json.loads(done.stdout)
+    if account.pop("ended") != 0:
+        raise SystemExit(f"peers: {command[0]} failed")
+    return account
 
 
 def poses_in(path: pathlib.Path) -> list:
