@@ -50,7 +50,7 @@ struct Search {
   Pose2 truth;
   LoopWindow window;
 };
-class EveryPose : public testing::TestWithParam<Search> {};
+class EveryPose : public ::testing::TestWithParam<Search> {};
 
 TEST_P(EveryPose, IsNoBetterThanTheOneFound) {
   Pyramid const pyramid(room());
@@ -86,10 +86,10 @@ TEST_P(EveryPose, IsNoBetterThanTheOneFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BranchAndBound, EveryPose,
-                         testing::Values(Search{{2.03, 1.47, 0.31}, {{2.4, 1.2, 0.25}, 0.8, 0.12}},
-                                         // Most of the window lies beyond the map, and there are several shifts to each
-                                         // side on the coarsest level.
-                                         Search{{2.03, 1.47, 0.31}, {{-3.0, 5.5, 0.3}, 6.0, 0.05}}));
+                         ::testing::Values(Search{{2.03, 1.47, 0.31}, {{2.4, 1.2, 0.25}, 0.8, 0.12}},
+                                           // Most of the window lies beyond the map, and there are several shifts to
+                                           // each side on the coarsest level.
+                                           Search{{2.03, 1.47, 0.31}, {{-3.0, 5.5, 0.3}, 6.0, 0.05}}));
 
 TEST(BranchAndBound, ACorridorHasARival) {
   Points corridor;

@@ -32,8 +32,8 @@ class ShiftSums {
 };
 
 /// One level of a pyramid, to be asked at many places a stride apart at once: cells a stride apart are neighbours in
-/// memory, so that what one point adds to all shifts is added a row at a time (Hinterstoisser et al. 2012, "Gradient
-/// Response Maps for Real-Time Detection of Texture-Less Objects", section 2.5).
+/// memory, so that what one point adds to all shifts is added a row at a time (Hinterstoisser et al. 2012, Gradient
+/// Response Maps for Real-Time Detection of Texture-Less Objects, "Linearizing the memory for parallelization").
 class StridedLevel {
  public:
   static constexpr int stride = 16;
