@@ -22,15 +22,13 @@ constexpr std::size_t kept = 10;
 }  // namespace
 
 Pose2 ScanOdometry::follow(Frame const& frame, LogTime time) {
-  if (!time_) {
-    time_ = time;
+  if (passed_.empty()) {
+    passed_.push_back({time, pose_});
     keep(frame);
     return pose_;
   }
-  constexpr double shortest_s = 1e-3;
   constexpr double longest_s = 1.0;  // after a longer gap nobody knows how it went on
-  auto const elapsed = std::clamp((time - *time_).count(), shortest_s, longest_s);
-  time_ = time;
+  auto const elapsed = std::clamp((time - passed_.back().time).count(), 0.0, longest_s);
   Eigen::Vector3d const motion = speed_ * elapsed;
   auto const predicted = pose_ * Pose2{motion.x(), motion.y(), motion.z()};
   auto const found = correlate(grid_, frame, predicted, window);
@@ -45,16 +43,27 @@ Pose2 ScanOdometry::follow(Frame const& frame, LogTime time) {
                               1.0 / (turn_sigma_rad * turn_sigma_rad)}};
   auto const aligned = align(frame, found.pose, prior, targets, {});
   auto const next = aligned.seen.isZero() ? found.pose : aligned.pose;  // too few points for lines
-  auto const moved = between(pose_, next);
-  constexpr double most_m_s = 4.0;
-  constexpr double most_rad_s = 4.0;
-  speed_ = numbers(moved) / elapsed;
-  speed_ = speed_.cwiseMax(Eigen::Vector3d(-most_m_s, -most_m_s, -most_rad_s))
-               .cwiseMin(Eigen::Vector3d(most_m_s, most_m_s, most_rad_s));
   pose_ = next;
+  note_speed(time);
   auto const& newest = last_.back().pose;
   if (distance_m(newest, pose_) >= keep_step_m || turn_rad(newest, pose_) >= keep_turn_rad) keep(frame);
   return pose_;
+}
+
+/// Over a moment, not from one scan to the next: stamps that a buffer gave come in bursts, and a centimetre in a
+/// millisecond is no speed.
+void ScanOdometry::note_speed(LogTime now) {
+  constexpr LogTime moment(0.15);
+  constexpr double most_m_s = 4.0;
+  constexpr double most_rad_s = 4.0;
+  // One that is older than a moment is enough.
+  while (passed_.size() > 1 && now - passed_[1].time >= moment) passed_.pop_front();
+  if (auto const elapsed = now - passed_.front().time; elapsed >= moment) {
+    speed_ = numbers(between(passed_.front().pose, pose_)) / elapsed.count();
+    speed_ = speed_.cwiseMax(Eigen::Vector3d(-most_m_s, -most_m_s, -most_rad_s))
+                 .cwiseMin(Eigen::Vector3d(most_m_s, most_m_s, most_rad_s));
+  }
+  passed_.push_back({now, pose_});
 }
 
 void ScanOdometry::keep(Frame const& frame) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <optional>
 
 #include "slam/log/scan_log.hpp"
 #include "slam/match/local_grid.hpp"
@@ -17,6 +16,7 @@ class ScanOdometry {
 
  private:
   void keep(Frame const& frame);
+  void note_speed(LogTime now);
 
   struct Seen {
     Frame frame;
@@ -24,7 +24,11 @@ class ScanOdometry {
   };
   std::deque<Seen> last_;
   LocalGrid grid_;
-  std::optional<LogTime> time_;
+  struct Passed {
+    LogTime time;
+    Pose2 pose;
+  };
+  std::deque<Passed> passed_;  ///< a moment's way, the newest last
   Pose2 pose_;
   Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();  ///< in the robot's frame, a second
 };
