@@ -1,6 +1,6 @@
 """The network that finds doors, what it learns from, and what its answer means.
 
-Each of 32 x 32 places of the square answers whether it lies in the middle of a door, where that door's edges are, and how well it knows them. Whether it
+Each of 20 x 20 places of the square answers whether it lies in the middle of a door, where that door's edges are, and how well it knows them. Whether it
 lies anywhere in a door or on a cupboard it learns as well, only to learn more from few pictures: those answers are not exported.
 """
 

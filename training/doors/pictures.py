@@ -14,7 +14,7 @@ import scenes
 INPUT = 160  # pixels a side of what the network sees
 GREY, CONTRAST = 114.0, 64.0  # what fills the square beside the picture is 0 to the network
 MOST_BOXES = 24
-DOOR, CUPBOARD = 0, 1
+DOOR, CUPBOARD, UNCLEAR = 0, 1, 2  # unclear: neither a door nor none
 
 
 @dataclasses.dataclass
@@ -42,6 +42,10 @@ def packed(side: int, pictures: list[tuple[numpy.ndarray, list]]) -> Set:
     return Set(pixels, sizes, boxes)
 
 
+def joined(sets: list[Set]) -> Set:
+    return Set(*(torch.cat([getattr(one, field.name) for one in sets]) for field in dataclasses.fields(Set)))
+
+
 def half_of(folder: pathlib.Path, half: str) -> list[pathlib.Path]:
     """Photographs by name: every second, from the first on, is to build with; the others are held out."""
     return sorted((folder / "images").iterdir())[0 if half == "built-with" else 1::2]
@@ -63,10 +67,20 @@ def photographs(folder: pathlib.Path, files: list[pathlib.Path], side: int) -> S
     return packed(side, pictures)
 
 
-def rendered(seed: int, count: int, side: int) -> Set:
+def without_doors(folder: pathlib.Path | None, side: int) -> list[numpy.ndarray]:
+    """Photographs in which no door is: what walls, people, streets and tables really look like."""
+    pictures = []
+    for file in sorted(folder.iterdir()) if folder else []:
+        image = Image.open(file).convert("RGB")
+        shrink = side / max(image.size)
+        pictures.append(numpy.asarray(image.resize(tuple(max(1, round(n * shrink)) for n in image.size), Image.Resampling.BOX)))
+    return pictures
+
+
+def rendered(seed: int, count: int, side: int, beyond: list[numpy.ndarray]) -> Set:
     rng, pictures = numpy.random.default_rng(seed), []
-    for scene in scenes.rendered(rng, count, side):
-        things = [[*box, DOOR] for box in scene.doors.tolist()] + [[*box, CUPBOARD] for box in scene.cupboards.tolist()]
+    for scene in scenes.rendered(rng, count, side, beyond):
+        things = [[*box[:4], DOOR if box[4] else UNCLEAR] for box in scene.doors.tolist()] + [[*box[:4], CUPBOARD if box[4] else UNCLEAR] for box in scene.cupboards.tolist()]
         pictures.append((scene.pixels, things))
     return packed(side, pictures)
 
@@ -106,27 +120,37 @@ def views(of: Set, which: torch.Tensor, at_random: bool) -> tuple[torch.Tensor, 
     area = lambda b: (b[..., 2] - b[..., 0]).clamp(min=0) * (b[..., 3] - b[..., 1]).clamp(min=0)
     part = area(seen) / area(whole).clamp(min=1e-6)
     # A sliver at the edge is neither a door nor none.
-    kind = torch.where(there & (part > 0), torch.where((part < 0.3) & (boxes[..., 4] == DOOR), torch.tensor(2.0), boxes[..., 4]), torch.tensor(-1.0))
+    kind = torch.where(there & (part > 0), torch.where((part < 0.3) & (boxes[..., 4] == DOOR), torch.tensor(float(UNCLEAR)), boxes[..., 4]), torch.tensor(-1.0))
     small = (seen[..., 2] - seen[..., 0] < 5) | (seen[..., 3] - seen[..., 1] < 10)
-    kind = torch.where((kind == DOOR) & small, torch.tensor(2.0), kind)
+    kind = torch.where((kind == DOOR) & small, torch.tensor(float(UNCLEAR)), kind)
     return (coloured(shown) if at_random else shown), torch.cat([seen, kind[..., None]], 2)
+
+
+GRAIN = torch.randn(3, 2 * INPUT, 2 * INPUT, generator=torch.Generator().manual_seed(1))
 
 
 def coloured(shown: torch.Tensor) -> torch.Tensor:
     """Other light, other cameras."""
     count = len(shown)
     of_each = lambda low, high: uniform(count, low, high)[:, None, None, None]
-    empty = (shown == 0).all(1, keepdim=True)
-    light = shown * torch.exp(of_each(-0.45, 0.35)) * torch.exp(torch.randn(count, 3, 1, 1) * 0.1) + of_each(-0.5, 0.5) + torch.randn(count, 3, 1, 1) * 0.08
-    grey = light.mean(1, keepdim=True)
-    light = grey + (light - grey) * of_each(0.1, 1.6)
-    # Hues change places now and then: a green door is as good as a red one.
-    order = torch.stack([torch.randperm(3) if torch.rand(1) < 0.25 else torch.arange(3) for _ in range(count)])
-    light = torch.gather(light, 1, order[:, :, None, None].expand_as(light))
-    blurred = torch.nn.functional.avg_pool2d(light, 3, 1, 1)
-    light = light + (blurred - light) * (of_each(-1.2, 1.0).clamp(min=0))
-    light = light + torch.randn_like(light) * of_each(-0.1, 0.12).clamp(min=0)
-    return torch.where(empty, torch.zeros(()), light)
+    there = (shown != 0).any(1, keepdim=True)
+    gain = torch.exp(of_each(-0.45, 0.35)) * torch.exp(torch.randn(count, 3, 1, 1) * 0.1)
+    light = torch.addcmul(of_each(-0.5, 0.5) + torch.randn(count, 3, 1, 1) * 0.08, shown, gain)
+    light = torch.lerp(light.mean(1, keepdim=True), light, of_each(0.1, 1.6))
+    for k in torch.nonzero(torch.rand(count) < 0.25).flatten().tolist():
+        light[k] = light[k, torch.randperm(3)]  # a green door is as good as a red one
+    for k in torch.nonzero(torch.rand(count) < 0.45).flatten().tolist():
+        light[k] = torch.lerp(light[k], torch.nn.functional.avg_pool2d(light[k:k + 1], 3, 1, 1)[0], float(uniform(1, 0.0, 1.0)))
+    for k in torch.nonzero(torch.rand(count) < 0.55).flatten().tolist():
+        x, y = torch.randint(INPUT, (2,)).tolist()
+        light[k].add_(GRAIN[:, y:y + INPUT, x:x + INPUT], alpha=float(uniform(1, 0.0, 0.12)))
+    return light.mul_(there)
+
+
+def covered_by(boxes: torch.Tensor, x: int, y: int, width: int, height: int) -> torch.Tensor:
+    """How much of each box lies in a rectangle, in pixels."""
+    side = lambda low, high, start, end: (boxes[:, high].clamp(max=end) - boxes[:, low].clamp(min=start)).clamp(min=0)
+    return side(0, 2, x, x + width) * side(1, 3, y, y + height)
 
 
 def pasted(shown: torch.Tensor, boxes: torch.Tensor, share: float) -> tuple[torch.Tensor, torch.Tensor]:
@@ -145,9 +169,26 @@ def pasted(shown: torch.Tensor, boxes: torch.Tensor, share: float) -> tuple[torc
         x, y = int(torch.randint(INPUT - width + 1, (1,))), int(torch.randint(INPUT - height + 1, (1,)))
         out[k, :, y:y + height, x:x + width] = shown[source, :, y0:y1, x0:x1]
         others = told[k]
-        common = (others[:, 2].clamp(max=x + width) - others[:, 0].clamp(min=x)).clamp(min=0) * (others[:, 3].clamp(max=y + height) - others[:, 1].clamp(min=y)).clamp(min=0)
-        hidden = common / ((others[:, 2] - others[:, 0]) * (others[:, 3] - others[:, 1])).clamp(min=1)
-        gone = torch.where(hidden > 0.8, torch.tensor(-1.0), torch.tensor(2.0))
+        hidden = covered_by(others, x, y, width, height) / ((others[:, 2] - others[:, 0]) * (others[:, 3] - others[:, 1])).clamp(min=1)
+        gone = torch.where(hidden > 0.8, torch.tensor(-1.0), torch.tensor(float(UNCLEAR)))
         told[k, :, 4] = torch.where((others[:, 4] >= 0) & (hidden > 0.35), gone, others[:, 4])
         told[k, free[0]] = torch.tensor([x, y, x + width, y + height, DOOR], dtype=torch.float32)
+    return out, told
+
+
+def hidden_in_part(shown: torch.Tensor, boxes: torch.Tensor, share: float) -> tuple[torch.Tensor, torch.Tensor]:
+    """Patches of one view put before others: a door is one even where something stands before it."""
+    out, told = shown.clone(), boxes.clone()
+    for k in torch.nonzero(torch.rand(len(shown)) < share).flatten().tolist():
+        source = int(torch.randint(len(shown), (1,)))
+        width, height = (int(n) for n in torch.randint(INPUT // 10, INPUT // 2, (2,)))
+        x, y, from_x, from_y = (int(torch.randint(INPUT - n + 1, (1,))) for n in (width, height, width, height))
+        doors = boxes[source]
+        common = covered_by(doors, from_x, from_y, width, height)
+        if source == k or bool((common * (doors[:, 4] == DOOR) > 0.25 * width * height).any()):
+            continue  # what hides must not be a door itself
+        out[k, :, y:y + height, x:x + width] = shown[source, :, from_y:from_y + height, from_x:from_x + width]
+        mine = told[k]
+        part = covered_by(mine, x, y, width, height) / ((mine[:, 2] - mine[:, 0]) * (mine[:, 3] - mine[:, 1])).clamp(min=1)
+        told[k, :, 4] = torch.where((mine[:, 4] == DOOR) & (part > 0.6), torch.tensor(float(UNCLEAR)), mine[:, 4])
     return out, told

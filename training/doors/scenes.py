@@ -13,8 +13,10 @@ import math
 import numpy
 from PIL import Image, ImageDraw, ImageFilter
 
+import furniture
 import surfaces
-from surfaces import PAINTS, WALLS, WOODS, Surface, pick
+import textures
+from surface import PAINTS, WALLS, WOODS, Surface, Thing, blotches, pick
 
 NEAR = 0.12
 DRAWN_LARGER = 1.5  # than told, against jagged edges
@@ -22,7 +24,7 @@ DRAWN_LARGER = 1.5  # than told, against jagged edges
 
 @dataclasses.dataclass
 class Labelled:
-    """A picture, and what is in it: boxes in pixels, left, top, right, bottom; the visible part of each."""
+    """A picture, and what is in it: boxes in pixels, left, top, right, bottom, of the visible part of each; then 1 where that is enough to tell what it is, or 0."""
     pixels: numpy.ndarray
     doors: numpy.ndarray
     cupboards: numpy.ndarray
@@ -86,7 +88,7 @@ def put(canvas: Image.Image, camera: Camera, placed: Placed, light: float) -> No
     shaded = numpy.clip(placed.surface.pixels * light, 0, 255).astype(numpy.uint8)
     height, width = shaded.shape[:2]
     try:
-        back = homography(at - low, numpy.array([[0, 0], [width, 0], [width, height], [0, height]], float))
+        back = homography(at - low, numpy.array([[1, 1], [width - 1, 1], [width - 1, height - 1], [1, height - 1]], float))
     except numpy.linalg.LinAlgError:
         return
     size = tuple(int(n) for n in high - low)
@@ -96,16 +98,46 @@ def put(canvas: Image.Image, camera: Camera, placed: Placed, light: float) -> No
     canvas.paste(flat, tuple(int(n) for n in low), mask)
 
 
-def box_of(camera: Camera, corners: numpy.ndarray, least: float) -> tuple[float, ...] | None:
-    """What the picture shows of it, or nothing where that is less than a part `least` of it."""
-    if camera.seen(corners)[:, 2].min() < NEAR:
+def within(polygon: numpy.ndarray, size: tuple[int, int]) -> numpy.ndarray:
+    """The part of a polygon that lies in the picture."""
+    for axis, sign, most in ((0, 1, 0), (1, 1, 0), (0, -1, size[0]), (1, -1, size[1])):
+        inside = sign * polygon[:, axis] >= sign * most
+        kept = []
+        for k in range(len(polygon)):
+            a, b = polygon[k - 1], polygon[k]
+            if inside[k - 1] != inside[k]:
+                kept.append(a + (b - a) * (most - a[axis]) / (b[axis] - a[axis]))
+            if inside[k]:
+                kept.append(b)
+        if len(kept) < 3:
+            return numpy.empty((0, 2))
+        polygon = numpy.array(kept)
+    return polygon
+
+
+def area(polygon: numpy.ndarray) -> float:
+    x, y = polygon[:, 0], polygon[:, 1]
+    return abs(float(x @ numpy.roll(y, 1) - y @ numpy.roll(x, 1))) / 2
+
+
+WHOLE_ENOUGH, LARGE_ENOUGH = 0.15, 0.06  # parts: of the thing that is seen, of the picture that it fills
+
+
+def box_of(camera: Camera, corners: numpy.ndarray) -> tuple[float, ...] | None:
+    """What the picture shows of it, and whether that is enough to tell what it is; or nothing where it shows none of it."""
+    if camera.seen(corners)[:, 2].min() < NEAR * 0.9:
         return None
     at = camera.pixels(corners)
-    (x0, y0), (x1, y1) = at.min(0), at.max(0)
-    a0, b0, a1, b1 = max(x0, 0), max(y0, 0), min(x1, camera.size[0]), min(y1, camera.size[1])
-    if a1 <= a0 or b1 <= b0 or (a1 - a0) * (b1 - b0) < least * (x1 - x0) * (y1 - y0):
+    shown = within(at, camera.size)
+    if not len(shown):
         return None
-    return a0, b0, a1, b1
+    part = area(shown)
+    (x0, y0), (x1, y1) = shown.min(0), shown.max(0)
+    if min(x1 - x0, y1 - y0) < 3:
+        return None
+    filled = part / (camera.size[0] * camera.size[1])
+    enough = filled < 0.97 and (part > WHOLE_ENOUGH * area(at) or filled > LARGE_ENOUGH)
+    return x0 / DRAWN_LARGER, y0 / DRAWN_LARGER, x1 / DRAWN_LARGER, y1 / DRAWN_LARGER, float(enough)
 
 
 def ahead_of(camera: Camera, placed: Placed) -> tuple[float, float] | None:
@@ -125,6 +157,7 @@ def part_of(placed: Placed, start: float, end: float) -> Placed:
 
 
 UP = numpy.array([0.0, 1.0, 0.0])
+LEAF_THICK = 0.045
 
 
 def lay(rng, pixels: numpy.ndarray, camera: Camera, height: float, colours, light: float) -> None:
@@ -138,7 +171,11 @@ def lay(rng, pixels: numpy.ndarray, camera: Camera, height: float, colours, ligh
         if rng.random() < 0.6:
             for at in numpy.arange(0, s.height, step):
                 s.shade(0, at, s.width, 0.05, line)
-    surfaces.blotches(rng, s.pixels, 0.12, 5)
+    blotches(rng, s.pixels, 0.12, 5)
+    if rng.random() < 0.6:
+        textures.rough(rng, s.pixels, rng.uniform(0.03, 0.2), rng.uniform(6, 40))
+    if rng.random() < 0.3:
+        textures.BEYOND.grain(rng, s.pixels, rng.uniform(0.05, 0.4))
     width, height_px = camera.size
     x, y = numpy.meshgrid((numpy.arange(width) + 0.5 - width / 2) / camera.focal, -(numpy.arange(height_px) + 0.5 - height_px / 2) / camera.focal)
     ray = numpy.stack([x, y, numpy.ones_like(x)], 2) @ camera.matrix
@@ -146,26 +183,6 @@ def lay(rng, pixels: numpy.ndarray, camera: Camera, height: float, colours, ligh
     seen = (far > 0) & (numpy.abs(ray[..., 1]) > 1e-2)
     across, down = ((far * ray[..., 0] + camera.eye[0]) * s.scale).astype(int) % s.pixels.shape[1], ((far * ray[..., 2] + camera.eye[2]) * s.scale).astype(int) % s.pixels.shape[0]
     pixels[seen] = (s.pixels[down, across] * light)[seen]
-
-
-def furniture(rng, canvas: Image.Image, camera: Camera, room: Room, count: int) -> None:
-    """Boxes on the floor, far ones first."""
-    boxes = []
-    for _ in range(count):
-        w, h, d = rng.uniform(0.25, 1.6), rng.uniform(0.25, 1.0), rng.uniform(0.25, 0.9)
-        x, z = rng.uniform(room.left, max(room.left + 0.1, room.right - w)), rng.uniform(-1.0, max(0.0, room.ahead - d))
-        boxes.append((math.hypot(x + w / 2 - camera.eye[0], z - camera.eye[2]), z, x, w, h, d, rng.uniform(0, 0.5) if rng.random() < 0.4 else 0.0))
-    draw = ImageDraw.Draw(canvas)
-    for away, z, x, w, h, d, foot in sorted(boxes, reverse=True):
-        if away < 0.9:
-            continue
-        colour = pick(rng, WOODS + PAINTS + WALLS)
-        p = lambda i, j, k: (x + i * w, foot + j * h, z + k * d)
-        faces = [([p(0, 0, 0), p(0, 1, 0), p(0, 1, 1), p(0, 0, 1)], 0.7), ([p(1, 0, 0), p(1, 1, 0), p(1, 1, 1), p(1, 0, 1)], 0.75),
-                 ([p(0, 1, 0), p(1, 1, 0), p(1, 1, 1), p(0, 1, 1)], 1.1), ([p(0, 0, 0), p(1, 0, 0), p(1, 1, 0), p(0, 1, 0)], 0.92)]
-        for points, light in faces:
-            if camera.seen(points)[:, 2].min() > NEAR:
-                draw.polygon([tuple(q) for q in camera.pixels(points)], fill=tuple(int(c) for c in numpy.clip(colour * light, 0, 255)))
 
 
 def clutter(rng, canvas: Image.Image, count: int) -> None:
@@ -181,6 +198,11 @@ def clutter(rng, canvas: Image.Image, count: int) -> None:
             draw.ellipse([x - 0.16 * tall, foot - 0.86 * tall, x + 0.16 * tall, foot - 0.4 * tall], fill=tone(shirt))
             draw.ellipse([x - 0.065 * tall, foot - tall, x + 0.065 * tall, foot - 0.82 * tall], fill=tone(skin))
             continue
+        if rng.random() < 0.6:
+            reach = rng.uniform(0.06, 0.3) * height
+            textures.leaves(rng, draw, rng.uniform(0, width), rng.uniform(0.1, 1.05) * height, reach, int(rng.integers(40, 220)),
+                            [(60, 100, 46), (90, 120, 60), (40, 70, 40), (130, 140, 80), (120, 70, 70), (90, 70, 50)], reach * rng.uniform(0.04, 0.14))
+            continue
         x, y, r = rng.uniform(0, width), rng.uniform(0.4, 1.05) * height, rng.uniform(0.03, 0.14) * height
         colour = pick(rng, [(40, 90, 40), (70, 110, 50), (60, 50, 44), (120, 60, 60), (40, 40, 60), (200, 170, 140)], 20)
         for _ in range(rng.integers(3, 16)):
@@ -193,8 +215,10 @@ def photographed(rng, canvas: Image.Image, size: tuple[int, int]) -> numpy.ndarr
     picture = canvas.resize(size, Image.Resampling.BOX)
     if rng.random() < 0.5:
         picture = picture.filter(ImageFilter.GaussianBlur(rng.uniform(0.2, 1.3)))
-    pixels = numpy.asarray(picture, numpy.float32)
+    pixels = numpy.array(picture, numpy.float32)
     height, width = pixels.shape[:2]
+    if rng.random() < 0.5:
+        textures.rough(rng, pixels, rng.uniform(0.01, 0.06), rng.uniform(8, 40))
     y, x = numpy.mgrid[-1:1:height * 1j, -1:1:width * 1j].astype(numpy.float32)
     light = 1 + rng.uniform(-0.35, 0.35) * x + rng.uniform(-0.3, 0.3) * y
     for _ in range(rng.integers(0, 3)):  # lamps and shadows
@@ -209,25 +233,28 @@ def photographed(rng, canvas: Image.Image, size: tuple[int, int]) -> numpy.ndarr
 
 @dataclasses.dataclass
 class Room:
-    """Walls with what is on them, open leaves, and the space between: x from `left` to `right`, z up to `ahead`."""
+    """Walls with what is on them, open leaves, and the space between: x from `left` to `right`, z from `behind` to `ahead`."""
     outside: bool
     left: float
     right: float
+    behind: float
     ahead: float
     high: float
     walls: list[Placed]
     leaves: list[Placed]
+    edges: list[Placed] = dataclasses.field(default_factory=list)  # of the leaves, by number: how thick they are
 
 
 def build(rng: numpy.random.Generator) -> Room:
     outside = bool(rng.random() < 0.35)
     half, ahead = rng.choice([rng.uniform(0.65, 1.2), rng.uniform(1.0, 3.2)]), rng.uniform(1.5, 6.0)
-    room = Room(outside, -half, half, ahead, rng.uniform(2.35, 3.2), [], [])
+    room = Room(outside, -half, half, -rng.uniform(0.8, 2.5), ahead, rng.uniform(2.35, 3.2), [], [])
     if outside:
         room.left, room.right, room.ahead, room.high = -5.0, 5.0, 6.0, rng.uniform(2.8, 6.0)
     feet = [((room.left, 0, room.ahead), (room.right, 0, room.ahead))]
     if not outside:
-        feet += [((room.left, 0, -1.5), (room.left, 0, ahead)), ((room.right, 0, ahead), (room.right, 0, -1.5))]
+        feet += [((room.left, 0, room.behind), (room.left, 0, ahead)), ((room.right, 0, ahead), (room.right, 0, room.behind)),
+                 ((room.right, 0, room.behind), (room.left, 0, room.behind))]
     for start, end in (numpy.array(foot, float) for foot in feet):
         length = float(numpy.linalg.norm(end - start))
         along = (end - start) / length
@@ -239,7 +266,11 @@ def build(rng: numpy.random.Generator) -> Room:
             hinge = wall.origin + along * (opening.left if hinge_left else opening.left + opening.width)
             leaf = Surface(rng, opening.width, opening.height)
             surfaces.paint_leaf(leaf, 0, 0, leaf.width, leaf.height, True)
-            room.leaves.append(Placed(leaf, hinge, along * math.cos(angle) * (1 if hinge_left else -1) + into * math.sin(angle), UP))
+            way = along * math.cos(angle) * (1 if hinge_left else -1) + into * math.sin(angle)
+            room.leaves.append(Placed(leaf, hinge, way, UP))
+            edge = Surface(rng, LEAF_THICK, opening.height, 200)
+            edge.pixels[...] = leaf.pixels.reshape(-1, 3).mean(0) * rng.uniform(0.5, 1.1)
+            room.edges.append(Placed(edge, hinge + way * leaf.width, numpy.array([way[2], 0, -way[0]]), UP))
         room.walls.append(wall)
     return room
 
@@ -247,7 +278,7 @@ def build(rng: numpy.random.Generator) -> Room:
 def targets(room: Room) -> list[tuple[numpy.ndarray, numpy.ndarray]]:
     """Where doors are: the middle of each at the height of its handle, and the direction that it faces."""
     found = []
-    for placed, things in [(wall, wall.surface.things) for wall in room.walls] + [(leaf, [surfaces.Thing("door", 0, 0, leaf.surface.width, 2.0)]) for leaf in room.leaves]:
+    for placed, things in [(wall, wall.surface.things) for wall in room.walls] + [(leaf, [Thing("door", 0, 0, leaf.surface.width, 2.0)]) for leaf in room.leaves]:
         for thing in things:
             if thing.kind == "door":
                 found.append((placed.origin + placed.along * (thing.left + thing.width / 2) + UP * (thing.bottom + 1.05), numpy.array([placed.along[2], 0, -placed.along[0]])))
@@ -260,16 +291,18 @@ def aimed(rng, room: Room, size: tuple[int, int]) -> Camera:
     doors = targets(room)
     if doors and rng.random() < 0.92:
         at, faces = doors[rng.integers(len(doors))]
-        away = rng.choice([rng.uniform(0.5, 1.4), rng.uniform(1.2, 3.0), rng.uniform(2.5, 6.5)], p=[0.2, 0.45, 0.35])
+        away = rng.choice([rng.uniform(0.3, 0.6), rng.uniform(0.5, 1.4), rng.uniform(1.2, 3.0), rng.uniform(2.5, 6.5)], p=[0.08, 0.2, 0.4, 0.32])
         slant = rng.normal(0, 0.5)
         eye = at + away * (faces * math.cos(slant) + numpy.array([faces[2], 0, -faces[0]]) * math.sin(slant))
         at = at + rng.normal(0, 0.25, 3) * away * math.tan(field / 2) * [1, 0.5, 1]
+        if rng.random() < 0.25:  # something else is meant, the door is at the picture's side
+            at = at + rng.choice([-1, 1]) * rng.uniform(0.5, 1.1) * away * math.tan(field / 2) * numpy.array([faces[2], 0, -faces[0]])
     else:
         eye, at = numpy.array([0, 0, 0.0]), numpy.array([rng.uniform(room.left, room.right), 1.2, room.ahead])
     margin = 0.2
-    eye = numpy.array([numpy.clip(eye[0], room.left + margin, room.right - margin), rng.uniform(0.9, 1.75), min(eye[2], room.ahead - 0.4)])
+    eye = numpy.array([numpy.clip(eye[0], room.left + margin, room.right - margin), rng.uniform(0.9, 1.75), numpy.clip(eye[2], room.behind + margin, room.ahead - 0.3)])
     way = at - eye
-    flat = max(0.3, math.hypot(way[0], way[2]))
+    flat = max(0.2, math.hypot(way[0], way[2]))
     return Camera(size, eye, field, math.atan2(way[0], way[2]), 0.8 * math.atan2(way[1], flat) + rng.normal(0, 0.05), rng.normal(0, 0.035))
 
 
@@ -283,6 +316,8 @@ def render(rng: numpy.random.Generator, room: Room, longest: int) -> Labelled:
     lay(rng, pixels, camera, 0.0, WALLS + WOODS + [(90, 90, 92), (120, 116, 108), (80, 110, 60)], rng.uniform(0.5, 0.95))
     if not room.outside:
         lay(rng, pixels, camera, room.high, [(240, 240, 238), (225, 222, 215), (200, 200, 200)], rng.uniform(0.6, 1.05))
+    if room.outside:
+        textures.BEYOND.fill(rng, pixels, 0.35)
     canvas = Image.fromarray(numpy.clip(pixels, 0, 255).astype(numpy.uint8))
     doors, cupboards = [], []
     for wall in room.walls:
@@ -292,21 +327,29 @@ def render(rng: numpy.random.Generator, room: Room, longest: int) -> Labelled:
         put(canvas, camera, part_of(wall, *seen), rng.uniform(0.65, 1.05))
         for thing in wall.surface.things:
             left, right = max(thing.left, seen[0] + 0.02), min(thing.left + thing.width, seen[1] - 0.02)
-            if right - left > 0.3 * thing.width:
+            if right - left > 0.08:
                 (doors if thing.kind == "door" else cupboards).append(wall.corners(left, thing.bottom, right - left, thing.height))
-    for leaf in sorted(room.leaves, key=lambda placed: -camera.seen(placed.whole())[:, 2].mean()):
-        put(canvas, camera, leaf, rng.uniform(0.6, 1.0))
+    for leaf, edge in sorted(zip(room.leaves, room.edges, strict=True), key=lambda both: -camera.seen(both[0].whole())[:, 2].mean()):
+        light = rng.uniform(0.55, 1.0)
+        for part in sorted((leaf, edge), key=lambda placed: -camera.seen(placed.whole())[:, 2].mean()):
+            put(canvas, camera, part, light if part is leaf else light * rng.uniform(0.6, 1.1))
         doors.append(leaf.whole())
-    furniture(rng, canvas, camera, room, int(rng.integers(0, 4)) if rng.random() < 0.5 else 0)
-    clutter(rng, canvas, int(rng.integers(1, 4)) if rng.random() < 0.35 else 0)
-    boxes = lambda things: numpy.array([box for box in (box_of(camera, corners, 0.15) for corners in things) if box], numpy.float32).reshape(-1, 4) / DRAWN_LARGER
+    furniture.stand(rng, canvas, camera, room, int(rng.integers(1, 7)) if rng.random() < 0.6 else 0, NEAR)
+    clutter(rng, canvas, int(rng.integers(1, 5)) if rng.random() < 0.45 else 0)
+    for _ in range(int(rng.integers(1, 4)) if rng.random() < 0.35 else 0):
+        textures.BEYOND.obstacle(rng, canvas)
+    if rng.random() < (0.5 if room.outside else 0.25):
+        canvas = textures.sunlit(rng, canvas)
+    boxes = lambda things: numpy.array([box for box in (box_of(camera, corners) for corners in things) if box], numpy.float32).reshape(-1, 5)
     return Labelled(photographed(rng, canvas, told), boxes(doors), boxes(cupboards))
 
 
-VIEWS = 3  # of each room: painting its walls takes longer than looking at them
+VIEWS = 4  # of each room: painting its walls takes longer than looking at them
 
 
-def rendered(rng: numpy.random.Generator, count: int, longest: int) -> list[Labelled]:
+def rendered(rng: numpy.random.Generator, count: int, longest: int, beyond: list[numpy.ndarray] | None = None) -> list[Labelled]:
+    """`beyond`: pictures without doors, to be seen in glass, frames and openings."""
+    textures.BEYOND = textures.Beyond(beyond or [])
     pictures: list[Labelled] = []
     while len(pictures) < count:
         room = build(rng)

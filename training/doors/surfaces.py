@@ -1,101 +1,23 @@
-"""Walls with doors in them and with what is easily taken for doors, as flat pictures: a surface knows its size in metres, and what lies on it.
+"""Walls with doors in them and with what is easily taken for doors.
 
 Nothing here comes from photographs: colours, grain and wear are drawn by the random numbers of one generator, so that a seed repeats a picture.
 """
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy
 
-PIXELS_A_METRE = 72
-
-WOODS = [(96, 62, 36), (130, 86, 48), (158, 112, 66), (184, 142, 94), (72, 44, 28), (110, 52, 30), (146, 98, 70), (206, 172, 126)]
-PAINTS = [(238, 236, 230), (226, 222, 210), (246, 246, 246), (200, 204, 206), (40, 66, 104), (30, 84, 60), (132, 30, 30), (58, 58, 62), (24, 24, 28), (90, 120, 150),
-          (170, 60, 44), (210, 180, 60), (120, 140, 120), (70, 110, 120), (160, 160, 150), (104, 88, 120), (44, 120, 130), (222, 210, 180)]
-WALLS = [(232, 228, 220), (216, 206, 188), (240, 240, 238), (200, 196, 190), (222, 200, 160), (180, 190, 196), (206, 216, 200), (176, 150, 128), (150, 156, 160), (228, 214, 206),
-         (190, 120, 90), (120, 110, 104), (246, 236, 210), (160, 180, 204)]
-
-
-@dataclasses.dataclass
-class Thing:
-    """A rectangle of a surface, in metres from its lower left corner."""
-    kind: str  # "door" or "cupboard"
-    left: float
-    bottom: float
-    width: float
-    height: float
-
-
-class Surface:
-    def __init__(self, rng: numpy.random.Generator, width: float, height: float, scale: float = PIXELS_A_METRE):
-        self.rng, self.width, self.height, self.scale = rng, width, height, scale
-        self.pixels = numpy.empty((max(8, round(height * scale)), max(8, round(width * scale)), 3), numpy.float32)
-        self.things: list[Thing] = []
-
-    def part(self, left: float, bottom: float, width: float, height: float) -> numpy.ndarray:
-        rows, columns = self.pixels.shape[:2]
-        at = lambda metres, most: int(min(max(round(metres * self.scale), 0), most))
-        return self.pixels[at(self.height - bottom - height, rows):at(self.height - bottom, rows), at(left, columns):at(left + width, columns)]
-
-    def fill(self, left: float, bottom: float, width: float, height: float, colour) -> None:
-        self.part(left, bottom, width, height)[...] = colour
-
-    def rim(self, left: float, bottom: float, width: float, height: float, thick: float, colour) -> None:
-        """A frame inside the rectangle."""
-        self.fill(left, bottom, thick, height, colour)
-        self.fill(left + width - thick, bottom, thick, height, colour)
-        self.fill(left, bottom, width, thick, colour)
-        self.fill(left, bottom + height - thick, width, thick, colour)
-
-    def relief(self, left: float, bottom: float, width: float, height: float, depth: float, colour) -> None:
-        """A field that is sunk in or stands out: lit from above and the left, or the other way round."""
-        line = 1.3 / self.scale
-        light, dark = numpy.asarray(colour) * (1 + depth), numpy.asarray(colour) * (1 - depth)
-        self.fill(left, bottom, line, height, dark)
-        self.fill(left, bottom + height - line, width, line, dark)
-        self.fill(left + width - line, bottom, line, height, light)
-        self.fill(left, bottom, width, line, light)
-
-    def shade(self, left: float, bottom: float, width: float, height: float, factor: float) -> None:
-        self.part(left, bottom, width, height)[...] *= factor
-
-
-def pick(rng, colours, spread: float = 14.0) -> numpy.ndarray:
-    return numpy.clip(numpy.asarray(colours[rng.integers(len(colours))]) + rng.normal(0, spread, 3) + rng.normal(0, spread), 4, 252).astype(numpy.float32)
-
-
-def grain(rng, part: numpy.ndarray, strength: float, along: str = "y") -> None:
-    """Wood: streaks along one direction."""
-    rows, columns = part.shape[:2]
-    if rows < 2 or columns < 2:
-        return
-    if along == "y":
-        streaks = numpy.repeat(numpy.cumsum(rng.normal(0, 1, (rows // 24 + 2, columns)), 0), 24, 0)[:rows]
-    else:
-        streaks = numpy.repeat(numpy.cumsum(rng.normal(0, 1, (rows, columns // 24 + 2)), 1), 24, 1)[:, :columns]
-    part *= (1 + strength * numpy.tanh(streaks / 2))[..., None].astype(numpy.float32)
-
-
-def blotches(rng, part: numpy.ndarray, strength: float, cells: int = 6) -> None:
-    """Light and wear: smooth in two directions."""
-    rows, columns = part.shape[:2]
-    if rows < 2 or columns < 2:
-        return
-    coarse = rng.normal(0, strength, (cells, cells))
-    y, x = numpy.linspace(0, cells - 1.001, rows), numpy.linspace(0, cells - 1.001, columns)
-    top, left = y.astype(int), x.astype(int)
-    fy, fx = (y - top)[:, None], (x - left)[None]
-    smooth = (coarse[top][:, left] * (1 - fx) + coarse[top][:, left + 1] * fx) * (1 - fy) + (coarse[top + 1][:, left] * (1 - fx) + coarse[top + 1][:, left + 1] * fx) * fy
-    part *= (1 + smooth)[..., None].astype(numpy.float32)
+import textures
+from fronts import adorn, arched, surround
+from surface import PAINTS, WALLS, WOODS, Surface, Thing, blotches, grain, pick
 
 
 def paint_wall(s: Surface, outside: bool) -> None:
     rng = s.rng
     colour = pick(rng, WALLS)
     s.pixels[...] = colour
-    way = rng.choice(["plain", "brick", "tiles", "boards", "stripes", "dado"], p=[0.25, 0.35, 0.15, 0.15, 0.0, 0.1] if outside else [0.6, 0.06, 0.1, 0.06, 0.06, 0.12])
+    way = rng.choice(["plain", "brick", "tiles", "boards", "stripes", "dado", "stone"],
+                     p=[0.33, 0.22, 0.07, 0.13, 0.0, 0.07, 0.18] if outside else [0.6, 0.06, 0.09, 0.06, 0.06, 0.11, 0.02])
     if way in ("brick", "tiles"):
         high, wide = (0.075, 0.24) if way == "brick" else (rng.uniform(0.1, 0.4),) * 2
         joint = colour * rng.uniform(0.6, 1.25)
@@ -121,9 +43,18 @@ def paint_wall(s: Surface, outside: bool) -> None:
         height = rng.uniform(0.8, 1.3)
         s.fill(0, 0, s.width, height, pick(rng, WALLS + WOODS))
         s.fill(0, height, s.width, 0.04, pick(rng, PAINTS))
+    elif way == "stone":
+        s.pixels[...] = pick(rng, [(186, 176, 160), (150, 146, 140), (120, 112, 100), (196, 170, 130)])
+        textures.stones(rng, s.pixels, s.scale)
     if not outside and rng.random() < 0.7:
         s.fill(0, 0, s.width, rng.uniform(0.06, 0.14), pick(rng, PAINTS[:4] + WOODS))
     blotches(rng, s.pixels, rng.uniform(0.01, 0.1))
+    if rng.random() < (0.8 if outside else 0.3):
+        textures.rough(rng, s.pixels, rng.uniform(0.02, 0.14 if outside else 0.06), rng.uniform(4, 30))
+    if rng.random() < 0.12:
+        textures.BEYOND.grain(rng, s.pixels, rng.uniform(0.03, 0.25))
+    if outside and rng.random() < 0.06:
+        textures.scribbles(rng, s.pixels, pick(rng, PAINTS, 30), int(rng.integers(4, 24)))
 
 
 def glass(s: Surface, left: float, bottom: float, width: float, height: float) -> None:
@@ -136,6 +67,8 @@ def glass(s: Surface, left: float, bottom: float, width: float, height: float) -
     else:
         part[...] = pick(rng, [(214, 226, 236), (240, 244, 248), (150, 180, 150), (190, 200, 190)], 14)
     blotches(rng, part, rng.uniform(0.05, 0.4), 4)
+    if textures.BEYOND.fill(rng, part, 0.45, rng.uniform(0.2, 1.0)):
+        return
     # What is mirrored or seen behind: a few edges of any direction.
     for _ in range(rng.integers(0, 4)):
         x, w = sorted(rng.uniform(0, 1, 2) * width)
@@ -231,6 +164,7 @@ def paint_leaf(s: Surface, left: float, bottom: float, width: float, height: flo
     if style["has_handle"]:
         x = left + width - 0.07 if hinge_left else left + 0.07
         handle(s, x, bottom + style["handle"] * min(1.0, height / 2), -1.0 if hinge_left else 1.0)
+    adorn(s, left, bottom, width, height)
     return style
 
 
@@ -239,14 +173,19 @@ def paint_door(s: Surface, left: float, width: float, height: float, bottom: flo
     rng = s.rng
     frame = rng.choice([0.0, 0.05, 0.09, 0.14], p=[0.12, 0.3, 0.38, 0.2])
     colour = pick(rng, WOODS + PAINTS[:4] * 3 + WALLS[:3])
-    if frame:
+    before = s.part(left, bottom, width, height).copy()
+    if rng.random() < 0.12:
+        surround(s, left, bottom, width, height)
+        before = s.part(left, bottom, width, height).copy()
+    bow = not opened and rng.random() < 0.1
+    if frame and not bow:
         s.fill(left - frame, bottom, width + 2 * frame, height + frame, colour)
         line = 1.5 / s.scale
         s.fill(left - frame, bottom, line, height + frame, colour * rng.uniform(0.55, 0.95))
         s.fill(left + width + frame - line, bottom, line, height + frame, colour * rng.uniform(0.55, 0.95))
         s.fill(left - frame, bottom + height + frame - line, width + 2 * frame, line, colour * rng.uniform(0.55, 1.05))
     over = 0.0
-    if rng.random() < 0.14 and s.height > height + 0.5:  # a fanlight above
+    if not bow and rng.random() < 0.14 and s.height > height + 0.5:  # a fanlight above
         over = rng.uniform(0.25, 0.45)
         s.fill(left - frame, bottom + height, width + 2 * frame, over + frame, colour)
         panes(s, left, bottom + height + 0.05, width, over - 0.05, (int(rng.integers(1, 4)), 1), colour)
@@ -259,6 +198,8 @@ def paint_door(s: Surface, left: float, width: float, height: float, bottom: flo
             blotches(rng, part, 0.3, 4)
             floor = height * rng.uniform(0.05, 0.3)
             s.fill(left, bottom, width, floor, pick(rng, WOODS + WALLS) * 0.7)
+            if textures.BEYOND.fill(rng, part, 0.5):
+                return
             if rng.random() < 0.5:
                 x = rng.uniform(0, 0.7) * width
                 s.fill(left + x, bottom, rng.uniform(0.1, 0.4) * width, rng.uniform(0.3, 0.9) * height, pick(rng, PAINTS + WOODS) * 0.7)
@@ -275,6 +216,8 @@ def paint_door(s: Surface, left: float, width: float, height: float, bottom: flo
     for side in (left, left + width - gap):
         s.shade(side, bottom, gap, height, dark)
     s.shade(left, bottom + height - gap, width, gap, dark)
+    if bow:
+        arched(s, before, left, bottom, width, height, colour)
     # People mark leaves, each of its own, without the frame.
     leaves = 2 if width > 1.25 else 1
     s.things += [Thing("door", left + k * width / leaves, bottom, width / leaves, height) for k in range(leaves)]
@@ -348,19 +291,51 @@ def paint_picture(s: Surface, left: float, width: float, bottom: float, height: 
     s.fill(left, bottom, width, height, pick(rng, PAINTS + WOODS))
     part = s.part(left + 0.04, bottom + 0.04, width - 0.08, height - 0.08)
     part[...] = pick(rng, WALLS + PAINTS)
+    if textures.BEYOND.fill(rng, part, 0.6):
+        return
     for _ in range(rng.integers(0, 6)):
         x, y = rng.uniform(0, 0.8) * width, rng.uniform(0, 0.8) * height
         s.fill(left + x, bottom + y, rng.uniform(0.1, 0.3) * width, rng.uniform(0.1, 0.3) * height, pick(rng, PAINTS))
+
+
+def paint_panel(s: Surface, left: float, width: float) -> None:
+    """Upright and none the less no door: a mirror, a curtain, a board, a heater, a shutter."""
+    rng = s.rng
+    way = rng.choice(["mirror", "curtain", "board", "heater", "panel"])
+    if way == "mirror":
+        bottom, height = rng.uniform(0.1, 1.0), rng.uniform(0.8, 1.7)
+        s.fill(left, bottom, width, height, pick(rng, WOODS + PAINTS))
+        glass(s, left + 0.05, bottom + 0.05, width - 0.1, height - 0.1)
+    elif way == "curtain":
+        height = rng.uniform(1.6, 2.4)
+        bottom = rng.uniform(0.0, 0.4)
+        s.fill(left, bottom, width, height, pick(rng, PAINTS + WALLS, 24))
+        part = s.part(left, bottom, width, height)
+        folds = numpy.cumsum(rng.normal(0, 1, part.shape[1])) * 0.5
+        part *= (1 + 0.22 * numpy.sin(folds)).astype(numpy.float32)[None, :, None]
+    elif way == "board":
+        s.fill(left, 0.9, width, 1.1, pick(rng, WOODS + PAINTS))
+        s.fill(left + 0.04, 0.94, width - 0.08, 1.02, pick(rng, [(244, 246, 246), (40, 70, 56), (180, 140, 90)]))
+        for _ in range(int(rng.integers(0, 9))):
+            s.fill(left + rng.uniform(0.05, 0.8) * width, rng.uniform(1.0, 1.7), rng.uniform(0.1, 0.25), rng.uniform(0.1, 0.25), pick(rng, PAINTS[:4] + PAINTS))
+    elif way == "heater":
+        height = rng.uniform(0.4, 0.9)
+        s.fill(left, 0.12, width, height, pick(rng, PAINTS[:4]))
+        for x in numpy.arange(0.0, width, 0.07):
+            s.shade(left + x, 0.12, 0.02, height, 0.75)
+    else:
+        s.fill(left, 0.0, width, s.height, pick(rng, WALLS + WOODS + PAINTS))
+        grain(rng, s.part(left, 0.0, width, s.height), rng.uniform(0.0, 0.12))
 
 
 def furnish(s: Surface, outside: bool) -> list[Thing]:
     """Doors and other things from left to right. Returns the openings whose leaf stands out of the wall."""
     rng = s.rng
     opened: list[Thing] = []
-    chance = numpy.array([0.4, 0.0, 0.34, 0.04, 0.06, 0.16] if outside else [0.34, 0.16, 0.12, 0.12, 0.06, 0.2])
+    chance = numpy.array([0.36, 0.0, 0.34, 0.04, 0.06, 0.16, 0.04] if outside else [0.32, 0.15, 0.11, 0.11, 0.06, 0.15, 0.1])
     x = rng.uniform(0.0, 0.9)
     while x < s.width - 0.5:
-        kind = rng.choice(["door", "cupboards", "window", "picture", "arch", "nothing"], p=chance)
+        kind = rng.choice(["door", "cupboards", "window", "picture", "arch", "nothing", "panel"], p=chance)
         if kind == "door":
             width = rng.uniform(0.7, 1.05) if rng.random() < 0.75 else rng.uniform(1.3, 1.9)
             height = min(s.height - 0.1, rng.uniform(1.95, 2.3) + (rng.uniform(0, 0.5) if outside else 0))
@@ -381,6 +356,9 @@ def furnish(s: Surface, outside: bool) -> list[Thing]:
         elif kind == "picture":
             width = rng.uniform(0.3, 1.2)
             paint_picture(s, x, width, rng.uniform(1.0, 1.4), rng.uniform(0.3, 0.9))
+        elif kind == "panel":
+            width = rng.uniform(0.4, 1.6)
+            paint_panel(s, x, width)
         elif kind == "arch":
             width = rng.uniform(0.8, 1.6)
             s.fill(x, 0, width, rng.uniform(2.0, 2.4), pick(rng, WALLS + [(30, 28, 26)]) * rng.uniform(0.3, 0.95))
@@ -390,4 +368,5 @@ def furnish(s: Surface, outside: bool) -> list[Thing]:
         x += width + rng.uniform(0.05, 0.9)
     if rng.random() < 0.3:  # a switch, a fire extinguisher, a plate
         s.fill(rng.uniform(0, s.width), rng.uniform(0.9, 1.6), rng.uniform(0.06, 0.2), rng.uniform(0.06, 0.4), pick(rng, PAINTS))
+    textures.shaded_corners(rng, s.pixels)
     return opened

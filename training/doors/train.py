@@ -1,16 +1,16 @@
 """Trains the network that finds doors. usage:
 
-    train.py scenes --count N --seed S --out scenes.pt          renders pictures
-    train.py show --count N --seed S --out DIR                  writes some of them as files, with labels, to be looked at and to test with
-    train.py begin --scenes scenes.pt --seconds T --out a.pt    learns from rendered pictures alone
+    train.py scenes --count N --seed S [--plain DIR] --out scenes.pt      renders pictures
+    train.py show --count N --seed S [--plain DIR] --out DIR              writes some of them as files, with labels, to be looked at and to test with
+    train.py begin --scenes a.pt b.pt [--plain DIR] --seconds T --out a.pt    learns from rendered pictures, and from photographs without doors
     train.py judge --from a.pt --photographs DIR [--half held-out]
     train.py cross --from a.pt --scenes scenes.pt --photographs DIR --seconds T --folds K --out cross.pt
     train.py finish --from a.pt --scenes scenes.pt --photographs DIR --seconds T --out b.pt      learns from the whole half to build with
     train.py join --scenes scenes.pt --photographs DIR --cross cross.pt --out b.pt               or: the mean of the networks of `cross`, for nothing
     train.py export --from b.pt --cross cross.pt --out doors.onnx
 
-Seconds are of one core, not of the clock on the wall. `cross` learns from a part of the half to build with and looks at the rest of it, in turn: its
-figures and its calibration come from pictures that the network in question has not seen. Nothing but `judge --half held-out` opens the other half.
+DIR of --plain has photographs without doors. Seconds are of one core, not of the clock on the wall. `cross` learns from a part of the half to build
+with and looks at the rest of it, in turn: its figures and its calibration come from pictures that the network in question has not seen. Nothing but `judge --half held-out` opens the other half.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ import network
 import pictures
 import scenes
 
-PHOTOGRAPH_SIDE, SCENE_SIDE = 224, 192
+PHOTOGRAPH_SIDE, SCENE_SIDE, BEYOND_SIDE = 224, 192, 320
 BATCH = 16
-PASTED = 0.3  # of the views, into which a door of another one is put
+PASTED, HIDDEN = 0.3, 0.25  # of the views: into which a door of another one is put, of which a part is hidden
 
 
 class Average:
@@ -51,8 +51,8 @@ class Average:
                     mine.copy_(other)
 
 
-def learn(net: network.Doors, sources: list[tuple[pictures.Set, int]], seconds: float, rate: float, name: str, keep: pathlib.Path | None = None) -> network.Doors:
-    """`sources`: sets, and how many of each batch come from them."""
+def learn(net: network.Doors, of_all: list[tuple[pictures.Set, int]], seconds: float, rate: float, name: str, keep: pathlib.Path | None = None) -> network.Doors:
+    """`of_all`: sets, and how many of each batch come from them."""
     begun, step, last = time.process_time(), 0, 0.0
     net.train()
     average = Average(net)
@@ -61,8 +61,9 @@ def learn(net: network.Doors, sources: list[tuple[pictures.Set, int]], seconds: 
     while (done := (time.process_time() - begun) / seconds) < 1:
         for group in teacher.param_groups:
             group["lr"] = rate * min(1.0, (step + 1) / 60) * (0.5 + 0.5 * math.cos(math.pi * done) * 0.98 + 0.01)
-        shown = [pictures.views(of, torch.randint(len(of), (count,)), True) for of, count in sources]
+        shown = [pictures.views(of, torch.randint(len(of), (count,)), True) for of, count in of_all if count]
         views, boxes = pictures.pasted(torch.cat([one[0] for one in shown]), torch.cat([one[1] for one in shown]), PASTED)
+        views, boxes = pictures.hidden_in_part(views, boxes, HIDDEN)
         loss = network.loss_of(net(views), boxes)
         teacher.zero_grad()
         loss.backward()
@@ -153,6 +154,19 @@ def calibration(sure: numpy.ndarray, right: numpy.ndarray) -> tuple[float, float
     return float(w[0]), float(w[1])
 
 
+def drawn(words) -> pictures.Set:
+    return pictures.joined([torch.load(path) for path in words.scenes])
+
+
+def sources(words, photographs: pictures.Set | None = None) -> list[tuple[pictures.Set, int]]:
+    """What a batch is made of."""
+    plain = pictures.packed(SCENE_SIDE, [(picture, []) for picture in pictures.without_doors(words.plain, SCENE_SIDE)])
+    least = 2 if len(plain) else 0
+    if photographs is None:
+        return [(drawn(words), BATCH - least), (plain, least)]
+    return [(photographs, 8), (drawn(words), 8 - least), (plain, least)]
+
+
 def restored(path: pathlib.Path) -> network.Doors:
     net = network.Doors()
     net.load_state_dict(torch.load(path))
@@ -161,12 +175,12 @@ def restored(path: pathlib.Path) -> network.Doors:
 
 def cross(words) -> None:
     files = pictures.half_of(words.photographs, "built-with")
-    photographs, drawn = pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE), torch.load(words.scenes)
+    photographs = pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE)
     folds, there, alone = [], truths(photographs), [None] * len(files)
     for fold in range(words.folds):
         rest = [k for k in range(len(files)) if k % words.folds != fold]
         seen = [k for k in range(len(files)) if k % words.folds == fold]
-        net = learn(restored(words.start), [(photographs.only(rest), 10), (drawn, 6)], words.seconds, words.rate, f"fold {fold}")
+        net = learn(restored(words.start), sources(words, photographs.only(rest)), words.seconds, words.rate, f"fold {fold}")
         folds.append((net, seen))
         for k, found in zip(seen, detections(net, photographs.only(seen), mirrored=False), strict=True):
             alone[k] = found
@@ -194,11 +208,11 @@ def join(words) -> None:
             layer.reset_running_stats()
             layer.momentum = None
     files = pictures.half_of(words.photographs, "built-with")
-    photographs, drawn = pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE), torch.load(words.scenes)
+    of_all = sources(words, pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE))
     net.train()
     with torch.no_grad():
         for _ in range(16):
-            shown = [pictures.views(of, torch.randint(len(of), (count,)), True)[0] for of, count in ((photographs, 10), (drawn, 6))]
+            shown = [pictures.views(of, torch.randint(len(of), (count,)), True)[0] for of, count in of_all if count]
             net(torch.cat(shown))
     torch.save(net.state_dict(), words.out)
 
@@ -207,18 +221,19 @@ def show(words) -> None:
     for part in ("images", "labels"):
         (words.out / part).mkdir(parents=True, exist_ok=True)
     rng = numpy.random.default_rng(words.seed)
-    for k, scene in enumerate(scenes.rendered(rng, words.count, 480)):
+    for k, scene in enumerate(scenes.rendered(rng, words.count, 480, pictures.without_doors(words.plain, BEYOND_SIDE))):
         height, width = scene.pixels.shape[:2]
         Image.fromarray(scene.pixels).save(words.out / "images" / f"{k:02}.jpg", quality=88)
-        lines = [f"0 {(x0 + x1) / 2 / width:.5f} {(y0 + y1) / 2 / height:.5f} {(x1 - x0) / width:.5f} {(y1 - y0) / height:.5f}" for x0, y0, x1, y1 in scene.doors]
+        lines = [f"0 {(x0 + x1) / 2 / width:.5f} {(y0 + y1) / 2 / height:.5f} {(x1 - x0) / width:.5f} {(y1 - y0) / height:.5f}" for x0, y0, x1, y1, enough in scene.doors if enough]
         (words.out / "labels" / f"{k:02}.txt").write_text("".join(line + "\n" for line in lines))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("step", choices=["scenes", "show", "begin", "judge", "cross", "finish", "join", "export"])
-    for name in ("out", "scenes", "photographs", "cross"):
+    for name in ("out", "plain", "photographs", "cross"):
         parser.add_argument(f"--{name}", type=pathlib.Path)
+    parser.add_argument("--scenes", type=pathlib.Path, nargs="+")
     parser.add_argument("--from", dest="start", type=pathlib.Path)
     parser.add_argument("--half", default="built-with")
     for name, default in (("count", 3000), ("seed", 1), ("folds", 3)):
@@ -229,12 +244,12 @@ def main() -> None:
     torch.manual_seed(words.seed)
     torch.set_num_threads(1)
     if words.step == "scenes":
-        torch.save(pictures.rendered(words.seed, words.count, SCENE_SIDE), words.out)
+        torch.save(pictures.rendered(words.seed, words.count, SCENE_SIDE, pictures.without_doors(words.plain, BEYOND_SIDE)), words.out)
     elif words.step == "show":
         show(words)
     elif words.step == "begin":
         start = restored(words.start) if words.start else network.Doors()
-        torch.save(learn(start, [(torch.load(words.scenes), BATCH)], words.seconds, words.rate, "rendered", words.out).state_dict(), words.out)
+        torch.save(learn(start, sources(words), words.seconds, words.rate, "rendered", words.out).state_dict(), words.out)
     elif words.step == "judge":
         of = pictures.photographs(words.photographs, pictures.half_of(words.photographs, words.half), PHOTOGRAPH_SIDE)
         tell(words.half, detections(restored(words.start), of), truths(of))
@@ -244,7 +259,7 @@ def main() -> None:
         join(words)
     elif words.step == "finish":
         of = pictures.photographs(words.photographs, pictures.half_of(words.photographs, "built-with"), PHOTOGRAPH_SIDE)
-        torch.save(learn(restored(words.start), [(of, 10), (torch.load(words.scenes), 6)], words.seconds, words.rate, "photographs", words.out).state_dict(), words.out)
+        torch.save(learn(restored(words.start), sources(words, of), words.seconds, words.rate, "photographs", words.out).state_dict(), words.out)
     else:
         learnt = torch.load(words.cross)
         net = network.Exported(restored(words.start), learnt["slope"], learnt["offset"]).eval()
