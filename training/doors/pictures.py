@@ -97,14 +97,14 @@ def views(of: Set, which: torch.Tensor, at_random: bool) -> tuple[torch.Tensor, 
     middle = size / 2
     flip, angle = torch.ones(count), torch.zeros(count)
     if at_random:
-        grow = torch.exp(uniform(count, -0.45, 0.6))[:, None]
+        grow = torch.exp(uniform(count, -0.55, 0.75))[:, None]
         stretch = torch.exp(torch.randn(count) * 0.12)[:, None]
         scale = scale * grow * torch.cat([stretch, 1 / stretch], 1)
         # Larger than the square: another part of it; smaller: elsewhere in the square.
         room = (size * scale - INPUT).abs() / 2 / scale + 0.06 * size
         middle = middle + (torch.rand(count, 2) * 2 - 1) * room
         flip = torch.where(torch.rand(count) < 0.5, -1.0, 1.0)
-        angle = torch.randn(count) * 0.035
+        angle = torch.randn(count) * 0.012  # little: a box round a turned box is larger than the door
     # From the square to the picture: turned, scaled, mirrored about the middle.
     cos, sin = torch.cos(angle), torch.sin(angle)
     a = torch.stack([torch.stack([cos * flip / scale[:, 0], -sin / scale[:, 0]], 1), torch.stack([sin * flip / scale[:, 1], cos / scale[:, 1]], 1)], 1)

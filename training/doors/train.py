@@ -6,11 +6,13 @@
     train.py judge --from a.pt --photographs DIR [--half held-out]
     train.py cross --from a.pt --scenes scenes.pt --photographs DIR --seconds T --folds K --out cross.pt
     train.py finish --from a.pt --scenes scenes.pt --photographs DIR --seconds T --out b.pt      learns from the whole half to build with
-    train.py join --scenes scenes.pt --photographs DIR --cross cross.pt --out b.pt               or: the mean of the networks of `cross`, for nothing
+    train.py between --from a.pt --photographs DIR --cross cross.pt --share S --out between.pt    goes a part of the way from a.pt to the networks of `cross`
+    train.py join --cross between.pt --out b.pt                   instead of finish: the mean of the networks of `cross` or `between`, for nothing
     train.py export --from b.pt --cross cross.pt --out doors.onnx
 
 DIR of --plain has photographs without doors. Seconds are of one core, not of the clock on the wall. `cross` learns from a part of the half to build
-with and looks at the rest of it, in turn: its figures and its calibration come from pictures that the network in question has not seen. Nothing but `judge --half held-out` opens the other half.
+with and looks at the rest of it, in turn: its figures and its calibration come from pictures that the network in question has not seen. Nothing but
+`judge --half held-out` opens the other half.
 """
 
 from __future__ import annotations
@@ -174,47 +176,53 @@ def restored(path: pathlib.Path) -> network.Doors:
 
 
 def cross(words) -> None:
-    files = pictures.half_of(words.photographs, "built-with")
-    photographs = pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE)
-    folds, there, alone = [], truths(photographs), [None] * len(files)
+    photographs = pictures.photographs(words.photographs, pictures.half_of(words.photographs, "built-with"), PHOTOGRAPH_SIDE)
+    nets = []
     for fold in range(words.folds):
-        rest = [k for k in range(len(files)) if k % words.folds != fold]
-        seen = [k for k in range(len(files)) if k % words.folds == fold]
-        net = learn(restored(words.start), sources(words, photographs.only(rest)), words.seconds, words.rate, f"fold {fold}")
-        folds.append((net, seen))
-        for k, found in zip(seen, detections(net, photographs.only(seen), mirrored=False), strict=True):
+        rest = [k for k in range(len(photographs)) if k % words.folds != fold]
+        nets.append(learn(restored(words.start), sources(words, photographs.only(rest)), words.seconds, words.rate, f"fold {fold}"))
+    held_against(photographs, nets, words.out)
+
+
+def between(words) -> None:
+    """From what each network of `cross` has learnt back towards what all knew before: what few photographs taught is worth a part of the way only."""
+    photographs = pictures.photographs(words.photographs, pictures.half_of(words.photographs, "built-with"), PHOTOGRAPH_SIDE)
+    held_against(photographs, [mixed([torch.load(words.start), part], [1 - words.share, words.share]) for part in torch.load(words.cross)["nets"]], words.out)
+
+
+def mixed(parts: list[dict], shares: list[float]) -> network.Doors:
+    net = network.Doors()
+    net.load_state_dict({name: sum(share * part[name] for part, share in zip(parts, shares, strict=True)) if value.dtype.is_floating_point else value
+                         for name, value in parts[0].items()})
+    return net.eval()
+
+
+def held_against(photographs: pictures.Set, nets: list[network.Doors], out: pathlib.Path) -> None:
+    """Each network looks at the photographs that it has not learnt from: the k-th at the k-th of every so many."""
+    there, alone, everything = truths(photographs), [None] * len(photographs), [None] * len(photographs)
+    seen = [list(range(fold, len(photographs), len(nets))) for fold in range(len(nets))]
+    for net, mine in zip(nets, seen, strict=True):
+        for k, found in zip(mine, detections(net, photographs.only(mine), mirrored=False), strict=True):
             alone[k] = found
     slope, offset = calibration(*verdicts(alone, there)[:2])
     print(f"calibration: slope {slope:.4f}, offset {offset:.4f}")
-    everything = [None] * len(files)
-    for fold, (net, seen) in enumerate(folds):
-        for k, found in zip(seen, detections(net, photographs.only(seen), slope, offset), strict=True):
+    for fold, (net, mine) in enumerate(zip(nets, seen, strict=True)):
+        for k, found in zip(mine, detections(net, photographs.only(mine), slope, offset), strict=True):
             everything[k] = found
-        tell(f"fold {fold}", [everything[k] for k in seen], [there[k] for k in seen])
+        tell(f"fold {fold}", [everything[k] for k in mine], [there[k] for k in mine])
     sure, right, doors = tell("all folds", everything, there)
-    for least in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7):
+    for least in (0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7):
         told = 1 / (1 + numpy.exp(-sure)) >= least
-        print(f"from {least}: recall {right[told].sum() / doors:.2f}, precision {right[told].mean() if told.any() else 0:.2f}, {(~right[told]).sum() / len(files):.2f} false a picture")
-    torch.save({"slope": slope, "offset": offset, "found": everything, "nets": [net.state_dict() for net, _ in folds]}, words.out)
+        recall, precision = right[told].sum() / doors, right[told].mean() if told.any() else 0
+        f1 = 2 * recall * precision / max(recall + precision, 1e-9)
+        print(f"from {least}: recall {recall:.2f}, precision {precision:.2f}, F1 {f1:.2f}, {(~right[told]).sum() / len(photographs):.2f} false a picture")
+    torch.save({"slope": slope, "offset": offset, "found": everything, "nets": [net.state_dict() for net in nets]}, out)
 
 
 def join(words) -> None:
-    """The mean of weights that began as the same ones and learnt from different photographs; what each layer usually sees is counted anew."""
+    """The mean of weights that began as the same ones and learnt from different photographs."""
     parts = torch.load(words.cross)["nets"]
-    net = network.Doors()
-    net.load_state_dict({name: sum(part[name] for part in parts) / len(parts) if value.dtype.is_floating_point else value for name, value in parts[0].items()})
-    for layer in net.modules():
-        if isinstance(layer, torch.nn.BatchNorm2d):
-            layer.reset_running_stats()
-            layer.momentum = None
-    files = pictures.half_of(words.photographs, "built-with")
-    of_all = sources(words, pictures.photographs(words.photographs, files, PHOTOGRAPH_SIDE))
-    net.train()
-    with torch.no_grad():
-        for _ in range(16):
-            shown = [pictures.views(of, torch.randint(len(of), (count,)), True)[0] for of, count in of_all if count]
-            net(torch.cat(shown))
-    torch.save(net.state_dict(), words.out)
+    torch.save(mixed(parts, [1 / len(parts)] * len(parts)).state_dict(), words.out)
 
 
 def show(words) -> None:
@@ -230,7 +238,7 @@ def show(words) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("step", choices=["scenes", "show", "begin", "judge", "cross", "finish", "join", "export"])
+    parser.add_argument("step", choices=["scenes", "show", "begin", "judge", "cross", "between", "finish", "join", "export"])
     for name in ("out", "plain", "photographs", "cross"):
         parser.add_argument(f"--{name}", type=pathlib.Path)
     parser.add_argument("--scenes", type=pathlib.Path, nargs="+")
@@ -238,7 +246,7 @@ def main() -> None:
     parser.add_argument("--half", default="built-with")
     for name, default in (("count", 3000), ("seed", 1), ("folds", 3)):
         parser.add_argument(f"--{name}", type=int, default=default)
-    for name, default in (("seconds", 600.0), ("rate", 2e-3)):
+    for name, default in (("seconds", 600.0), ("rate", 2e-3), ("share", 0.5)):
         parser.add_argument(f"--{name}", type=float, default=default)
     words = parser.parse_args()
     torch.manual_seed(words.seed)
@@ -255,6 +263,8 @@ def main() -> None:
         tell(words.half, detections(restored(words.start), of), truths(of))
     elif words.step == "cross":
         cross(words)
+    elif words.step == "between":
+        between(words)
     elif words.step == "join":
         join(words)
     elif words.step == "finish":
