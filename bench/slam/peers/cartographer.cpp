@@ -49,8 +49,8 @@ int main(int, char** words) {
   FLAGS_minloglevel = 2;
   auto const all = lapwing::bench::read_scans(words[1]);
   std::string const here = LAPWING_PEERS_FOLDER;
-  auto files =
-      absl::make_unique<carto::common::ConfigurationFileResolver>(std::vector<std::string>{here, CARTOGRAPHER_SETTINGS});
+  auto files = absl::make_unique<carto::common::ConfigurationFileResolver>(
+      std::vector<std::string>{here, CARTOGRAPHER_SETTINGS});
   auto const code = files->GetFileContentOrDie("cartographer.lua");
   carto::common::LuaParameterDictionary settings(code, std::move(files));
   auto const map_options = carto::mapping::CreateMapBuilderOptions(settings.GetDictionary("map_builder").get());

@@ -1,4 +1,5 @@
-// Karto (open_karto), as slam_toolbox has it, as a program: SCANS OUT. Settings of slam_toolbox's offline mode, and a solver by Ceres as there.
+// Karto (open_karto), as slam_toolbox has it, as a program: SCANS OUT. Settings of slam_toolbox's offline mode, and a
+// solver by Ceres as there.
 #include <array>
 #include <cmath>
 #include <map>

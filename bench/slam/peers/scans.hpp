@@ -45,7 +45,8 @@ struct Scans {
   std::vector<Scan> scans;
 };
 
-/// A line of the laser's numbers in that order, then one a scan: time, x, y, yaw, ranges. Ends the program where it cannot be read.
+/// A line of the laser's numbers in that order, then one a scan: time, x, y, yaw, ranges. Ends the program where it
+/// cannot be read.
 inline Scans read_scans(char const* path) {
   std::ifstream file(path);
   Scans all;
@@ -71,7 +72,8 @@ struct Node {
   PlanarPose pose;
 };
 
-/// A pose for every scan: of the node that is nearest among the scans, and from there by odometry. `nodes` by scan, at least one.
+/// A pose for every scan: of the node that is nearest among the scans, and from there by odometry. `nodes` by scan, at
+/// least one.
 inline void write_poses(char const* path, Scans const& all, std::vector<Node> const& nodes) {
   std::ofstream file(path);
   file.precision(12);
