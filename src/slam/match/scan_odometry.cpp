@@ -22,13 +22,15 @@ constexpr std::size_t kept = 10;
 }  // namespace
 
 Pose2 ScanOdometry::follow(Frame const& frame, LogTime time) {
-  if (passed_.empty()) {
-    passed_.push_back({time, pose_});
+  if (!since_) {
+    since_ = {time, pose_};
+    time_ = time;
     keep(frame);
     return pose_;
   }
   constexpr double longest_s = 1.0;  // after a longer gap nobody knows how it went on
-  auto const elapsed = std::clamp((time - passed_.back().time).count(), 0.0, longest_s);
+  auto const elapsed = std::clamp((time - time_).count(), 0.0, longest_s);
+  time_ = time;
   Eigen::Vector3d const motion = speed_ * elapsed;
   auto const predicted = pose_ * Pose2{motion.x(), motion.y(), motion.z()};
   auto const found = correlate(grid_, frame, predicted, window);
@@ -56,14 +58,14 @@ void ScanOdometry::note_speed(LogTime now) {
   constexpr LogTime moment(0.15);
   constexpr double most_m_s = 4.0;
   constexpr double most_rad_s = 4.0;
-  // One that is older than a moment is enough.
-  while (passed_.size() > 1 && now - passed_[1].time >= moment) passed_.pop_front();
-  if (auto const elapsed = now - passed_.front().time; elapsed >= moment) {
-    speed_ = numbers(between(passed_.front().pose, pose_)) / elapsed.count();
+  auto const elapsed = now - since_->time;
+  if (elapsed >= LogTime(0.0) && elapsed < moment) return;
+  if (elapsed >= moment) {
+    speed_ = numbers(between(since_->pose, pose_)) / elapsed.count();
     speed_ = speed_.cwiseMax(Eigen::Vector3d(-most_m_s, -most_m_s, -most_rad_s))
                  .cwiseMin(Eigen::Vector3d(most_m_s, most_m_s, most_rad_s));
   }
-  passed_.push_back({now, pose_});
+  since_ = {now, pose_};  // also where the stamps run back
 }
 
 void ScanOdometry::keep(Frame const& frame) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "slam/log/scan_log.hpp"
 #include "slam/match/local_grid.hpp"
@@ -28,7 +29,8 @@ class ScanOdometry {
     LogTime time;
     Pose2 pose;
   };
-  std::deque<Passed> passed_;  ///< a moment's way, the newest last
+  std::optional<Passed> since_;  ///< where the speed was measured last
+  LogTime time_{0.0};            ///< of the last scan
   Pose2 pose_;
   Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();  ///< in the robot's frame, a second
 };
