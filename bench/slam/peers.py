@@ -30,6 +30,7 @@ def increasing(log):
 
 
 def write_scans(log, path: pathlib.Path):
+    # Lasers of these logs tell 50 m or 81 m where nothing came back; not all of the logs say which.
     nothing = log.most or (49.9 if max(max(scan.ranges) for scan in log.scans) < 60 else 80.0)
     with path.open("w") as file:
         file.write(f"{len(log.scans[0].ranges)} {log.start:.12f} {log.step:.15f} {nothing} {log.offset or 0.0}\n")
