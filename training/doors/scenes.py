@@ -1,6 +1,6 @@
 """Rendered rooms, corridors and house fronts with doors, and where the doors are in the picture.
 
-A scene is a few surfaces (surfaces.py) in three dimensions, seen by a camera that somebody holds: not quite level, not quite straight, in bad light.
+A scene is a few surfaces (surface.py, walls.py) in three dimensions, seen by a camera that somebody holds: not quite level, not quite straight, in bad light.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy
 from PIL import Image, ImageDraw, ImageFilter
 
 import furniture
-import surfaces
+import walls
 import textures
 from surface import PAINTS, WALLS, WOODS, Surface, Thing, blotches, pick
 
@@ -259,13 +259,13 @@ def build(rng: numpy.random.Generator) -> Room:
         length = float(numpy.linalg.norm(end - start))
         along = (end - start) / length
         s = Surface(rng, length, room.high)
-        surfaces.paint_wall(s, outside)
+        walls.paint_wall(s, outside)
         wall = Placed(s, start, along, UP)
-        for opening in surfaces.furnish(s, outside):
+        for opening in walls.furnish(s, outside):
             into, angle, hinge_left = numpy.array([along[2], 0, -along[0]]), rng.uniform(0.25, 2.2), rng.random() < 0.5
             hinge = wall.origin + along * (opening.left if hinge_left else opening.left + opening.width)
             leaf = Surface(rng, opening.width, opening.height)
-            surfaces.paint_leaf(leaf, 0, 0, leaf.width, leaf.height, True)
+            walls.paint_leaf(leaf, 0, 0, leaf.width, leaf.height, True)
             way = along * math.cos(angle) * (1 if hinge_left else -1) + into * math.sin(angle)
             room.leaves.append(Placed(leaf, hinge, way, UP))
             edge = Surface(rng, LEAF_THICK, opening.height, 200)
