@@ -1,7 +1,6 @@
 #include "bridge/flight_topics.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <functional>
@@ -12,6 +11,7 @@
 #include "bridge/frames.hpp"
 #include "bus/messages/mavros_names.hpp"
 #include "bus/participant/topics.hpp"
+#include "bus/testing/own_domain.hpp"
 
 namespace lapwing::bridge {
 namespace {
@@ -45,8 +45,7 @@ struct HomeTest : ::testing::Test {
   }
 
   base::Loop loop;
-  std::unique_ptr<bus::Bus> bus =
-      bus::Bus::open(loop, {.domain = 1U + static_cast<std::uint32_t>(::getpid()) % 100U}).value();
+  std::unique_ptr<bus::Bus> bus = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
   FlightController flight;
   std::unique_ptr<FlightTopics> topics;
   std::vector<bus::mavros::HomePosition> heard;

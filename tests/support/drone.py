@@ -168,7 +168,7 @@ class Drone:
     def __init__(self, mode: str = "framed", decide: str = "", desk: str = "", processes: str = "", vehicle: str = "copter:1",
                  simulator: tuple[str, ...] = ()):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lapwing-drone-"))
-        self.port, self.link, self.domain = harness.free_tcp_port(), harness.free_udp_port(), 1 + os.getpid() % 100
+        self.port, self.link, self.domain = harness.free_tcp_port(), harness.free_udp_port(), harness.own_domain()
         self.config = self.folder / "onboard.toml"
         self.config.write_text(f"""
 health_file = "health.json"

@@ -25,8 +25,8 @@ SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
 # Ports of this process alone: what the system hands out itself (from 32768 on) may be another test's or another program's a moment
 # after it was looked at. A process holds the first port of each block that it took, which keeps other processes out of the block, and
-# no port is given twice, since whoever got it may not have bound it yet.
-PORTS = range(12000, 32480)
+# no port is given twice, since whoever got it may not have bound it yet. Below them are those of the domains of ROS 2 that tests have.
+PORTS = range(20480, 32480)
 PORTS_EACH = 32
 _claims: list[socket.socket] = []
 _lock = threading.Lock()
@@ -72,6 +72,22 @@ def free_udp_port() -> int:
 
 def free_tcp_port() -> int:
     return _free_port(socket.SOCK_STREAM)
+
+
+def own_domain() -> int:
+    """A domain of ROS 2 that no other test has while this process lives: src/bus/testing/own_domain.hpp holds them in the same way."""
+    domains, first_port, ports_each = 50, 7400, 250
+    for i in range(domains):
+        domain = 1 + (os.getpid() + i) % domains
+        claim = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            claim.bind(("127.0.0.1", first_port + ports_each * domain + ports_each - 1))
+        except OSError:
+            claim.close()
+            continue
+        _claims.append(claim)
+        return domain
+    raise OSError("all domains for tests are taken")
 
 
 @contextlib.contextmanager

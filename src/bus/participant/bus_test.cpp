@@ -4,10 +4,10 @@
 #include <optional>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "bus/messages/navigation.hpp"
 #include "bus/participant/topics.hpp"
+#include "bus/testing/own_domain.hpp"
 
 namespace lapwing::bus {
 namespace {
@@ -15,10 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Tests that run side by side do not hear each other.
-BusOptions a_domain_of_its_own() {
-  return {.domain = 1U + static_cast<std::uint32_t>(::getpid()) % 100U};
-}
-
 struct BusTest : ::testing::Test {
   /// Until it holds; false when it does not within ten seconds.
   bool comes_true(std::function<bool()> const& holds) {
@@ -30,8 +26,8 @@ struct BusTest : ::testing::Test {
   }
 
   base::Loop loop;
-  std::unique_ptr<Bus> one = Bus::open(loop, a_domain_of_its_own()).value();
-  std::unique_ptr<Bus> two = Bus::open(loop, a_domain_of_its_own()).value();
+  std::unique_ptr<Bus> one = Bus::open(loop, {.domain = testing::own_domain()}).value();
+  std::unique_ptr<Bus> two = Bus::open(loop, {.domain = testing::own_domain()}).value();
 };
 
 TEST(BusNames, AreThoseThatRos2Makes) {

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "bus/messages/mavros_services.hpp"
 #include "bus/participant/topics.hpp"
+#include "bus/testing/own_domain.hpp"
 
 namespace lapwing::bus {
 namespace {
@@ -16,7 +16,6 @@ using namespace std::chrono_literals;
 using Arming = mavros::CommandBool;
 
 struct Services : ::testing::Test {
-  static BusOptions own_domain() { return {.domain = 1U + static_cast<std::uint32_t>(::getpid()) % 100U}; }
   bool comes_true(std::function<bool()> const& holds) {
     return loop.run_until_done([](base::Loop& on, std::function<bool()> wanted) -> base::Task<bool> {
       auto const deadline = on.now() + 10s;
@@ -32,8 +31,8 @@ struct Services : ::testing::Test {
   }
 
   base::Loop loop;
-  std::unique_ptr<Bus> one = Bus::open(loop, own_domain()).value();
-  std::unique_ptr<Bus> two = Bus::open(loop, own_domain()).value();
+  std::unique_ptr<Bus> one = Bus::open(loop, {.domain = testing::own_domain()}).value();
+  std::unique_ptr<Bus> two = Bus::open(loop, {.domain = testing::own_domain()}).value();
 };
 
 TEST_F(Services, HaveTheTopicsThatRos2Makes) {

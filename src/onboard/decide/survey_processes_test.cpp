@@ -3,9 +3,9 @@
 #include <functional>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "bus/messages/survey_names.hpp"
+#include "bus/testing/own_domain.hpp"
 
 namespace lapwing::onboard {
 namespace {
@@ -42,8 +42,7 @@ struct SurveyProcessesOnTheBus : testing::Test {
 
   base::Loop loop;
   /// Tests that run side by side do not hear each other.
-  std::unique_ptr<bus::Bus> bus =
-      bus::Bus::open(loop, {.domain = 1U + static_cast<std::uint32_t>(::getpid()) % 100U}).value();
+  std::unique_ptr<bus::Bus> bus = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
   FlightHeard flight;
   std::unique_ptr<SurveyProcesses> processes = SurveyProcesses::open(loop, *bus, flight, {}).value();
 };

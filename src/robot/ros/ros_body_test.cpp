@@ -5,18 +5,14 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include "bus/testing/own_domain.hpp"
 #include "robot/watch/codes.hpp"
 
 namespace lapwing::robot::ros {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::uint32_t a_domain_of_its_own() {
-  return 1U + static_cast<std::uint32_t>(::getpid()) % 100U;
-}
 
 /// A robot on ROS 2: the other end of the topics.
 struct RosBodyTest : ::testing::Test {
@@ -72,7 +68,7 @@ struct RosBodyTest : ::testing::Test {
 
   base::Loop loop;
   base::LogHub hub;
-  std::unique_ptr<bus::Bus> ros = bus::Bus::open(loop, {.domain = a_domain_of_its_own()}).value();
+  std::unique_ptr<bus::Bus> ros = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
   bus::Publisher<bus::Odometry> odometry =
       bus::Publisher<bus::Odometry>::open(*ros, "/r1/odom", bus::Profile::standard).value();
   bus::Publisher<bus::LaserScan> laser =
@@ -87,7 +83,8 @@ struct RosBodyTest : ::testing::Test {
   std::vector<Reading> readings;
   std::vector<slam::Scan> scans;
   std::unique_ptr<RosBody> body =
-      RosBody::open(loop, {.domain = a_domain_of_its_own(), .name_space = "/r1"}, base::Logger(hub, "robot")).value();
+      RosBody::open(loop, {.domain = bus::testing::own_domain(), .name_space = "/r1"}, base::Logger(hub, "robot"))
+          .value();
 
  private:
   std::tuple<std::size_t, std::size_t, std::size_t> heard_then_;

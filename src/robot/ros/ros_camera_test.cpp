@@ -1,10 +1,10 @@
 #include "robot/ros/ros_camera.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "base/async/scope.hpp"
 #include "bus/participant/topics.hpp"
+#include "bus/testing/own_domain.hpp"
 
 namespace lapwing::robot::ros {
 namespace {
@@ -45,10 +45,6 @@ TEST(RosPicture, RefusesWhatIsNone) {
       bus::Image{.height = 0xFFFFFFFF, .width = 0xFFFFFFFF, .encoding = "mono8", .step = 0xFFFFFFFF, .data = {1}}));
 }
 
-std::uint32_t a_domain_of_its_own() {
-  return 1U + static_cast<std::uint32_t>(::getpid()) % 100U;
-}
-
 struct RosCameraTest : ::testing::Test {
   /// Publishes until one comes.
   template <bus::Message M>
@@ -73,8 +69,8 @@ struct RosCameraTest : ::testing::Test {
   }
 
   base::Loop loop;
-  std::unique_ptr<bus::Bus> ros = bus::Bus::open(loop, {.domain = a_domain_of_its_own()}).value();
-  std::shared_ptr<bus::Bus> bus = bus::Bus::open(loop, {.domain = a_domain_of_its_own()}).value();
+  std::unique_ptr<bus::Bus> ros = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
+  std::shared_ptr<bus::Bus> bus = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
 };
 
 TEST_F(RosCameraTest, GivesTheNextPictureOfATopic) {

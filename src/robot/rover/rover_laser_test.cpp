@@ -1,8 +1,8 @@
 // A rover with a laser on ROS 2 beside its autopilot: in real time, as the bus is.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "bus/messages/sensors.hpp"
+#include "bus/testing/own_domain.hpp"
 #include "robot/rover/rover_body.hpp"
 #include "robot/rover/testing/scripted_rover.hpp"
 
@@ -11,10 +11,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::uint32_t a_domain_of_its_own() {
-  return 1U + static_cast<std::uint32_t>(::getpid()) % 100U;
-}
-
 TEST(RoverLaser, IsReadFromRosByItsOwnClock) {
   base::Loop loop;
   auto pipe = link::make_pipe(loop);
@@ -22,8 +18,8 @@ TEST(RoverLaser, IsReadFromRosByItsOwnClock) {
   RoverBody body(loop, std::move(pipe.a), {}, base::Logger());
   std::vector<slam::Scan> scans;
   body.listen({.on_scan = [&](slam::Scan const& scan) { scans.push_back(scan); }});
-  ASSERT_TRUE(body.use(LaserOnRos{.domain = a_domain_of_its_own(), .name_space = "/r1"}));
-  auto const ros = bus::Bus::open(loop, {.domain = a_domain_of_its_own()}).value();
+  ASSERT_TRUE(body.use(LaserOnRos{.domain = bus::testing::own_domain(), .name_space = "/r1"}));
+  auto const ros = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
   auto laser = bus::Publisher<bus::LaserScan>::open(*ros, "/r1/scan", bus::Profile::sensor_data).value();
   auto frames = bus::Publisher<bus::TFMessage>::open(*ros, "/tf_static", bus::Profile::latched).value();
   frames.publish({.transforms = {{.header = {.frame_id = "base_link"},

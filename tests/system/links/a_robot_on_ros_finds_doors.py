@@ -2,7 +2,6 @@
 shows the same sign wherever it is, as a simulated building has one."""
 
 import json
-import os
 import pathlib
 import subprocess
 import sys
@@ -36,7 +35,7 @@ def as_jpeg(ppm: bytes) -> bytes:
     return body[:json.loads(head)["jpeg_bytes"]]
 
 
-domain = 1 + os.getpid() % 100
+domain = harness.own_domain()
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     seen, script, report, cameras = folder / "seen.ppm", folder / "doors.dolphin", folder / "report.json", folder / "cameras.toml"

@@ -3,7 +3,6 @@ that it tells: its laser hangs upside down. While it stands nobody talks to it, 
 
 import json
 import math
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -18,7 +17,7 @@ execute robot: drive { explore(); returnToStart() }
 # Two rooms with a door of a metre between them.
 WALLS = [*room((-1.5, -1.0), (4.5, -1.0), (4.5, 2.0), (-1.5, 2.0)), ((2.0, -1.0), (2.0, 0.2)), ((2.0, 1.2), (2.0, 2.0))]
 
-domain = 1 + os.getpid() % 100
+domain = harness.own_domain()
 with tempfile.TemporaryDirectory() as folder, RosRobot(domain, "/floor/r1", WALLS) as robot:
     script, report = pathlib.Path(folder, "floor.dolphin"), pathlib.Path(folder, "report.json")
     script.write_text(SCRIPT)
