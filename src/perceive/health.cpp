@@ -33,8 +33,11 @@ struct Verdict {
   std::string words = {};
 };
 
-Verdict verdict_on(SightRecord const& record, base::TimePoint now) {
-  bool const is_late = now - record.good_at > longest_blind;
+bool is_late(SightRecord const& record, base::TimePoint now) {
+  return now - record.good_at.value_or(record.began) > longest_blind;
+}
+
+Verdict verdict_on(SightRecord const& record, bool is_late) {
   auto const level = is_late ? DiagnosticStatus::error : DiagnosticStatus::warn;
   auto const& film = record.film;
   if (!film.fault.empty()) return {level, film.fault};
@@ -60,8 +63,10 @@ Verdict verdict_on_mapping(ThoughtRecord const& record) {
 
 }  // namespace
 
-DiagnosticStatus vision_health(SightRecord const& record, base::TimePoint now) {
-  auto [level, words] = verdict_on(record, now);
+std::optional<DiagnosticStatus> vision_health(SightRecord const& record, base::TimePoint now) {
+  bool const late = is_late(record, now);
+  if (!record.good_at && !late) return std::nullopt;
+  auto [level, words] = verdict_on(record, late);
   auto told = status("vision", level, std::move(words));
   add(told, "pictures", record.film.pictures);
   add(told, "pictures_failed", record.film.failed);

@@ -16,10 +16,11 @@ struct SightRecord {
   FilmRecord film = {};
   std::string place_fault = {};    ///< why it is not known where the last picture was taken
   std::string picture_fault = {};  ///< why the last picture shows nothing
-  base::TimePoint good_at{};       ///< of the last picture that shows something; before any: of the start
-  std::uint64_t looked_at = 0;     ///< pictures
-  std::uint64_t blind = 0;         ///< that show nothing
-  double took_s = 0.0;             ///< to look at the last one
+  base::TimePoint began{};
+  std::optional<base::TimePoint> good_at = {};  ///< of the last picture that shows something
+  std::uint64_t looked_at = 0;                  ///< pictures
+  std::uint64_t blind = 0;                      ///< that show nothing
+  double took_s = 0.0;                          ///< to look at the last one
   double looks_a_s = 0.0;
 };
 
@@ -36,7 +37,9 @@ struct ThoughtRecord {
   SurveyFigures figures = {};
 };
 
-[[nodiscard]] bus::DiagnosticStatus vision_health(SightRecord const& record, base::TimePoint now);
+/// Nothing for a moment after the start, until the first picture has shown something or should have: whoever waits for
+/// eyes would take anything else for an answer.
+[[nodiscard]] std::optional<bus::DiagnosticStatus> vision_health(SightRecord const& record, base::TimePoint now);
 [[nodiscard]] bus::DiagnosticStatus mapper_health(ThoughtRecord const& record);
 [[nodiscard]] bus::DiagnosticStatus planner_health(ThoughtRecord const& record);
 

@@ -13,7 +13,18 @@ using bus::DiagnosticStatus;
 constexpr base::TimePoint begin{};
 
 SightRecord good() {
-  return {.film = {.is_open = true, .pictures = 40}, .good_at = begin + 10s, .took_s = 0.1, .looks_a_s = 4.0};
+  return {.film = {.is_open = true, .pictures = 40},
+          .began = begin,
+          .good_at = begin + 10s,
+          .took_s = 0.1,
+          .looks_a_s = 4.0};
+}
+
+/// What is said then.
+DiagnosticStatus said(SightRecord const& record, base::TimePoint now) {
+  auto const told = vision_health(record, now);
+  EXPECT_TRUE(told);
+  return told.value_or(DiagnosticStatus{.level = DiagnosticStatus::stale});
 }
 
 std::string value_of(DiagnosticStatus const& status, std::string const& key) {
@@ -22,7 +33,7 @@ std::string value_of(DiagnosticStatus const& status, std::string const& key) {
 }
 
 TEST(VisionHealth, IsWellWithPicturesAndTellsItsFigures) {
-  auto const told = vision_health(good(), begin + 10s);
+  auto const told = said(good(), begin + 10s);
   EXPECT_EQ(told.level, DiagnosticStatus::ok);
   EXPECT_EQ(told.message, "");
   EXPECT_EQ(value_of(told, "looks_a_second"), "4.00");
@@ -33,21 +44,34 @@ TEST(VisionHealth, WarnsOfWhatPassesAndFailsWithWhatStays) {
   auto gone = good();
   gone.film.is_open = false;
   gone.film.fault = "the camera is gone";
-  EXPECT_EQ(vision_health(gone, begin + 11s).level, DiagnosticStatus::warn);
-  auto const later = vision_health(gone, begin + 13s);
+  EXPECT_EQ(said(gone, begin + 11s).level, DiagnosticStatus::warn);
+  auto const later = said(gone, begin + 13s);
   EXPECT_EQ(later.level, DiagnosticStatus::error);
   EXPECT_EQ(later.message, "the camera is gone");
 
   auto black = good();
   black.picture_fault = "it is black: is the lens covered?";
-  EXPECT_EQ(vision_health(black, begin + 11s).level, DiagnosticStatus::warn);
-  EXPECT_EQ(vision_health(black, begin + 13s).level, DiagnosticStatus::error);
-  EXPECT_NE(vision_health(black, begin + 13s).message.find("black"), std::string::npos);
+  EXPECT_EQ(said(black, begin + 11s).level, DiagnosticStatus::warn);
+  EXPECT_EQ(said(black, begin + 13s).level, DiagnosticStatus::error);
+  EXPECT_NE(said(black, begin + 13s).message.find("black"), std::string::npos);
 
-  EXPECT_EQ(vision_health(good(), begin + 13s).message, "no picture comes");
+  EXPECT_EQ(said(good(), begin + 13s).message, "no picture comes");
   auto slow = good();
   slow.took_s = 1.4;
-  EXPECT_EQ(vision_health(slow, begin + 10s).level, DiagnosticStatus::warn);
+  EXPECT_EQ(said(slow, begin + 10s).level, DiagnosticStatus::warn);
+}
+
+TEST(VisionHealth, IsNotSaidBeforeItIsKnown) {
+  SightRecord fresh{.film = {.is_open = true}, .began = begin + 10s};
+  EXPECT_FALSE(vision_health(fresh, begin + 11s)) << "it would be taken for well, and the drone would take off";
+  EXPECT_EQ(said(fresh, begin + 13s).level, DiagnosticStatus::error);
+  EXPECT_EQ(said(fresh, begin + 13s).message, "no picture comes");
+  fresh.place_fault = "it is not known where the drone is";
+  EXPECT_FALSE(vision_health(fresh, begin + 11s));
+  EXPECT_EQ(said(fresh, begin + 13s).message, "it is not known where the drone is");
+  fresh.place_fault.clear();
+  fresh.good_at = begin + 11s;
+  EXPECT_EQ(said(fresh, begin + 11s).level, DiagnosticStatus::ok);
 }
 
 TEST(MapperHealth, NeedsAPose) {

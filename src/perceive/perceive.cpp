@@ -71,7 +71,7 @@ base::Result<std::unique_ptr<Perceive>> Perceive::open(base::Loop& loop, bus::Bu
   perceive->film_.emplace(loop, perceive->director(), perceive->log_);
   perceive->eye_.emplace(loop, std::make_unique<LotEye>(*std::move(eye)));
   perceive->mind_.emplace(loop, std::make_unique<Mind>());
-  perceive->sight_.good_at = loop.now();
+  perceive->sight_.began = loop.now();
   auto& scope = perceive->scope_;
   scope.spawn(perceive->see());
   if (perceive->live_view_) scope.spawn(perceive->show());
@@ -130,7 +130,11 @@ base::Task<> Perceive::see() {
     auto shooting = film_->next(last);
     auto shot = co_await shooting;
     last = shot.number;
-    if (loop_.now() + early < due || !is_placed()) continue;
+    if (loop_.now() + early < due) continue;
+    if (!is_placed()) {
+      sight_.place_fault = "it is not known where the drone is";
+      continue;
+    }
     due = std::max(due, loop_.now() - early) + period;
     auto looking = look_at(std::move(shot.frame));
     co_await looking;

@@ -115,9 +115,9 @@ void Topics::say_map(explore::LotOccupancy const& map, base::UtcTime at) {
   map_->publish(grid);
 }
 
-void Topics::say_health(bus::DiagnosticStatus const& vision, bus::DiagnosticStatus const& mapper,
+void Topics::say_health(std::optional<bus::DiagnosticStatus> const& vision, bus::DiagnosticStatus const& mapper,
                         bus::DiagnosticStatus const& planner) {
-  vision_->publish(vision);
+  if (vision) vision_->publish(*vision);
   mapper_->publish(mapper);
   planner_->publish(planner);
 }

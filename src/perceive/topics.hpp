@@ -48,7 +48,7 @@ class Topics {
   /// GeoJSON.
   void say_slots(std::string const& collection) { slots_->publish({collection}); }
   void say_report(std::string const& words) { report_->publish({words}); }
-  void say_health(bus::DiagnosticStatus const& vision, bus::DiagnosticStatus const& mapper,
+  void say_health(std::optional<bus::DiagnosticStatus> const& vision, bus::DiagnosticStatus const& mapper,
                   bus::DiagnosticStatus const& planner);
   /// Over the ground, for what is flown from now on.
   void ask_for_speed(double speed_m_s);
