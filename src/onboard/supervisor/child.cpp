@@ -10,7 +10,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -129,6 +131,16 @@ bool Child::has_lived() {
   bool has = false;
   while (::recv(life_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT) > 0) has = true;
   return has;
+}
+
+/// Linux, Documentation/scheduler/sched-stats: ns on a processor, ns of waiting for one, turns.
+std::optional<base::Duration> Child::waited() const {
+  std::ifstream file(fmt::format("/proc/{}/schedstat", pid_));
+  std::uint64_t ran_ns = 0;
+  std::uint64_t waited_ns = 0;
+  file >> ran_ns >> waited_ns;
+  if (!file) return std::nullopt;
+  return std::chrono::duration_cast<base::Duration>(std::chrono::nanoseconds(waited_ns));
 }
 
 void Child::signal(int number) const {

@@ -8,6 +8,7 @@
 
 #include "base/descriptor.hpp"
 #include "base/error.hpp"
+#include "base/time.hpp"
 
 namespace lapwing::onboard {
 
@@ -46,6 +47,9 @@ class Child {
   [[nodiscard]] std::optional<ChildChange> look();
   /// Whether it has said since the last call that it lives.
   [[nodiscard]] bool has_lived();
+  /// How long its first thread, which says that it lives, has been ready to run and had no processor; nothing where
+  /// the system does not count that.
+  [[nodiscard]] std::optional<base::Duration> waited() const;
   /// To it and all that it has started.
   void signal(int number) const;
 

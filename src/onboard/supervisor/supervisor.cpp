@@ -92,7 +92,9 @@ void Supervisor::start(Process& process) {
   auto child = Child::start(process.spec);
   if (!child) return ended(process, child.error().message);
   process.child.emplace(*std::move(child));
-  process.started = process.lived = loop_.now();
+  process.started = loop_.now();
+  process.is_starved = false;
+  lived(process);
   process.status.state = ProcessStatus::State::running;
   process.status.pid = process.child->pid();
   log_.info(fmt::format("{} runs, process {}", process.spec.name, process.status.pid));
@@ -120,7 +122,7 @@ void Supervisor::ended(Process& process, std::string how) {
 void Supervisor::end_by_force(Process& process, std::string const& why) {
   log_.error(fmt::format("{} {}: it is ended by force", process.spec.name, why));
   process.child->signal(SIGKILL);
-  process.lived = loop_.now();  // that takes effect at once
+  lived(process);  // that takes effect at once
 }
 
 void Supervisor::look_after(Process& process) {
@@ -128,15 +130,28 @@ void Supervisor::look_after(Process& process) {
     if (!is_stopping_ && loop_.now() >= process.next_start) start(process);
     return;
   }
-  if (process.child->has_lived()) process.lived = loop_.now();
+  if (process.child->has_lived()) lived(process);
   if (auto const change = process.child->look()) {
     auto const how = onboard::to_string(*change);
     if (change->kind == ChildChange::Kind::stopped) return end_by_force(process, how);
     return ended(process, how);
   }
+  if (process.spec.tells_life) judge_silence(process);
+}
+
+void Supervisor::lived(Process& process) const {
+  process.lived = loop_.now();
+  process.waited = process.child->waited().value_or(base::Duration::zero());
+}
+
+void Supervisor::judge_silence(Process& process) {
   auto const silence = loop_.now() - process.lived;
-  if (process.spec.tells_life && silence > options_.longest_silence)
-    end_by_force(process, fmt::format("hangs: it has said nothing for {:.1f} s", base::to_seconds(silence)));
+  if (silence <= options_.longest_silence) return;
+  auto const waited = process.child->waited().value_or(base::Duration::zero()) - process.waited;
+  if (silence - waited > options_.longest_silence)
+    return end_by_force(process, fmt::format("hangs: it has said nothing for {:.1f} s", base::to_seconds(silence)));
+  if (!std::exchange(process.is_starved, true))
+    log_.warn(fmt::format("{} waits for a processor: this computer has too much to do", process.spec.name));
 }
 
 void Supervisor::stop(std::function<void()> done) {

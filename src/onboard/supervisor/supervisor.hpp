@@ -64,6 +64,8 @@ class Supervisor {
     std::optional<Child> child = {};
     base::TimePoint started{};
     base::TimePoint lived{};
+    base::Duration waited{};  ///< for a processor, until it lived last
+    bool is_starved = false;  ///< and that was said, once a start
     base::TimePoint next_start{};
   };
   base::Task<> supervise();
@@ -73,6 +75,9 @@ class Supervisor {
   void look_after(Process& process);
   void start(Process& process);
   void ended(Process& process, std::string how);
+  void lived(Process& process) const;
+  /// One that waits for a processor does not hang, and to start it anew would take more of what is scarce.
+  void judge_silence(Process& process);
   void end_by_force(Process& process, std::string const& why);
   void tell() const;
 

@@ -118,6 +118,24 @@ TEST_F(SupervisorTest, LetsLiveWhatSaysThatItLives) {
   EXPECT_EQ(supervisor->status()[0].restarts, 0U);
 }
 
+TEST_F(SupervisorTest, LetsLiveWhatWaitsForAProcessor) {
+  if (!Child::start(sleeper("looked at"))->waited()) GTEST_SKIP() << "this system does not count how long threads wait";
+  // Each life takes it some 50 ms of a processor, of which it gets a thirtieth.
+  ProcessSpec slow{
+      .name = "perceive",
+      .command = {"taskset", "-c", "0", "sh", "-c",
+                  "while printf . >&$LAPWING_LIFE_FD; do i=0; while [ $i -lt 30000 ]; do i=$((i+1)); done; done"}};
+  slow.niceness = 10;
+  ProcessSpec const busy{
+      .name = "busy", .command = {"taskset", "-c", "0", "sh", "-c", "while :; do :; done"}, .tells_life = false};
+  supervise({slow, busy, busy, busy});
+  ASSERT_TRUE(comes_true([&] { return all_run(); }));
+  auto const began = loop.now();
+  ASSERT_TRUE(comes_true([&] { return loop.now() - began > 4s; }));
+  EXPECT_EQ(supervisor->status()[0].restarts, 0U);
+  EXPECT_TRUE(says("perceive waits for a processor")) << "that it does is known";
+}
+
 TEST_F(SupervisorTest, GoesOnWithWhatFailsAtOnceAndSaysHowItFails) {
   supervise(
       {{.name = "mapper", .command = {"sh", "-c", "exit 3"}}, {.name = "ghost", .command = {"/no/such/program"}}});
