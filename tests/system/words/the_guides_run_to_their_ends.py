@@ -32,7 +32,7 @@ def fly(block: documents.Block, folder: pathlib.Path):
     """On the simulator, to its end, every mission of it."""
     script, report = folder / "flown.dolphin", folder / "flown.json"
     script.write_text(block.script)
-    code, out, err = harness.finish("run", str(script), "--sim", block.words["flown"], "--report", str(report))
+    code, out, err = harness.finish("run", str(script), "--sim", block.words["flown"], "--report", str(report), seconds=reader.LONGEST_S)
     assert code == int(block.words.get("exit", 0)), f"{block.place}: run ends with {code}\n{out}{err}"
     missions = [mission for vehicle in json.loads(report.read_text())["vehicles"] for mission in vehicle["missions"]]
     assert missions, f"{block.place}: nothing is flown\n{out}{err}"
@@ -47,7 +47,7 @@ def drive(block: documents.Block, folder: pathlib.Path):
     script, report = folder / "driven.dolphin", folder / "driven.json"
     script.write_text(block.script)
     building = harness.ROOT / block.words["driven"]
-    code, out, err = harness.finish("run", str(script), "--robot", f"sim:{building}", "--report", str(report))
+    code, out, err = harness.finish("run", str(script), "--robot", f"sim:{building}", "--report", str(report), seconds=reader.LONGEST_S)
     assert code == 0, f"{block.place}: run ends with {code}\n{out}{err}"
     robots = [vehicle["robot"] for vehicle in json.loads(report.read_text())["vehicles"] if "robot" in vehicle]
     outcomes = [one["outcome"] for robot in robots for one in robot["drives"]]
