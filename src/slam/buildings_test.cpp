@@ -1,4 +1,7 @@
 // Buildings in which one place looks like another: better a loop left open than one closed falsely.
+#include <algorithm>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "slam/mapper.hpp"
@@ -59,6 +62,38 @@ TEST(Buildings, AFewRangersCloseTheLoopOfAnOffice) {
   auto const mapping = mapped(drive.log);
   EXPECT_GT(mapping.loops.closures, 0);
   EXPECT_LT(testing::greatest_error_m(mapping.trajectory, drive.truth), 0.35);
+}
+
+/// Along the way, two decimetres to either side by turns.
+std::vector<Eigen::Vector2d> weaving(std::vector<Eigen::Vector2d> const& way) {
+  std::vector<Eigen::Vector2d> points{way.front()};
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    Eigen::Vector2d const step = (way[i + 1] - way[i]).normalized();
+    Eigen::Vector2d const aside(-step.y(), step.x());
+    for (double m = 1.0; m < (way[i + 1] - way[i]).norm() - 1.0; m += 2.0) {
+      points.emplace_back(way[i] + m * step + 0.2 * aside);
+      points.emplace_back(way[i] + (m + 1.0) * step - 0.2 * aside);
+    }
+    points.push_back(way[i + 1]);
+  }
+  return points;
+}
+
+TEST(Buildings, AFewRangersLookForLoopsFromEveryKeyFrame) {
+  // Who weaves has driven a metre and is less than that from where it began. The second round meets the first.
+  std::vector<Eigen::Vector2d> const rounds{{0, 0}, {20, 0}, {20, 12}, {0, 12}, {0, 0}, {20, 0}, {20, 12}, {0, 12}};
+  auto const drive =
+      testing::drive(testing::office(20.0, 12.0, 4.0, 1.0, 5), weaving(rounds), {.beams = 11, .most_range_m = 5.0});
+  auto const mapping = mapped(drive.log);
+  std::set<int> looked_from;
+  for (auto const& record : mapping.loop_records)
+    if (!record.is_late) looked_from.insert(record.query);
+  constexpr double round_m = 70.0;
+  auto const is_second = [](KeyFrame const& frame) { return frame.path_m > round_m; };
+  auto const all = std::ranges::count_if(mapping.graph.frames, is_second);
+  auto const looked = std::ranges::count_if(
+      looked_from, [&](int query) { return is_second(mapping.graph.frames[static_cast<std::size_t>(query)]); });
+  EXPECT_GT(looked, all * 9 / 10) << "of " << all;
 }
 
 }  // namespace

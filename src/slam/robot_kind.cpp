@@ -58,6 +58,10 @@ MapperOptions options_for(RobotKind const& kind, MapperOptions options) {
   auto& loops = options.loops;
   loops.submap_frames = options.gather.submap_frames;
   loops.query_frames = options.gather.query_frames;
+  // Scans are gathered over `least_m` of the way. From end to end that is a little less where the robot turned, and to
+  // look after just as much would pass over every other key frame.
+  constexpr double of_a_key_frame = 0.8;
+  loops.every_m = std::min(loops.every_m, of_a_key_frame * options.gather.least_m);
   loops.near_submaps = 2;
   loops.step_frames = 1;
   loops.least_points = 40;
