@@ -16,6 +16,11 @@ class ScanOdometry {
   [[nodiscard]] Pose2 follow(Frame const& frame, LogTime time);
 
  private:
+  struct Found {
+    Pose2 pose;
+    Pose2 predicted;  ///< around which it was found
+  };
+  [[nodiscard]] Found search(Frame const& frame, Pose2 const& by_speed) const;
   void keep(Frame const& frame);
   void note_speed(LogTime now);
 
@@ -32,6 +37,7 @@ class ScanOdometry {
   std::optional<Passed> since_;  ///< where the speed was measured last
   LogTime time_{0.0};            ///< of the last scan
   Pose2 pose_;
+  Pose2 step_;                                       ///< from the scan before to the last one
   Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();  ///< in the robot's frame, a second
 };
 

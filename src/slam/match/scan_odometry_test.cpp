@@ -23,13 +23,26 @@ TEST(ScanOdometry, FollowsARobotThatTellsNone) {
   EXPECT_LT(scan_odometry_error_m(scanned_round_a_corner()), 1.5);
 }
 
+/// A buffer gives scans that were taken evenly almost the last one's time.
+void come_in_bursts(ScanLog& log, std::size_t of, LogTime apart) {
+  for (std::size_t k = 0; k < log.scans.size(); ++k) {
+    auto const last = k - k % of + of - 1;
+    if (last < log.scans.size()) log.scans[k].time = log.scans[last].time - static_cast<double>(last - k) * apart;
+  }
+}
+
 TEST(ScanOdometry, StampsThatComeInBurstsAreNoSpeed) {
   auto drive = scanned_round_a_corner();
-  // Of three scans that were taken evenly, a buffer gives two the third one's time.
-  for (std::size_t k = 0; k < drive.log.scans.size(); ++k)
-    if (k % 3 != 2 && k + 2 - k % 3 < drive.log.scans.size())
-      drive.log.scans[k].time = drive.log.scans[k + 2 - k % 3].time - LogTime(0.01 * static_cast<double>(2 - k % 3));
+  come_in_bursts(drive.log, 3, LogTime(0.01));
   EXPECT_LT(scan_odometry_error_m(drive), 1.5);
+}
+
+TEST(ScanOdometry, FollowsQuickTurnsWhoseStampsComeInBursts) {
+  testing::Building const room{{{-1, -1}, {9, -1}}, {{9, -1}, {9, 7}}, {{9, 7}, {-1, 7}}, {{-1, 7}, {-1, -1}},
+                               {{3, 2}, {5, 2}},    {{5, 2}, {5, 4}},  {{2, 4}, {2, 5}},  {{6.5, 1}, {7.5, 1.5}}};
+  auto drive = testing::drive(room, {{0, 0}, {8, 0}, {8, 6}, {0, 6}, {0, 0}, {8, 0}}, {.turn_rad_per_scan = 0.35});
+  come_in_bursts(drive.log, 4, LogTime(0.001));
+  EXPECT_LT(scan_odometry_error_m(drive), 0.2);
 }
 
 }  // namespace

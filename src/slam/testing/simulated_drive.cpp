@@ -68,9 +68,8 @@ class Robot {
   }
 
   void turn_to(double yaw) {
-    constexpr double rad_per_scan = 0.12;
     auto const whole = geo::wrap_pi(yaw - pose_.yaw);
-    auto const scans = static_cast<int>(std::ceil(std::abs(whole) / rad_per_scan));
+    auto const scans = static_cast<int>(std::ceil(std::abs(whole) / options_.turn_rad_per_scan));
     for (int i = 0; i < scans; ++i) step({0.0, 0.0, whole / scans});
   }
   void go(double metres) {

@@ -30,6 +30,7 @@ struct DriveOptions {
   double range_noise_m = 0.015;
   double speed_m_s = 0.5;
   double scans_per_s = 5.0;
+  double turn_rad_per_scan = 0.12;
   double shift_noise = 0.05;       ///< of odometry: standard deviation of a step, per metre
   double turn_noise = 0.02;        ///< per radian
   double turn_noise_per_m = 0.01;  ///< radians per metre
