@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/assert.hpp"
+#include "base/text/random_name.hpp"
 #include "station/feeds/envelope.hpp"
 
 namespace lapwing::station {
 
 namespace {
-
-/// Tells the revisions of this process from those of the one before it.
-std::string new_run() {
-  std::random_device random;
-  return fmt::format("{:08x}{:08x}", random(), random());
-}
 
 /// Messages that only together lead to a revision.
 struct Step {
@@ -65,7 +59,7 @@ struct Viewers::Round {
 
 Viewers::Viewers(base::Loop& loop, HttpServer& server, std::vector<std::unique_ptr<Feed>> usual,
                  std::vector<std::unique_ptr<Feed>> further)
-    : loop_(loop), server_(server), run_(new_run()) {
+    : loop_(loop), server_(server), run_(base::random_name(16)) {
   auto const add = [this](std::unique_ptr<Feed> feed, bool is_usual) {
     LAPWING_ASSERT(!find(feed->name()), feed->name());
     auto const id = static_cast<std::uint16_t>(channels_.size() + 1);

@@ -76,7 +76,7 @@ class Viewers {
   base::Loop& loop_;
   HttpServer& server_;
   std::vector<Channel> channels_;  ///< in the order of their ids, which begin with 1
-  std::string run_;
+  std::string run_;                ///< tells the revisions of this process from those of the one before it
   std::map<SessionId, Viewer> viewers_;
 };
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text/constant_time.hpp"
+
 namespace lapwing::link::operator_link {
 
 base::Result<std::unique_ptr<Server>> Server::open(base::Loop& loop, std::unique_ptr<Listener> listener,
@@ -139,7 +141,7 @@ void Server::greeted(Strangers::iterator stranger, Speech speech) {
   if (hello->version != protocol_version)
     return refuse(stranger, RefusedCode::version,
                   fmt::format("version {} is spoken; this server speaks {}", hello->version, protocol_version));
-  if (!same_token(hello->token, options_.end.token) && !options_.end.token.empty())
+  if (!base::equal_in_constant_time(hello->token, options_.end.token) && !options_.end.token.empty())
     return refuse(stranger, RefusedCode::token,
                   hello->token.empty() ? "this server asks for a token" : "this is not the server's token");
   if (auto const fine = check_name(hello->name); !fine)

@@ -23,13 +23,6 @@ base::Result<> check_name(std::string_view name) {
       fmt::format("A name has 1 to {} letters, digits, '-', '_' and '.', and no '.' at its beginning.", longest_name));
 }
 
-bool same_token(std::string_view given, std::string_view token) {
-  auto const against = given.size() == token.size() ? token : given;
-  unsigned difference = given.size() == token.size() ? 0 : 1;
-  for (std::size_t i = 0; i < given.size(); ++i) difference |= static_cast<unsigned char>(given[i] ^ against[i]);
-  return difference == 0;
-}
-
 std::uint64_t random_id(std::optional<std::uint64_t> seed) {
   std::uint64_t id = 0;
   std::mt19937_64 repeated(seed.value_or(0));

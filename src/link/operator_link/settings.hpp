@@ -41,8 +41,6 @@ struct EndSettings {
 
 /// Whether it may be the name of an end, which is also that of a folder. Error (invalid_input): what is wrong.
 [[nodiscard]] base::Result<> check_name(std::string_view name);
-/// Takes as long for a nearly right token as for a wrong one.
-[[nodiscard]] bool same_token(std::string_view given, std::string_view token);
 /// Never zero, which means nobody.
 [[nodiscard]] std::uint64_t random_id(std::optional<std::uint64_t> seed);
 /// The queue for one far end.

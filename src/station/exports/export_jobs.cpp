@@ -3,23 +3,18 @@
 #include <stdlib.h>
 
 #include <algorithm>
-#include <random>
 #include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include "base/text/random_name.hpp"
 
 namespace lapwing::station {
 
 namespace {
 
 namespace files = std::filesystem;
-
-/// Nobody guesses whose turn is next.
-std::string new_id() {
-  std::random_device device;
-  return fmt::format("{:08x}{:08x}", device(), device());
-}
 
 }  // namespace
 
@@ -40,7 +35,7 @@ base::Result<ExportJobs::Job> ExportJobs::start(ExportWish wish, std::string con
                       "Wait until one of them is done, or stop one.");
   if (auto const made = make_folder(); !made) return std::unexpected(made.error());
   auto const seconds = std::chrono::floor<std::chrono::seconds>(loop_.utc_now());
-  auto const id = new_id();
+  auto const id = base::random_name(16);  // nobody guesses whose turn is next
   auto& entry = entries_[id];
   entry.job = {.id = id,
                .name = fmt::format("lapwing-{}-{:%Y%m%d-%H%M%S}-{}{}", wish.format,

@@ -1,9 +1,5 @@
 #include "station/map/map_face.hpp"
-
-#include <random>
-
-#include <fmt/format.h>
-
+#include "base/text/random_name.hpp"
 #include "station/map/blob_routes.hpp"
 #include "station/map/features/feature_feed.hpp"
 #include "station/map/features/feature_routes.hpp"
@@ -21,7 +17,7 @@ MapFace::MapFace(base::Loop& loop, map::LiveMap& map, map::Store* store)
     : loop_(loop),
       map_(map),
       store_(store),
-      run_(fmt::format("{:08x}", std::random_device()())),
+      run_(base::random_name(8)),
       places_(std::make_shared<GridPlaces>(map)),
       pictures_(loop, map, places_),
       past_(store ? std::make_unique<PastGrids>(loop, *store) : nullptr) {}

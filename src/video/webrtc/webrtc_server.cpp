@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "base/async/inbox.hpp"
 #include "base/async/scope.hpp"
 #include "base/async/side_thread.hpp"
+#include "base/text/random_name.hpp"
 #include "base/wall_clock.hpp"
 #include "video/webrtc/video_encoder.hpp"
 #include "video/webrtc/webrtc_peer.hpp"
@@ -34,11 +34,6 @@ constexpr std::size_t most_news = 256;
 constexpr auto before_start = 1h;
 /// What the clock of pictures may gain on the loop's between two of them, or lose.
 constexpr auto clock_was_set = 2s;
-
-std::string random_name() {
-  std::random_device dice;
-  return fmt::format("{:08x}{:08x}{:08x}{:08x}", dice(), dice(), dice(), dice());
-}
 
 std::string no_fingerprint() {
   constexpr int bytes = 32;
@@ -101,7 +96,7 @@ class WebRtcServer::Core {
     std::size_t view;
     base::TimePoint since;  ///< it was heard last, or began
     base::Notifier told;
-    std::string id = random_name();
+    std::string id = base::random_name(32);
     std::shared_ptr<WebRtcPeer> peer = {};
     std::string answer = {};
     bool is_connected = false;
