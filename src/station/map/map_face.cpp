@@ -1,4 +1,5 @@
 #include "station/map/map_face.hpp"
+
 #include "base/text/random_name.hpp"
 #include "station/map/blob_routes.hpp"
 #include "station/map/features/feature_feed.hpp"
