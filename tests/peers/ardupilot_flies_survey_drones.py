@@ -5,6 +5,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -13,7 +14,7 @@ import harness
 from ardupilot import in_the_loop
 
 FOLDER = pathlib.Path(__file__).parents[1] / "system"
-TESTS = sorted(file for file in FOLDER.glob("*/*.py") if "from drone import" in file.read_text())
+TESTS = sorted(file for file in FOLDER.glob("*/*.py") if re.search(r"^from drone", file.read_text(), re.MULTILINE))
 LONGEST_S = 600
 
 if not in_the_loop.source() or "copter" not in in_the_loop.families():
