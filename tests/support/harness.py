@@ -32,19 +32,23 @@ _claims: list[socket.socket] = []
 _lock = threading.Lock()
 
 
-def _blocks():
-    firsts = list(PORTS[::PORTS_EACH])
-    begin = os.getpid() % len(firsts)
-    for first in firsts[begin:] + firsts[:begin]:
+def _claimed(ports: range):
+    """Those of them that nobody holds, each held from then on until this process ends; processes begin at different ones."""
+    begin = os.getpid() % len(ports)
+    for port in [*ports[begin:], *ports[:begin]]:
         claim = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
-            claim.bind(("127.0.0.1", first))
+            claim.bind(("127.0.0.1", port))
         except OSError:
             claim.close()
             continue
         _claims.append(claim)
-        yield range(first + 1, first + PORTS_EACH)
+        yield port
     raise OSError("all ports for tests are taken")
+
+
+def _blocks():
+    return (range(first + 1, first + PORTS_EACH) for first in _claimed(PORTS[::PORTS_EACH]))
 
 
 _ports = itertools.chain.from_iterable(_blocks())
@@ -76,18 +80,10 @@ def free_tcp_port() -> int:
 
 def own_domain() -> int:
     """A domain of ROS 2 that no other test has while this process lives: src/bus/testing/own_domain.hpp holds them in the same way."""
-    domains, first_port, ports_each = 50, 7400, 250
-    for i in range(domains):
-        domain = 1 + (os.getpid() + i) % domains
-        claim = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        try:
-            claim.bind(("127.0.0.1", first_port + ports_each * domain + ports_each - 1))
-        except OSError:
-            claim.close()
-            continue
-        _claims.append(claim)
-        return domain
-    raise OSError("all domains for tests are taken")
+    first_port, ports_each, domains = 7400, 250, 50
+    last = ports_each - 1
+    held = next(_claimed(range(first_port + ports_each + last, first_port + ports_each * domains + last + 1, ports_each)))
+    return (held - first_port) // ports_each
 
 
 @contextlib.contextmanager
