@@ -14,7 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Tests that run side by side do not hear each other.
 struct BusTest : ::testing::Test {
   /// Until it holds; false when it does not within ten seconds.
   bool comes_true(std::function<bool()> const& holds) {
