@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "slam/graph/pose_graph.hpp"
+
 namespace lapwing::robot {
 
 using slam::Pose2;
@@ -72,6 +74,40 @@ void FloorMap::add_key_frame(slam::Scan scan) {
     draw_last();
   }
   here_ = {graph_.poses.back(), key_covariance_};
+}
+
+bool FloorMap::wants_alignment(bool soon) const {
+  auto const driven_m = path_m_ - aligned_at_m_;
+  return soon ? driven_m > 0.0 : driven_m > std::max(options_.align_every_m, options_.align_every_share * path_m_);
+}
+
+std::unique_ptr<slam::JointAlignment> FloorMap::begin_alignment() {
+  aligned_at_m_ = path_m_;
+  return std::make_unique<slam::JointAlignment>(graph_, options_.joint);
+}
+
+void FloorMap::take(std::vector<Pose2> const& aligned) {
+  auto const count = static_cast<int>(aligned.size());
+  if (count < 2) return;
+  auto const before = graph_.poses;
+  for (int k = 0; k < graph_.size(); ++k)
+    graph_.poses[k] = k < count ? aligned[k] : aligned.back() * slam::between(before[count - 1], before[k]);
+  // What is aligned was measured anew. By the old edges the next loop would put everything back to where it was.
+  bool has_new_loops = false;
+  for (auto& constraint : graph_.constraints) {
+    auto const& [from, to] = std::pair(constraint.from, constraint.to);
+    if (std::max(from, to) < count) {
+      constraint.from_to = slam::between(aligned[from], aligned[to]);
+    } else {
+      has_new_loops = has_new_loops || constraint.is_loop;
+    }
+  }
+  if (has_new_loops)
+    graph_.poses = slam::optimize(graph_.poses, graph_.constraints,
+                                  {.most_rounds = 10, .loop_tolerance = options_.loops.tolerance, .small_step = 1e-3})
+                       .poses;
+  here_.pose = graph_.poses.back() * slam::between(before.back(), here_.pose);
+  redraw();
 }
 
 bool FloorMap::wants_redraw() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "map/grid/occupancy_grid.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
+#include "slam/refine/joint.hpp"
 
 namespace lapwing::robot {
 
@@ -20,6 +22,8 @@ struct MappingOptions {
   slam::FrontEndOptions front_end = {
       .odometry_spread = 0.25, .may_freeze = false, .may_slip = false, .may_be_refuted = false};
   slam::LoopOptions loops;
+  /// A robot that explores comes through a corridor again and again; nothing lets go of key frames here.
+  slam::JointOptions joint = {.radius_m = 8.0, .apart_m = 1.5};
   slam::BeamModel beam;
   /// Where the robot's map lies in its site. The map begins where the robot does, looking along x.
   geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map = {};
@@ -30,6 +34,10 @@ struct MappingOptions {
   double far_m = 0.15;
   double far_rad = 0.04;
   double redraw_every_m = 5.0;
+  /// All key frames are aligned at once when the robot has driven so much since, and such a share of its whole way:
+  /// that takes the longer the more there are.
+  double align_every_m = 30.0;
+  double align_every_share = 0.3;
 };
 
 /// Where the robot is by its map.
@@ -49,6 +57,14 @@ class FloorMap {
   /// Takes a scan in the order of time. Precondition: as many ranges as the sensor has beams.
   void add(slam::Scan scan);
 
+  /// Whether it is time to align all key frames at once. `soon`: there is a reason to, if anything is new at all.
+  [[nodiscard]] bool wants_alignment(bool soon) const;
+  /// For what goes on beside this map. It counts as done from here on.
+  [[nodiscard]] std::unique_ptr<slam::JointAlignment> begin_alignment();
+  /// Takes what came of that; what was mapped meanwhile is carried along. Precondition: one pose each of the key frames
+  /// that there were when it began.
+  void take(std::vector<slam::Pose2> const& aligned);
+
   /// At the last scan; the origin before the first.
   [[nodiscard]] Located const& here() const { return here_; }
   /// Of the odometry of the last scan.
@@ -62,7 +78,7 @@ class FloorMap {
   /// When a key frame's scan was taken.
   [[nodiscard]] slam::LogTime key_time(std::size_t frame) const { return log_.scans[frame].time; }
   [[nodiscard]] slam::LoopCounts loops() const { return loops_.counts(); }
-  /// How often loops have made the grid be drawn anew.
+  /// How often loops and alignments have made the grid be drawn anew.
   [[nodiscard]] int redrawn() const { return redrawn_; }
 
  private:
@@ -78,6 +94,7 @@ class FloorMap {
   slam::Graph graph_;
   double path_m_ = 0.0;
   double redrawn_at_m_ = 0.0;
+  double aligned_at_m_ = 0.0;
   Eigen::Matrix3d key_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<slam::Pose2> drawn_at_;
   map::OccupancyGrid grid_;

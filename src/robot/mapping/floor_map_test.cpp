@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "slam/graph/pose_graph.hpp"
 #include "slam/testing/simulated_drive.hpp"
 
 namespace lapwing::robot {
@@ -35,21 +36,22 @@ Mapped map_of(slam::testing::Drive const& drive, std::size_t scans, MappingOptio
   return mapped;
 }
 
+std::vector<Pose2> truth_of(FloorMap const& map, slam::testing::Drive const& drive) {
+  std::vector<Pose2> truth;
+  for (std::size_t i = 0, next = 0; i < drive.log.scans.size() && next < map.graph().frames.size(); ++i) {
+    if (map.key_time(next) != drive.log.scans[i].time) continue;
+    truth.push_back(drive.truth[i]);
+    ++next;
+  }
+  return truth;
+}
+
 TEST(FloorMap, KnowsWhereTheRobotIsBetterThanItsWheelsDo) {
   auto const drive = ring_drive();
   auto const mapped = map_of(drive, drive.log.scans.size());
   std::vector<Pose2> wheels;
   for (auto const& scan : drive.log.scans) wheels.push_back(scan.odometry);
-  double const by_map = slam::testing::greatest_error_m(mapped.map.graph().poses, [&] {
-    std::vector<Pose2> truth;
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < drive.log.scans.size() && next < mapped.map.graph().frames.size(); ++i) {
-      if (mapped.map.key_time(next) != drive.log.scans[i].time) continue;
-      truth.push_back(drive.truth[i]);
-      ++next;
-    }
-    return truth;
-  }());
+  double const by_map = slam::testing::greatest_error_m(mapped.map.graph().poses, truth_of(mapped.map, drive));
   EXPECT_LT(by_map, 0.1);
   EXPECT_GT(slam::testing::greatest_error_m(wheels, drive.truth), 3.0 * by_map);
 }
@@ -179,6 +181,63 @@ TEST(FloorMap, IsLessSureBetweenKeyFrames) {
     }
   }
   EXPECT_GT(compared, 0);
+}
+
+std::vector<Pose2> done(std::unique_ptr<slam::JointAlignment> alignment) {
+  while (!alignment->is_done()) alignment->go_on(1000, slam::one_by_one);
+  return alignment->graph().poses;
+}
+
+TEST(FloorMap, IsAlignedWhileItGrows) {
+  auto const drive = ring_drive();
+  auto const half = drive.log.scans.size() / 2;
+  auto mapped = map_of(drive, half);
+  auto& map = mapped.map;
+  auto alignment = map.begin_alignment();
+  auto const frames = map.graph().size();
+  for (auto i = half; i < half + 20; ++i) map.add(drive.log.scans[i]);
+  ASSERT_GT(map.graph().size(), frames);
+  auto const before_m = slam::testing::greatest_error_m(map.graph().poses, truth_of(map, drive));
+  auto const last = map.graph().poses[frames - 1];
+  auto const since = slam::between(last, map.here().pose);
+  auto const aligned = done(std::move(alignment));
+  map.take(aligned);
+  EXPECT_LT(slam::testing::greatest_error_m(map.graph().poses, truth_of(map, drive)), before_m);
+  EXPECT_NE(map.graph().poses[frames - 1], last);
+  EXPECT_EQ(map.graph().poses[frames - 1], aligned.back());
+  EXPECT_LT(slam::distance_m(slam::between(aligned.back(), map.here().pose), since), 1e-9) << "carried along";
+  for (auto i = half + 20; i < drive.log.scans.size(); ++i) map.add(drive.log.scans[i]);
+  EXPECT_LT(slam::testing::greatest_error_m(map.graph().poses, truth_of(map, drive)), 0.1);
+}
+
+TEST(FloorMap, KeepsWhatWasAlignedWhenALoopCloses) {
+  auto const drive = ring_drive();
+  auto aligned_map = map_of(drive, drive.log.scans.size()).map;
+  auto const closures = aligned_map.loops().closures;
+  EXPECT_GT(closures, 0);
+  auto const aligned = done(aligned_map.begin_alignment());
+  aligned_map.take(aligned);
+  for (auto const& constraint : aligned_map.graph().constraints)
+    EXPECT_LT(slam::error_of(constraint, aligned).norm(), 1e-9) << "or the next loop would undo it";
+}
+
+TEST(FloorMap, WantsToBeAlignedAfterAPartOfItsWay) {
+  auto const drive = ring_drive();
+  FloorMap map(drive.log.sensors.front(), {});
+  EXPECT_FALSE(map.wants_alignment(false));
+  EXPECT_FALSE(map.wants_alignment(true)) << "of nothing";
+  std::size_t i = 0;
+  while (i < drive.log.scans.size() && !map.wants_alignment(false)) map.add(drive.log.scans[i++]);
+  ASSERT_LT(i, drive.log.scans.size());
+  double driven_m = 0.0;
+  for (std::size_t k = 1; k < i; ++k) driven_m += slam::distance_m(drive.truth[k - 1], drive.truth[k]);
+  EXPECT_NEAR(driven_m, MappingOptions{}.align_every_m, 2.0);
+  EXPECT_TRUE(map.wants_alignment(true));
+  auto const alignment = map.begin_alignment();
+  EXPECT_FALSE(map.wants_alignment(false));
+  EXPECT_FALSE(map.wants_alignment(true)) << "nothing is new";
+  for (int more = 0; more < 10; ++more) map.add(drive.log.scans[i++]);
+  EXPECT_TRUE(map.wants_alignment(true));
 }
 
 TEST(FloorMap, IsTheSameForTheSameScans) {

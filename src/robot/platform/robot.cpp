@@ -75,11 +75,13 @@ Robot::Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundin
                .points_of_interest = around_.points_of_interest}),
       scanned_(around_.loop),
       planned_(around_.loop),
+      aligning_(around_.loop),
       changed_(around_.loop),
       scope_(around_.loop) {
   body_->listen({.on_reading = [this](Reading const& reading) { take(reading); },
                  .on_scan = [this](slam::Scan const& scan) { take(scan); }});
   scope_.spawn(keep_thinking());
+  scope_.spawn(keep_aligning());
   scope_.spawn(watch_link());
 }
 
@@ -165,12 +167,24 @@ base::Task<> Robot::keep_thinking() {
   }
 }
 
+/// Beside thinking, for it takes seconds.
+base::Task<> Robot::keep_aligning() {
+  for (;;) {
+    while (!alignment_) co_await aligning_.wait();
+    auto alignment = std::move(alignment_);
+    while (!alignment->is_done()) alignment = co_await around_.loop.on_pool(&go_on_aligning, std::move(alignment));
+    aligned_ = alignment->graph().poses;
+    is_aligning_ = false;
+  }
+}
+
 base::Task<MapResult> Robot::map_scans() {
   health_.begin_work(Module::mapping);
   if (spec_.hold_up) co_await spec_.hold_up(Module::mapping);
   std::vector<slam::Scan> scans{std::make_move_iterator(scans_.begin()), std::make_move_iterator(scans_.end())};
   scans_.clear();
-  auto result = co_await around_.loop.on_pool(&take_in, std::move(thoughts_), std::move(scans));
+  auto result =
+      co_await around_.loop.on_pool(&take_in, std::move(thoughts_), std::move(scans), std::exchange(aligned_, {}));
   is_pose_lost_ = pose_check_.feed(base::to_seconds(around_.loop.now().time_since_epoch()), result.misfit);
   health_.say(Module::mapping, ModuleState::ready, mapping_code());
   co_return result;
@@ -185,6 +199,8 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
                   .time_s = base::to_seconds(around_.loop.now().time_since_epoch())};
   input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
   input.wants_walls = around_.loop.now() - walls_at_ >= walls_period;
+  input.may_align = !is_aligning_ && aligned_.empty();
+  input.aligns_soon = aligns_soon_;
   auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
   bool const has_failed = result.errand == last_errand_ && result.plan.state == Plan::State::failed;
   if (has_failed && !is_looking_) planner_code_ = code::no_way;
@@ -215,6 +231,12 @@ void Robot::use(PlanResult result) {
   }
   write_map(result.map);
   if (result.walls) write_walls(*result.walls);
+  if (result.alignment) {
+    alignment_ = std::move(result.alignment);
+    is_aligning_ = true;
+    aligns_soon_ = false;
+    aligning_.notify_all();
+  }
 }
 
 void Robot::write_map(MapResult& result) {
@@ -320,6 +342,7 @@ base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
   give(ExploreErrand{std::move(strategy)});
   auto exploring = see_through();
   auto explored = co_await std::move(exploring);
+  aligns_soon_ = true;
   auto const& looks = around_.second_looks;
   if (!explored || !looks.next) co_return explored;
   auto looking = look_again(std::max(looks_at_least_m, looks_of_way * (driven_m_ - began_m)));

@@ -156,6 +156,7 @@ class Robot {
   void use(PlanResult result);
   void give(Errand errand);
   base::Task<> keep_thinking();
+  base::Task<> keep_aligning();
   base::Task<> watch_link();
   base::Task<> carry_out(std::shared_ptr<DriveRecord> record, std::vector<Step> steps);
   /// Gives what is to be said of a step that is done.
@@ -189,6 +190,10 @@ class Robot {
 
   std::unique_ptr<Thoughts> thoughts_;  ///< null until the first scan, and while they are worked on
   bool has_thoughts_ = false;
+  std::unique_ptr<slam::JointAlignment> alignment_;  ///< that is to be done
+  bool is_aligning_ = false;
+  bool aligns_soon_ = false;          ///< as an exploration has ended
+  std::vector<slam::Pose2> aligned_;  ///< and the map has not taken in
   std::optional<NewErrand> next_errand_;
   std::uint64_t last_errand_ = 0;   ///< that was given
   std::uint64_t known_errand_ = 0;  ///< that the planner has
@@ -208,6 +213,7 @@ class Robot {
   std::vector<std::shared_ptr<DriveRecord const>> drives_;
   base::Notifier scanned_;
   base::Notifier planned_;
+  base::Notifier aligning_;
   base::Notifier changed_;
   base::Task<> drive_;  // behind what it waits for
   base::Scope scope_;

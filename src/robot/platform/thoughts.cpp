@@ -24,10 +24,11 @@ std::vector<Place> ends_of(slam::Scan const& scan, slam::Sensor const& sensor, s
 
 }  // namespace
 
-MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans) {
+MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans, std::vector<slam::Pose2> aligned) {
   auto& map = thoughts->map;
   MapResult result;
   result.last = scans.back();
+  if (!aligned.empty()) map.take(aligned);
   for (auto& scan : scans) map.add(std::move(scan));
   result.changed = map.take_changes();
   if (!result.changed.empty()) result.grid = map.grid();
@@ -41,7 +42,7 @@ MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> sc
 
 PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
   auto& planner = map.thoughts->planner;
-  auto const& floor = map.thoughts->map;
+  auto& floor = map.thoughts->map;
   if (map.grid) planner.learn(*map.grid, map.changed);
   PlanResult result;
   result.errand = errand;
@@ -63,8 +64,15 @@ PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
   }
   if (input.wants_survey) result.survey = planner.survey();
   if (input.wants_walls) result.walls = map.thoughts->walls.take(slam::find_walls(floor.grid()));
+  if (input.may_align && floor.wants_alignment(input.aligns_soon)) result.alignment = floor.begin_alignment();
   result.map = std::move(map);
   return result;
+}
+
+std::unique_ptr<slam::JointAlignment> go_on_aligning(std::unique_ptr<slam::JointAlignment> alignment) {
+  constexpr std::size_t most_pairs = 2000;
+  alignment->go_on(most_pairs, slam::one_by_one);
+  return alignment;
 }
 
 }  // namespace lapwing::robot

@@ -45,6 +45,8 @@ struct PlanInput {
   double time_s = 0.0;
   bool wants_survey = false;
   bool wants_walls = false;  ///< which costs more than all the rest
+  bool may_align = false;    ///< no alignment is under way
+  bool aligns_soon = false;  ///< for a reason, however little is new
 };
 
 struct PlanResult {
@@ -53,11 +55,16 @@ struct PlanResult {
   std::uint64_t errand = 0;  ///< which one the plan is for; 0: none
   std::optional<Survey> survey = {};
   std::optional<WallBook::Changes> walls = {};
+  std::unique_ptr<slam::JointAlignment> alignment = {};  ///< that has begun; what comes of it is for `take_in`
 };
 
-/// A pure function for `Loop::on_pool`: takes the scans into the map; in the order of time, at least one.
-[[nodiscard]] MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans);
+/// A pure function for `Loop::on_pool`: takes the scans into the map; in the order of time, at least one. `aligned`:
+/// what has come of an alignment, nothing if none has ended.
+[[nodiscard]] MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans,
+                                std::vector<slam::Pose2> aligned);
 /// The same: plans on what has come of that. `errand`: the one that the planner has.
 [[nodiscard]] PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input);
+/// The same: a piece of it, short enough not to hold up mapping. Precondition: not done.
+[[nodiscard]] std::unique_ptr<slam::JointAlignment> go_on_aligning(std::unique_ptr<slam::JointAlignment> alignment);
 
 }  // namespace lapwing::robot

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "slam/graph.hpp"
+#include "slam/graph/block_system.hpp"
+#include "slam/match/point_to_line.hpp"
 #include "slam/parallel.hpp"
 
 namespace lapwing::slam {
 
 struct JointOptions {
   int rounds = 5;
-  int neighbours = 8;         ///< key frames that each is aligned with, beside those just before it
-  double radius_m = 4.0;      ///< around it
+  int neighbours = 8;     ///< key frames that each is aligned with, beside those just before it
+  double radius_m = 4.0;  ///< around it
+  /// What they are apart from each other at least, a radian counting 0.7 m. Where a place was passed often the nearest
+  /// are copies of each other, and what is a little wrong adds up from each to the next.
+  double apart_m = 0.0;
   double first_gate_m = 0.3;  ///< narrowed from round to round
   double last_gate_m = 0.12;
   double first_scale_m = 0.10;
@@ -20,7 +29,42 @@ struct JointOptions {
 };
 
 /// Aligns all key frames that overlap with each other at once, point to line, from poses whose loops are closed: what a
-/// pose graph forgets, that walls are straight lines through many scans, is what the last centimetres come from.
+/// pose graph forgets, that walls are straight lines through many scans, is what the last centimetres come from. Piece
+/// by piece, for who has other things to do meanwhile: however the work is cut, the result is the same.
+class JointAlignment {
+ public:
+  JointAlignment(Graph graph, JointOptions const& options);
+
+  [[nodiscard]] bool is_done() const { return round_ == options_.rounds; }
+  /// Lays at most so many pairs of key frames on each other, some ten microseconds each, and moves all key frames when
+  /// those were the last of a round. Precondition: not done.
+  void go_on(std::size_t most_pairs, ForEach const& for_each);
+
+  [[nodiscard]] Graph const& graph() const { return graph_; }
+  [[nodiscard]] Graph take() && { return std::move(graph_); }
+
+ private:
+  struct Pair {
+    int source;
+    int target;
+  };
+  [[nodiscard]] static std::vector<Pair> overlapping(Graph const& graph, JointOptions const& options);
+  [[nodiscard]] static BlockSystem system_for(Graph const& graph, std::vector<Pair> const& pairs);
+  [[nodiscard]] Association association() const;
+  void hold_steps();
+  void move_all();
+
+  JointOptions options_;
+  Graph graph_;
+  std::vector<Pose2> before_;
+  std::vector<Pair> pairs_;
+  std::vector<PairTerm> terms_;  ///< of this round's pairs
+  BlockSystem system_;
+  int round_ = 0;
+  std::size_t next_ = 0;  ///< of the pairs, in this round
+};
+
+/// All of it at once.
 void refine_jointly(Graph& graph, JointOptions const& options, ForEach const& for_each);
 
 }  // namespace lapwing::slam

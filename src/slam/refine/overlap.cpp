@@ -15,24 +15,29 @@ std::int64_t PlaceIndex::cell(double x, double y) const {
          static_cast<std::int64_t>(std::floor(y / radius_m_));
 }
 
-std::vector<int> PlaceIndex::near(Pose2 const& pose, int own, int most) const {
+double PlaceIndex::apart(Pose2 const& a, Pose2 const& b) {
   constexpr double metres_per_rad = 0.7;
+  return distance_m(a, b) + metres_per_rad * turn_rad(a, b);
+}
+
+std::vector<int> PlaceIndex::near(Pose2 const& pose, int own, int most, double apart_m) const {
+  auto const& poses = *poses_;
   std::vector<std::pair<double, int>> found;
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
       auto const at = cells_.find(cell(pose.x + i * radius_m_, pose.y + j * radius_m_));
       if (at == cells_.end()) continue;
-      for (auto const k : at->second) {
-        auto const apart = distance_m(pose, (*poses_)[k]);
-        if (k != own && apart <= radius_m_)
-          found.emplace_back(apart + metres_per_rad * turn_rad(pose, (*poses_)[k]), k);
-      }
+      for (auto const k : at->second)
+        if (k != own && distance_m(pose, poses[k]) <= radius_m_) found.emplace_back(apart(pose, poses[k]), k);
     }
   }
   std::ranges::sort(found);
   std::vector<int> chosen;
   for (auto const& [cost, k] : found) {
-    if (std::ranges::any_of(chosen, [this, k = k](int c) { return std::abs(c - k) < in_time_; })) continue;
+    auto const shows_the_same = [&, k = k](int c) {
+      return std::abs(c - k) < in_time_ || (apart_m > 0.0 && apart(poses[c], poses[k]) < apart_m);
+    };
+    if (std::ranges::any_of(chosen, shows_the_same)) continue;
     chosen.push_back(k);
     if (static_cast<int>(chosen.size()) >= most) break;
   }

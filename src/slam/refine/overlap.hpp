@@ -14,10 +14,11 @@ class PlaceIndex {
   PlaceIndex(std::vector<Pose2> const& poses, double radius_m, int in_time = 4);
 
   /// The nearest to the pose (a turn counts as a distance, for who looks elsewhere sees less of the same), none of them
-  /// neighbours in time of each other; `own` is left out (-1: none).
-  [[nodiscard]] std::vector<int> near(Pose2 const& pose, int own, int most) const;
+  /// neighbours in time of each other nor nearer to each other than `apart_m`; `own` is left out (-1: none).
+  [[nodiscard]] std::vector<int> near(Pose2 const& pose, int own, int most, double apart_m = 0.0) const;
 
  private:
+  [[nodiscard]] static double apart(Pose2 const& a, Pose2 const& b);
   [[nodiscard]] std::int64_t cell(double x, double y) const;
 
   std::vector<Pose2> const* poses_;
