@@ -210,7 +210,7 @@ TEST(FloorMap, IsAlignedWhileItGrows) {
   EXPECT_LT(slam::testing::greatest_error_m(map.graph().poses, truth_of(map, drive)), 0.1);
 }
 
-TEST(FloorMap, KeepsWhatWasAlignedWhenALoopCloses) {
+TEST(FloorMap, MeasuresAnewWhatWasAligned) {
   auto const drive = ring_drive();
   auto aligned_map = map_of(drive, drive.log.scans.size()).map;
   auto const closures = aligned_map.loops().closures;
