@@ -1,5 +1,8 @@
 #include "host/eyes/picture_eyes.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <deque>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,17 +18,36 @@ namespace {
 /// Looks take half a second, a few on a small machine; who takes longer is silent, and later ended.
 constexpr base::Duration look_hangs_after = std::chrono::seconds(5);
 
+/// Of so many pictures in which something was written, most must have been sharp.
+constexpr std::size_t pictures_judged = 20;
+
+/// What is known of the pictures of all cameras of a robot.
+struct PictureRecord {
+  int silent_cameras = 0;      ///< that gave no picture when they were last asked
+  std::deque<bool> was_sharp;  ///< the last ones in which something was written, the newest last
+
+  void note(robot::Look const& look) {
+    if (look.found.empty()) return;
+    was_sharp.push_back(look.is_sharp);
+    if (was_sharp.size() > pictures_judged) was_sharp.pop_front();
+  }
+  [[nodiscard]] bool are_blurred() const {
+    return was_sharp.size() == pictures_judged &&
+           std::ranges::count(was_sharp, false) > static_cast<std::ptrdiff_t>(pictures_judged / 2);
+  }
+};
+
 /// One camera, and what the others of the robot share with it.
 struct Camera {
   PictureSource source;
   LookingChild* child;
-  std::shared_ptr<int> silent;  ///< cameras that gave no picture when they were last asked
+  std::shared_ptr<PictureRecord> record;
   std::shared_ptr<bool> is_silent = std::make_shared<bool>(false);
 
   void note(bool has_picture) const {
     if (*is_silent == !has_picture) return;
     *is_silent = !has_picture;
-    *silent += has_picture ? -1 : 1;
+    record->silent_cameras += has_picture ? -1 : 1;
   }
 };
 
@@ -41,6 +63,7 @@ base::Task<std::optional<robot::Look>> look_for_tags(Camera camera) {
   if (!seen) co_return std::nullopt;
   robot::Look look{.found = {}, .is_sharp = seen->is_sharp};
   for (auto& [sign, crop] : seen->signs) look.found.push_back({.what = std::move(sign), .crop = std::move(crop)});
+  camera.record->note(look);
   co_return look;
 }
 
@@ -60,30 +83,32 @@ base::Task<base::Result<robot::Photograph>> take_photograph(Camera camera) {
                               .height_px = picture->height};
 }
 
-std::optional<std::uint16_t> trouble_of(base::Loop const& loop, LookingChild const& child, int silent_cameras) {
+std::optional<std::uint16_t> trouble_of(base::Loop const& loop, LookingChild const& child,
+                                        PictureRecord const& record) {
   if (child.asked_since() && loop.now() - *child.asked_since() > look_hangs_after) return std::nullopt;
   if (child.is_missing()) return robot::code::no_reader;
   if (child.is_failing()) return robot::code::eyes_away;
-  return silent_cameras > 0 ? robot::code::camera_silent : robot::code::none;
+  if (record.silent_cameras > 0) return robot::code::camera_silent;
+  return record.are_blurred() ? robot::code::pictures_blurred : robot::code::none;
 }
 
 }  // namespace
 
 robot::Eyes eyes_with(base::Loop& loop, std::vector<PictureSource> for_tags, std::optional<PictureSource> ahead,
                       LookingChild& child) {
-  auto const silent = std::make_shared<int>(0);
+  auto const record = std::make_shared<PictureRecord>();
   robot::Eyes eyes;
   for (auto& source : for_tags) {
     auto const mount = source.mount;
-    Camera const camera{.source = std::move(source), .child = &child, .silent = silent};
+    Camera const camera{.source = std::move(source), .child = &child, .record = record};
     eyes.for_tags.push_back({.mount = mount, .look = [camera] { return look_for_tags(camera); }});
   }
   if (ahead) {
     auto const mount = ahead->mount;
-    Camera const camera{.source = *std::move(ahead), .child = &child, .silent = silent};
+    Camera const camera{.source = *std::move(ahead), .child = &child, .record = record};
     eyes.photographer = {.mount = mount, .take = [camera] { return take_photograph(camera); }};
   }
-  eyes.trouble = [&loop, &child, silent] { return trouble_of(loop, child, *silent); };
+  eyes.trouble = [&loop, &child, record] { return trouble_of(loop, child, *record); };
   return eyes;
 }
 

@@ -64,6 +64,19 @@ TEST_F(PictureEyes, SayThatOneCameraGivesNoPicturesUntilItDoesAgain) {
   EXPECT_EQ(eyes.trouble(), code::none);
 }
 
+TEST_F(PictureEyes, SayThatMostPicturesAreBlurredWhileTheyAre) {
+  // A sign is seen in the first three of four pictures; in the end they are sharp again.
+  open(R"(n=0; while read line; do n=$((n + 1)); sharp=false; [ $n -gt 40 ] && sharp=true
+if [ $((n % 4)) -eq 0 ]; then echo '{"signs": [], "is_sharp": true}'
+else echo '{"signs": [{"box": [1, 2, 30, 20], "score": 0.5}], "is_sharp": '$sharp'}'; fi; done)");
+  for (int i = 0; i < 24; ++i) ASSERT_TRUE(look());
+  EXPECT_EQ(eyes.trouble(), code::none) << "a few pictures are no reason to complain";
+  for (int i = 0; i < 16; ++i) ASSERT_TRUE(look());
+  EXPECT_EQ(eyes.trouble(), code::pictures_blurred);
+  for (int i = 0; i < 16; ++i) ASSERT_TRUE(look());
+  EXPECT_EQ(eyes.trouble(), code::none);
+}
+
 TEST_F(PictureEyes, SayThatWhoLooksIsGone) {
   open("exit 1");
   EXPECT_FALSE(look());

@@ -118,6 +118,14 @@ TEST_F(RobotFaults, AWheelThatSlipsIsSaidWithItsCodeAndStopsNothing) {
   EXPECT_TRUE(shown().may_move);
 }
 
+TEST_F(RobotFaults, WheelsThatSpinOnTheSpotAreSaidUntilTheyDriveItAgain) {
+  for (int const wheel : {0, 1}) board().set({.kind = Fault::Kind::wheel_slips, .which = wheel, .amount = 0.0});
+  ASSERT_TRUE(comes_true([this] { return error_of("PLN") == code::not_moving; }, 60s));
+  EXPECT_TRUE(shown().may_move) << "it may get free";
+  board().mend(Fault::Kind::wheel_slips);
+  EXPECT_TRUE(comes_true([this] { return error_of("PLN") == code::none; }, 60s));
+}
+
 TEST_F(RobotFaults, ASilentInertialUnitIsSaidWithItsCode) {
   board().set({.kind = Fault::Kind::imu_silent});
   EXPECT_TRUE(comes_true([this] { return error_of("SIM") == code::imu_silent; }, 2s));

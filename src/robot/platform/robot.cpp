@@ -193,10 +193,11 @@ base::Task<MapResult> Robot::map_scans() {
 base::Task<PlanResult> Robot::plan(MapResult map) {
   health_.begin_work(Module::planner);
   if (spec_.hold_up) co_await spec_.hold_up(Module::planner);
+  double const now_s = base::to_seconds(around_.loop.now().time_since_epoch());
   PlanInput input{.errand = std::exchange(next_errand_, std::nullopt),
                   .sides = last_reading_ ? last_reading_->sides : explore::SideDistances{},
                   .driven_m = driven_m_,
-                  .time_s = base::to_seconds(around_.loop.now().time_since_epoch())};
+                  .time_s = now_s};
   input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
   input.wants_walls = around_.loop.now() - walls_at_ >= walls_period;
   input.may_align = !is_aligning_ && aligned_.empty();
@@ -204,7 +205,8 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
   auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
   bool const has_failed = result.errand == last_errand_ && result.plan.state == Plan::State::failed;
   if (has_failed && !is_looking_) planner_code_ = code::no_way;
-  health_.say(Module::planner, ModuleState::ready, planner_code_);
+  bool const spins = wheel_spin_.feed(now_s, result.map.odometry, result.map.here.pose);
+  health_.say(Module::planner, ModuleState::ready, spins ? code::not_moving : planner_code_);
   co_return result;
 }
 
@@ -259,7 +261,10 @@ void Robot::write_walls(WallBook::Changes const& changes) {
 
 void Robot::give(Errand errand) {
   // What became of an errand stands until there is another.
-  if (!std::holds_alternative<std::monostate>(errand)) planner_code_ = code::none;
+  if (!std::holds_alternative<std::monostate>(errand)) {
+    planner_code_ = code::none;
+    wheel_spin_.forget();
+  }
   is_looking_ = std::holds_alternative<LookErrand>(errand);
   around_.registry.edit(id()).mode.set(mode_for(errand), around_.loop.now());
   around_.registry.touch(id());

@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "robot/mapping/pose_check.hpp"
 #include "robot/planner/follower.hpp"
+#include "robot/planner/wheel_spin.hpp"
 #include "robot/platform/body.hpp"
 #include "robot/platform/robot_health.hpp"
 #include "robot/platform/thoughts.hpp"
@@ -178,6 +179,7 @@ class Robot {
   RobotHealth health_;
   PoseCheck pose_check_;
   bool is_pose_lost_ = false;
+  WheelSpin wheel_spin_;
   std::uint16_t planner_code_ = 0;
   std::optional<base::TimePoint> left_out_at_;  ///< when a scan was that could not be kept up with
 

@@ -82,9 +82,6 @@ auto constexpr table = std::to_array<CodeEntry>({
     {code::operator_away, Module::communication, notice,
      "The operator is not connected; what is said is kept for later.",
      "Nothing: the robot goes on, or does what its setting says."},
-    {code::queue_full, Module::communication, degraded,
-     "What waits for the operator does not fit any more; the least important is dropped.",
-     "Bring the link back, or make room on the disk."},
 
     {code::store_away, Module::visualizer, notice, "The map's store does not answer; the map is shown as it was.",
      "See the station's log."},
@@ -130,7 +127,8 @@ std::string code_page() {
       "([guide](../guide/robots.md#whether-it-is-well)). This page is made from `src/robot/watch/codes.cpp`, which "
       "both "
       "speak from as well.\n"
-      "Nothing says 403, 502, 602, 701 and 801 yet.\n";
+      "701 and 801 are for old parts that join at the text port "
+      "([protocol](robot-serial.md#old-parts)): nothing of Lapwing's own says them.\n";
   std::optional<Module> module;
   for (auto const& entry : table) {
     if (module != entry.module) {

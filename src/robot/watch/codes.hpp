@@ -56,7 +56,6 @@ std::uint16_t constexpr pictures_blurred = 502;
 std::uint16_t constexpr no_reader = 503;
 std::uint16_t constexpr eyes_away = 504;
 std::uint16_t constexpr operator_away = 601;
-std::uint16_t constexpr queue_full = 602;
 std::uint16_t constexpr store_away = 701;
 std::uint16_t constexpr robot_unheard = 801;
 }  // namespace code
