@@ -1,6 +1,7 @@
 // A building that a robot drives through again and again: neither its graph nor its time grows with the passes, and the
 // map shows what is there now.
 #include <algorithm>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,28 @@ TEST(LongLife, PassesBeyondWhatIsEnoughAddNoKeyFrames) {
   std::vector<Pose2> truth;
   for (auto const& frame : after_many.graph.frames) truth.push_back(many.truth[static_cast<std::size_t>(frame.scan)]);
   EXPECT_LT(testing::greatest_error_m(after_many.graph.poses, truth), 0.1);
+}
+
+/// On the way: what is aligned at the end hides whether the oldest key frames are still tied to what is around them.
+double error_on_the_way(testing::Drive const& drive) {
+  Mapper mapper(MapperOptions(), RobotKind{.has_odometry = true}, one_by_one);
+  for (auto const& scan : drive.log.scans) {
+    mapper.follow(scan, drive.log.sensors.front());
+    mapper.close_loops();
+  }
+  std::vector<Pose2> truth;
+  for (auto const& frame : mapper.graph().frames) truth.push_back(drive.truth[static_cast<std::size_t>(frame.scan)]);
+  return testing::greatest_error_m(mapper.graph().poses, truth);
+}
+
+TEST(LongLife, TheMapStaysWhereItBegan) {
+  EXPECT_LT(error_on_the_way(drive(rooms(), 16)), 0.05);
+}
+
+TEST(LongLife, TheMapStaysWhereItBeganWhereFewLoopsHoldIt) {
+  auto const few_beams = testing::drive(rooms(), rounds(16),
+                                        {.beams = 46, .field_of_view_rad = 2.0 * std::numbers::pi, .scans_per_s = 2.5});
+  EXPECT_LT(error_on_the_way(few_beams), 0.5);
 }
 
 TEST(LongLife, ChangesNothingWhereAPlaceIsPassedThrice) {

@@ -86,12 +86,13 @@ Constraint joint(Neighbour const& a, Neighbour const& b) {
           .is_loop = a.is_loop || b.is_loop};
 }
 
-/// The spanning tree of the most information, those first that are no loops (Kruskal 1956). The determinant of the
-/// whole is the product of those of a tree's edges, whichever tree it is.
-std::vector<Constraint> best_tree(std::vector<Neighbour> const& neighbours) {
+/// The spanning tree of the most information, those first that are no loops, then those between frames that stay
+/// (Kruskal 1956). The determinant of the whole is the product of those of a tree's edges, whichever tree it is.
+std::vector<Constraint> best_tree(std::vector<Neighbour> const& neighbours, std::vector<bool> const& goes) {
   struct Edge {
     std::size_t a;
     std::size_t b;
+    bool lasts;  ///< both ends stay
     double gain;
     Constraint constraint;
   };
@@ -99,17 +100,20 @@ std::vector<Constraint> best_tree(std::vector<Neighbour> const& neighbours) {
   for (std::size_t a = 0; a < neighbours.size(); ++a) {
     for (std::size_t b = a + 1; b < neighbours.size(); ++b) {
       auto const constraint = joint(neighbours[a], neighbours[b]);
-      edges.push_back({a, b, log_determinant(constraint.information), constraint});
+      bool const lasts = !goes[neighbours[a].frame] && !goes[neighbours[b].frame];
+      edges.push_back({a, b, lasts, log_determinant(constraint.information), constraint});
     }
   }
-  std::ranges::sort(edges, {}, [](Edge const& e) { return std::tuple(e.constraint.is_loop, -e.gain, e.a, e.b); });
+  std::ranges::sort(edges, {},
+                    [](Edge const& e) { return std::tuple(e.constraint.is_loop, !e.lasts, -e.gain, e.a, e.b); });
   std::vector<std::size_t> part(neighbours.size());
   std::iota(part.begin(), part.end(), std::size_t{0});
   std::vector<Constraint> tree;
   for (auto const& edge : edges) {
     if (part[edge.a] == part[edge.b]) continue;
     tree.push_back(edge.constraint);
-    std::ranges::replace(part, part[edge.b], part[edge.a]);
+    auto const [into, from] = std::pair(part[edge.a], part[edge.b]);  // no references: `from` is replaced, too
+    std::ranges::replace(part, from, into);
   }
   return tree;
 }
@@ -143,7 +147,7 @@ void keep_best_loops(std::vector<Constraint>& constraints, int frame, int most) 
 }  // namespace
 
 std::vector<Constraint> marginalized(std::vector<Constraint> const& constraints, std::vector<Pose2> const& poses,
-                                     int frame, int most_loops) {
+                                     int frame, std::vector<bool> const& goes, int most_loops) {
   std::vector<Constraint> left;
   std::map<int, Neighbour> by_frame;
   for (auto const& constraint : constraints) {
@@ -155,7 +159,7 @@ std::vector<Constraint> marginalized(std::vector<Constraint> const& constraints,
   }
   std::vector<Neighbour> neighbours;
   for (auto const& [number, neighbour] : by_frame) neighbours.push_back(neighbour);
-  for (auto const& edge : best_tree(neighbours)) put(left, edge);
+  for (auto const& edge : best_tree(neighbours, goes)) put(left, edge);
   for (auto const& neighbour : neighbours) keep_best_loops(left, neighbour.frame, most_loops);
   return left;
 }

@@ -37,8 +37,10 @@ void mark_cuts(Graph& graph, Renumbering const& renumbering) {
 
 Renumbering let_go(Graph& graph, std::vector<Redundant> const& redundant, int most_loops) {
   auto renumbering = renumbering_of(graph, redundant);
+  std::vector<bool> goes;
+  for (int k = 0; k < graph.size(); ++k) goes.push_back(!renumbering.stays(k));
   for (auto const& one : redundant)
-    graph.constraints = marginalized(graph.constraints, graph.poses, one.frame, most_loops);
+    graph.constraints = marginalized(graph.constraints, graph.poses, one.frame, goes, most_loops);
   for (auto& constraint : graph.constraints) {
     constraint.from = renumbering.now[constraint.from];
     constraint.to = renumbering.now[constraint.to];
