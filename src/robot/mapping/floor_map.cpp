@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "slam/graph/pose_graph.hpp"
+#include "slam/prune/let_go.hpp"
 
 namespace lapwing::robot {
 
@@ -58,7 +59,7 @@ void FloorMap::add_key_frame(slam::Scan scan) {
   auto step = front_end_.add(graph_.frames, graph_.poses, frame, scan.odometry);
   if (is_first) step.pose = {};
   if (step.constraint) path_m_ += slam::distance_m(log_.scans.back().odometry, scan.odometry);
-  graph_.frames.push_back({.scan = static_cast<int>(log_.scans.size()), .frame = std::move(frame), .path_m = path_m_});
+  graph_.frames.push_back({.scan = key_frames_++, .frame = std::move(frame), .path_m = path_m_});
   graph_.poses.push_back(step.pose);
   if (step.constraint) {
     graph_.constraints.push_back(*step.constraint);
@@ -68,12 +69,25 @@ void FloorMap::add_key_frame(slam::Scan scan) {
   }
   log_.scans.push_back(std::move(scan));
   loops_.follow(graph_);
+  let_go_of_redundant();
   if (wants_redraw()) {
     redraw();
   } else {
     draw_last();
   }
   here_ = {graph_.poses.back(), key_covariance_};
+}
+
+/// What is aligned beside this map has the key frames' numbers as they were when that began.
+void FloorMap::let_go_of_redundant() {
+  if (--until_let_go_ > 0 || is_aligning_) return;
+  until_let_go_ = options_.prune.every_frames;
+  auto const redundant = slam::redundant_frames(graph_, options_.prune);
+  if (redundant.empty()) return;
+  auto const renumbering = slam::let_go(graph_, redundant, options_.prune.most_loops);
+  slam::keep_staying(log_.scans, renumbering);
+  slam::keep_staying(drawn_at_, renumbering);
+  loops_.renumber(graph_, renumbering);
 }
 
 bool FloorMap::wants_alignment(bool soon) const {
@@ -83,10 +97,12 @@ bool FloorMap::wants_alignment(bool soon) const {
 
 std::unique_ptr<slam::JointAlignment> FloorMap::begin_alignment() {
   aligned_at_m_ = path_m_;
+  is_aligning_ = true;
   return std::make_unique<slam::JointAlignment>(graph_, options_.joint);
 }
 
 void FloorMap::take(std::vector<Pose2> const& aligned) {
+  is_aligning_ = false;
   auto const count = static_cast<int>(aligned.size());
   if (count < 2) return;
   auto const before = graph_.poses;

@@ -9,6 +9,7 @@
 #include "map/grid/occupancy_grid.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
+#include "slam/prune/prune_options.hpp"
 #include "slam/refine/joint.hpp"
 
 namespace lapwing::robot {
@@ -22,8 +23,10 @@ struct MappingOptions {
   slam::FrontEndOptions front_end = {
       .odometry_spread = 0.25, .may_freeze = false, .may_slip = false, .may_be_refuted = false};
   slam::LoopOptions loops;
-  /// A robot that explores comes through a corridor again and again; nothing lets go of key frames here.
+  /// A robot that explores comes through a corridor again and again, and its nearest key frames are copies.
   slam::JointOptions joint = {.radius_m = 8.0, .apart_m = 1.5};
+  /// Which of them are let go, so that a robot may drive about for days.
+  slam::PruneOptions prune;
   slam::BeamModel beam;
   /// Where the robot's map lies in its site. The map begins where the robot does, looking along x.
   geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map = {};
@@ -59,7 +62,7 @@ class FloorMap {
 
   /// Whether it is time to align all key frames at once. `soon`: there is a reason to, if anything is new at all.
   [[nodiscard]] bool wants_alignment(bool soon) const;
-  /// For what goes on beside this map. It counts as done from here on.
+  /// For what goes on beside this map. It counts as done from here on, and no key frame is let go until it is taken.
   [[nodiscard]] std::unique_ptr<slam::JointAlignment> begin_alignment();
   /// Takes what came of that; what was mapped meanwhile is carried along. Precondition: one pose each of the key frames
   /// that there were when it began.
@@ -83,6 +86,7 @@ class FloorMap {
 
  private:
   void add_key_frame(slam::Scan scan);
+  void let_go_of_redundant();
   void draw_last();
   void redraw();
   [[nodiscard]] bool wants_redraw() const;
@@ -92,6 +96,9 @@ class FloorMap {
   slam::FrontEnd front_end_;
   slam::LoopCloser loops_;
   slam::Graph graph_;
+  int key_frames_ = 0;    ///< that there ever were
+  int until_let_go_ = 0;  ///< key frames, until it is looked for what can be let go
+  bool is_aligning_ = false;
   double path_m_ = 0.0;
   double redrawn_at_m_ = 0.0;
   double aligned_at_m_ = 0.0;

@@ -240,6 +240,46 @@ TEST(FloorMap, WantsToBeAlignedAfterAPartOfItsWay) {
   EXPECT_TRUE(map.wants_alignment(true));
 }
 
+/// So many rounds through the corridors of a small office.
+slam::testing::Drive rounds(int count) {
+  std::vector<Eigen::Vector2d> way{{0, 0}};
+  for (int i = 0; i < count; ++i) way.insert(way.end(), {{10, 0}, {10, 8}, {0, 8}, {0, 0}});
+  return slam::testing::drive(slam::testing::office(10.0, 8.0, 4.0, 1.0, 5), way, {.beams = 91, .scans_per_s = 2.5});
+}
+
+MappingOptions of_three_passes() {
+  MappingOptions options;
+  options.prune.passes = 3;
+  return options;
+}
+
+TEST(FloorMap, DoesNotGrowWhereTheRobotDrivesAgainAndAgain) {
+  auto const few = rounds(5);
+  auto const many = rounds(9);
+  auto const after_few = map_of(few, few.log.scans.size(), of_three_passes()).map;
+  auto const after_many = map_of(many, many.log.scans.size(), of_three_passes()).map;
+  EXPECT_LT(after_many.graph().size(), 1.3 * after_few.graph().size());
+  EXPECT_LT(slam::testing::greatest_error_m(after_many.graph().poses, truth_of(after_many, many)), 0.15);
+  EXPECT_GT(after_many.loops().closures, after_few.loops().closures) << "of what was let go, too";
+}
+
+TEST(FloorMap, LetsNothingGoWhileItIsAligned) {
+  auto const drive = rounds(6);
+  auto const half = drive.log.scans.size() / 2;
+  auto mapped = map_of(drive, half, of_three_passes());
+  auto& map = mapped.map;
+  auto alignment = map.begin_alignment();
+  auto const frames = map.graph().size();
+  for (auto i = half; i + 200 < drive.log.scans.size(); ++i) map.add(drive.log.scans[i]);
+  auto const most = map.graph().size();
+  auto const aligned = done(std::move(alignment));
+  ASSERT_EQ(static_cast<int>(aligned.size()), frames);
+  map.take(aligned);
+  for (auto i = drive.log.scans.size() - 200; i < drive.log.scans.size(); ++i) map.add(drive.log.scans[i]);
+  EXPECT_LT(map.graph().size(), most) << "what was put off";
+  EXPECT_LT(slam::testing::greatest_error_m(map.graph().poses, truth_of(map, drive)), 0.1);
+}
+
 TEST(FloorMap, IsTheSameForTheSameScans) {
   auto const drive = ring_drive();
   auto const one = map_of(drive, 120);
