@@ -1,6 +1,7 @@
 #include "robot/mapping/floor_map.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -158,6 +159,7 @@ void FloorMap::redraw() {
     if (!is_same) changed_.insert(key);
   }
   grid_ = std::move(grid);
+  shifts_.emplace_back(drawn_at_, std::span(graph_.poses).first(drawn_at_.size()));
   drawn_at_ = graph_.poses;
   redrawn_at_m_ = path_m_;
   ++redrawn_;

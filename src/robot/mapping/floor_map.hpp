@@ -2,11 +2,13 @@
 
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "map/grid/occupancy_grid.hpp"
+#include "robot/mapping/map_shift.hpp"
 #include "slam/grid/draw_grid.hpp"
 #include "slam/mapper.hpp"
 #include "slam/prune/prune_options.hpp"
@@ -76,6 +78,8 @@ class FloorMap {
   [[nodiscard]] map::OccupancyGrid const& grid() const { return grid_; }
   /// The tiles that have changed since this was last asked.
   [[nodiscard]] std::vector<map::TileKey> take_changes();
+  /// How it has moved since this was last asked, in the order in which it did.
+  [[nodiscard]] std::vector<MapShift> take_shifts() { return std::exchange(shifts_, {}); }
 
   [[nodiscard]] slam::Graph const& graph() const { return graph_; }
   /// When a key frame's scan was taken.
@@ -106,6 +110,7 @@ class FloorMap {
   std::vector<slam::Pose2> drawn_at_;
   map::OccupancyGrid grid_;
   std::set<map::TileKey> changed_;
+  std::vector<MapShift> shifts_;
   Located here_;
   slam::Pose2 odometry_;
   int redrawn_ = 0;

@@ -210,6 +210,22 @@ TEST(FloorMap, IsAlignedWhileItGrows) {
   EXPECT_LT(slam::testing::greatest_error_m(map.graph().poses, truth_of(map, drive)), 0.1);
 }
 
+TEST(FloorMap, TellsHowItHasMoved) {
+  auto const drive = ring_drive();
+  auto map = map_of(drive, drive.log.scans.size() / 2).map;
+  (void)map.take_shifts();
+  auto const before = map.graph().poses;
+  map.take(done(map.begin_alignment()));
+  auto const shifts = map.take_shifts();
+  ASSERT_EQ(shifts.size(), 1U);
+  EXPECT_TRUE(map.take_shifts().empty()) << "told once";
+  Pose2 const beside{0.0, 1.0, 0.5};
+  for (std::size_t k = 0; k < before.size(); k += 10)
+    EXPECT_LT(slam::distance_m(shifts[0].moved(before[k]), map.graph().poses[k]), 0.02);
+  auto const moved = shifts[0].moved(before.back() * beside);
+  EXPECT_LT(slam::distance_m(moved, map.graph().poses.back() * beside), 0.02);
+}
+
 TEST(FloorMap, MeasuresAnewWhatWasAligned) {
   auto const drive = ring_drive();
   auto aligned_map = map_of(drive, drive.log.scans.size()).map;
