@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text/diagnostic.hpp"
-#include "robot/poi/camera_mount.hpp"
+#include "robot/views/camera_mount.hpp"
 
 namespace lapwing::host {
 

@@ -231,6 +231,7 @@ void Robot::use(PlanResult result) {
     follower_.take(plan_.way);
     planned_.notify_all();
   }
+  tell_of_moves(result.map.shifts);
   write_map(result.map);
   if (result.walls) write_walls(*result.walls);
   if (result.alignment) {
@@ -238,6 +239,18 @@ void Robot::use(PlanResult result) {
     is_aligning_ = true;
     aligns_soon_ = false;
     aligning_.notify_all();
+  }
+}
+
+void Robot::tell_of_moves(std::vector<MapShift> const& shifts) {
+  if (!around_.on_moved) return;
+  for (auto const& shift : shifts) {
+    around_.on_moved([&](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+      auto const at = map_from_site_ * before.position;
+      auto const now = shift.moved({at.x(), at.y(), before.yaw_rad - site_from_map_.yaw_rad()});
+      return {site_from_map_ * geo::Point<map::GridFrame>(now.x, now.y),
+              geo::wrap_pi(now.yaw + site_from_map_.yaw_rad())};
+    });
   }
 }
 

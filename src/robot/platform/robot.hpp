@@ -16,7 +16,8 @@
 #include "robot/platform/body.hpp"
 #include "robot/platform/robot_health.hpp"
 #include "robot/platform/thoughts.hpp"
-#include "robot/poi/viewpoint.hpp"
+#include "robot/views/tag_place.hpp"
+#include "robot/views/viewpoint.hpp"
 #include "robot/words/drive_task.hpp"
 #include "tasks/platform.hpp"
 #include "vehicle/connection_timeout.hpp"
@@ -90,6 +91,8 @@ class Robot {
     std::function<std::optional<geo::Wgs84>(geo::Point<geo::SiteFrame>)> on_globe;
     OnMap on_map;
     OnWalls on_walls;
+    /// Called when the map has moved, with where that is now which was somewhere before.
+    std::function<void(MapMove const&)> on_moved;
     /// What is wrong with the way to the operators, of watch/codes.hpp; nothing where there is none to be watched.
     std::function<std::optional<std::uint16_t>()> communication;
     /// What is wrong with its eyes, likewise; nothing where it has none, and while they do not answer.
@@ -150,6 +153,7 @@ class Robot {
   void steer();
   void show_reading(Reading const& reading, bool is_first);
   void write_map(MapResult& result);
+  void tell_of_moves(std::vector<MapShift> const& shifts);
   void write_walls(WallBook::Changes const& changes);
   [[nodiscard]] base::Task<MapResult> map_scans();
   [[nodiscard]] base::Task<PlanResult> plan(MapResult map);

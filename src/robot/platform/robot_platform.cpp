@@ -104,6 +104,11 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       .on_map = [this, spec](map::OccupancyGrid const& grid,
                              std::vector<map::TileKey> const& changed) { write(spec, grid, changed); },
       .on_walls = [this, spec](WallBook::Changes const& changes) { write_walls(spec, changes); },
+      .on_moved =
+          [this, id = spec.id](MapMove const& moved) {
+            auto const found = sights_.find({id});
+            if (found != sights_.end() && found->second.tags) found->second.tags->move(moved);
+          },
       .communication = [this]() -> std::optional<std::uint16_t> {
         if (!communication_) return std::nullopt;
         return communication_();

@@ -32,6 +32,7 @@ MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> sc
   for (auto& scan : scans) map.add(std::move(scan));
   result.changed = map.take_changes();
   if (!result.changed.empty()) result.grid = map.grid();
+  result.shifts = map.take_shifts();
   result.here = map.here();
   result.odometry = map.odometry();
   result.seen = ends_of(result.last, map.sensor(), result.here.pose);

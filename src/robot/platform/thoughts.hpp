@@ -36,6 +36,7 @@ struct MapResult {
   std::vector<Place> seen = {};                 ///< the ends of its beams, in the map
   std::optional<map::OccupancyGrid> grid = {};  ///< when it has changed
   std::vector<map::TileKey> changed = {};
+  std::vector<MapShift> shifts = {};  ///< how the map has moved
 };
 
 struct PlanInput {

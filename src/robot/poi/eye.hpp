@@ -8,7 +8,7 @@
 
 #include "base/async/task.hpp"
 #include "base/error.hpp"
-#include "robot/poi/camera_mount.hpp"
+#include "robot/views/camera_mount.hpp"
 
 namespace lapwing::robot {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "map/features/contents.hpp"
-#include "robot/poi/camera_mount.hpp"
+#include "robot/views/camera_mount.hpp"
 #include "vehicle/place.hpp"
 
 namespace lapwing::robot {

@@ -81,6 +81,14 @@ TagBook::Entry* TagBook::nearest(TagSight const& sight) {
   return found;
 }
 
+void TagBook::move(MapMove const& moved) {
+  for (auto& tag : tags_) {
+    auto const now = moved({tag.position, tag.facing_rad});
+    tag.position = now.position;
+    tag.facing_rad = now.yaw_rad;
+  }
+}
+
 TagBook::Entry const& TagBook::take(TagSight const& sight) {
   auto* tag = nearest(sight);
   if (!tag) {
@@ -105,8 +113,10 @@ TagBook::Entry const& TagBook::take(TagSight const& sight) {
     tag->height_m += (sight.place.height_m - tag->height_m) / (tag->sights + 1);
   }
   ++tag->sights;
+  auto const called = tag->name();
   if (!sight.name.empty()) tag->names[sight.name] += sight.score;
   if (!sight.kind.empty()) tag->kinds[sight.kind] += sight.score;
+  if (tag->name() != called) tag->crop_score = 0.0;  // the crop shows what it is not called any more
   bool const is_as_it_is_called = sight.name.empty() ? tag->names.empty() : sight.name == tag->name();
   if (!sight.crop.empty() && is_as_it_is_called && sight.score > tag->crop_score) {
     tag->crop = sight.crop;

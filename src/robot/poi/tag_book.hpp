@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "robot/poi/tag_place.hpp"
+#include "robot/views/tag_place.hpp"
 
 namespace lapwing::robot {
 
@@ -46,6 +46,8 @@ class TagBook {
   /// The one that it was, or a new one, until the next call.
   Entry const& take(TagSight const& sight);
   [[nodiscard]] std::vector<Entry> const& tags() const { return tags_; }  ///< by their numbers
+  /// The map has moved, and all of them with it.
+  void move(MapMove const& moved);
   /// Where the crop of one of them is kept.
   void keep_picture(std::uint32_t number, std::string picture) { tags_[number - 1].picture = std::move(picture); }
 

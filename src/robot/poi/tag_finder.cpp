@@ -1,14 +1,14 @@
 #include "robot/poi/tag_finder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
-#include "robot/poi/free_space.hpp"
+#include "robot/views/seen_walls.hpp"
+#include "robot/views/wall_views.hpp"
 
 namespace lapwing::robot {
 
@@ -18,30 +18,15 @@ namespace {
 
 constexpr base::Duration look_period = 300ms;
 
-/// How far off a wall is seen, and how much aslant.
-struct Reach {
-  double farthest_m;
-  double most_slant_rad;
-};
-constexpr Reach to_read{.farthest_m = 3.0, .most_slant_rad = 1.0};  ///< beyond, letters are too small
-constexpr Reach to_notice{.farthest_m = most_range_m, .most_slant_rad = 1.4};
-constexpr double most_turn_rad = 0.1;  ///< in a period: more, and pictures are smeared
-/// A picture that does not show the lower of these is not taken; in one that does not show both, a tag may be missing.
-constexpr double low_tag_m = 1.2;
-constexpr double high_tag_m = 1.5;
+constexpr double most_turn_rad = 0.1;      ///< in a period: more, and pictures are smeared
 constexpr double least_confidence = 0.55;  ///< more than a single sight of a kind without a number gives
 constexpr double edge_px = 4.0;
 constexpr int most_tries = 2;  ///< the seed's
 constexpr int looks_a_try = 3;
 constexpr double there_m = 0.6;  ///< from where it was to look from
 constexpr double straight_rad = 0.15;
-/// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
-constexpr std::array parts_of_a_view{-0.32, -0.16, 0.0, 0.16, 0.32};
-/// All round, so near to each other that on its way it notices all that is as wide as a sign.
-constexpr int lines_to_notice = 120;
 constexpr double sign_reaches_m = 0.5;
-constexpr double round_a_corner_m = 6.0;  ///< what is not in sight is farther than it seems: behind a wall, mostly
-constexpr double unclear_px_m = 0.9 * LookBook::clear_px_m;  ///< at best, where something is not in the picture
+constexpr double worth_telling_m = 0.02;  ///< that a sign has moved with the map
 
 geo::Pose<geo::SiteFrame> level(vehicle::SitePose const& pose) {
   return {map::SitePoint(pose.position.x(), pose.position.y()), pose.yaw_rad};
@@ -63,11 +48,6 @@ std::optional<TagSight> sight_of(Seen const& seen, TagPlace const& place) {
 bool is_cut_off(vision::Box const& box, CameraMount const& mount) {
   return box.x < edge_px || box.y < edge_px || box.x + box.width > mount.width_px - edge_px ||
          box.y + box.height > mount.height_px - edge_px;
-}
-
-bool is_within(Reach const& reach, WallPoint const& wall, double way_rad) {
-  double const slant_rad = std::abs(geo::wrap_pi(wall.facing_rad + std::numbers::pi - way_rad));
-  return wall.range_m <= reach.farthest_m && slant_rad <= reach.most_slant_rad;
 }
 
 double way_to(WallPoint const& wall, vehicle::SitePose const& pose) {
@@ -108,15 +88,21 @@ base::Task<> TagFinder::keep_looking() {
   }
 }
 
+void TagFinder::move(MapMove const& moved) {
+  book_.move(moved);
+  looks_.move(moved);
+  auto const pose = pose_now();
+  if (!pose) return;
+  std::vector<std::uint32_t> elsewhere;
+  for (auto const& [number, place] : shown_)
+    if (geo::distance_m(book_.tags()[number - 1].position, place) > worth_telling_m) elsewhere.push_back(number);
+  for (auto const number : elsewhere) write(book_.tags()[number - 1], *pose);
+}
+
 void TagFinder::note_passed(vehicle::SitePose const& pose) {
   auto const* const grid = grid_of(pose);
   if (!grid || setup_.eyes.for_tags.empty()) return;
-  CameraMount const middle{.x_m = 0.0, .y_m = 0.0};
-  for (int k = 0; k < lines_to_notice; ++k) {
-    double const bearing_rad = 2.0 * std::numbers::pi * k / lines_to_notice;
-    auto const wall = wall_seen(*grid, level(pose), middle, bearing_rad);
-    if (wall && is_within(to_notice, *wall, pose.yaw_rad + bearing_rad)) looks_.pass(*wall);
-  }
+  for (auto const& wall : walls_round(*grid, level(pose))) looks_.pass(wall);
 }
 
 /// A look takes a while, in which the robot drives on: the eye that shows most that is worth it comes first, and each
@@ -127,11 +113,13 @@ base::Task<> TagFinder::look_round(double yaw_rad) {
   while (!left.empty()) {
     auto const pose = pose_now();
     if (!pose || std::abs(geo::wrap_pi(pose->yaw_rad - yaw_rad)) > most_turn_rad) co_return;
+    auto const* const grid = grid_of(*pose);
+    if (!grid) co_return;
     Eye const* best = nullptr;
     double most = 0.0;
     for (auto const* eye : left) {
       double worth = 0.0;
-      for (auto const& [wall, clear] : views_of(*eye, *pose))
+      for (auto const& [wall, clear] : walls_in_picture(*grid, eye->mount, level(*pose)))
         if (looks_.is_due(piece_of(wall), clear)) worth += std::min(clear, LookBook::clear_px_m);
       if (worth <= most) continue;
       best = eye;
@@ -169,7 +157,8 @@ base::Task<> TagFinder::look_again() {
 }
 
 base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
-  auto const views = views_of(eye, pose);
+  auto const* const then = grid_of(pose);
+  auto const views = then ? walls_in_picture(*then, eye.mount, level(pose)) : std::vector<SeenWall>();
   auto looking = eye.look();
   auto const look = co_await std::move(looking);
   if (!look) co_return std::nullopt;
@@ -184,16 +173,19 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
     auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
     if (!place) continue;
     bool const is_whole = !is_cut_off(seen.what.box, eye.mount);
-    auto const outcome = !is_whole                          ? LookBook::Outcome::cut_off
-                         : look->is_sharp && seen.what.text ? LookBook::Outcome::read
-                                                            : LookBook::Outcome::poor;
+    // From afar a sign is noticed: where it hangs, and what it says, is told by who comes nearer.
+    double const way_rad = way_to(place->wall, pose);
+    bool const is_near = is_readable(place->wall, way_rad);
+    auto const outcome = !is_whole                                     ? LookBook::Outcome::cut_off
+                         : is_near && look->is_sharp && seen.what.text ? LookBook::Outcome::read
+                                                                       : LookBook::Outcome::poor;
     for (auto const& [wall, clear] : views)
       if (geo::distance_m(wall.position, place->wall.position) < sign_reaches_m)
         shown[piece_of(wall)] = {clear, outcome};
-    auto sight = is_whole ? sight_of(seen, *place) : std::nullopt;
+    auto sight = is_whole && is_near ? sight_of(seen, *place) : std::nullopt;
     if (!sight) continue;
     // Small letters are easily taken for others.
-    double const clear = clearness(eye.mount, place->wall, way_to(place->wall, pose));
+    double const clear = clearness(eye.mount, place->wall, way_rad);
     sight->score *= std::min(1.0, clear / LookBook::clear_px_m);
     numbers.push_back(book_.take(*sight).number);
   }
@@ -258,7 +250,12 @@ std::optional<Viewpoint> TagFinder::next_view() {
   if (!grid) return std::nullopt;
   map::SitePoint const here(pose->position.x(), pose->position.y());
   retake_ = next_tag(*grid, here);
-  if (!retake_) retake_ = next_wall(*grid, here);
+  if (!retake_) {
+    if (auto const wall = next_wall_view(looks_, *grid, mounts(), here)) {
+      looks_.give_up(wall->piece);
+      retake_ = Retake{.view = wall->view};
+    }
+  }
   return retake_ ? std::optional(retake_->view) : std::nullopt;
 }
 
@@ -274,30 +271,6 @@ std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& g
     if (!views.empty()) return Retake{.tag = tag->number, .view = views[std::min(nth, views.size() - 1)]};
   }
   return std::nullopt;
-}
-
-std::optional<TagFinder::Retake> TagFinder::next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here) {
-  struct Wanted {
-    WallPiece piece;
-    Viewpoint view;
-    double cost_m = 0.0;
-  };
-  FreeSpace const space(grid);
-  std::vector<Wanted> wanted;
-  for (auto const& [wall, shows_something] : looks_.unclear()) {
-    OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
-    // A building has more walls than anybody wants to drive along.
-    if (!shows_something && !is_beside_an_opening(what, grid)) continue;
-    auto const views = is_wide_enough(what, grid) ? viewpoints_for(what, grid, mounts()) : std::vector<Viewpoint>();
-    if (views.empty()) continue;
-    auto const& view = views.front();
-    double const handicap_m = space.is_clear(here, view.from) ? 0.0 : round_a_corner_m;
-    wanted.push_back({piece_of(wall), view, geo::distance_m(view.from, here) + handicap_m});
-  }
-  auto const next = std::ranges::min_element(wanted, {}, &Wanted::cost_m);
-  if (next == wanted.end()) return std::nullopt;
-  looks_.give_up(next->piece);
-  return Retake{.view = next->view};
 }
 
 bool TagFinder::is_there(Retake const& retake, vehicle::SitePose const& pose) const {
@@ -317,23 +290,6 @@ std::vector<std::string> TagFinder::texts() const {
   return texts;
 }
 
-std::vector<TagFinder::View> TagFinder::views_of(Eye const& eye, vehicle::SitePose const& pose) const {
-  std::vector<View> views;
-  auto const* const grid = grid_of(pose);
-  if (!grid) return views;
-  for (double const part : parts_of_a_view) {
-    double const bearing_rad = eye.mount.yaw_rad + part * eye.mount.view_rad;
-    auto const wall = wall_seen(*grid, level(pose), eye.mount, bearing_rad);
-    double const way_rad = pose.yaw_rad + bearing_rad;
-    if (!wall || !is_within(to_read, *wall, way_rad) || !is_in_the_picture(eye.mount, low_tag_m, wall->range_m))
-      continue;
-    double const clear = clearness(eye.mount, *wall, way_rad);
-    bool const shows_all = is_in_the_picture(eye.mount, high_tag_m, wall->range_m);
-    views.push_back({.wall = *wall, .clearness = shows_all ? clear : std::min(clear, unclear_px_m)});
-  }
-  return views;
-}
-
 map::OccupancyGrid const* TagFinder::grid_of(vehicle::SitePose const& pose) const {
   auto const found = live_map_.grids().find({.site = pose.site, .floor = pose.floor, .name = setup_.grid});
   return found == live_map_.grids().end() ? nullptr : &found->second.grid;
@@ -351,7 +307,7 @@ void TagFinder::write(Entry const& tag, vehicle::SitePose const& pose) {
                                    .facing_rad = tag.facing_rad,
                                    .confidence = tag.confidence(),
                                    .covariance_m2 = tag.covariance_m2};
-  shown_.insert(tag.number);
+  shown_.insert_or_assign(tag.number, tag.position);
   auto const written = live_map_.put({.id = tag_id(setup_.vehicle, tag.number),
                                       .site = pose.site,
                                       .floor = pose.floor,

@@ -4,7 +4,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -12,9 +11,9 @@
 #include "base/log.hpp"
 #include "map/live/live_map.hpp"
 #include "robot/poi/eye.hpp"
-#include "robot/poi/look_book.hpp"
 #include "robot/poi/tag_book.hpp"
-#include "robot/poi/viewpoint.hpp"
+#include "robot/views/look_book.hpp"
+#include "robot/views/viewpoint.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::robot {
@@ -47,6 +46,8 @@ class TagFinder {
   /// more to be looked at, or nowhere to stand.
   [[nodiscard]] std::optional<Viewpoint> next_view();
   [[nodiscard]] bool has_looked() const { return !retake_; }
+  /// The map has moved: what hangs on its walls goes with them.
+  void move(MapMove const& moved);
   /// How many were seen and could not be read.
   [[nodiscard]] std::size_t unread() const;
 
@@ -72,15 +73,8 @@ class TagFinder {
   base::Task<std::optional<std::vector<std::uint32_t>>> look_with(Eye const& eye, vehicle::SitePose pose);
   base::Task<> show(std::uint32_t number, vehicle::SitePose pose);
   [[nodiscard]] std::optional<vehicle::SitePose> pose_now() const;
-  /// One of the pieces of wall that a picture shows.
-  struct View {
-    WallPoint wall;
-    double clearness = 0.0;
-  };
-  [[nodiscard]] std::vector<View> views_of(Eye const& eye, vehicle::SitePose const& pose) const;
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
-  [[nodiscard]] std::optional<Retake> next_wall(map::OccupancyGrid const& grid, map::SitePoint const& here);
   [[nodiscard]] std::vector<CameraMount> mounts() const;
   [[nodiscard]] bool is_there(Retake const& retake, vehicle::SitePose const& pose) const;
   [[nodiscard]] Tries tries_of(Entry const& tag) const;
@@ -98,8 +92,8 @@ class TagFinder {
   base::Logger log_;
   TagBook book_;
   LookBook looks_;
-  std::map<std::uint32_t, Tries> tries_;  ///< by the tag's number
-  std::set<std::uint32_t> shown_;         ///< on the map
+  std::map<std::uint32_t, Tries> tries_;           ///< by the tag's number
+  std::map<std::uint32_t, map::SitePoint> shown_;  ///< on the map, and where
   std::optional<Retake> retake_;
   int pictures_ = 0;
   base::Scope scope_;

@@ -15,13 +15,20 @@ struct TagFinderAtAWall : ::testing::Test {
     auto const site = geo::Site::make("site", geo::Wgs84::from_degrees(41.0, -8.0, 90.0));
     ASSERT_TRUE(site);
     live_map.put_site(*site);
-    for (std::int32_t x = -40; x < 160; ++x) {
-      for (std::int32_t y = -10; y < 40; ++y) grid.set({x, y}, map::Evidence::of_probability(0.1));
-      grid.set({x, 40}, map::Evidence::of_probability(0.9));
-    }
-    put_grid();
+    for (std::int32_t x = -40; x < 160; ++x)
+      for (std::int32_t y = -100; y < 40; ++y) grid.set({x, y}, map::Evidence::of_probability(0.1));
+    lay_wall(-2.0, 8.0);
     stand_at(1.0);
   }
+  void lay_wall(double from_m, double to_m) {
+    for (std::int32_t x = -40; x < 160; ++x) {
+      double const at_m = (x + 0.5) * 0.05;
+      grid.set({x, 40}, map::Evidence::of_probability(at_m > from_m && at_m < to_m ? 0.9 : 0.1));
+    }
+    put_grid();
+  }
+  /// All of the wall is in one picture.
+  void shorten_wall() { lay_wall(0.5, 1.5); }
   void put_grid() {
     std::vector<map::TileKey> tiles;
     for (auto const& [key, tile] : grid.tiles()) tiles.push_back(key);
@@ -147,6 +154,7 @@ TEST_F(TagFinderAtAWall, BelievesAKindOfRoomAloneWhenItIsSeenTwice) {
 }
 
 TEST_F(TagFinderAtAWall, AsksToLookFromBeforeASignOfWhichItReadNoNumber) {
+  shorten_wall();
   look.found.front().what.text.reset();
   auto const finds = finder();
   pass(3s);
@@ -172,6 +180,7 @@ TEST_F(TagFinderAtAWall, AsksToLookFromBeforeASignOfWhichItReadNoNumber) {
 }
 
 TEST_F(TagFinderAtAWall, BelievesThatThereIsNoNumberWhenItReadsNoneFromBefore) {
+  shorten_wall();
   look.found.front().what.text.reset();
   auto const finds = finder();
   pass(3s);
@@ -181,6 +190,7 @@ TEST_F(TagFinderAtAWall, BelievesThatThereIsNoNumberWhenItReadsNoneFromBefore) {
 }
 
 TEST_F(TagFinderAtAWall, LooksAgainTwiceAndThenLeavesAnUnreadDoorOnTheMap) {
+  shorten_wall();
   look.found.front().what.kind.reset();
   look.found.front().what.score = 0.3;
   texts = {"221", "227", "271", "277", "211"};
@@ -200,6 +210,7 @@ TEST_F(TagFinderAtAWall, LooksAgainTwiceAndThenLeavesAnUnreadDoorOnTheMap) {
 }
 
 TEST_F(TagFinderAtAWall, ForgetsWhatIsNoSignFromNearBy) {
+  shorten_wall();
   look.found.front().what.score = 0.3;
   auto const finds = finder();
   pass(700ms);
@@ -212,6 +223,7 @@ TEST_F(TagFinderAtAWall, ForgetsWhatIsNoSignFromNearBy) {
 }
 
 TEST_F(TagFinderAtAWall, AsksAgainWhenTheRobotDidNotGetThereAndThenTellsOfTheDoor) {
+  shorten_wall();
   look.found.front().what.score = 0.3;
   auto const finds = finder();
   pass(700ms);
@@ -226,6 +238,7 @@ TEST_F(TagFinderAtAWall, AsksAgainWhenTheRobotDidNotGetThereAndThenTellsOfTheDoo
 }
 
 TEST_F(TagFinderAtAWall, DoesNotGoBackToAWallThatShowedNothingFromAfar) {
+  shorten_wall();
   look.found.clear();
   stand_at(1.0, -0.4);
   auto const finds = finder();
@@ -259,11 +272,51 @@ TEST_F(TagFinderAtAWall, GoesBackToAWallBesideADoorwayThatItsCamerasDidNotFace) 
   EXPECT_LT(view->at.x(), 2.3);
 }
 
+TEST_F(TagFinderAtAWall, LooksAtWallsFarFromDoorwaysThatItsCamerasDidNotFaceAndAtMuchOfThemAtOnce) {
+  look.found.clear();
+  stand_at(1.0, 0.4, std::numbers::pi);
+  auto const finds = finder();
+  pass(3s);
+  EXPECT_EQ(finds->pictures(), 0);
+  int looks = 0;
+  while (looks < 20 && go_and_look(*finds)) ++looks;
+  EXPECT_GE(looks, 3);
+  EXPECT_LE(looks, 8) << "7 m of wall came before it, and a picture shows more than one";
+}
+
+TEST_F(TagFinderAtAWall, NoticesASignFromAfarAndReadsItFromNear) {
+  stand_at(1.0, -2.5);
+  auto const finds = finder();
+  pass(3s);
+  EXPECT_GT(finds->pictures(), 0);
+  EXPECT_TRUE(on_map().empty());
+  EXPECT_TRUE(go_and_look(*finds));
+  ASSERT_EQ(on_map().size(), 1U);
+  EXPECT_EQ(point().name, "221");
+  EXPECT_NEAR(point().position.x(), 1.0, 0.3);
+}
+
 TEST_F(TagFinderAtAWall, LooksOnceWhereNothingIsWritten) {
   look.found.clear();
   auto const finds = finder();
   pass(5s);
   EXPECT_EQ(finds->pictures(), 1);
+}
+
+TEST_F(TagFinderAtAWall, TakesItsSignsAlongWhenTheMapMoves) {
+  auto const finds = finder();
+  pass(3s);
+  ASSERT_EQ(on_map().size(), 1U);
+  auto const pictures = finds->pictures();
+  finds->move([](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+    return {{before.position.x() + 0.8, before.position.y()}, before.yaw_rad};
+  });
+  ASSERT_EQ(on_map().size(), 1U);
+  EXPECT_NEAR(point().position.x(), 1.8, 0.05);
+  stand_at(1.8);
+  pass(3s);
+  EXPECT_EQ(on_map().size(), 1U) << "it is the same sign";
+  EXPECT_EQ(finds->pictures(), pictures) << "which has been looked at";
 }
 
 TEST_F(TagFinderAtAWall, ForgetsWhatTheRobotFoundAnotherTime) {

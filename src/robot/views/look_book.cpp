@@ -1,4 +1,4 @@
-#include "robot/poi/look_book.hpp"
+#include "robot/views/look_book.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +16,18 @@ constexpr double much_clearer = 2.0;  ///< by so much, and something may be seen
 constexpr int enough_reads = 2;
 constexpr int most_tries = 3;
 
+WallPoint middle_of(WallPiece const& piece) {
+  auto const& [x, y, quarter] = piece;
+  return {.position = {(x + 0.5) * piece_m, (y + 0.5) * piece_m},
+          .facing_rad = geo::wrap_pi(quarter * std::numbers::pi / 2.0)};
+}
+
 }  // namespace
 
 WallPiece piece_of(WallPoint const& wall) {
+  auto const quarter = static_cast<int>(std::lround(wall.facing_rad / (std::numbers::pi / 2.0)));
   return {static_cast<int>(std::floor(wall.position.x() / piece_m)),
-          static_cast<int>(std::floor(wall.position.y() / piece_m)),
-          static_cast<int>(std::lround(wall.facing_rad / (std::numbers::pi / 2.0)))};
+          static_cast<int>(std::floor(wall.position.y() / piece_m)), (quarter % 4 + 4) % 4};
 }
 
 double clearness(CameraMount const& mount, WallPoint const& wall, double way_rad) {
@@ -58,12 +64,30 @@ void LookBook::note(WallPiece const& piece, double clearness, Outcome outcome) {
   if (outcome == Outcome::read) ++looks.reads;
 }
 
+void LookBook::move(MapMove const& moved) {
+  std::map<WallPiece, Piece> pieces;
+  for (auto const& [key, piece] : pieces_) {
+    auto wall = piece.wall.value_or(middle_of(key));
+    auto const now = moved({wall.position, wall.facing_rad});
+    wall.position = now.position;
+    wall.facing_rad = now.yaw_rad;
+    // Two may come to be one: what was seen clearer counts.
+    auto& there = pieces.try_emplace(piece_of(wall), piece).first->second;
+    if (piece.clearest > there.clearest) there = piece;
+    if (there.wall) there.wall = wall;
+  }
+  pieces_ = std::move(pieces);
+}
+
 std::vector<LookBook::Unclear> LookBook::unclear() const {
   std::vector<Unclear> walls;
   for (auto const& [key, piece] : pieces_) {
-    bool const is_clear = piece.reads > 0 || (piece.clearest >= clear_px_m && piece.last != Outcome::cut_off);
+    bool const is_clear = piece.reads > 0 || (piece.last == Outcome::blank && piece.clearest >= blank_px_m) ||
+                          (piece.last == Outcome::poor && piece.clearest >= clear_px_m);
     if (piece.wall && !is_clear && !piece.is_given_up)
-      walls.push_back({.wall = *piece.wall, .shows_something = piece.last != Outcome::blank});
+      walls.push_back({.wall = *piece.wall,
+                       .shows_something = piece.last != Outcome::blank,
+                       .is_noticed = piece.clearest >= noticed_px_m});
   }
   return walls;
 }

@@ -1,4 +1,4 @@
-#include "robot/poi/viewpoint.hpp"
+#include "robot/views/viewpoint.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "robot/poi/tag_place.hpp"
+#include "robot/views/tag_place.hpp"
 
 #include <array>
 #include <cmath>

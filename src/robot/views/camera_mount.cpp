@@ -1,4 +1,4 @@
-#include "robot/poi/camera_mount.hpp"
+#include "robot/views/camera_mount.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 
 #include "map/features/geometry.hpp"
 #include "map/grid/occupancy_grid.hpp"
-#include "robot/poi/camera_mount.hpp"
+#include "robot/views/camera_mount.hpp"
 
 namespace lapwing::robot {
 

@@ -1,4 +1,4 @@
-#include "robot/poi/look_book.hpp"
+#include "robot/views/look_book.hpp"
 
 #include <numbers>
 
@@ -69,6 +69,32 @@ TEST(LookBook, KnowsWhatItPassedAndNeverSawClearly) {
   book.give_up(piece_of(other));
   book.pass(other);
   EXPECT_TRUE(book.unclear().empty());
+}
+
+TEST(LookBook, TakesAWallThatFacesWestForOneHoweverItsAngleIsTold) {
+  double const almost = std::numbers::pi - 0.01;
+  EXPECT_EQ(piece_of({.position = {1.0, 1.0}, .facing_rad = almost}),
+            piece_of({.position = {1.0, 1.0}, .facing_rad = -almost}));
+  EXPECT_NE(piece_of({.position = {1.0, 1.0}, .facing_rad = 0.0}),
+            piece_of({.position = {1.0, 1.0}, .facing_rad = almost}));
+}
+
+TEST(LookBook, GoesWithTheMapAndKeepsWhatWasSeen) {
+  LookBook book;
+  WallPoint const wall{.position = {1.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  WallPoint const other{.position = {5.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  book.pass(wall);
+  book.pass(other);
+  book.note(piece_of(wall), clear, Outcome::blank);
+  book.move([](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+    return {{before.position.x() + 0.8, before.position.y()}, before.yaw_rad};
+  });
+  ASSERT_EQ(book.unclear().size(), 1U);
+  EXPECT_NEAR(book.unclear().front().wall.position.x(), 6.1, 1e-9);
+  auto there = wall;
+  there.position = {2.1, 1.7};
+  EXPECT_FALSE(book.is_due(piece_of(there), clear)) << "it has been looked at";
+  EXPECT_TRUE(book.is_due(piece_of(wall), clear));
 }
 
 TEST(LookBook, IsDoneWithAPieceHoweverItIsSeen) {

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <Eigen/Core>
 
 #include "map/features/geometry.hpp"
 #include "map/grid/occupancy_grid.hpp"
-#include "robot/poi/camera_mount.hpp"
+#include "robot/views/camera_mount.hpp"
 
 namespace lapwing::robot {
+
+/// Where something is, and which way it looks, on a map that has moved; asked where it was before.
+using MapMove = std::function<geo::Pose<geo::SiteFrame>(geo::Pose<geo::SiteFrame> const&)>;
 
 /// Where a wall is met, in the site's frame.
 struct WallPoint {
@@ -21,7 +25,7 @@ struct WallPoint {
 /// nothing is met within `most_range_m`.
 [[nodiscard]] std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<geo::SiteFrame> const& body,
                                                  CameraMount const& mount, double bearing_rad);
-inline constexpr double most_range_m = 4.0;
+inline constexpr double most_range_m = 5.0;
 
 /// Where a name tag hangs.
 struct TagPlace {

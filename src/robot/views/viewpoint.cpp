@@ -1,11 +1,11 @@
-#include "robot/poi/viewpoint.hpp"
+#include "robot/views/viewpoint.hpp"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
-#include "robot/poi/free_space.hpp"
+#include "robot/views/free_space.hpp"
 
 namespace lapwing::robot {
 

@@ -1,4 +1,4 @@
-#include "robot/poi/free_space.hpp"
+#include "robot/views/free_space.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "robot/poi/tag_place.hpp"
+#include "robot/views/tag_place.hpp"
 
 namespace lapwing::robot {
 
@@ -27,20 +27,27 @@ class LookBook {
   enum class Outcome {
     blank,    ///< nothing is written there
     read,     ///< sharply, all of it, with a number
-    poor,     ///< blurred, or without a number
+    poor,     ///< blurred, from afar, or without a number
     cut_off,  ///< by the edge of the picture
   };
   /// Less clear, and what shows nothing may have something written on it: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
+  /// So clear, and what shows nothing is blank, mostly: of rendered signs nineteen in twenty are noticed from there on.
+  static constexpr double blank_px_m = 300.0;
+  /// Likewise, four in five.
+  static constexpr double noticed_px_m = 200.0;
 
   /// The robot came past it, whether a camera looked or not.
   void pass(WallPoint const& wall);
   [[nodiscard]] bool is_due(WallPiece const& piece, double clearness) const;
   void note(WallPiece const& piece, double clearness, Outcome outcome);
+  /// The map has moved, and its walls with it.
+  void move(MapMove const& moved);
   /// What it came past and never saw clearly.
   struct Unclear {
     WallPoint wall;
     bool shows_something = false;  ///< a sign, that could not be read or was cut off
+    bool is_noticed = false;       ///< a camera saw it well enough for most signs to be noticed, and saw none
   };
   [[nodiscard]] std::vector<Unclear> unclear() const;
   /// Nothing more is to be expected of it.
