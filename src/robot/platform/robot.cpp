@@ -26,6 +26,7 @@ constexpr base::Duration write_period = 500ms;
 constexpr base::Duration left_out_lately = 5s;
 constexpr base::Duration eyes_silent_after = 10s;  ///< the seed's override ends then
 constexpr base::Duration eyes_asked_every = 100ms;
+constexpr base::Duration between_pieces = 10ms;  ///< of an alignment
 /// What looking again may cost, of what exploring did: at most so much of the way, and so much at any rate.
 constexpr double looks_of_way = 0.3;
 constexpr double looks_at_least_m = 30.0;
@@ -172,7 +173,11 @@ base::Task<> Robot::keep_aligning() {
   for (;;) {
     while (!alignment_) co_await aligning_.wait();
     auto alignment = std::move(alignment_);
-    while (!alignment->is_done()) alignment = co_await around_.loop.on_pool(&go_on_aligning, std::move(alignment));
+    while (!alignment->is_done()) {
+      alignment = co_await around_.loop.on_pool(&go_on_aligning, std::move(alignment));
+      // A clock that waits for whoever computes would stand still for all of it, and a script that waits be stopped.
+      co_await around_.loop.sleep(between_pieces);
+    }
     aligned_ = alignment->graph().poses;
     is_aligning_ = false;
   }
