@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "geo/position.hpp"
+#include "robot/views/free_space.hpp"
 #include "robot/views/seen_walls.hpp"
 #include "robot/views/way_lengths.hpp"
 
@@ -15,7 +17,7 @@ namespace lapwing::robot {
 namespace {
 
 constexpr double standing_m = 1.5;         ///< what a look costs beside the way: turning and standing still
-constexpr std::size_t most_compared = 12;  ///< of the views of walls, the nearest
+constexpr std::size_t most_compared = 12;  ///< of the views of walls, the nearest: each takes a few milliseconds
 /// That so many pieces of wall without anything special are worth as much as one that is likely to have a sign.
 constexpr double worth_if_likely = 6.0;
 
@@ -29,39 +31,59 @@ std::set<WallPiece> seen_from(Viewpoint const& view, map::OccupancyGrid const& g
   return seen;
 }
 
+/// To before a wall, however near to it one can stand.
+std::optional<double> way_before(WallPoint const& wall, WayLengths const& ways) {
+  std::optional<double> least_m;
+  for (double const before_m : {0.8, 1.2, 2.0}) {
+    auto const way_m = ways.to(away(wall.position, wall.facing_rad, before_m));
+    if (way_m && (!least_m || *way_m < *least_m)) least_m = way_m;
+  }
+  return least_m;
+}
+
+/// Nothing when it need not be looked at, or cannot.
+std::optional<WallView> view_of(LookBook::Unclear const& unclear, map::OccupancyGrid const& grid,
+                                std::span<CameraMount const> mounts, WayLengths const& ways) {
+  auto const& wall = unclear.wall;
+  OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
+  bool const is_likely = unclear.shows_something || is_beside_an_opening(what, grid);
+  if ((!is_likely && unclear.is_noticed) || !is_wide_enough(what, grid)) return std::nullopt;
+  auto const views = viewpoints_for(what, grid, mounts);
+  if (views.empty()) return std::nullopt;
+  // What is most likely a sign is read from near; where there may be one, more is seen from afar.
+  auto const range_m = [](Viewpoint const& view) { return geo::distance_m(view.from, view.at); };
+  auto const& view = is_likely ? views.front() : *std::ranges::max_element(views, {}, range_m);
+  auto const way_m = ways.to(view.from);
+  if (!way_m) return std::nullopt;
+  return WallView{.piece = piece_of(wall), .view = view, .way_m = *way_m, .is_likely = is_likely};
+}
+
 }  // namespace
 
 std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid const& grid,
                                        std::span<CameraMount const> mounts, map::SitePoint const& here) {
   WayLengths const ways(grid, here);
-  std::vector<WallView> wanted;
-  std::set<WallPiece> others;
-  for (auto const& [wall, shows_something, is_noticed] : looks.unclear()) {
-    OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
-    bool const is_likely = shows_something || is_beside_an_opening(what, grid);
-    if (!is_likely && is_noticed) continue;
-    auto const views = is_wide_enough(what, grid) ? viewpoints_for(what, grid, mounts) : std::vector<Viewpoint>();
-    if (views.empty()) continue;
-    // What is most likely a sign is read from near; where there may be one, more is seen from afar.
-    auto const range_m = [](Viewpoint const& view) { return geo::distance_m(view.from, view.at); };
-    auto const& view = is_likely ? views.front() : *std::ranges::max_element(views, {}, range_m);
-    auto const way_m = ways.to(view.from);
-    if (!way_m) continue;
-    wanted.push_back({.piece = piece_of(wall), .view = view, .way_m = *way_m, .is_likely = is_likely});
-    if (!is_likely) others.insert(piece_of(wall));
+  std::vector<std::pair<double, LookBook::Unclear>> near;
+  std::set<WallPiece> unseen;
+  for (auto const& unclear : looks.unclear()) {
+    if (!unclear.is_noticed) unseen.insert(piece_of(unclear.wall));
+    if (auto const way_m = way_before(unclear.wall, ways)) near.emplace_back(*way_m, unclear);
   }
-  auto const compared = wanted.begin() + static_cast<std::ptrdiff_t>(std::min(wanted.size(), most_compared));
-  std::ranges::partial_sort(wanted, compared, {}, &WallView::way_m);
+  std::ranges::stable_sort(near, {}, [](auto const& one) { return one.first; });
   std::optional<WallView> best;
   double least_m = 0.0;
-  for (auto one = wanted.begin(); one != compared; ++one) {
-    auto seen = seen_from(one->view, grid, mounts);
-    seen.insert(one->piece);
-    auto const count = std::ranges::count_if(seen, [&](WallPiece const& piece) { return others.contains(piece); });
-    double const worth = static_cast<double>(count) + (one->is_likely ? worth_if_likely : 0.0);
-    double const each_m = (one->way_m + standing_m) / worth;
+  std::size_t compared = 0;
+  for (auto one = near.begin(); one != near.end() && compared < most_compared; ++one) {
+    auto const view = view_of(one->second, grid, mounts, ways);
+    if (!view) continue;
+    ++compared;
+    auto seen = seen_from(view->view, grid, mounts);
+    seen.insert(view->piece);
+    auto const count = std::ranges::count_if(seen, [&](WallPiece const& piece) { return unseen.contains(piece); });
+    double const worth = static_cast<double>(count) + (view->is_likely ? worth_if_likely : 0.0);
+    double const each_m = (view->way_m + standing_m) / worth;
     if (best && each_m >= least_m) continue;
-    best = *one;
+    best = view;
     least_m = each_m;
   }
   return best;
