@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "geo/position.hpp"
 
@@ -73,8 +74,10 @@ void LookBook::move(MapMove const& moved) {
     wall.facing_rad = now.yaw_rad;
     // Two may come to be one: what was seen clearer counts.
     auto& there = pieces.try_emplace(piece_of(wall), piece).first->second;
-    if (piece.clearest > there.clearest) there = piece;
-    if (there.wall) there.wall = wall;
+    auto both = piece.clearest > there.clearest ? piece : there;
+    both.wall = piece.wall ? wall : there.wall;
+    both.is_given_up = piece.is_given_up || there.is_given_up;
+    there = std::move(both);
   }
   pieces_ = std::move(pieces);
 }

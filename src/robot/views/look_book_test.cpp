@@ -97,6 +97,21 @@ TEST(LookBook, GoesWithTheMapAndKeepsWhatWasSeen) {
   EXPECT_TRUE(book.is_due(piece_of(wall), clear));
 }
 
+TEST(LookBook, GoesNowhereAgainForAWallThatAnotherHasComeToLieOn) {
+  LookBook book;
+  WallPoint const wall{.position = {1.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  auto beside = wall;
+  beside.position = {1.7, 1.7};
+  book.pass(wall);
+  book.give_up(piece_of(wall));
+  book.note(piece_of(beside), aslant, Outcome::blank);
+  book.move([](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+    return {{1.3, before.position.y()}, before.yaw_rad};
+  });
+  EXPECT_TRUE(book.unclear().empty());
+  EXPECT_FALSE(book.is_due(piece_of(wall), aslant)) << "seen aslant, where it now is";
+}
+
 TEST(LookBook, IsDoneWithAPieceHoweverItIsSeen) {
   LookBook book;
   int count = 0;
