@@ -175,7 +175,7 @@ base::Task<> Robot::keep_aligning() {
     auto alignment = std::move(alignment_);
     while (!alignment->is_done()) {
       alignment = co_await around_.loop.on_pool(&go_on_aligning, std::move(alignment));
-      // A clock that waits for whoever computes would stand still for all of it, and a script that waits be stopped.
+      // A clock that waits for whoever computes would stand still for all of it, and the script be stopped for that.
       co_await around_.loop.sleep(between_pieces);
     }
     aligned_ = alignment->graph().poses;

@@ -32,7 +32,7 @@ class LookBook {
   };
   /// Less clear, and what shows nothing may have something written on it: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
-  /// So clear, and what shows nothing is blank, mostly: of rendered signs nineteen in twenty are noticed from there on.
+  /// So clear, and what shows nothing is blank, mostly: of rendered signs fourteen in fifteen are noticed there.
   static constexpr double blank_px_m = 300.0;
   /// Likewise, four in five.
   static constexpr double noticed_px_m = 200.0;

@@ -17,7 +17,7 @@ namespace lapwing::robot {
 namespace {
 
 constexpr double standing_m = 1.5;         ///< what a look costs beside the way: turning and standing still
-constexpr std::size_t most_compared = 12;  ///< of the views of walls, the nearest: each takes a few milliseconds
+constexpr std::size_t most_compared = 12;  ///< of the views of walls, the nearest: each takes a while
 /// That so many pieces of wall without anything special are worth as much as one that is likely to have a sign.
 constexpr double worth_if_likely = 6.0;
 

@@ -1,6 +1,5 @@
 #include "robot/views/way_lengths.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
