@@ -15,6 +15,8 @@ constexpr int least_height = 9;
 constexpr double most_height = 0.25;
 /// Width to height: blurred letters grow together.
 constexpr double most_width = 6.0;
+/// Of the height of what has grown together: what is lower is a part of a letter.
+constexpr double least_share = 0.6;
 /// Grey levels between letter and ground.
 constexpr double least_contrast = 22.0;
 /// The more there are, the less each can be a letter of a sign that somebody shall read; the largest are kept.
@@ -40,21 +42,55 @@ bool has_a_letters_shape(cv::Rect const& box, int area, cv::Size const& picture)
          box.width <= most_width * box.height && filling > 0.12 && filling < 0.97;
 }
 
-/// `mask`: 255 where the picture is brighter (or darker) than round about.
-std::vector<Piece> pieces_of(cv::Mat const& grey, cv::Mat const& mask) {
+/// The connected parts of a mask.
+struct Parts {
+  explicit Parts(cv::Mat const& mask) : count(cv::connectedComponentsWithStats(mask, labels, stats, centres)) {}
+  [[nodiscard]] cv::Rect box(int k) const {
+    return {stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP), stats.at<int>(k, cv::CC_STAT_WIDTH),
+            stats.at<int>(k, cv::CC_STAT_HEIGHT)};
+  }
+  [[nodiscard]] int area(int k) const { return stats.at<int>(k, cv::CC_STAT_AREA); }
+
   cv::Mat labels;
   cv::Mat stats;
   cv::Mat centres;
-  int const count = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8, CV_32S);
+  int count;  ///< from 1; 0 is what the mask leaves out
+};
+
+/// Letters that stand close grow together in the mask, which takes in their blurred edges; half-way between the ground
+/// and what differs most from it they come apart. `ground`: the grey level round them.
+std::vector<Piece> split(cv::Mat const& grey, cv::Mat const& own, Piece const& whole, double ground) {
+  double darkest = 0.0;
+  double brightest = 0.0;
+  cv::minMaxLoc(grey(whole.box), &darkest, &brightest, nullptr, nullptr, own);
+  bool const is_bright = whole.level > ground;
+  cv::Mat core;
+  cv::compare(grey(whole.box), ((is_bright ? brightest : darkest) + ground) / 2.0, core,
+              is_bright ? cv::CMP_GT : cv::CMP_LT);
+  core &= own;
+  std::vector<Piece> letters;
+  Parts const parts(core);
+  for (int k = 1; k < parts.count; ++k) {
+    auto const box = parts.box(k);
+    if (has_a_letters_shape(box, parts.area(k), grey.size()) && box.height > least_share * whole.box.height)
+      letters.push_back({box + whole.box.tl(), whole.level, whole.contrast});
+  }
+  return letters.size() > 1 ? letters : std::vector{whole};
+}
+
+/// `mask`: 255 where the picture is brighter (or darker) than round about.
+std::vector<Piece> pieces_of(cv::Mat const& grey, cv::Mat const& mask) {
   std::vector<Piece> pieces;
-  for (int k = 1; k < count; ++k) {
-    cv::Rect const box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP),
-                       stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
-    if (!has_a_letters_shape(box, stats.at<int>(k, cv::CC_STAT_AREA), grey.size())) continue;
-    cv::Mat const own = labels(box) == k;
+  Parts const parts(mask);
+  for (int k = 1; k < parts.count; ++k) {
+    auto const box = parts.box(k);
+    if (!has_a_letters_shape(box, parts.area(k), grey.size())) continue;
+    cv::Mat const own = parts.labels(box) == k;
     double const level = mean_of(grey(box), own);
     double const ground = mean_of(grey(box), mask(box) == 0);
-    if (std::abs(level - ground) >= least_contrast) pieces.push_back({box, level, std::abs(level - ground)});
+    Piece const whole{box, level, std::abs(level - ground)};
+    if (whole.contrast < least_contrast) continue;
+    std::ranges::copy(split(grey, own, whole, ground), std::back_inserter(pieces));
   }
   std::ranges::stable_sort(pieces, std::ranges::greater(), [](Piece const& piece) { return piece.box.area(); });
   if (pieces.size() > most_pieces) pieces.resize(most_pieces);

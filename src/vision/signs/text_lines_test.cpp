@@ -39,6 +39,24 @@ TEST(TextLines, ARowThatIsSlanted) {
   EXPECT_NEAR(slope, -std::tan(6.0 * CV_PI / 180.0), 0.04);
 }
 
+/// Seen aslant: narrow letters, whose edges run into each other.
+cv::Mat narrow_and_blurred(cv::Scalar const& ground, cv::Scalar const& letters) {
+  cv::Mat wide(240, 500, CV_8U, ground);
+  cv::putText(wide, "221", {180, 85}, cv::FONT_HERSHEY_DUPLEX, 1.8, letters, 3, cv::LINE_AA);
+  cv::Mat picture;
+  cv::resize(wide, picture, {170, 240}, 0.0, 0.0, cv::INTER_AREA);
+  cv::GaussianBlur(picture, picture, {5, 5}, 0.8);
+  return picture;
+}
+
+TEST(TextLines, LettersThatHaveGrownTogether) {
+  for (auto const& picture : {narrow_and_blurred(225, 40), narrow_and_blurred(50, 230)}) {
+    auto const lines = find_text_lines(picture);
+    ASSERT_FALSE(lines.empty());
+    EXPECT_EQ(lines.front().letters, 3);
+  }
+}
+
 TEST(TextLines, AWallHasNone) {
   EXPECT_TRUE(find_text_lines(cv::Mat(300, 600, CV_8U, cv::Scalar(200))).empty());
   EXPECT_TRUE(find_text_lines(cv::Mat(3, 3, CV_8U, cv::Scalar(200))).empty());
