@@ -46,12 +46,19 @@ std::vector<cv::Mat> crops_of(cv::Mat const& pixels, TextLine const& line) {
   return crops;
 }
 
+bool says_a_room(Reading const& reading) {
+  auto const said = room_text(reading.text);
+  return said.number || said.kind;
+}
+
 ReadLine read_line(cv::Mat const& pixels, TextLine const& line,
                    std::vector<std::unique_ptr<LineReader>> const& readers) {
   ReadLine read{.corners = line.corners, .box = line.box(), .letter_height = line.letter_height};
   std::vector<Reading> readings;
   for (auto const& crop : crops_of(pixels, line)) {
     for (auto const& reader : readers) readings.push_back(reader->read(crop));
+    // Most rows are no letters, or none of a room: where nobody reads any, more ground seldom brings them out.
+    if (std::ranges::none_of(readings, says_a_room)) break;
   }
   read.number = vote_on_number(readings);
   for (auto const& reading : readings) {
