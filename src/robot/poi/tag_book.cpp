@@ -44,6 +44,60 @@ std::string most_voted(std::map<std::string, double> const& votes) {
   return std::ranges::max_element(votes, {}, [&](auto const& vote) { return votes_for(vote.first, votes); })->first;
 }
 
+TagBook::Entry entry_of(TagSight const& sight) {
+  TagBook::Entry entry{.position = sight.place.wall.position,
+                       .covariance_m2 = sight.place.covariance_m2,
+                       .height_m = sight.place.height_m,
+                       .facing_rad = sight.place.wall.facing_rad,
+                       .sights = 1,
+                       .names = {},
+                       .kinds = {},
+                       .crop = sight.crop,
+                       .crop_score = sight.crop.empty() ? 0.0 : sight.score};
+  if (!sight.name.empty()) entry.names[sight.name] = sight.score;
+  if (!sight.kind.empty()) entry.kinds[sight.kind] = sight.score;
+  return entry;
+}
+
+double apart_m(TagBook::Entry const& one, TagBook::Entry const& other) {
+  return geo::distance_m(one.position, other.position);
+}
+
+/// What reads alike may lie as far off as the seed says, what reads otherwise only as far as places err.
+bool is_one(TagBook::Entry const& one, TagBook::Entry const& other) {
+  if (apart_m(one, other) > same_within_m) return false;
+  if (std::abs(geo::wrap_pi(one.facing_rad - other.facing_rad)) > std::numbers::pi / 2.0) return false;
+  if (!one.names.empty() && one.name() == other.name()) return true;
+  Eigen::Vector2d const apart = vector_of(other.position) - vector_of(one.position);
+  Eigen::Matrix2d const spread = one.covariance_m2 + other.covariance_m2;
+  return apart.dot(spread.inverse() * apart) <= gate;
+}
+
+void add_votes(std::map<std::string, double>& votes, std::map<std::string, double> const& more) {
+  for (auto const& [name, score] : more) votes[name] += score;
+}
+
+/// Places by their covariances, heights by the number of sights, texts by adding up the votes.
+void join(TagBook::Entry& tag, TagBook::Entry const& other) {
+  Eigen::Matrix2d const gain = tag.covariance_m2 * (tag.covariance_m2 + other.covariance_m2).inverse();
+  Eigen::Vector2d const at = vector_of(tag.position) + gain * (vector_of(other.position) - vector_of(tag.position));
+  tag.position = {at.x(), at.y()};
+  Eigen::Matrix2d const left = (Eigen::Matrix2d::Identity() - gain) * tag.covariance_m2;
+  tag.covariance_m2 = (left + left.transpose()) / 2.0;
+  for (int axis = 0; axis < 2; ++axis)
+    tag.covariance_m2(axis, axis) = std::max(tag.covariance_m2(axis, axis), least_variance_m2);
+  tag.height_m += (other.height_m - tag.height_m) * other.sights / (tag.sights + other.sights);
+  tag.sights += other.sights;
+  auto const called = tag.name();
+  add_votes(tag.names, other.names);
+  add_votes(tag.kinds, other.kinds);
+  if (tag.name() != called) tag.crop_score = 0.0;  // the crop shows what it is not called any more
+  if (other.crop.empty() || other.name() != tag.name() || other.crop_score <= tag.crop_score) return;
+  tag.crop = other.crop;
+  tag.crop_score = other.crop_score;
+  tag.picture = other.picture;
+}
+
 }  // namespace
 
 std::string TagBook::Entry::name() const {
@@ -63,67 +117,48 @@ double TagBook::Entry::confidence() const {
   return votes_for(name(), votes) / all;
 }
 
-TagBook::Entry* TagBook::nearest(TagSight const& sight) {
-  Entry* found = nullptr;
-  double least_m = same_within_m;
-  auto const& wall = sight.place.wall;
-  for (auto& tag : tags_) {
-    double const apart_m = geo::distance_m(tag.position, wall.position);
-    if (apart_m > least_m) continue;
-    if (std::abs(geo::wrap_pi(tag.facing_rad - wall.facing_rad)) > std::numbers::pi / 2.0) continue;
-    Eigen::Vector2d const apart = vector_of(wall.position) - vector_of(tag.position);
-    Eigen::Matrix2d const spread = tag.covariance_m2 + sight.place.covariance_m2;
-    // What reads alike may lie as far off as the seed says, what reads otherwise only as far as places err.
-    if (tag.name() != sight.name && apart.dot(spread.inverse() * apart) > gate) continue;
-    least_m = apart_m;
-    found = &tag;
-  }
-  return found;
+void TagBook::keep_picture(std::uint32_t number, std::string picture) {
+  auto const tag = std::ranges::find(tags_, number, &Entry::number);
+  if (tag != tags_.end()) tag->picture = std::move(picture);
 }
 
-void TagBook::move(MapMove const& moved) {
+TagBook::Entry const* TagBook::find(std::uint32_t number) const {
+  auto const tag = std::ranges::find(tags_, number, &Entry::number);
+  return tag == tags_.end() ? nullptr : &*tag;
+}
+
+TagBook::Entry const& TagBook::take(TagSight const& sight) {
+  auto const seen = entry_of(sight);
+  Entry* nearest = nullptr;
+  for (auto& tag : tags_)
+    if (is_one(tag, seen) && (!nearest || apart_m(tag, seen) < apart_m(*nearest, seen))) nearest = &tag;
+  if (nearest) {
+    join(*nearest, seen);
+    return *nearest;
+  }
+  tags_.push_back(seen);
+  tags_.back().number = ++last_number_;
+  return tags_.back();
+}
+
+std::vector<TagBook::Joined> TagBook::move(MapMove const& moved) {
   for (auto& tag : tags_) {
     auto const now = moved({tag.position, tag.facing_rad});
     tag.position = now.position;
     tag.facing_rad = now.yaw_rad;
   }
-}
-
-TagBook::Entry const& TagBook::take(TagSight const& sight) {
-  auto* tag = nearest(sight);
-  if (!tag) {
-    tags_.push_back({.number = static_cast<std::uint32_t>(tags_.size()) + 1,
-                     .position = sight.place.wall.position,
-                     .covariance_m2 = sight.place.covariance_m2,
-                     .height_m = sight.place.height_m,
-                     .facing_rad = sight.place.wall.facing_rad,
-                     .sights = 0,
-                     .names = {},
-                     .kinds = {}});
-    tag = &tags_.back();
-  } else {
-    Eigen::Matrix2d const gain = tag->covariance_m2 * (tag->covariance_m2 + sight.place.covariance_m2).inverse();
-    Eigen::Vector2d const at =
-        vector_of(tag->position) + gain * (vector_of(sight.place.wall.position) - vector_of(tag->position));
-    tag->position = {at.x(), at.y()};
-    Eigen::Matrix2d const left = (Eigen::Matrix2d::Identity() - gain) * tag->covariance_m2;
-    tag->covariance_m2 = (left + left.transpose()) / 2.0;
-    for (int axis = 0; axis < 2; ++axis)
-      tag->covariance_m2(axis, axis) = std::max(tag->covariance_m2(axis, axis), least_variance_m2);
-    tag->height_m += (sight.place.height_m - tag->height_m) / (tag->sights + 1);
-  }
-  ++tag->sights;
-  auto const called = tag->name();
-  if (!sight.name.empty()) tag->names[sight.name] += sight.score;
-  if (!sight.kind.empty()) tag->kinds[sight.kind] += sight.score;
-  if (tag->name() != called) tag->crop_score = 0.0;  // the crop shows what it is not called any more
-  bool const is_as_it_is_called = sight.name.empty() ? tag->names.empty() : sight.name == tag->name();
-  if (!sight.crop.empty() && is_as_it_is_called && sight.score > tag->crop_score) {
-    tag->crop = sight.crop;
-    tag->crop_score = sight.score;
-    tag->picture.clear();
-  }
-  return *tag;
+  std::vector<Joined> joined;
+  for (std::size_t i = 0; i < tags_.size(); ++i)
+    for (std::size_t k = i + 1; k < tags_.size();) {
+      if (!is_one(tags_[i], tags_[k])) {
+        ++k;
+        continue;
+      }
+      join(tags_[i], tags_[k]);
+      joined.push_back({.gone = tags_[k].number, .into = tags_[i].number});
+      tags_.erase(tags_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  return joined;
 }
 
 }  // namespace lapwing::robot

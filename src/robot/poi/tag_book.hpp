@@ -43,18 +43,26 @@ class TagBook {
     [[nodiscard]] double confidence() const;
   };
 
+  /// Two that have turned out to be one.
+  struct Joined {
+    std::uint32_t gone = 0;
+    std::uint32_t into = 0;
+  };
+
   /// The one that it was, or a new one, until the next call.
   Entry const& take(TagSight const& sight);
   [[nodiscard]] std::vector<Entry> const& tags() const { return tags_; }  ///< by their numbers
-  /// The map has moved, and all of them with it.
-  void move(MapMove const& moved);
+  /// Until the next call; null: there is none with this number, or not any more.
+  [[nodiscard]] Entry const* find(std::uint32_t number) const;
+  /// The map has moved, and all of them with it. What was placed twice by two passages that the map did not lay upon
+  /// each other before may come together now: then the older one takes in the other.
+  std::vector<Joined> move(MapMove const& moved);
   /// Where the crop of one of them is kept.
-  void keep_picture(std::uint32_t number, std::string picture) { tags_[number - 1].picture = std::move(picture); }
+  void keep_picture(std::uint32_t number, std::string picture);
 
  private:
-  [[nodiscard]] Entry* nearest(TagSight const& sight);
-
   std::vector<Entry> tags_;
+  std::uint32_t last_number_ = 0;
 };
 
 }  // namespace lapwing::robot

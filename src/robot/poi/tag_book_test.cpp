@@ -98,5 +98,54 @@ TEST(TagBook, KeepsThePictureOfTheSurestSightOfWhatItIsCalled) {
   EXPECT_TRUE(book.tags().front().picture.empty()) << "of another crop";
 }
 
+/// What lies east of 3 m comes by so much to the west.
+MapMove closing_up(double by_m) {
+  return [by_m](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+    return {{before.position.x() - (before.position.x() > 3.0 ? by_m : 0.0), before.position.y()}, before.yaw_rad};
+  };
+}
+
+TEST(TagBook, JoinsTwoThatComeTogetherWhenTheMapMoves) {
+  TagBook book;
+  auto const first = book.take(sight(2.0, 2.0, "108", 0.8)).number;
+  auto clearer = sight(4.0, 2.0, "108", 0.9);
+  clearer.crop = "clearer";
+  auto const second = book.take(clearer).number;
+  book.keep_picture(second, "kept");
+  auto const joined = book.move(closing_up(1.7));
+  ASSERT_EQ(joined.size(), 1U);
+  EXPECT_EQ(joined[0].gone, second);
+  EXPECT_EQ(joined[0].into, first);
+  ASSERT_EQ(book.tags().size(), 1U);
+  auto const& tag = book.tags()[0];
+  EXPECT_EQ(tag.number, first);
+  EXPECT_EQ(tag.sights, 2);
+  EXPECT_NEAR(tag.position.x(), 2.15, 1e-9);
+  EXPECT_NEAR(tag.confidence(), 1.7 / 2.2, 1e-9);
+  EXPECT_EQ(tag.crop, "clearer");
+  EXPECT_EQ(tag.picture, "kept");
+}
+
+TEST(TagBook, GivesNoNumberTwiceAndFindsNoneThatIsGone) {
+  TagBook book;
+  (void)book.take(sight(2.0, 2.0, "108", 0.8));
+  auto const second = book.take(sight(4.0, 2.0, "108", 0.9)).number;
+  (void)book.move(closing_up(1.7));
+  EXPECT_EQ(book.find(second), nullptr);
+  book.keep_picture(second, "too late");
+  auto const third = book.take(sight(9.0, 2.0, "109", 0.9)).number;
+  EXPECT_GT(third, second);
+  ASSERT_NE(book.find(third), nullptr);
+  EXPECT_EQ(book.find(third)->name(), "109");
+}
+
+TEST(TagBook, KeepsApartWhatReadsOtherwiseAlsoWhenTheMapMoves) {
+  TagBook book;
+  (void)book.take(sight(2.0, 2.0, "108", 0.8));
+  (void)book.take(sight(4.0, 2.0, "110", 0.9));
+  EXPECT_TRUE(book.move(closing_up(1.2)).empty());
+  EXPECT_EQ(book.tags().size(), 2U);
+}
+
 }  // namespace
 }  // namespace lapwing::robot

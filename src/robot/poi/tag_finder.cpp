@@ -89,14 +89,29 @@ base::Task<> TagFinder::keep_looking() {
 }
 
 void TagFinder::move(MapMove const& moved) {
-  book_.move(moved);
   looks_.move(moved);
+  for (auto const& joined : book_.move(moved)) take_in(joined);
   auto const pose = pose_now();
   if (!pose) return;
-  std::vector<std::uint32_t> elsewhere;
-  for (auto const& [number, place] : shown_)
-    if (geo::distance_m(book_.tags()[number - 1].position, place) > worth_telling_m) elsewhere.push_back(number);
-  for (auto const number : elsewhere) write(book_.tags()[number - 1], *pose);
+  for (auto const& tag : book_.tags()) {
+    auto const found = shown_.find(tag.number);
+    if (found != shown_.end() && geo::distance_m(tag.position, found->second) > worth_telling_m) write(tag, *pose);
+  }
+}
+
+/// What one of them was for the robot is the other's now.
+void TagFinder::take_in(TagBook::Joined const& joined) {
+  auto const gone = tries_of(joined.gone);
+  tries_.erase(joined.gone);
+  auto& tries = tries_[joined.into];
+  tries.begun = std::max(tries.begun, gone.begun);
+  tries.looks += gone.looks;
+  tries.sights += gone.sights;
+  if (retake_ && retake_->tag == joined.gone) retake_->tag = joined.into;
+  if (shown_.erase(joined.gone) == 0) return;
+  (void)live_map_.remove(map::LayerKind::points_of_interest, tag_id(setup_.vehicle, joined.gone),
+                         {.writer = setup_.vehicle, .at = loop_.utc_now()});
+  if (auto const pose = pose_now()) write(*book_.find(joined.into), *pose);
 }
 
 void TagFinder::note_passed(vehicle::SitePose const& pose) {
@@ -143,7 +158,10 @@ base::Task<> TagFinder::look_again() {
     ++tries_[number].looks;
     if (std::ranges::find(*seen, number) != seen->end()) ++tries_[number].sights;
   }
-  auto const is_worth_more = [this](std::uint32_t one) { return wants_a_look(book_.tags()[one - 1]); };
+  auto const is_worth_more = [this](std::uint32_t one) {
+    auto const* const tag = book_.find(one);
+    return tag && wants_a_look(*tag);
+  };
   bool const wants_more = (number > 0 && is_worth_more(number)) || std::ranges::any_of(*seen, is_worth_more);
   if (++retake_->looks < looks_a_try && wants_more) co_return;
   // It has come all this way: what the other eyes see from here spares it another one.
@@ -198,20 +216,21 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
 }
 
 base::Task<> TagFinder::show(std::uint32_t number, vehicle::SitePose pose) {
-  auto const& tag = book_.tags()[number - 1];
-  if (!is_sure(tag) && !is_unread(tag) && !shown_.contains(number)) co_return;
-  if (setup_.eyes.keep && tag.picture.empty() && !tag.crop.empty()) {
-    auto keeping = setup_.eyes.keep(tag.crop);
+  auto const* tag = book_.find(number);
+  if (!tag || (!is_sure(*tag) && !is_unread(*tag) && !shown_.contains(number))) co_return;
+  if (setup_.eyes.keep && tag->picture.empty() && !tag->crop.empty()) {
+    auto keeping = setup_.eyes.keep(tag->crop);
     auto const kept = co_await std::move(keeping);
     if (kept) book_.keep_picture(number, *kept);
+    tag = book_.find(number);
   }
-  write(book_.tags()[number - 1], pose);
+  if (tag) write(*tag, pose);
 }
 
 // ---- what it wants to look at again
 
-TagFinder::Tries TagFinder::tries_of(Entry const& tag) const {
-  auto const found = tries_.find(tag.number);
+TagFinder::Tries TagFinder::tries_of(std::uint32_t number) const {
+  auto const found = tries_.find(number);
   return found == tries_.end() ? Tries() : found->second;
 }
 
@@ -222,12 +241,12 @@ bool TagFinder::is_sure(Entry const& tag) const {
 /// A kind of room without a number may be all that is written there: who has looked from before it knows.
 bool TagFinder::wants_a_look(Entry const& tag) const {
   if (!is_sure(tag)) return true;
-  return tag.names.empty() && tries_of(tag).sights == 0;
+  return tag.names.empty() && tries_of(tag.number).sights == 0;
 }
 
 /// It was seen from before it, or could not be got at, and is not read.
 bool TagFinder::is_unread(Entry const& tag) const {
-  auto const tries = tries_of(tag);
+  auto const tries = tries_of(tag.number);
   bool const is_over = tries.begun >= most_tries && !(retake_ && retake_->tag == tag.number);
   return !is_sure(tag) && (tries.sights > 0 || (is_over && tries.looks == 0));
 }
@@ -262,7 +281,7 @@ std::optional<Viewpoint> TagFinder::next_view() {
 std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here) {
   std::vector<Entry const*> wanted;
   for (auto const& tag : book_.tags())
-    if (wants_a_look(tag) && tries_of(tag).begun < most_tries) wanted.push_back(&tag);
+    if (wants_a_look(tag) && tries_of(tag.number).begun < most_tries) wanted.push_back(&tag);
   std::ranges::sort(wanted, {}, [&](Entry const* tag) { return geo::distance_m(tag->position, here); });
   for (auto const* tag : wanted) {
     auto const views = viewpoints_for(

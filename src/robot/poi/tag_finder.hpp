@@ -73,11 +73,12 @@ class TagFinder {
   base::Task<std::optional<std::vector<std::uint32_t>>> look_with(Eye const& eye, vehicle::SitePose pose);
   base::Task<> show(std::uint32_t number, vehicle::SitePose pose);
   [[nodiscard]] std::optional<vehicle::SitePose> pose_now() const;
+  void take_in(TagBook::Joined const& joined);
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
   [[nodiscard]] std::vector<CameraMount> mounts() const;
   [[nodiscard]] bool is_there(Retake const& retake, vehicle::SitePose const& pose) const;
-  [[nodiscard]] Tries tries_of(Entry const& tag) const;
+  [[nodiscard]] Tries tries_of(std::uint32_t number) const;
   [[nodiscard]] bool is_sure(Entry const& tag) const;
   [[nodiscard]] bool wants_a_look(Entry const& tag) const;
   [[nodiscard]] bool is_unread(Entry const& tag) const;

@@ -319,6 +319,22 @@ TEST_F(TagFinderAtAWall, TakesItsSignsAlongWhenTheMapMoves) {
   EXPECT_EQ(finds->pictures(), pictures) << "which has been looked at";
 }
 
+TEST_F(TagFinderAtAWall, ShowsASignOnceThatTwoPassagesHadPlacedApart) {
+  auto const finds = finder();
+  pass(3s);
+  stand_at(2.5);
+  pass(3s);
+  ASSERT_EQ(on_map().size(), 2U);
+  finds->move([](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+    bool const is_of_the_first = before.position.x() < 1.75;
+    return {{is_of_the_first ? before.position.x() + 1.3 : before.position.x(), before.position.y()}, before.yaw_rad};
+  });
+  ASSERT_EQ(on_map().size(), 1U);
+  EXPECT_EQ(point().name, "221");
+  EXPECT_NEAR(point().position.x(), 2.4, 0.15);
+  EXPECT_EQ(finds->texts(), std::vector<std::string>{"221 office"});
+}
+
 TEST_F(TagFinderAtAWall, ForgetsWhatTheRobotFoundAnotherTime) {
   {
     auto const earlier = finder();
