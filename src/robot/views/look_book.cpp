@@ -85,12 +85,10 @@ void LookBook::move(MapMove const& moved) {
 std::vector<LookBook::Unclear> LookBook::unclear() const {
   std::vector<Unclear> walls;
   for (auto const& [key, piece] : pieces_) {
-    bool const is_clear = piece.reads > 0 || (piece.last == Outcome::blank && piece.clearest >= blank_px_m) ||
+    bool const is_clear = piece.reads > 0 || (piece.last == Outcome::blank && piece.clearest >= noticed_px_m) ||
                           (piece.last == Outcome::poor && piece.clearest >= clear_px_m);
     if (piece.wall && !is_clear && !piece.is_given_up)
-      walls.push_back({.wall = *piece.wall,
-                       .shows_something = piece.last != Outcome::blank,
-                       .is_noticed = piece.clearest >= noticed_px_m});
+      walls.push_back({.wall = *piece.wall, .shows_something = piece.last != Outcome::blank});
   }
   return walls;
 }

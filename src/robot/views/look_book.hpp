@@ -32,9 +32,7 @@ class LookBook {
   };
   /// Less clear, and what shows nothing may have something written on it: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
-  /// So clear, and what shows nothing is blank, mostly: of rendered signs fourteen in fifteen are noticed there.
-  static constexpr double blank_px_m = 300.0;
-  /// Likewise, four in five.
+  /// So clear, and what shows nothing is blank: of rendered signs all are noticed, down to 170 pixels.
   static constexpr double noticed_px_m = 200.0;
 
   /// The robot came past it, whether a camera looked or not.
@@ -47,7 +45,6 @@ class LookBook {
   struct Unclear {
     WallPoint wall;
     bool shows_something = false;  ///< a sign, that could not be read or was cut off
-    bool is_noticed = false;       ///< a camera saw it well enough for most signs to be noticed, and saw none
   };
   [[nodiscard]] std::vector<Unclear> unclear() const;
   /// Nothing more is to be expected of it.

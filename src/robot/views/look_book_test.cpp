@@ -11,7 +11,7 @@ using Outcome = LookBook::Outcome;
 
 constexpr WallPiece piece{3, 4, 1};
 constexpr double clear = 2.0 * LookBook::clear_px_m;
-constexpr double aslant = 0.5 * LookBook::clear_px_m;
+constexpr double aslant = 0.8 * LookBook::noticed_px_m;
 
 /// How often it is looked at in a row, with the same outcome each time.
 int looks(LookBook& book, double clearness, Outcome outcome) {

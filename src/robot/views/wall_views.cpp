@@ -47,7 +47,7 @@ std::optional<WallView> view_of(LookBook::Unclear const& unclear, map::Occupancy
   auto const& wall = unclear.wall;
   OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
   bool const is_likely = unclear.shows_something || is_beside_an_opening(what, grid);
-  if ((!is_likely && unclear.is_noticed) || !is_wide_enough(what, grid)) return std::nullopt;
+  if (!is_wide_enough(what, grid)) return std::nullopt;
   auto const views = viewpoints_for(what, grid, mounts);
   if (views.empty()) return std::nullopt;
   // What is most likely a sign is read from near; where there may be one, more is seen from afar.
@@ -66,7 +66,7 @@ std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid
   std::vector<std::pair<double, LookBook::Unclear>> near;
   std::set<WallPiece> unseen;
   for (auto const& unclear : looks.unclear()) {
-    if (!unclear.is_noticed) unseen.insert(piece_of(unclear.wall));
+    unseen.insert(piece_of(unclear.wall));
     if (auto const way_m = way_before(unclear.wall, ways)) near.emplace_back(*way_m, unclear);
   }
   std::ranges::stable_sort(near, {}, [](auto const& one) { return one.first; });
