@@ -28,7 +28,7 @@ constexpr base::Duration eyes_silent_after = 10s;  ///< the seed's override ends
 constexpr base::Duration eyes_asked_every = 100ms;
 constexpr base::Duration between_pieces = 10ms;  ///< of an alignment
 /// What looking again may cost, of what exploring did: at most so much of the way, and so much at any rate.
-constexpr double looks_of_way = 0.6;
+constexpr double looks_of_way = 0.3;
 constexpr double looks_at_least_m = 30.0;
 
 geo::Transform<geo::SiteFrame, map::GridFrame> place_of(RobotSpec const& spec) {
