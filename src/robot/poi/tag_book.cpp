@@ -63,7 +63,8 @@ double apart_m(TagBook::Entry const& one, TagBook::Entry const& other) {
   return geo::distance_m(one.position, other.position);
 }
 
-/// What reads alike may lie as far off as the seed says, what reads otherwise only as far as places err.
+/// What has the same number may lie as far off as the seed says, anything else only as far as places err: the next door
+/// may lead to a room of the same kind.
 bool is_one(TagBook::Entry const& one, TagBook::Entry const& other) {
   if (apart_m(one, other) > same_within_m) return false;
   if (std::abs(geo::wrap_pi(one.facing_rad - other.facing_rad)) > std::numbers::pi / 2.0) return false;

@@ -32,7 +32,7 @@ class LookBook {
   };
   /// Less clear, and what shows nothing may have something written on it: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
-  /// So clear, and what shows nothing is blank: of rendered signs all are noticed, down to 170 pixels.
+  /// So clear, and what shows nothing is blank: rendered signs are noticed, all up to 0.9 rad aslant (bench_notice).
   static constexpr double noticed_px_m = 200.0;
 
   /// The robot came past it, whether a camera looked or not.

@@ -16,10 +16,9 @@ struct WallView {
   bool is_likely = false;  ///< most likely there is a sign: it shows something, or a doorway is beside it
 };
 
-/// Where a robot looks next at walls that no camera of it has seen well enough, from `here`: at those on which there is
-/// most likely a sign, from near, until they are clear; and at others on which no camera would have noticed one, from
-/// where much is seen at once. It is the view that is worth most for its way. Nothing when there is none that it can
-/// get to.
+/// Where a robot looks next, from `here`, at walls on which no camera of it would have noticed a sign, or on which one
+/// is not read: where there is most likely one from near, at others from where much is seen at once. It is the view
+/// that is worth most for its way. Nothing when there is none that it can get to.
 [[nodiscard]] std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid const& grid,
                                                      std::span<CameraMount const> mounts, map::SitePoint const& here);
 
