@@ -41,9 +41,16 @@ std::optional<double> way_before(WallPoint const& wall, WayLengths const& ways) 
   return least_m;
 }
 
-/// Nothing when it need not be looked at, or cannot.
-std::optional<WallView> view_of(LookBook::Unclear const& unclear, map::OccupancyGrid const& grid,
-                                std::span<CameraMount const> mounts, WayLengths const& ways) {
+/// What can be looked at next.
+struct Candidate {
+  WallView wall;
+  double way_m = 0.0;      ///< there, roughly
+  bool is_likely = false;  ///< most likely there is a sign: it shows something, or a doorway is beside it
+};
+
+/// Nothing when there is no place from which it can be looked at.
+std::optional<Candidate> candidate_of(LookBook::Unclear const& unclear, map::OccupancyGrid const& grid,
+                                      std::span<CameraMount const> mounts, WayLengths const& ways) {
   auto const& wall = unclear.wall;
   OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
   bool const is_likely = unclear.shows_something || is_beside_an_opening(what, grid);
@@ -55,7 +62,7 @@ std::optional<WallView> view_of(LookBook::Unclear const& unclear, map::Occupancy
   auto const& view = is_likely ? views.front() : *std::ranges::max_element(views, {}, range_m);
   auto const way_m = ways.to(view.from);
   if (!way_m) return std::nullopt;
-  return WallView{.piece = piece_of(wall), .view = view, .way_m = *way_m, .is_likely = is_likely};
+  return Candidate{.wall = {.piece = piece_of(wall), .view = view}, .way_m = *way_m, .is_likely = is_likely};
 }
 
 }  // namespace
@@ -74,16 +81,16 @@ std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid
   double least_m = 0.0;
   std::size_t compared = 0;
   for (auto one = near.begin(); one != near.end() && compared < most_compared; ++one) {
-    auto const view = view_of(one->second, grid, mounts, ways);
-    if (!view) continue;
+    auto const candidate = candidate_of(one->second, grid, mounts, ways);
+    if (!candidate) continue;
     ++compared;
-    auto seen = seen_from(view->view, grid, mounts);
-    seen.insert(view->piece);
+    auto seen = seen_from(candidate->wall.view, grid, mounts);
+    seen.insert(candidate->wall.piece);
     auto const count = std::ranges::count_if(seen, [&](WallPiece const& piece) { return unseen.contains(piece); });
-    double const worth = static_cast<double>(count) + (view->is_likely ? worth_if_likely : 0.0);
-    double const each_m = (view->way_m + standing_m) / worth;
+    double const worth = static_cast<double>(count) + (candidate->is_likely ? worth_if_likely : 0.0);
+    double const each_m = (candidate->way_m + standing_m) / worth;
     if (best && each_m >= least_m) continue;
-    best = view;
+    best = candidate->wall;
     least_m = each_m;
   }
   return best;

@@ -12,8 +12,6 @@ namespace lapwing::robot {
 struct WallView {
   WallPiece piece;
   Viewpoint view;
-  double way_m = 0.0;      ///< there, roughly
-  bool is_likely = false;  ///< most likely there is a sign: it shows something, or a doorway is beside it
 };
 
 /// Where a robot looks next, from `here`, at walls on which no camera of it would have noticed a sign, or on which one
