@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <vector>
 
 #include "base/assert.hpp"
 
@@ -16,6 +17,14 @@ constexpr double steps_a_unit = 256.0;
 std::size_t index_of(Cell cell) {
   constexpr std::int32_t mask = tile_cells - 1;
   return static_cast<std::size_t>(cell.y & mask) * tile_cells + static_cast<std::size_t>(cell.x & mask);
+}
+
+/// Of all that evidence can be, as whole maps are asked for it: an exponential a cell would be a good part of the work.
+std::vector<double> probabilities() {
+  std::vector<double> table;
+  for (int steps = -Evidence::most_steps; steps <= Evidence::most_steps; ++steps)
+    table.push_back(1.0 / (1.0 + std::exp(-Evidence::of_steps(steps).log_odds())));
+  return table;
 }
 
 }  // namespace
@@ -34,7 +43,8 @@ double Evidence::log_odds() const {
 }
 
 double Evidence::probability() const {
-  return 1.0 / (1.0 + std::exp(-log_odds()));
+  static auto const of_steps = probabilities();
+  return is_seen() ? of_steps[static_cast<std::size_t>(steps_ + most_steps)] : 0.5;
 }
 
 Evidence Evidence::and_also(Evidence other) const {
