@@ -16,16 +16,25 @@ camera = survey.tables(camera=f'kind = "pattern"\nwidth = {SIZE[0]}\nheight = {S
 streams = f"[stream]\nport = {harness.free_tcp_port()}\npictures_a_s = 60\n[rtsp]\nport = {rtsp_port}\n"
 
 
+def exactly(connection: socket.socket, count: int) -> bytes:
+    data = connection.recv(count, socket.MSG_WAITALL)
+    assert len(data) == count, "the server has ended the connection"
+    return data
+
+
 def ask(connection: socket.socket, number: int, what: str, *headers: str) -> dict[str, str]:
     """One request of RTSP; the headers of its answer."""
     connection.sendall("\r\n".join((f"{what} RTSP/1.0", f"CSeq: {number}", *headers, "", "")).encode())
-    head = b""
+    # Packets of the stream may come before the answer: "$", a channel and their length go before each (RFC 2326, 10.12).
+    while (first := exactly(connection, 1)) == b"$":
+        exactly(connection, int.from_bytes(exactly(connection, 3)[1:], "big"))
+    head = first
     while not head.endswith(b"\r\n\r\n"):
-        head += connection.recv(1)
+        head += exactly(connection, 1)
     first, *lines = head.decode().split("\r\n")
     assert " 200 " in first, head
     answer = dict(line.split(": ", 1) for line in lines if line)
-    connection.recv(int(answer.get("Content-Length", 0)), socket.MSG_WAITALL)
+    exactly(connection, int(answer.get("Content-Length", 0)))
     return answer
 
 
