@@ -11,30 +11,43 @@ namespace {
 /// Weights of a pixel and those to each side of it; their sum, both sides counted, is 1.
 using Weights = std::vector<float>;
 
-/// Each row becomes the weighted sum of its neighbours; beyond an edge is what is on it.
-void blur_line(Light const* from, Light* into, int count, std::ptrdiff_t step, Weights const& weights) {
-  auto const reach = static_cast<int>(weights.size()) - 1;
-  for (int i = 0; i < count; ++i) {
-    Light sum = weights[0] * from[i * step];
-    for (int off = 1; off <= reach; ++off)
-      sum += weights[static_cast<std::size_t>(off)] *
-             (from[std::max(i - off, 0) * step] + from[std::min(i + off, count - 1) * step]);
-    into[i * step] = sum;
-  }
+/// Red, green and blue of pixels that lie side by side, which all become the same sum of their neighbours: worked out
+/// many at a time.
+using Line = Eigen::Map<Eigen::ArrayXf const>;
+
+constexpr Eigen::Index channels = 3;
+
+/// The weighted sum of a line and of those so many to each side of it, which `at` gives.
+template <class At>
+void blur_line(Weights const& weights, Eigen::Map<Eigen::ArrayXf> into, At const& at) {
+  into = weights[0] * at(0);
+  for (int off = 1; off < static_cast<int>(weights.size()); ++off)
+    into += weights[static_cast<std::size_t>(off)] * (at(-off) + at(off));
 }
 
+/// Beyond an edge is what is on it.
 void blur_rows(LightField& field, Weights const& weights) {
-  auto const before = field.light;
+  auto const reach = static_cast<std::ptrdiff_t>(weights.size()) - 1;
+  std::vector<Light> wider(static_cast<std::size_t>(field.width + 2 * reach));
   for (int y = 0; y < field.height; ++y) {
-    auto const row = static_cast<std::ptrdiff_t>(y) * field.width;
-    blur_line(before.data() + row, field.light.data() + row, field.width, 1, weights);
+    auto const row = field.light.begin() + static_cast<std::ptrdiff_t>(y) * field.width;
+    std::fill_n(wider.begin(), reach, row[0]);
+    std::copy_n(row, field.width, wider.begin() + reach);
+    std::fill_n(wider.end() - reach, reach, row[field.width - 1]);
+    blur_line(weights, {row->data(), channels * field.width}, [&](int off) {
+      return Line(wider[static_cast<std::size_t>(reach + off)].data(), channels * field.width);
+    });
   }
 }
 
 void blur_columns(LightField& field, Weights const& weights) {
   auto const before = field.light;
-  for (int x = 0; x < field.width; ++x)
-    blur_line(before.data() + x, field.light.data() + x, field.height, field.width, weights);
+  auto const row = [&](int y) {
+    return static_cast<std::size_t>(std::clamp(y, 0, field.height - 1)) * static_cast<std::size_t>(field.width);
+  };
+  for (int y = 0; y < field.height; ++y)
+    blur_line(weights, {field.light[row(y)].data(), channels * field.width},
+              [&](int off) { return Line(before[row(y + off)].data(), channels * field.width); });
 }
 
 /// Standard deviations of noise to draw from: four a draw of 64 bits, where working each out would cost more than the

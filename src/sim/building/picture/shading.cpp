@@ -19,12 +19,14 @@ double off_lattice(double value, double spacing) {
   return value - spacing * static_cast<double>(whole_below(value / spacing + 0.5));
 }
 
-/// 0 to 1, the same for the same whole numbers.
+constexpr double most_hashed = 65'535.0;
+
+/// A whole number up to `most_hashed`, the same for the same whole numbers.
 double hashed(std::int64_t x, std::int64_t y) {
   auto hash = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15U ^ static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fU;
   hash = (hash ^ (hash >> 29U)) * 0xbf58476d1ce4e5b9U;
   hash ^= hash >> 32U;
-  return static_cast<double>(hash & 0xffffU) / 65'535.0;
+  return static_cast<double>(hash & 0xffffU);
 }
 
 /// Lattice noise from -1 to 1, a cell wide; fades where a pixel covers more than a cell.
@@ -38,7 +40,7 @@ double speckle(double x, double y, double cell_m, double spread_m) {
   auto const between = [](double a, double b, double share) { return a + share * (b - a); };
   double const low = between(hashed(column, row), hashed(column + 1, row), share_x);
   double const high = between(hashed(column, row + 1), hashed(column + 1, row + 1), share_x);
-  return fades * (2.0 * between(low, high, share_y) - 1.0);
+  return fades * (2.0 / most_hashed * between(low, high, share_y) - 1.0);
 }
 
 /// How much of a pixel around `off` (metres from a line's middle) a line of that width covers.
@@ -126,7 +128,8 @@ Light solid_at_point(Surface const& surface, Eigen::Vector3d const& point, doubl
 Light floor_at_point(Surface const& surface, Eigen::Vector3d const& point, double spread_m) {
   constexpr double tile_m = 0.5;
   double const grain = 0.06 * speckle(point.x(), point.y(), 0.01, spread_m);
-  double const tile = 0.03 * (hashed(whole_below(point.x() / tile_m), whole_below(point.y() / tile_m)) - 0.5);
+  double const tile =
+      0.03 * (hashed(whole_below(point.x() / tile_m), whole_below(point.y() / tile_m)) / most_hashed - 0.5);
   double const joint = joints(point.x(), point.y(), tile_m, 0.006, spread_m);
   return light_of(surface.colour, (1.0 + grain + tile) * (1.0 - 0.15 * joint));
 }
