@@ -70,19 +70,22 @@ std::optional<Candidate> candidate_of(LookBook::Unclear const& unclear, map::Occ
 std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid const& grid,
                                        std::span<CameraMount const> mounts, map::SitePoint const& here) {
   WayLengths const ways(grid, here);
-  std::vector<std::pair<double, LookBook::Unclear>> near;
+  std::vector<std::pair<double, LookBook::Unclear>> known;
   std::set<WallPiece> unseen;
   for (auto const& unclear : looks.unclear()) {
     unseen.insert(piece_of(unclear.wall));
-    if (auto const way_m = way_before(unclear.wall, ways)) near.emplace_back(*way_m, unclear);
+    if (auto const way_m = way_before(unclear.wall, ways)) known.emplace_back(*way_m, unclear);
   }
-  std::ranges::stable_sort(near, {}, [](auto const& one) { return one.first; });
+  // What was noticed comes first, however far off it is: of other walls there is always another one nearby.
+  std::ranges::stable_sort(known, {},
+                           [](auto const& one) { return std::pair(!one.second.shows_something, one.first); });
   std::optional<WallView> best;
   double least_m = 0.0;
   std::size_t compared = 0;
-  for (auto one = near.begin(); one != near.end() && compared < most_compared; ++one) {
+  for (auto one = known.begin(); one != known.end() && compared < most_compared; ++one) {
     auto const candidate = candidate_of(one->second, grid, mounts, ways);
     if (!candidate) continue;
+    if (one->second.shows_something) return candidate->wall;
     ++compared;
     auto seen = seen_from(candidate->wall.view, grid, mounts);
     seen.insert(candidate->wall.piece);

@@ -14,9 +14,10 @@ struct WallView {
   Viewpoint view;
 };
 
-/// Where a robot looks next, from `here`, at walls on which no camera of it would have noticed a sign, or on which one
-/// is not read: where there is most likely one from near, at others from where much is seen at once. It is the view
-/// that is worth most for its way. Nothing when there is none that it can get to.
+/// Where a robot looks next, from `here`: at the nearest wall on which something was noticed that is not read, however
+/// far off; when there is none, at walls on which no camera of it would have noticed a sign. Of these it is the view
+/// that is worth most for its way: beside doorways from near, at others from where much is seen at once. Nothing when
+/// there is none that it can get to.
 [[nodiscard]] std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid const& grid,
                                                      std::span<CameraMount const> mounts, map::SitePoint const& here);
 

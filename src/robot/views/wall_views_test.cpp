@@ -58,6 +58,15 @@ TEST_F(WallViews, ComeNearToWhatShowedSomethingThoughOtherWallsAreNearer) {
   EXPECT_NEAR(view->view.from.y(), 0.8, 0.1);
 }
 
+TEST_F(WallViews, GoTheWholeWayToWhatShowedSomethingBeforeTheyShowWhatIsNear) {
+  pass(0.2, 4.0);
+  pass(7.4, 7.6);
+  looks.note(piece_of(at(7.5)), 1.2 * LookBook::noticed_px_m, LookBook::Outcome::poor);
+  auto const view = next({1.0, 0.5});
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->piece, piece_of(at(7.5)));
+}
+
 TEST_F(WallViews, ShowMuchOfAWallThatNoCameraLookedAt) {
   pass(1.0, 7.0);
   auto const view = next({4.0, 1.0});
