@@ -49,8 +49,8 @@ bool LookBook::is_due(WallPiece const& piece, double clearness) const {
   if (looks.reads >= enough_reads) return false;
   bool const is_blank = looks.last == Outcome::blank;
   bool const is_clearer = clearness >= looks.clearest * clearer;
-  if (is_blank && looks.clearest >= clear_px_m) return false;
-  if (is_blank) return is_clearer && clearness >= std::min(looks.clearest * much_clearer, clear_px_m);
+  if (is_blank && looks.clearest >= noticed_px_m) return false;
+  if (is_blank) return is_clearer && clearness >= std::min(looks.clearest * much_clearer, noticed_px_m);
   if (is_clearer) return true;
   return looks.tries < most_tries && clearness * clearer >= looks.clearest;
 }

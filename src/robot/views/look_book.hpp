@@ -20,8 +20,9 @@ using WallPiece = std::tuple<int, int, int>;
 /// Which pieces of wall have been looked at, and how clearly, so that each is looked at a few times and not more.
 ///
 /// A look that could tell nothing from afar or aslant does not settle a piece: it is looked at again when it is seen
-/// clearer than ever before, by much where nothing was seen. That is what bounds the pictures: looking at one takes
-/// half a second of a core, and a building has more walls than signs.
+/// clearer than ever before, by much where nothing was seen. What shows nothing where a sign would have been noticed is
+/// settled. That is what bounds the pictures: looking at one takes a good part of a second of a core, and a building
+/// has more walls than signs.
 class LookBook {
  public:
   enum class Outcome {
@@ -30,10 +31,10 @@ class LookBook {
     poor,     ///< blurred, from afar, or without a number
     cut_off,  ///< by the edge of the picture
   };
-  /// Less clear, and what shows nothing may have something written on it: letters of 6 cm are 24 pixels high then.
+  /// So clear, and what is written there can be read for sure: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
   /// So clear, and what shows nothing is blank: rendered signs are noticed, all up to 0.9 rad aslant (bench_notice).
-  static constexpr double noticed_px_m = 200.0;
+  static constexpr double noticed_px_m = 150.0;
 
   /// The robot came past it, whether a camera looked or not.
   void pass(WallPoint const& wall);

@@ -18,12 +18,12 @@ struct Reach {
 };
 constexpr Reach to_pass{.farthest_m = most_range_m, .most_slant_rad = 1.4};
 constexpr Reach to_read{.farthest_m = 3.0, .most_slant_rad = 1.0};             ///< beyond, letters are too small
-constexpr Reach to_notice{.farthest_m = most_range_m, .most_slant_rad = 0.6};  ///< large letters are told from there
+constexpr Reach to_notice{.farthest_m = most_range_m, .most_slant_rad = 0.9};  ///< with enough pixels
 /// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
 constexpr std::array parts_of_a_view{-0.32, -0.16, 0.0, 0.16, 0.32};
 /// So near to each other that none misses what is as wide as a sign.
 constexpr int lines_all_round = 120;
-constexpr double unclear_px_m = 0.9 * LookBook::clear_px_m;  ///< at best, where something is not in the picture
+constexpr double unclear_px_m = 0.9 * LookBook::noticed_px_m;  ///< at best, where something is not in the picture
 
 bool is_within(Reach const& reach, WallPoint const& wall, double way_rad) {
   double const slant_rad = std::abs(geo::wrap_pi(wall.facing_rad + std::numbers::pi - way_rad));
@@ -39,10 +39,11 @@ std::vector<SeenWall> walls_in_picture(map::OccupancyGrid const& grid, CameraMou
     double const bearing_rad = mount.yaw_rad + part * mount.view_rad;
     double const way_rad = body.yaw_rad + bearing_rad;
     auto const wall = wall_seen(grid, body, mount, bearing_rad);
-    bool const shows_letters = wall && (is_within(to_read, *wall, way_rad) || is_within(to_notice, *wall, way_rad));
     // A picture that does not show low tags is not taken; in one that does not show high ones, a tag may be missing.
-    if (!shows_letters || !is_in_the_picture(mount, low_tag_m, wall->range_m)) continue;
+    if (!wall || !is_in_the_picture(mount, low_tag_m, wall->range_m)) continue;
     double const clear = clearness(mount, *wall, way_rad);
+    bool const is_noticed = is_within(to_notice, *wall, way_rad) && clear >= LookBook::noticed_px_m;
+    if (!is_noticed && !is_within(to_read, *wall, way_rad)) continue;
     bool const shows_all = is_in_the_picture(mount, high_tag_m, wall->range_m);
     walls.push_back({.wall = *wall, .clearness = shows_all ? clear : std::min(clear, unclear_px_m)});
   }

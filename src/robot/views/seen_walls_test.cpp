@@ -41,6 +41,7 @@ TEST(SeenWalls, AreClearFromNearAndNoticedFromAfar) {
 
 TEST(SeenWalls, AreNotSeenFromAfarAndAslant) {
   EXPECT_GT(clearest(1.2, 0.9), 0.0);
+  EXPECT_GT(clearest(3.5, 0.7), LookBook::noticed_px_m);
   EXPECT_EQ(clearest(3.5, 1.0), 0.0) << "letters are too narrow";
 }
 
@@ -55,7 +56,7 @@ TEST(SeenWalls, AreNotClearWhereTheEdgeOfThePictureMayCutASignOff) {
   auto low = ahead;
   low.pitch_rad = 0.0;
   geo::Pose<geo::SiteFrame> const near{{0.0, 1.1}, north_rad};
-  for (auto const& seen : walls_in_picture(wall(), low, near)) EXPECT_LT(seen.clearness, LookBook::clear_px_m);
+  for (auto const& seen : walls_in_picture(wall(), low, near)) EXPECT_LT(seen.clearness, LookBook::noticed_px_m);
 }
 
 TEST(SeenWalls, AreAllRoundARobotAndNearItEachOfThem) {
