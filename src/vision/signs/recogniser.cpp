@@ -17,12 +17,20 @@ using base::ErrorKind;
 using base::fail;
 
 constexpr int input_height = 48;
-constexpr int input_width = 320;
+
+/// One of the networks, by how wide a line it takes.
+struct Network {
+  int width;
+  cv::dnn::Net net;
+};
+
+int width_of(cv::Mat const& line) {
+  return static_cast<int>(std::ceil(static_cast<double>(input_height) * line.cols / line.rows));
+}
 
 /// As it was trained: BGR, -1 to 1, what the line does not fill is 0.
-cv::Mat blob_of(cv::Mat const& line) {
-  int const width = std::clamp(static_cast<int>(std::ceil(static_cast<double>(input_height) * line.cols / line.rows)),
-                               1, input_width);
+cv::Mat blob_of(cv::Mat const& line, int input_width) {
+  int const width = std::clamp(width_of(line), 1, input_width);
   cv::Mat colour = line;
   if (line.channels() == 1) cv::cvtColor(line, colour, cv::COLOR_GRAY2BGR);
   cv::Mat scaled;
@@ -40,13 +48,17 @@ cv::Mat blob_of(cv::Mat const& line) {
 /// OpenCV's dnn throws on what it cannot load; so that no half of it gets out, everything of it stays here.
 class Recogniser final : public LineReader {
  public:
-  Recogniser(cv::dnn::Net const& net, std::vector<std::string> characters)
-      : net_(net), characters_(std::move(characters)) {}
+  /// The narrowest first.
+  Recogniser(std::vector<Network> networks, std::vector<std::string> characters)
+      : networks_(std::move(networks)), characters_(std::move(characters)) {}
 
   Reading read(cv::Mat const& line) override {
     if (line.empty()) return {};
-    net_.setInput(blob_of(line));
-    cv::Mat const out = net_.forward();
+    auto const fits = [&](Network const& one) { return width_of(line) <= one.width; };
+    auto const narrowest = std::ranges::find_if(networks_, fits);
+    auto& [width, net] = narrowest == networks_.end() ? networks_.back() : *narrowest;
+    net.setInput(blob_of(line, width));
+    cv::Mat const out = net.forward();
     auto const classes = static_cast<std::size_t>(out.size[out.dims - 1]);
     std::span const all(out.ptr<float>(), out.total());
     Reading reading;
@@ -69,23 +81,27 @@ class Recogniser final : public LineReader {
   }
 
  private:
-  cv::dnn::Net net_;
+  std::vector<Network> networks_;
   std::vector<std::string> characters_;
 };
 
 }  // namespace
 
-base::Result<std::unique_ptr<LineReader>> make_recogniser(std::string const& network, std::string const& characters) {
+base::Result<std::unique_ptr<LineReader>> make_recogniser(RecogniserFiles const& files) {
   std::vector<std::string> names{""};
-  std::istringstream lines(characters);
+  std::istringstream lines(files.characters);
   for (std::string line; std::getline(lines, line);) names.push_back(line);
   names.emplace_back(" ");
   try {
-    auto net = cv::dnn::readNetFromONNX(network.data(), network.size());
-    net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-    auto reader = std::make_unique<Recogniser>(net, std::move(names));
-    // What can be loaded may still not fit: one line tells.
-    (void)reader->read(cv::Mat(input_height, input_width, CV_8UC3, cv::Scalar(128, 128, 128)));
+    std::vector<Network> networks;
+    for (auto const& [width, network] : {std::pair(160, &files.narrow), std::pair(320, &files.wide)}) {
+      networks.push_back({.width = width, .net = cv::dnn::readNetFromONNX(network->data(), network->size())});
+      networks.back().net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
+    }
+    auto reader = std::make_unique<Recogniser>(networks, std::move(names));
+    // What can be loaded may still not fit: a line for each tells.
+    for (auto const& [width, net] : networks)
+      (void)reader->read(cv::Mat(input_height, width, CV_8UC3, cv::Scalar(128, 128, 128)));
     return reader;
   } catch (cv::Exception const& error) {
     return fail(ErrorKind::invalid_input, "the text recogniser cannot be loaded: " + error.err,

@@ -63,8 +63,8 @@ TEST(SignFinder, TesseractReadsASign) {
 }
 
 TEST(SignFinder, ARecogniserThatIsNoneIsRefused) {
-  EXPECT_FALSE(make_recogniser("no network", "a\nb\n"));
-  EXPECT_FALSE(make_recogniser("", ""));
+  EXPECT_FALSE(make_recogniser({.narrow = "no network", .wide = "no network", .characters = "a\nb\n"}));
+  EXPECT_FALSE(make_recogniser({}));
 }
 
 Detection thing(char const* category, double x) {
