@@ -33,7 +33,8 @@ class LookBook {
   };
   /// So clear, and what is written there can be read for sure: letters of 6 cm are 24 pixels high then.
   static constexpr double clear_px_m = 400.0;
-  /// So clear, and what shows nothing is blank: rendered signs are noticed, all up to 0.9 rad aslant (bench_notice).
+  /// So clear, and what shows nothing is blank: rendered signs are noticed, at 0.9 rad aslant all but one of ten
+  /// (bench_notice).
   static constexpr double noticed_px_m = 150.0;
 
   /// The robot came past it, whether a camera looked or not.
