@@ -114,6 +114,7 @@ def wait_until(condition, seconds: float, what: str):
         result = condition()
         if result:
             return result
+        time.sleep(0.005)  # who asks without end takes the processor from who is asked, and from other tests
     raise AssertionError(f"not within {seconds} s: {what}")
 
 
