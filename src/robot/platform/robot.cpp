@@ -380,7 +380,8 @@ base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
 base::Task<> Robot::look_again(double most_m) {
   double const began_m = driven_m_;
   while (driven_m_ - began_m < most_m) {
-    auto const view = around_.second_looks.next();
+    auto choosing = around_.second_looks.next();
+    auto const view = co_await std::move(choosing);
     if (!view) co_return;
     give(LookErrand{.from = on_map(view->from), .at = on_map(view->at), .bearing_rad = view->bearing_rad});
     auto driving = see_through();

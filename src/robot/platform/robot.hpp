@@ -77,7 +77,7 @@ class Robot {
   /// What its eyes want to look at once more before an exploration is over, as TagFinder says it. All empty: it has
   /// none.
   struct SecondLooks {
-    std::function<std::optional<Viewpoint>()> next;
+    std::function<base::Task<std::optional<Viewpoint>>()> next;
     std::function<bool()> has_looked;
     std::function<std::size_t()> unread;
   };

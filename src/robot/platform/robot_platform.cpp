@@ -61,6 +61,10 @@ std::string wall_id(RobotSpec const& spec, std::optional<std::uint32_t> number) 
   return number ? prefix + std::to_string(*number) : prefix;
 }
 
+base::Task<std::optional<Viewpoint>> nowhere() {
+  co_return std::nullopt;
+}
+
 }  // namespace
 
 RobotPlatform::RobotPlatform(Surroundings around, base::Logger log)
@@ -149,10 +153,7 @@ Robot::SecondLooks RobotPlatform::second_looks_of(VehicleId const& id) {
     auto const found = sights_.find(id);
     return found == sights_.end() ? nullptr : found->second.tags.get();
   };
-  return {.next = [finder]() -> std::optional<Viewpoint> {
-            auto* const tags = finder();
-            return tags ? tags->next_view() : std::nullopt;
-          },
+  return {.next = [finder] { return finder() ? finder()->next_view() : nowhere(); },
           .has_looked = [finder] { return !finder() || finder()->has_looked(); },
           .unread = [finder] { return finder() ? finder()->unread() : std::size_t{0}; }};
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/async/pool.hpp"
 #include "robot/views/seen_walls.hpp"
 #include "robot/views/wall_views.hpp"
 
@@ -262,20 +263,30 @@ std::vector<CameraMount> TagFinder::mounts() const {
   return mounts;
 }
 
-std::optional<Viewpoint> TagFinder::next_view() {
+base::Task<std::optional<Viewpoint>> TagFinder::next_view() {
   retake_.reset();
   auto const pose = pose_now();
   auto const* const grid = pose ? grid_of(*pose) : nullptr;
-  if (!grid) return std::nullopt;
+  if (!grid) co_return std::nullopt;
   map::SitePoint const here(pose->position.x(), pose->position.y());
-  retake_ = next_tag(*grid, here);
-  if (!retake_) {
-    if (auto const wall = next_wall_view(looks_, *grid, mounts(), here)) {
-      looks_.give_up(wall->piece);
-      retake_ = Retake{.view = wall->view};
-    }
+  auto next = next_tag(*grid, here);
+  if (!next) {
+    auto looking = next_wall(*grid, here);
+    next = co_await std::move(looking);
   }
-  return retake_ ? std::optional(retake_->view) : std::nullopt;
+  retake_ = next;
+  co_return next ? std::optional(next->view) : std::nullopt;
+}
+
+base::Task<std::optional<TagFinder::Retake>> TagFinder::next_wall(map::OccupancyGrid grid, map::SitePoint here) {
+  auto cameras = mounts();
+  auto const wall = co_await loop_.on_pool(
+      [](LookBook const& looks, map::OccupancyGrid const& on, std::vector<CameraMount> const& with,
+         map::SitePoint const& from) { return next_wall_view(looks, on, with, from); },
+      looks_, std::move(grid), std::move(cameras), here);
+  if (!wall) co_return std::nullopt;
+  looks_.give_up(wall->piece);
+  co_return Retake{.view = wall->view};
 }
 
 std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here) {

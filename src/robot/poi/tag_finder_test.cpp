@@ -48,9 +48,10 @@ struct TagFinderAtAWall : ::testing::Test {
               co_return look;
             }};
   }
+  std::optional<Viewpoint> next_view(TagFinder& finds) { return loop.run_until_done(finds.next_view()); }
   /// As the robot does for it: false when it asks for nothing.
   bool go_and_look(TagFinder& finds) {
-    auto const view = finds.next_view();
+    auto const view = next_view(finds);
     if (!view) return false;
     EXPECT_FALSE(finds.has_looked());
     stand_at(view->from.x(), view->from.y());
@@ -160,7 +161,7 @@ TEST_F(TagFinderAtAWall, AsksToLookFromBeforeASignOfWhichItReadNoNumber) {
   pass(3s);
   look.found.front().what.text = "223";
   look.found.front().crop = "sharper letters";
-  auto const view = finds->next_view();
+  auto const view = next_view(*finds);
   ASSERT_TRUE(view);
   EXPECT_NEAR(view->at.x(), 1.0, 0.1);
   EXPECT_NEAR(view->at.y(), 2.0, 0.1);
@@ -175,7 +176,7 @@ TEST_F(TagFinderAtAWall, AsksToLookFromBeforeASignOfWhichItReadNoNumber) {
   EXPECT_TRUE(finds->has_looked());
   EXPECT_EQ(point().name, "223");
   EXPECT_EQ(kept.back(), "sharper letters");
-  EXPECT_FALSE(finds->next_view()) << "it is sure now";
+  EXPECT_FALSE(next_view(*finds)) << "it is sure now";
   EXPECT_EQ(finds->unread(), 0U);
 }
 
@@ -185,7 +186,7 @@ TEST_F(TagFinderAtAWall, BelievesThatThereIsNoNumberWhenItReadsNoneFromBefore) {
   auto const finds = finder();
   pass(3s);
   EXPECT_TRUE(go_and_look(*finds));
-  EXPECT_FALSE(finds->next_view());
+  EXPECT_FALSE(next_view(*finds));
   EXPECT_EQ(point().name, "office");
 }
 
@@ -229,11 +230,11 @@ TEST_F(TagFinderAtAWall, AsksAgainWhenTheRobotDidNotGetThereAndThenTellsOfTheDoo
   pass(700ms);
   stand_at(6.0);
   look.found.clear();
-  ASSERT_TRUE(finds->next_view());
+  ASSERT_TRUE(next_view(*finds));
   pass(3s);
-  ASSERT_TRUE(finds->next_view());
+  ASSERT_TRUE(next_view(*finds));
   pass(3s);
-  EXPECT_FALSE(finds->next_view());
+  EXPECT_FALSE(next_view(*finds));
   EXPECT_EQ(finds->unread(), 1U);
 }
 
@@ -243,7 +244,7 @@ TEST_F(TagFinderAtAWall, DoesNotGoBackToAWallThatShowedNothingFromAfar) {
   stand_at(1.0, -0.4);
   auto const finds = finder();
   pass(3s);
-  EXPECT_FALSE(finds->next_view());
+  EXPECT_FALSE(next_view(*finds));
 }
 
 TEST_F(TagFinderAtAWall, GoesBackToASignThatWasSeenFromAfarAndNotReadAtAll) {
@@ -265,11 +266,28 @@ TEST_F(TagFinderAtAWall, GoesBackToAWallBesideADoorwayThatItsCamerasDidNotFace) 
   auto const finds = finder();
   pass(3s);
   EXPECT_EQ(finds->pictures(), 0);
-  auto const view = finds->next_view();
+  auto const view = next_view(*finds);
   ASSERT_TRUE(view);
   EXPECT_NEAR(view->at.y(), 2.0, 0.05);
   EXPECT_GT(view->at.x(), 1.4);
   EXPECT_LT(view->at.x(), 2.3);
+}
+
+TEST_F(TagFinderAtAWall, ComparesWallsBesideTheLoopAndGivesUpNoneThatTheMapMovesMeanwhile) {
+  look.found.clear();
+  stand_at(1.0, 0.4, std::numbers::pi);
+  auto const finds = finder();
+  pass(3s);
+  auto choosing = finds->next_view();
+  choosing.start();
+  EXPECT_EQ(loop.jobs_on_pool(), 1U);
+  finds->move([](geo::Pose<geo::SiteFrame> const& before) -> geo::Pose<geo::SiteFrame> {
+    return {{before.position.x() + 40.0, before.position.y()}, before.yaw_rad};
+  });
+  pass(1s);
+  ASSERT_TRUE(choosing.done());
+  EXPECT_TRUE(choosing.take());
+  EXPECT_FALSE(next_view(*finds)) << "no wall that it came past is where the map has one now";
 }
 
 TEST_F(TagFinderAtAWall, LooksAtWallsFarFromDoorwaysThatItsCamerasDidNotFaceAndAtMuchOfThemAtOnce) {

@@ -65,6 +65,11 @@ void LookBook::note(WallPiece const& piece, double clearness, Outcome outcome) {
   if (outcome == Outcome::read) ++looks.reads;
 }
 
+void LookBook::give_up(WallPiece const& piece) {
+  auto const found = pieces_.find(piece);
+  if (found != pieces_.end()) found->second.is_given_up = true;
+}
+
 void LookBook::move(MapMove const& moved) {
   std::map<WallPiece, Piece> pieces;
   for (auto const& [key, piece] : pieces_) {

@@ -49,8 +49,8 @@ class LookBook {
     bool shows_something = false;  ///< a sign, that could not be read or was cut off
   };
   [[nodiscard]] std::vector<Unclear> unclear() const;
-  /// Nothing more is to be expected of it.
-  void give_up(WallPiece const& piece) { pieces_[piece].is_given_up = true; }
+  /// Nothing more is to be expected of it. One that is not known, as the map has moved meanwhile, is left.
+  void give_up(WallPiece const& piece);
 
  private:
   struct Piece {
