@@ -67,6 +67,14 @@ TEST(LookBook, KnowsWhatItPassedAndNeverSawClearly) {
   EXPECT_TRUE(book.unclear().empty());
 }
 
+TEST(LookBook, GivesUpNoWallThatComesToLieWhereAnotherWas) {
+  LookBook book;
+  WallPoint const wall{.position = {1.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  book.give_up(piece_of(wall));
+  book.pass(wall);
+  EXPECT_EQ(book.unclear().size(), 1U);
+}
+
 TEST(LookBook, TakesAWallThatFacesWestForOneHoweverItsAngleIsTold) {
   double const almost = std::numbers::pi - 0.01;
   EXPECT_EQ(piece_of({.position = {1.0, 1.0}, .facing_rad = almost}),
