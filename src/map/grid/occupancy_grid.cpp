@@ -43,8 +43,8 @@ double Evidence::log_odds() const {
 }
 
 double Evidence::probability() const {
-  static auto const of_steps = probabilities();
-  return is_seen() ? of_steps[static_cast<std::size_t>(steps_ + most_steps)] : 0.5;
+  static auto const table = probabilities();
+  return is_seen() ? table[static_cast<std::size_t>(steps_ + most_steps)] : 0.5;
 }
 
 Evidence Evidence::and_also(Evidence other) const {
