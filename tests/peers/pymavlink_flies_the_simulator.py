@@ -13,7 +13,7 @@ class Ground:
         self.link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190)
 
     def receive(self, *types, seconds=10):
-        return harness.wait_until(lambda: self._next(types), seconds, f"a message of {types}")
+        return harness.wait_until(lambda: self._next(types), seconds, f"a message of {types}", pause=0)
 
     def _next(self, types):
         message = self.link.recv_match(blocking=True, timeout=0.2)
@@ -27,7 +27,7 @@ class Ground:
             ack = self._next(("COMMAND_ACK",))
             return ack if ack and ack.command == command else None
 
-        ack = harness.wait_until(answered, 10, f"the answer to command {command}")
+        ack = harness.wait_until(answered, 10, f"the answer to command {command}", pause=0)
         assert ack.result == expect, f"command {command}: result {ack.result}, expected {expect}"
 
     def wait_for_position(self):
@@ -37,7 +37,7 @@ class Ground:
             report = self._next(("EKF_STATUS_REPORT",))
             return report and report.flags & 0x10 and not report.flags & 0x80
 
-        harness.wait_until(ready, 60, "the estimator's position")
+        harness.wait_until(ready, 60, "the estimator's position", pause=0)
 
     def upload(self, items):
         """Answers whatever the vehicle asks, as any ground station does."""
@@ -75,7 +75,7 @@ def main():
         ground.command(mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1)
         ground.command(mavutil.mavlink.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 20)
         harness.wait_until(lambda: (m := ground._next(("GLOBAL_POSITION_INT",))) and m.relative_alt > 19_000, 30,
-                        "the copter at 20 m")
+                        "the copter at 20 m", pause=0)
 
         waypoint, rtl = mavutil.mavlink.MAV_CMD_NAV_WAYPOINT, mavutil.mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH
         items = [
@@ -100,7 +100,7 @@ def main():
             ground.link.mav.heartbeat_send(6, 8, 0, 0, 4)
             return not message.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED
 
-        harness.wait_until(landed, 90, "the copter back on the ground, disarmed")
+        harness.wait_until(landed, 90, "the copter back on the ground, disarmed", pause=0)
         assert farthest > 0.00045, f"the copter went {farthest:.6f} degrees north, the waypoints are at 0.0005"
         print("pymavlink armed, took off, uploaded and flew a mission on the simulator")
 

@@ -40,7 +40,7 @@ class Foreign(Peer):
 
         self.heard.clear()
         self.hears_type("HEARTBEAT", 1)
-        harness.wait_until(has_it, 15, f"{name} is {value}")
+        harness.wait_until(has_it, 15, f"{name} is {value}", pause=0)
 
     def waits_for_item(self, number, seconds=90):
         self.hears(lambda m: m.get_type() == "MISSION_CURRENT" and m.seq == number, seconds, f"item {number}")

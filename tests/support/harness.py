@@ -107,14 +107,22 @@ def lapwing(*arguments: str):
                 raise AssertionError("lapwing did not end within 10 s of an interrupt") from None
 
 
-def wait_until(condition, seconds: float, what: str):
-    """Poll `condition` (which may itself block a little) until it is true; fail with `what` after `seconds`."""
+PAUSE = 0.005  # who asks without end takes the processor from who is asked, and from other tests
+
+
+def wait_until(condition, seconds: float, what: str, pause: float = PAUSE):
+    """Poll `condition` until it is true; fail with `what` after `seconds`.
+
+    A condition that itself waits for one message after the other passes `pause=0`: with a pause after each it falls behind who
+    sends many.
+    """
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
         result = condition()
         if result:
             return result
-        time.sleep(0.005)  # who asks without end takes the processor from who is asked, and from other tests
+        if pause:
+            time.sleep(pause)
     raise AssertionError(f"not within {seconds} s: {what}")
 
 

@@ -43,7 +43,7 @@ class Vehicle:
         return None
 
     def wait(self, wanted, seconds=20, what="a message"):
-        return harness.wait_until(lambda: (h := self.take()) and wanted(h) and h, seconds, f"{self.family}: {what}")
+        return harness.wait_until(lambda: (h := self.take()) and wanted(h) and h, seconds, f"{self.family}: {what}", pause=0)
 
     def next(self, kind, seconds=20):
         return self.wait(lambda h: h.get_type() == kind, seconds, kind)
@@ -83,7 +83,7 @@ class Vehicle:
 
         answer = ask()
         if until:
-            harness.wait_until(lambda: until in texts() or self.take() and False, 10, f"{self.family}: {until!r}")
+            harness.wait_until(lambda: until in texts() or self.take() and False, 10, f"{self.family}: {until!r}", pause=0)
         else:
             self.listen(seconds)
         return answer, texts()

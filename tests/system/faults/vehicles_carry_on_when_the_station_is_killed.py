@@ -29,7 +29,7 @@ with tempfile.TemporaryDirectory() as folder:
                                 str(SPEEDUP)], stderr=subprocess.PIPE, text=True)
         harness.wait_until(
             lambda: run.poll() is None and " flies '" in run.stderr.readline(), 60,
-            "the mission under way")
+            "the mission under way", pause=0)
         time.sleep(10 / SPEEDUP)
         run.kill()
         run.communicate()
@@ -46,6 +46,6 @@ with tempfile.TemporaryDirectory() as folder:
             seen.append((beat.custom_mode, armed))
             return not armed
 
-        harness.wait_until(disarmed, 90, "the copter landed and disarmed by itself")
+        harness.wait_until(disarmed, 90, "the copter landed and disarmed by itself", pause=0)
         assert seen[0] == (3, True), f"it was still flying its mission when we looked: {seen[:3]}"
 print("the vehicle flew on, landed and disarmed")

@@ -20,7 +20,7 @@ class Ground:
             message = self.link.recv_match(type=kind, blocking=True, timeout=0.2)
             return message if message is not None and fits(message) else None
 
-        return harness.wait_until(found, seconds, f"{kind} as it should be")
+        return harness.wait_until(found, seconds, f"{kind} as it should be", pause=0)
 
     def command(self, number: int, *params):
         self.link.mav.command_long_send(1, 1, number, 0, *params, *[0] * (7 - len(params)))
@@ -57,7 +57,7 @@ with harness.lapwing("sim", "--vehicles", "copter:1", "--out", f"udpout://127.0.
         status = ground.link.recv_match(type="FENCE_STATUS", blocking=True, timeout=0.1)
         return status if status is not None and status.breach_status else None
 
-    status = harness.wait_until(breached, 30, "a breach")
+    status = harness.wait_until(breached, 30, "a breach", pause=0)
     assert (status.breach_count, status.breach_type) == (1, mavutil.mavlink.FENCE_BREACH_BOUNDARY), status
     beat = ground.next("HEARTBEAT", lambda message: message.custom_mode == 6)
     assert beat.system_status == 4, "a breach is not a critical state"

@@ -41,7 +41,7 @@ class Centre:
         def listened():
             self.listen()
             return true()
-        return harness.wait_until(listened, seconds, f"{what}; heard {({k: v[-1] for k, v in self.heard.items()})}")
+        return harness.wait_until(listened, seconds, f"{what}; heard {({k: v[-1] for k, v in self.heard.items()})}", pause=0)
 
     def last(self, sender: str, to: str = "CC") -> str:
         return next((message for receiver, _, message in reversed(self.heard.get(sender, [])) if receiver == to), "")

@@ -87,7 +87,7 @@ def routed_by_the_rules():
         packets.append(bytes(unknown))
         # Several may share a datagram.
         sent = b"".join(packets)
-        harness.wait_until(lambda: ground.listen(1) and len(b"".join(ground.raw)) >= len(sent), 10, "all packets")
+        harness.wait_until(lambda: ground.listen(1) and len(b"".join(ground.raw)) >= len(sent), 10, "all packets", pause=0)
         assert b"".join(ground.raw) == sent, (ground.raw, packets)
 
         # What the ground station sends to one reaches that one alone; the answer comes back.

@@ -57,7 +57,7 @@ def until(vehicle, condition, seconds, what):
         vehicle.serve()
         return condition()
 
-    harness.wait_until(served, seconds, what)
+    harness.wait_until(served, seconds, what, pause=0)
 
 
 with map_client.station() as station:
