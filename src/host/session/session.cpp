@@ -439,11 +439,15 @@ base::Task<> Session::tell_while_interrupted() {
   co_await interrupted_.wait();
   for (base::Duration wait = 3s;; wait = 10s) {
     co_await loop.sleep(wait);
-    auto const names = platform.unsettled();
-    if (names.empty()) continue;
-    log.warn(fmt::format("still waiting for {} to stop; Ctrl-C again ends at once: {} then what {} told last",
-                         fmt::join(names, ", "), names.size() == 1 ? "it does" : "they do",
-                         names.size() == 1 ? "it was" : "they were"));
+    if (auto const names = platform.unsettled(); !names.empty())
+      log.warn(fmt::format("still waiting for {} to stop; Ctrl-C again ends at once: {} then what {} told last",
+                           fmt::join(names, ", "), names.size() == 1 ? "it does" : "they do",
+                           names.size() == 1 ? "it was" : "they were"));
+    if (auto const names = robots.unsettled(); !names.empty())
+      log.warn(
+          fmt::format("still waiting for {} to be seen standing; Ctrl-C again ends at once: what hears nothing "
+                      "is stopped by its own watchdog",
+                      fmt::join(names, ", ")));
   }
 }
 

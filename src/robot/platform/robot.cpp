@@ -143,6 +143,7 @@ base::Task<> Robot::watch_link() {
     auto& state = around_.registry.edit(id());
     state.links.connection = is_there ? vehicle::Connection::ok : vehicle::Connection::lost;
     around_.registry.touch_membership(id());
+    changed_.notify_all();
     if (is_there || !is_driving()) continue;
     record_->robot_failed = true;
     end_drive(fmt::format("{} is lost", spec_.name), true);

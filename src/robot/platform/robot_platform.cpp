@@ -274,12 +274,22 @@ std::unique_ptr<tasks::TaskRun> RobotPlatform::start(std::shared_ptr<tasks::Plat
 }
 
 base::Task<void> RobotPlatform::settle() {
-  auto const is_settling = [](auto const& robot) {
-    return robot->is_connected() && !robot->is_driving() && !robot->stands();
-  };
-  while (std::ranges::any_of(robots_, is_settling)) co_await settled_.wait();
+  auto awaited = unsettled();
+  while (!unsettled().empty()) co_await settled_.wait();
+  for (auto const& robot : robots_) {
+    if (robot->is_driving()) continue;
+    (void)around_.authority.yield(robot->id(), vehicle::script_commander);
+    if (!robot->is_connected() && std::ranges::find(awaited, robot->spec().name) != awaited.end())
+      log_.error(fmt::format("{} was lost before it was seen to stand; its own watchdog stops what hears nothing",
+                             robot->spec().name));
+  }
+}
+
+std::vector<std::string> RobotPlatform::unsettled() const {
+  std::vector<std::string> names;
   for (auto const& robot : robots_)
-    if (!robot->is_driving()) (void)around_.authority.yield(robot->id(), vehicle::script_commander);
+    if (robot->is_connected() && !robot->is_driving() && !robot->stands()) names.push_back(robot->spec().name);
+  return names;
 }
 
 void RobotPlatform::end_drives(std::string const& reason) {

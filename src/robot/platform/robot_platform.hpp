@@ -59,7 +59,10 @@ class RobotPlatform final : public tasks::Platform {
                                                     tasks::VehicleInfo const& vehicle) const override;
   [[nodiscard]] std::unique_ptr<tasks::TaskRun> start(std::shared_ptr<tasks::PlatformTask const> task,
                                                       vehicle::VehicleId const& id) override;
+  /// Until each stands, or is lost.
   [[nodiscard]] base::Task<void> settle() override;
+  /// The names of those that it waits for.
+  [[nodiscard]] std::vector<std::string> unsettled() const;
   /// How the way to the operators is, for the robots' communication module: gives what is wrong with it, of
   /// watch/codes.hpp. Without this nobody says anything of it. An outage of it stops nothing.
   void set_communication(std::function<std::uint16_t()> code) { communication_ = std::move(code); }

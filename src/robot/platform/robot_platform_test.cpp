@@ -132,6 +132,22 @@ TEST_F(RobotPlatformTest, StandsWhenTheScriptStopsIt) {
   EXPECT_EQ(body->truth(), stood_at);
 }
 
+TEST_F(RobotPlatformTest, IsWaitedForNoLongerOnceItIsLost) {
+  platform.set_connection_timeout({"robot1"}, 3s);
+  auto const run = start({ExploreStep{"tour"}});
+  ASSERT_TRUE(run_until([this] { return body->driven_m() > 1.0; }, 1min));
+  body->is_silent = true;
+  run->stop();
+  auto settling = platform.settle();
+  settling.start();
+  run_for(2s);
+  EXPECT_FALSE(settling.done()) << "it may be heard again";
+  EXPECT_EQ(platform.unsettled(), std::vector<std::string>{"robot 1"});
+  ASSERT_TRUE(run_until([&] { return settling.done(); }, 10s));
+  EXPECT_TRUE(platform.unsettled().empty());
+  EXPECT_EQ(state().control.commander, "");
+}
+
 TEST_F(RobotPlatformTest, GoesToAnotherTaskWithoutStanding) {
   auto const first = start({ExploreStep{"tour"}});
   ASSERT_TRUE(run_until([this] { return body->driven_m() > 2.0; }, 1min));
