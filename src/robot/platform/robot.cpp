@@ -119,6 +119,14 @@ void Robot::take(slam::Scan const& scan) {
   scanned_.notify_all();
 }
 
+ClearWay Robot::clear_way() const {
+  constexpr double beam_m = 0.05;
+  if (!last_reading_) return {};
+  return [room = room_.seen_from(last_reading_->odometry)](double bearing_rad, double most_m) {
+    return room.towards(bearing_rad, beam_m, most_m);
+  };
+}
+
 slam::Pose2 Robot::pose_now(slam::Pose2 const& odometry) const {
   return here_->pose * slam::between(odometry_here_, odometry);
 }

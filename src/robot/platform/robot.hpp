@@ -143,6 +143,8 @@ class Robot {
   [[nodiscard]] slam::LoopCounts const& loops() const { return loops_; }
   /// Notified when a drive ends, a reading comes in which it stands, or it is heard first.
   [[nodiscard]] base::Notifier& changed() { return changed_; }
+  /// As its laser sees it at this moment.
+  [[nodiscard]] ClearWay clear_way() const;
   /// In the site's frame.
   [[nodiscard]] geo::Point<geo::SiteFrame> on_site(Place const& place) const { return site_from_map_ * place; }
   [[nodiscard]] Place on_map(geo::Point<geo::SiteFrame> const& point) const { return map_from_site_ * point; }

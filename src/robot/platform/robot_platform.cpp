@@ -137,9 +137,9 @@ void RobotPlatform::open_eyes(Robot const& robot, Eyes eyes) {
   auto& sight = sights_[robot.id()];
   sight.tags.reset();
   sight.eyes = std::move(eyes);
-  sight.tags =
-      std::make_unique<TagFinder>(around_.loop, around_.registry, around_.live_map,
-                                  TagFinder::Setup{.vehicle = spec.id, .grid = spec.name, .eyes = sight.eyes}, log_);
+  TagFinder::Setup setup{
+      .vehicle = spec.id, .grid = spec.name, .eyes = sight.eyes, .clear_ways = [&robot] { return robot.clear_way(); }};
+  sight.tags = std::make_unique<TagFinder>(around_.loop, around_.registry, around_.live_map, std::move(setup), log_);
 }
 
 std::optional<std::uint16_t> RobotPlatform::trouble_of_eyes(VehicleId const& id) const {

@@ -55,6 +55,15 @@ double way_to(WallPoint const& wall, vehicle::SitePose const& pose) {
   return std::atan2(wall.position.y() - pose.position.y(), wall.position.x() - pose.position.x());
 }
 
+/// Whether the laser sees past a wall of the map: a door that has been opened since, or the edge of a doorway that the
+/// map has where it is not. What is seen that way hangs somewhere behind.
+bool is_seen_past(WallPoint const& wall, vehicle::SitePose const& pose, ClearWay const& clear_way) {
+  constexpr double behind_m = 0.4;
+  if (!clear_way) return false;
+  double const to_m = geo::distance_m(wall.position, level(pose).position) + behind_m;
+  return clear_way(geo::wrap_pi(way_to(wall, pose) - pose.yaw_rad), to_m) >= to_m;
+}
+
 }  // namespace
 
 TagFinder::TagFinder(base::Loop& loop, vehicle::Registry const& registry, map::LiveMap& live_map, Setup setup,
@@ -177,6 +186,7 @@ base::Task<> TagFinder::look_again() {
 
 base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye const& eye, vehicle::SitePose pose) {
   auto const* const then = grid_of(pose);
+  auto const clear_way = setup_.clear_ways ? setup_.clear_ways() : ClearWay();
   auto const views = then ? walls_in_picture(*then, eye.mount, level(pose)) : std::vector<SeenWall>();
   auto looking = eye.look();
   auto const look = co_await std::move(looking);
@@ -190,7 +200,7 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
   for (auto const& seen : look->found) {
     if (seen.what.category != "sign") continue;
     auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
-    if (!place) continue;
+    if (!place || is_seen_past(place->wall, pose, clear_way)) continue;
     bool const is_whole = !is_cut_off(seen.what.box, eye.mount);
     // From afar a sign is noticed: where it hangs, and what it says, is told by who comes nearer.
     double const way_rad = way_to(place->wall, pose);

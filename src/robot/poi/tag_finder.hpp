@@ -29,6 +29,8 @@ class TagFinder {
     std::string vehicle;
     std::string grid;  ///< what its map is called on the map
     Eyes eyes;
+    /// As its laser sees them at this moment. Without it doors stand as they were mapped.
+    std::function<ClearWay()> clear_ways = {};
   };
   /// All of these, and what the eyes need, outlive it. What the robot put on the map another time goes.
   TagFinder(base::Loop& loop, vehicle::Registry const& registry, map::LiveMap& live_map, Setup setup, base::Logger log);

@@ -64,6 +64,7 @@ struct TagFinderAtAWall : ::testing::Test {
   std::unique_ptr<TagFinder> finder() {
     TagFinder::Setup setup{.vehicle = "robot1", .grid = "robot 1", .eyes = {.for_tags = {eye()}}};
     setup.eyes.keep = [this](std::string jpeg) { return keep(std::move(jpeg)); };
+    setup.clear_ways = [this] { return [is_open = is_open](double, double most_m) { return is_open ? most_m : 0.0; }; };
     return std::make_unique<TagFinder>(loop, registry, live_map, std::move(setup), base::Logger(hub, "test"));
   }
   base::Task<base::Result<std::string>> keep(std::string jpeg) {
@@ -89,6 +90,7 @@ struct TagFinderAtAWall : ::testing::Test {
                                 .text = "221",
                                 .kind = "office"},
                        .crop = "its letters"}}};
+  bool is_open = false;  ///< where the map has a wall
   std::vector<std::string> texts;
   int looked = 0;
   std::vector<std::string> kept;
@@ -141,6 +143,18 @@ TEST_F(TagFinderAtAWall, TakesNoWordFromASignThatThePicturesEdgeCutsOff) {
   pass(5s);
   EXPECT_TRUE(on_map().empty());
   EXPECT_EQ(finds->pictures(), 3) << "it is looked at again";
+}
+
+TEST_F(TagFinderAtAWall, HangsNoSignOnADoorThatHasBeenOpenedSinceItWasMapped) {
+  is_open = true;
+  auto const finds = finder();
+  pass(5s);
+  EXPECT_GT(finds->pictures(), 0);
+  EXPECT_TRUE(on_map().empty()) << "it hangs somewhere behind";
+  is_open = false;
+  stand_at(1.5);
+  pass(3s);
+  EXPECT_EQ(on_map().size(), 1U);
 }
 
 TEST_F(TagFinderAtAWall, BelievesAKindOfRoomAloneWhenItIsSeenTwice) {

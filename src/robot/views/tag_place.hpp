@@ -14,6 +14,9 @@ namespace lapwing::robot {
 /// Where something is, and which way it looks, on a map that has moved; asked where it was before.
 using MapMove = std::function<geo::Pose<geo::SiteFrame>(geo::Pose<geo::SiteFrame> const&)>;
 
+/// How far from a robot nothing is in the way along the floor: towards a bearing on its body, at most so far.
+using ClearWay = std::function<double(double bearing_rad, double most_m)>;
+
 /// Where a wall is met, in the site's frame.
 struct WallPoint {
   map::SitePoint position;
