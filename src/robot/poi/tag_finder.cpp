@@ -57,11 +57,15 @@ double way_to(WallPoint const& wall, vehicle::SitePose const& pose) {
 
 /// Whether the laser sees past a wall of the map: a door that has been opened since, or the edge of a doorway that the
 /// map has where it is not. What is seen that way hangs somewhere behind.
-bool is_seen_past(WallPoint const& wall, vehicle::SitePose const& pose, ClearWay const& clear_way) {
+bool is_seen_past(WallPoint const& wall, CameraMount const& mount, vehicle::SitePose const& pose,
+                  ClearWay const& clear_way) {
   constexpr double behind_m = 0.4;
   if (!clear_way) return false;
-  double const to_m = geo::distance_m(wall.position, level(pose).position) + behind_m;
-  return clear_way(geo::wrap_pi(way_to(wall, pose) - pose.yaw_rad), to_m) >= to_m;
+  auto const body = level(pose);
+  Eigen::Vector2d const along = (wall.position - camera_place(body, mount)).v.normalized();
+  Eigen::Vector2d const there = (wall.position - body.position).v + behind_m * along;
+  double const far_m = there.norm();
+  return clear_way(geo::wrap_pi(std::atan2(there.y(), there.x()) - body.yaw_rad), far_m) >= far_m;
 }
 
 }  // namespace
@@ -200,7 +204,7 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
   for (auto const& seen : look->found) {
     if (seen.what.category != "sign") continue;
     auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
-    if (!place || is_seen_past(place->wall, pose, clear_way)) continue;
+    if (!place || is_seen_past(place->wall, eye.mount, pose, clear_way)) continue;
     bool const is_whole = !is_cut_off(seen.what.box, eye.mount);
     // From afar a sign is noticed: where it hangs, and what it says, is told by who comes nearer.
     double const way_rad = way_to(place->wall, pose);

@@ -27,11 +27,6 @@ SitePoint ahead_of(SitePoint const& from, double way_rad, double by_m) {
   return {from.x() + by_m * std::cos(way_rad), from.y() + by_m * std::sin(way_rad)};
 }
 
-SitePoint camera_place(geo::Pose<SiteFrame> const& body, CameraMount const& mount) {
-  auto const ahead = ahead_of(body.position, body.yaw_rad, mount.x_m);
-  return ahead_of(ahead, body.yaw_rad + std::numbers::pi / 2.0, mount.y_m);
-}
-
 std::optional<double> range_to_wall(map::OccupancyGrid const& grid, SitePoint const& from, double way_rad) {
   auto const grid_from_site = grid.site_from_grid().inverse();
   double const step_m = grid.resolution_m() / 2.0;
@@ -119,6 +114,11 @@ Eigen::Matrix2d covariance_of(WallPoint const& wall, double way_rad) {
 }
 
 }  // namespace
+
+SitePoint camera_place(geo::Pose<SiteFrame> const& body, CameraMount const& mount) {
+  auto const ahead = ahead_of(body.position, body.yaw_rad, mount.x_m);
+  return ahead_of(ahead, body.yaw_rad + std::numbers::pi / 2.0, mount.y_m);
+}
 
 std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<SiteFrame> const& body,
                                    CameraMount const& mount, double bearing_rad) {

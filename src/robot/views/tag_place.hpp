@@ -24,6 +24,8 @@ struct WallPoint {
   double facing_rad = 0.0;  ///< the way that the wall looks there: to the side that it is seen from
 };
 
+[[nodiscard]] map::SitePoint camera_place(geo::Pose<geo::SiteFrame> const& body, CameraMount const& mount);
+
 /// The first thing on a robot's map that a camera's line meets; nothing where what lies between is not known, or where
 /// nothing is met within `most_range_m`.
 [[nodiscard]] std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<geo::SiteFrame> const& body,
