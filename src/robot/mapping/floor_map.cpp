@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "robot/mapping/who_walks.hpp"
 #include "slam/graph/pose_graph.hpp"
 #include "slam/prune/let_go.hpp"
 
@@ -54,12 +55,17 @@ void FloorMap::add(slam::Scan scan) {
 }
 
 void FloorMap::add_key_frame(slam::Scan scan) {
-  auto frame = slam::frame_of(scan, log_.sensors.front(), options_.frame);
+  auto const& sensor = log_.sensors.front();
   // The map begins where the robot does, whatever its wheels had counted before.
   bool const is_first = graph_.frames.empty();
+  auto const driven = is_first ? Pose2() : slam::between(log_.scans.back().odometry, scan.odometry);
+  bool const may_show_people = !is_first && options_.leaves_out_who_walks;
+  auto frame =
+      slam::frame_of(may_show_people ? without_who_walks(scan, sensor, graph_.poses.back() * driven, graph_) : scan,
+                     sensor, options_.frame);
   auto step = front_end_.add(graph_.frames, graph_.poses, frame, scan.odometry);
   if (is_first) step.pose = {};
-  if (step.constraint) path_m_ += slam::distance_m(log_.scans.back().odometry, scan.odometry);
+  if (step.constraint) path_m_ += slam::place(driven).norm();
   graph_.frames.push_back({.scan = key_frames_++, .frame = std::move(frame), .path_m = path_m_});
   graph_.poses.push_back(step.pose);
   if (step.constraint) {

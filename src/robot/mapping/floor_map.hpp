@@ -24,6 +24,7 @@ struct MappingOptions {
   /// that slip its watchdog names.
   slam::FrontEndOptions front_end = {
       .odometry_spread = 0.25, .may_freeze = false, .may_slip = false, .may_be_refuted = false};
+  bool leaves_out_who_walks = true;  ///< of what is laid on what: `without_who_walks`
   slam::LoopOptions loops;
   /// A robot that explores comes through a corridor again and again, and its nearest key frames are copies.
   slam::JointOptions joint = {.radius_m = 8.0, .apart_m = 1.5};
