@@ -10,6 +10,7 @@ import contextlib
 import json
 import math
 import pathlib
+import signal
 import tempfile
 import time
 
@@ -42,18 +43,18 @@ def rover():
 
 @contextlib.contextmanager
 def exploring():
-    """(companion computer, station) of a rover that is under way."""
+    """(companion computer, station, its process) of a rover that is under way."""
     web = harness.free_tcp_port()
     station = Station(web)
     with rover() as (board, spec), tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
         config = pathlib.Path(folder, "station.toml")
         config.write_text(f'robots = ["{spec}"]\n[store]\nplace = "store"\n[map]\nhome = "{LAT},{LON},{ALT}"\n')
-        stack.enter_context(harness.lapwing("station", "--config", str(config), "--port", str(web)))
+        process = stack.enter_context(harness.lapwing("station", "--config", str(config), "--port", str(web)))
         harness.wait_until(station.up, 20, "the station answers")
         harness.wait_until(lambda: station.vehicle("robot1").get("connection") == "ok", 60, "the robot is heard")
         assert station.ask("script", {"name": "rooms.dolphin", "source": OFFICE})[0] == 202
         drives(board, 90)
-        yield board, station
+        yield board, station, process
 
 
 def drives(board, seconds=30):
@@ -84,7 +85,7 @@ def it_maps_two_rooms_and_comes_back():
 
 
 def an_emergency_stop_kills_it_for_good():
-    with exploring() as (board, station):
+    with exploring() as (board, station, _):
         harness.wait_until(lambda: time.sleep(0.02) or math.hypot(*board.place()[:2]) > 1.0 and board.speed > 0.2, 60, "it is on its way")
         asked = time.monotonic()
         assert station.ask("emergency-stop", {"operator": "tester"})[0] == 202
@@ -109,7 +110,7 @@ def an_emergency_stop_kills_it_for_good():
 
 
 def its_pilot_takes_it_and_keeps_it():
-    with exploring() as (board, station):
+    with exploring() as (board, station, _):
         board.pilot_sets_mode(MANUAL)
         harness.wait_until(lambda: time.sleep(0.05) or station.vehicle("robot1").get("armed") is False, 10, "the robot shows that it was taken")
         time.sleep(3)
@@ -117,12 +118,16 @@ def its_pilot_takes_it_and_keeps_it():
 
 
 def one_that_is_cut_off_stops_by_itself():
-    with exploring() as (board, station):
+    with exploring() as (board, _, process):
         cut = time.monotonic()
         board.is_cut = True
         harness.wait_until(lambda: time.sleep(0.02) or board.speed < 0.05, 8, "the autopilot stops")
         took = time.monotonic() - cut
-        harness.wait_until(lambda: station.vehicle("robot1").get("connection") == "lost", 40, "it is known to be lost")
+        # Who ends the station now waits until it is known to be lost, and no longer.
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=40)[0]
+        assert "still waiting for robot 1 to be seen standing" in said, said[-2000:]
+        assert "robot 1 was lost before it was seen to stand" in said, said[-2000:]
         print(f"    the autopilot stood within {took:.2f} s of the cut")
         assert took < 5.0, took
 

@@ -6,7 +6,6 @@
 #include "base/files/replace_file.hpp"
 #include "host/files/files.hpp"
 #include "host/session/session.hpp"
-#include "host/session/signals.hpp"
 #include "host/simulation/simulated_fleet.hpp"
 #include "sim/model/vehicle_spec.hpp"
 
@@ -31,12 +30,7 @@ struct DemoOptions {
 /// The map stays open after the script has ended, until Ctrl-C.
 void keep_map(host::Session& session) {
   fmt::print(stderr, "the map stays open at {}; Ctrl-C ends\n", session.map->url());
-  host::StopSignals const signals(session.loop, [&session] {
-    session.host.stop("an interrupt");
-    session.loop.stop();
-  });
-  session.loop.run();
-  session.run_to_end(std::nullopt);
+  session.serve("an interrupt");
 }
 
 base::Result<> open_map(host::Session& session, host::WebArguments const& web, geo::Wgs84 const& home) {

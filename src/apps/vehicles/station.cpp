@@ -12,7 +12,6 @@
 #include "host/robots/robot_cameras.hpp"
 #include "host/robots/robot_spec.hpp"
 #include "host/session/session.hpp"
-#include "host/session/signals.hpp"
 #include "host/station/station_config.hpp"
 #include "sim/world/world.hpp"
 
@@ -146,14 +145,7 @@ int serve(StationArguments const& arguments) {
   if (auto opened = session.forward(config->forward); !opened) return host::refuse(opened.error());
   if (auto opened = session.open_map(config->web, config->map); !opened) return host::refuse(opened.error());
   fmt::print(stderr, "listening for vehicles on {}; Ctrl-C ends\n", fmt::join(config->links, ", "));
-  {
-    host::StopSignals const signals(session.loop, [&session] { session.loop.stop(); });
-    session.loop.run();
-  }
-  // Vehicles that fly a script of ours are put into their stop mode before the process goes.
-  bool const was_running = session.host.status().state == station::ScriptState::running;
-  session.host.stop("the end of the station");
-  session.run_to_end(std::nullopt);
+  bool const was_running = session.serve("the end of the station");
   session.give_back_rates();
   return was_running ? host::exit_interrupted : host::exit_done;
 }

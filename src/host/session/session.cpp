@@ -384,12 +384,28 @@ base::Result<> Session::open_map(WebAccess const& access, MapContent const& cont
 }
 
 void Session::run_to_end(std::optional<base::Duration> timeout) {
-  StopSignals const signals(loop, [this] {
-    host.stop("an interrupt");
-    interrupted_.notify_all();
-  });
+  StopSignals const signals(loop, [this] { interrupt("an interrupt"); });
   auto const stall = host.halt_when_time_stands_still();
   loop.run_until_done(finish(timeout));
+}
+
+bool Session::serve(std::string const& by) {
+  bool was_running = false;
+  StopSignals const signals(loop, [&] {
+    was_running = host.status().state == station::ScriptState::running;
+    interrupt(by);
+    loop.stop();
+  });
+  loop.run();
+  auto const stall = host.halt_when_time_stands_still();
+  loop.run_until_done(finish(std::nullopt));
+  return was_running;
+}
+
+void Session::interrupt(std::string const& by) {
+  is_interrupted_ = true;
+  host.stop(by);
+  interrupted_.notify_all();
 }
 
 base::Task<> Session::finish(std::optional<base::Duration> timeout) {
@@ -436,7 +452,7 @@ base::Task<> Session::tell_while_nobody_is_heard() {
 /// A vehicle that is out of reach cannot be stopped; whoever waits for it learns what else he can do.
 base::Task<> Session::tell_while_interrupted() {
   using namespace std::chrono_literals;
-  co_await interrupted_.wait();
+  while (!is_interrupted_) co_await interrupted_.wait();
   for (base::Duration wait = 3s;; wait = 10s) {
     co_await loop.sleep(wait);
     if (auto const names = platform.unsettled(); !names.empty())

@@ -113,6 +113,9 @@ class Session {
   /// Runs the script that the host was given to its end; `timeout` (loop time) halts it. Ctrl-C stops it. Then every
   /// vehicle that still runs a mission of ours is made safe.
   void run_to_end(std::optional<base::Duration> timeout);
+  /// Serves until Ctrl-C, whatever scripts end meanwhile; then, as at any end, every vehicle is made safe. True: a
+  /// script was under way then. `by`: what stopped it, for people.
+  bool serve(std::string const& by);
   /// Vehicles get the message rates back that they had before; for the very end, takes three seconds at most.
   void give_back_rates() { loop.run_until_done(ground.fleet.give_back_rates()); }
   [[nodiscard]] RunReport report() const;
@@ -153,6 +156,7 @@ class Session {
  private:
   [[nodiscard]] base::Task<base::Result<std::string>> keep_picture(std::string jpeg);
   [[nodiscard]] base::Task<base::Result<std::string>> write_picture(std::string name, std::string jpeg);
+  void interrupt(std::string const& by);
   base::Task<> finish(std::optional<base::Duration> timeout);
   base::Task<> tell_while_interrupted();
   base::Task<> tell_while_nobody_is_heard();
@@ -164,6 +168,7 @@ class Session {
   fleet::OnStop on_stop_;
   vehicle::StopAction emergency_action_;
   base::Notifier interrupted_;  ///< by Ctrl-C
+  bool is_interrupted_ = false;
   EventFile const* events_;
   CamerasOfRobots cameras_;
   std::filesystem::path pictures_;
