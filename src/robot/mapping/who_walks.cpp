@@ -15,8 +15,8 @@ constexpr double apart_m = 0.3;
 constexpr float most_range_m = 4.0F;  ///< of a place from them: beyond, beams miss what is thin
 constexpr float there_m = 0.2F;       ///< so near to a reading, and that is what it saw
 constexpr float beyond_m = 0.3F;      ///< a reading so much farther saw floor
-constexpr int enough = 2;
-constexpr double most_share = 0.25;
+constexpr int enough = 2;             ///< key frames that saw floor there
+constexpr double most_share = 0.25;   ///< of all readings: two people near by take less
 
 /// A key frame, and the way into it.
 struct Witness {

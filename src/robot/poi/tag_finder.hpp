@@ -29,7 +29,7 @@ class TagFinder {
     std::string vehicle;
     std::string grid;  ///< what its map is called on the map
     Eyes eyes;
-    /// As its laser sees them at this moment. Without it doors stand as they were mapped.
+    /// Gives where the way is clear as its laser sees it at this moment. Without this doors stand as they were mapped.
     std::function<ClearWay()> clear_ways = {};
   };
   /// All of these, and what the eyes need, outlive it. What the robot put on the map another time goes.

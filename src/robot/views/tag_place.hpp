@@ -24,6 +24,7 @@ struct WallPoint {
   double facing_rad = 0.0;  ///< the way that the wall looks there: to the side that it is seen from
 };
 
+/// Where a body has its camera.
 [[nodiscard]] map::SitePoint camera_place(geo::Pose<geo::SiteFrame> const& body, CameraMount const& mount);
 
 /// The first thing on a robot's map that a camera's line meets; nothing where what lies between is not known, or where
