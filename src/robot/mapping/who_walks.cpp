@@ -79,13 +79,14 @@ slam::Scan without_who_walks(slam::Scan const& scan, slam::Sensor const& sensor,
   auto rest = scan;
   slam::Turn const turn(pose.yaw);
   Eigen::Vector2d const mount = sensor.mount_m.cast<double>();
+  auto const& bearings = bearings_of(scan, sensor);
   int all = 0;
   int gone = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     double const range_m = scan.ranges_m[i];
     if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
     ++all;
-    double const bearing = sensor.bearings_rad[i];
+    double const bearing = bearings[i];
     Eigen::Vector2d const end = mount + range_m * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
     if (!walks(known, slam::place(pose) + turn * end)) continue;
     rest.ranges_m[i] = 0.0F;

@@ -15,10 +15,11 @@ constexpr double looks_back_rad = 2.8;  ///< a beam that far from ahead
 Room::Room(slam::Scan const& scan, slam::Sensor const& sensor) : from_(scan.odometry) {
   for (double const bearing : sensor.bearings_rad) looks_rad_ = std::max(looks_rad_, std::abs(bearing));
   if (looks_rad_ > looks_back_rad) looks_rad_ = std::numbers::pi;
+  auto const& bearings = bearings_of(scan, sensor);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     double const range_m = scan.ranges_m[i];
     if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
-    double const bearing = sensor.bearings_rad[i];
+    double const bearing = bearings[i];
     ends_.emplace_back(range_m * std::cos(bearing) + sensor.mount_m.x(),
                        range_m * std::sin(bearing) + sensor.mount_m.y());
   }

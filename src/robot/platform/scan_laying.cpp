@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "base/assert.hpp"
 
@@ -38,30 +39,32 @@ firmware::Time end_of(LaserRanges const& scan, firmware::LaserPlace const& laser
 
 slam::Scan lay(LaserRanges const& scan, firmware::LaserPlace const& laser, slam::Sensor const& sensor,
                BoardOdometry const& odometry) {
-  auto const beams = scan.ranges_m.size();
-  LAPWING_ASSERT(beams == sensor.bearings_rad.size(), beams, sensor.bearings_rad.size());
+  auto const count = scan.ranges_m.size();
+  LAPWING_ASSERT(count == sensor.bearings_rad.size(), count, sensor.bearings_rad.size());
   auto const taken = scan.time + from_seconds(0.5 * double{laser.scan_duration_s});
   auto const reference = odometry.at(taken);
-  slam::Scan laid{.time = std::chrono::duration_cast<slam::LogTime>(taken),
-                  .odometry = reference,
-                  .ranges_m = std::vector<float>(beams, laser.longest_m)};
   Eigen::Vector2d const mount(laser.x_m, laser.y_m);
   double const step = std::abs(double{laser.step_rad});
-  double const first = sensor.bearings_rad.front();
-  bool const goes_round = step * static_cast<double>(beams) > 2.0 * std::numbers::pi - 0.5 * step;
-  for (std::size_t beam = 0; beam < beams; ++beam) {
-    if (scan.ranges_m[beam] <= 0.0) continue;
+  double const first = double{sensor.bearings_rad.front()} - 0.5 * step;
+  double const last = double{sensor.bearings_rad.back()} + 0.5 * step;
+  std::vector<std::pair<float, float>> beams;  // bearings with their ranges
+  for (std::size_t beam = 0; beam < count; ++beam) {
     double const bearing = scan.first_angle_rad + scan.step_rad * static_cast<double>(beam);
-    Eigen::Vector2d const end = mount + scan.ranges_m[beam] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+    bool const is_seen = scan.ranges_m[beam] > 0.0;
+    double const range_m = is_seen ? scan.ranges_m[beam] : double{laser.longest_m};
+    Eigen::Vector2d const end = mount + range_m * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
     auto const moved =
         slam::between(reference, odometry.at(time_of(beam, scan, laser)) * slam::Pose2{end.x(), end.y(), 0.0});
     Eigen::Vector2d const seen = slam::place(moved) - mount;
-    // A direction just before the first beam is that beam's, too.
-    double const turned = geo::wrap_two_pi(std::atan2(seen.y(), seen.x()) - first + 0.5 * step);
-    auto index = static_cast<std::size_t>(turned / step);
-    if (goes_round) index %= beams;
-    if (index >= beams) continue;
-    laid.ranges_m[index] = std::min(laid.ranges_m[index], static_cast<float>(seen.norm()));
+    double const looked = first + geo::wrap_two_pi(std::atan2(seen.y(), seen.x()) - first);
+    bool const is_within = looked <= last;
+    beams.emplace_back(std::min(looked, last), is_seen && is_within ? seen.norm() : double{laser.longest_m});
+  }
+  std::ranges::sort(beams);
+  slam::Scan laid{.time = std::chrono::duration_cast<slam::LogTime>(taken), .odometry = reference, .ranges_m = {}};
+  for (auto const& [bearing, range_m] : beams) {
+    laid.bearings_rad.push_back(bearing);
+    laid.ranges_m.push_back(range_m);
   }
   return laid;
 }

@@ -11,12 +11,13 @@ namespace {
 
 std::vector<Place> ends_of(slam::Scan const& scan, slam::Sensor const& sensor, slam::Pose2 const& pose) {
   std::vector<Place> ends;
+  auto const& bearings = bearings_of(scan, sensor);
   slam::Turn const turn(pose.yaw);
   Eigen::Vector2d const from = slam::place(pose) + turn * sensor.mount_m.cast<double>();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     double const range_m = scan.ranges_m[i];
     if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
-    double const bearing = pose.yaw + double{sensor.bearings_rad[i]};
+    double const bearing = pose.yaw + double{bearings[i]};
     ends.emplace_back(from.x() + range_m * std::cos(bearing), from.y() + range_m * std::sin(bearing));
   }
   return ends;

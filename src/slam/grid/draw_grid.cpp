@@ -124,11 +124,12 @@ map::OccupancyGrid draw_grid(ScanLog const& log, std::vector<Pose2> const& poses
   for (std::size_t i = 0; i < poses.size(); ++i) {
     auto const& scan = log.scans[i];
     auto const& sensor = log.sensors[scan.sensor];
+    auto const& bearings = bearings_of(scan, sensor);
     Turn const turn(poses[i].yaw);
     Eigen::Vector2d const from = place(poses[i]) + turn * sensor.mount_m.cast<double>();
     for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
       if (!is_hit(scan.ranges_m[b], sensor, model)) continue;
-      auto const bearing = poses[i].yaw + double{sensor.bearings_rad[b]};
+      auto const bearing = poses[i].yaw + double{bearings[b]};
       draw_beam(sheet, from, {std::cos(bearing), std::sin(bearing)}, scan.ranges_m[b], model);
     }
   }

@@ -24,7 +24,14 @@ struct Scan {
   int sensor = 0;               ///< of the log's sensors
   Pose2 odometry;               ///< of the robot, in a frame that drifts
   std::vector<float> ranges_m;  ///< one a beam; not a number, 0 or too large: nothing was measured
+  /// Which way each beam looked from `odometry`, ascending, within the sensor's own directions: of a scanner that turns
+  /// while its robot moves. Empty: as the sensor says.
+  std::vector<float> bearings_rad = {};
 };
+
+[[nodiscard]] inline std::vector<float> const& bearings_of(Scan const& scan, Sensor const& sensor) {
+  return scan.bearings_rad.empty() ? sensor.bearings_rad : scan.bearings_rad;
+}
 
 /// A recorded drive, in order of time. Robots may change sensors between scans.
 struct ScanLog {

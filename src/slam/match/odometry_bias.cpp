@@ -55,12 +55,13 @@ std::size_t cells_of(ScanLog const& log, std::vector<Pose2> const& odometry, Str
     }
     auto const& scan = log.scans[i];
     auto const& sensor = log.sensors[scan.sensor];
+    auto const& bearings = bearings_of(scan, sensor);
     Turn const turn(pose.yaw);
     Eigen::Vector2d const from = place(pose) + turn * sensor.mount_m.cast<double>();
     for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
       auto const range = double{scan.ranges_m[b]};
       if (!(range > 0.1 && scan.ranges_m[b] < sensor.no_return_m)) continue;
-      auto const bearing = pose.yaw + double{sensor.bearings_rad[b]};
+      auto const bearing = pose.yaw + double{bearings[b]};
       auto const x = std::floor((from.x() + range * std::cos(bearing)) / cell_m);
       auto const y = std::floor((from.y() + range * std::sin(bearing)) / cell_m);
       cells.push_back(static_cast<std::int64_t>(x) * 1'000'003 + static_cast<std::int64_t>(y));

@@ -54,13 +54,13 @@ void find_normals(Frame& frame, float beam_step_rad) {
 }
 
 Frame frame_of(Scan const& scan, Sensor const& sensor, FrameOptions const& options) {
-  auto const& bearings = sensor.bearings_rad;
+  auto const& bearings = bearings_of(scan, sensor);
   LAPWING_ASSERT(scan.ranges_m.size() == bearings.size(), scan.ranges_m.size(), bearings.size());
   Frame frame;
   frame.centre = sensor.mount_m;
   if (bearings.empty()) return frame;
-  auto const step = step_of(bearings);
-  lay_bins(frame, bearings, step);
+  auto const step = step_of(sensor.bearings_rad);
+  lay_bins(frame, sensor.bearings_rad, step);
   auto const bins = frame.bins();
   frame.first_of_bin.assign(static_cast<std::size_t>(bins) + 1, 0);
   int filled = 0;

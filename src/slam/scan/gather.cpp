@@ -74,13 +74,14 @@ void Gatherer::add(Scan const& scan, Sensor const& sensor, Pose2 const& odometry
   }
   has_begun_ = true;
   last_ = odometry;
+  auto const& bearings = bearings_of(scan, sensor);
   Turn const turn(odometry.yaw);
   Eigen::Vector2d const from = place(odometry) + turn * sensor.mount_m.cast<double>();
   for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
     auto const range = scan.ranges_m[b];
     if (!(range >= frame_options_.least_range_m && range < sensor.no_return_m && range <= frame_options_.most_range_m))
       continue;
-    auto const bearing = double{sensor.bearings_rad[b]};
+    auto const bearing = double{bearings[b]};
     points_.push_back({from + turn * Eigen::Vector2d(range * std::cos(bearing), range * std::sin(bearing)), from});
   }
 }

@@ -57,6 +57,7 @@ void write(ByteWriter& to, Sensor const& sensor) {
 }
 
 void write(ByteWriter& to, KeyFrame const& frame, Pose2 const& pose, Scan const& scan) {
+  LAPWING_ASSERT(scan.bearings_rad.empty());  // which no log has
   to.number(static_cast<std::uint32_t>(frame.scan));
   to.flag(frame.is_cut);
   to.real(frame.path_m);
