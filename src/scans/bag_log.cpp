@@ -129,16 +129,20 @@ class Converter {
   void add(BagContents::Scan& scan) {
     auto const* laser = laser_of(scan.message);
     auto ranges = laser == nullptr ? std::nullopt : laser->reader.ranges(scan.message);
-    auto const pose = track_ ? track_->at(scan.stamp) : slam::Pose2{};
-    scan.message.ranges = std::vector<float>();  // two of them all need not be there at once
-    if (ranges && !pose) {
-      ++without_odometry_;
-    } else if (!ranges || !builder_.add({.time = slam::LogTime(scan.stamp),
-                                         .sensor = laser->sensor,
-                                         .odometry = *pose,
-                                         .ranges_m = *std::move(ranges)})) {
+    if (!ranges) {
       ++unusable_;
+      return;
     }
+    auto const times = laser->reader.times(scan.message, scan.stamp);
+    scan.message.ranges = std::vector<float>();  // two of them all need not be there at once
+    auto laid = lay(*std::move(ranges), laser->reader.sensor(), times,
+                    [this](std::chrono::nanoseconds stamp) { return track_ ? track_->at(stamp) : slam::Pose2{}; });
+    if (!laid) {
+      ++without_odometry_;
+      return;
+    }
+    laid->sensor = laser->sensor;
+    if (!builder_.add(*std::move(laid))) ++unusable_;
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const {

@@ -94,6 +94,23 @@ TEST_F(BagLogTest, IsTheSameOfBothStorages) {
   }
 }
 
+TEST_F(BagLogTest, LaysTheBeamsOfATurningScannerWhereEachLookedFrom) {
+  bag.add("/tf_static", 0ns, frame_at(0, "base_link", "laser", 0.5));
+  for (int i = 0; i <= 10; ++i) bag.add("/odom", 0ns, odometry_at(200 * i, 0.2 * i));
+  auto slow = scan_at(300);
+  slow.time_increment = 0.1F;
+  bag.add("/scan", 0ns, slow);
+  auto const made = read();
+  ASSERT_TRUE(made) << made.error().message;
+  ASSERT_EQ(made->log.scans.size(), 1U);
+  auto const& scan = made->log.scans[0];
+  EXPECT_NEAR(scan.time.count(), 0.4, 1e-6) << "the middle of it";
+  EXPECT_NEAR(scan.odometry.x, 0.4, 1e-6);
+  auto const& bearings = bearings_of(scan, made->log.sensors[0]);
+  EXPECT_NEAR(scan.ranges_m[0] * std::cos(bearings[0]), 1.0 * std::cos(1.0) - 0.1, 1e-4);
+  EXPECT_NEAR(scan.ranges_m[2] * std::cos(bearings[2]), 3.0 * std::cos(1.0) + 0.1, 1e-4);
+}
+
 TEST_F(BagLogTest, TakesOdometryFromFramesWhereThereIsNoOther) {
   // The laser hangs upside down on a mast of the robot, and a wheel turns, of which nothing follows.
   bag.add("/tf_static", 0ns, frame_at(0, "base_link", "mast", 0.5));

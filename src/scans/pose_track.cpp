@@ -26,6 +26,15 @@ PoseTrack::PoseTrack(std::vector<Moment> moments) : moments_(std::move(moments))
   moments_.erase(again.begin(), again.end());
 }
 
+void PoseTrack::add(Moment const& moment) {
+  if (!moments_.empty() && moment.stamp <= moments_.back().stamp) moments_.clear();
+  moments_.push_back(moment);
+}
+
+void PoseTrack::forget_before(std::chrono::nanoseconds stamp) {
+  moments_.erase(moments_.begin(), std::ranges::lower_bound(moments_, stamp, {}, &Moment::stamp));
+}
+
 std::optional<slam::Pose2> PoseTrack::at(std::chrono::nanoseconds stamp) const {
   auto const next = std::ranges::lower_bound(moments_, stamp, {}, &Moment::stamp);
   if (next != moments_.end() && next->stamp == stamp) return next->pose;

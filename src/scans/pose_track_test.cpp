@@ -31,13 +31,25 @@ TEST(PoseTrack, KnowsNothingFarBeyondItsEnds) {
   EXPECT_EQ(track.at(2100ms), (slam::Pose2{2.0, 0.0, 0.0}));
   EXPECT_FALSE(track.at(899ms));
   EXPECT_FALSE(track.at(2101ms));
-  EXPECT_FALSE(PoseTrack({}).at(0s));
+  EXPECT_FALSE(PoseTrack().at(0s));
 }
 
 TEST(PoseTrack, LeavesOutWhatIsNoPlaceAndWhatComesTwice) {
   PoseTrack const track({{1s, {1.0, 0.0, 0.0}}, {1s, {9.0, 0.0, 0.0}}, {2s, {std::nan(""), 0.0, 0.0}}});
   EXPECT_EQ(track.at(1s), (slam::Pose2{1.0, 0.0, 0.0}));
   EXPECT_FALSE(track.at(2s));
+}
+
+TEST(PoseTrack, GrowsWhileTheRobotDrivesAndBeginsAnewWithItsClock) {
+  PoseTrack track;
+  for (int i = 0; i < 10; ++i) track.add({.stamp = 100ms * i, .pose = {0.1 * i, 0.0, 0.0}});
+  EXPECT_NEAR(track.at(450ms)->x, 0.45, 1e-9);
+  track.forget_before(600ms);
+  EXPECT_FALSE(track.at(450ms));
+  EXPECT_NEAR(track.at(650ms)->x, 0.65, 1e-9);
+  track.add({.stamp = 100ms, .pose = {5.0, 0.0, 0.0}});
+  EXPECT_FALSE(track.at(650ms));
+  EXPECT_DOUBLE_EQ(track.at(100ms)->x, 5.0);
 }
 
 }  // namespace

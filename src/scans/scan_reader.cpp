@@ -2,14 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "slam/scan/deskew.hpp"
 
 namespace lapwing::scans {
 
 namespace {
 
 constexpr std::size_t most_beams = 20'000;
+constexpr double longest_s = 1.0;  ///< from the first beam of a scan to the last
 
 }  // namespace
+
+std::optional<slam::Scan> lay(std::vector<float> ranges_m, slam::Sensor const& sensor, BeamTimes const& times,
+                              std::function<std::optional<slam::Pose2>(std::chrono::nanoseconds)> const& pose_at) {
+  auto const middle = pose_at(times.middle());
+  if (!middle) return std::nullopt;
+  slam::Scan scan{.time = slam::LogTime(times.middle()), .odometry = *middle, .ranges_m = std::move(ranges_m)};
+  auto const from = pose_at(times.begin());
+  auto const to = pose_at(times.end());
+  if (!from || !to || *from == *to) return scan;
+  return slam::deskewed(std::move(scan), sensor,
+                        [&](std::size_t beam) { return pose_at(times.at(beam)).value_or(*middle); });
+}
 
 std::optional<ScanReader> ScanReader::make(bus::LaserScan const& first, PlanarFrame const& mount) {
   bool const has_step = std::isfinite(first.angle_min) && std::isfinite(first.angle_increment) &&
@@ -38,6 +54,17 @@ std::optional<std::vector<float>> ScanReader::ranges(bus::LaserScan const& scan)
   }
   if (is_reversed_) std::ranges::reverse(ranges);
   return ranges;
+}
+
+BeamTimes ScanReader::times(bus::LaserScan const& scan, std::chrono::nanoseconds first) const {
+  BeamTimes times{.first = first, .beams = sensor_.bearings_rad.size()};
+  double const whole_s = double{scan.time_increment} * static_cast<double>(times.beams);
+  if (!(whole_s > 0.0 && whole_s <= longest_s)) return times;
+  times.step = std::chrono::nanoseconds(std::llround(double{scan.time_increment} * 1e9));
+  if (!is_reversed_) return times;
+  times.first = times.at(times.beams - 1);
+  times.step = -times.step;
+  return times;
 }
 
 }  // namespace lapwing::scans

@@ -40,6 +40,58 @@ TEST(ScanReader, TakesWhatIsNoRangeForNothingMeasured) {
   EXPECT_FALSE(reader->ranges(a_scan({1.0F}))) << "another laser's";
 }
 
+TEST(ScanReader, KnowsWhenEachBeamWasTaken) {
+  using namespace std::chrono_literals;
+  auto scan = a_scan({1.0F, 2.0F, 3.0F});
+  scan.time_increment = 0.01F;
+  auto const times = ScanReader::make(scan, {})->times(scan, 5s);
+  EXPECT_EQ(times.at(2), 5020ms);
+  EXPECT_EQ(times.middle(), 5010ms);
+  auto const upside_down = ScanReader::make(scan, {.pose = {}, .is_upside_down = true})->times(scan, 5s);
+  EXPECT_EQ(upside_down.at(0), 5020ms) << "the sensor's first beam is the scan's last";
+  EXPECT_EQ(upside_down.at(2), 5s);
+  EXPECT_EQ(upside_down.begin(), 5s);
+  EXPECT_EQ(upside_down.end(), 5020ms);
+  for (float const wrong : {0.0F, -0.01F, 10.0F, std::nanf("")}) {
+    scan.time_increment = wrong;
+    EXPECT_EQ(ScanReader::make(scan, {})->times(scan, 5s).end(), 5s) << wrong;
+  }
+}
+
+TEST(LayScan, PutsEachBeamWhereItLookedFrom) {
+  using namespace std::chrono_literals;
+  slam::Sensor const sensor{.bearings_rad = {-quarter, 0.0F, quarter}};
+  BeamTimes const times{.first = 1s, .step = 100ms, .beams = 3};
+  // It turns to the left, a tenth of a radian from beam to beam.
+  auto const turning = [](std::chrono::nanoseconds time) -> std::optional<slam::Pose2> {
+    return slam::Pose2{0.0, 0.0, std::chrono::duration<double>(time).count() - 1.0};
+  };
+  auto const scan = lay({1.0F, 2.0F, 3.0F}, sensor, times, turning);
+  ASSERT_TRUE(scan);
+  EXPECT_DOUBLE_EQ(scan->time.count(), 1.1);
+  EXPECT_NEAR(scan->odometry.yaw, 0.1, 1e-9);
+  EXPECT_NEAR(bearings_of(*scan, sensor)[0], -quarter - 0.1, 1e-5);
+  EXPECT_NEAR(bearings_of(*scan, sensor)[1], 0.0, 1e-5);
+  EXPECT_NEAR(bearings_of(*scan, sensor)[2], quarter + 0.1, 1e-5);
+  EXPECT_EQ(scan->ranges_m, (std::vector<float>{1.0F, 2.0F, 3.0F}));
+}
+
+TEST(LayScan, TakesAllBeamsForOnesOfTheMiddleWhereNoMoreIsKnown) {
+  using namespace std::chrono_literals;
+  slam::Sensor const sensor{.bearings_rad = {-quarter, 0.0F, quarter}};
+  BeamTimes const times{.first = 1s, .step = 100ms, .beams = 3};
+  auto const until = [](std::chrono::nanoseconds last) {
+    return [last](std::chrono::nanoseconds time) {
+      auto const yaw = std::chrono::duration<double>(time).count();
+      return time <= last ? std::optional(slam::Pose2{1.0, 2.0, yaw}) : std::nullopt;
+    };
+  };
+  auto const scan = lay({1.0F, 2.0F, 3.0F}, sensor, times, until(1150ms));
+  ASSERT_TRUE(scan);
+  EXPECT_TRUE(scan->bearings_rad.empty());
+  EXPECT_FALSE(lay({1.0F, 2.0F, 3.0F}, sensor, times, until(1050ms)));
+}
+
 TEST(ScanReader, RefusesWhatNoLaserSends) {
   EXPECT_FALSE(ScanReader::make(a_scan({}), {}));
   auto scan = a_scan({1.0F});

@@ -13,9 +13,8 @@ namespace lapwing::robot {
 /// When the last beam of a scan was taken. Before odometry knows of that time, nobody can say where it looked from.
 [[nodiscard]] firmware::Time end_of(LaserRanges const& scan, firmware::LaserPlace const& laser);
 
-/// Lays each beam where it looked: a scanner turns while the robot does, so that a beam has the bearing and the range
-/// at which the middle of the scan would have seen its end. Without a range is also what the laser would not see from
-/// there. Precondition: as many ranges as the laser has beams.
+/// Lays each beam where it looked from, as the middle of the scan would have seen its end (`slam::deskewed`).
+/// Precondition: as many ranges as the laser has beams.
 [[nodiscard]] slam::Scan lay(LaserRanges const& scan, firmware::LaserPlace const& laser, slam::Sensor const& sensor,
                              BoardOdometry const& odometry);
 

@@ -21,6 +21,7 @@ constexpr base::Duration reading_period = 95ms;
 /// A command may get lost on its way; what makes it stand is said a few times.
 constexpr int zeros = 3;
 constexpr base::Duration kill_period = 50ms;
+constexpr auto remembered = 3s;  ///< of where it was: more than a scan takes
 /// A base that says nothing for so long is away.
 constexpr base::Duration base_is_away = 500ms;
 constexpr double low_battery = 0.15;
@@ -95,8 +96,8 @@ void RosBody::take(bus::Odometry const& odometry) {
                       .speed_m_s = odometry.twist.twist.linear.x};
   if (!is_finite(moment.pose) || !std::isfinite(moment.speed_m_s)) return;
   laser_->set_base_frame(odometry.child_frame_id);
-  // A driver that was started anew begins a new clock, maybe.
-  before_ = now_ && now_->stamp < moment.stamp ? now_ : std::nullopt;
+  track_.add({.stamp = moment.stamp, .pose = moment.pose});
+  track_.forget_before(moment.stamp - remembered);
   now_ = moment;
   tell_scan();
   if (loop_.now() - told_at_ >= reading_period) tell_reading();
@@ -109,19 +110,12 @@ void RosBody::take(bus::BatteryState const& battery) {
 // ---- on to the robot
 
 void RosBody::tell_scan() {
-  if (!waiting_ || !now_) return;
-  auto const stamp = waiting_->stamp;
-  if (stamp > now_->stamp) return;
-  auto pose = now_->pose;
-  if (before_ && stamp > before_->stamp) {
-    double const share = std::chrono::duration<double>(stamp - before_->stamp) / (now_->stamp - before_->stamp);
-    pose = scans::on_the_way(before_->pose, now_->pose, share);
-  }
-  auto ranges = std::move(waiting_->ranges_m);
-  waiting_.reset();
-  sides_ = sides_of(*laser(), ranges);
-  if (listener_.on_scan)
-    listener_.on_scan({.time = slam::LogTime(stamp), .odometry = pose, .ranges_m = std::move(ranges)});
+  if (!waiting_ || !now_ || waiting_->times.end() > now_->stamp) return;
+  auto const seen = *std::exchange(waiting_, std::nullopt);
+  sides_ = sides_of(*laser(), seen.ranges_m);
+  // By another clock than the base's, or one that was set: then it is as if it had just been taken.
+  auto const pose_at = [this](std::chrono::nanoseconds stamp) { return track_.at(stamp).value_or(now_->pose); };
+  if (listener_.on_scan) listener_.on_scan(*scans::lay(seen.ranges_m, *laser(), seen.times, pose_at));
 }
 
 void RosBody::tell_reading() {

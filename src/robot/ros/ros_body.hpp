@@ -13,6 +13,7 @@
 #include "bus/participant/topics.hpp"
 #include "robot/platform/body.hpp"
 #include "robot/ros/ros_laser.hpp"
+#include "scans/pose_track.hpp"
 
 namespace lapwing::robot::ros {
 
@@ -73,10 +74,10 @@ class RosBody final : public Body {
   std::unique_ptr<RosLaser> laser_;
   Listener listener_;
 
-  std::optional<Moment> before_;  ///< the newest
+  scans::PoseTrack track_;  ///< of the last seconds
   std::optional<Moment> now_;
   std::optional<double> battery_;
-  std::optional<RosLaser::Seen> waiting_;  ///< that odometry has not caught up with
+  std::optional<RosLaser::Seen> waiting_;  ///< a scan that odometry has not caught up with
   explore::SideDistances sides_{.left_m = 5.0, .front_m = 7.5, .right_m = 5.0};
   base::TimePoint told_at_{};
   base::TimePoint carrier_told_{};  ///< of which reading the carrier's code was told last

@@ -46,8 +46,9 @@ struct RosBodyTest : ::testing::Test {
     heard_then_ = before;
     return loop.now() - quiet_since_ > 200ms;
   }
-  void be_at(std::int32_t second, double x) {
-    bus::Odometry message{.header = {.stamp = {.sec = second}, .frame_id = "odom"}, .child_frame_id = "base_link"};
+  void be_at(std::int32_t second, double x, std::uint32_t nanosecond = 0) {
+    bus::Odometry message{.header = {.stamp = {.sec = second, .nanosec = nanosecond}, .frame_id = "odom"},
+                          .child_frame_id = "base_link"};
     message.pose.pose.position.x = x;
     message.twist.twist.linear.x = 0.2;
     odometry.publish(message);
@@ -59,6 +60,16 @@ struct RosBodyTest : ::testing::Test {
                    .range_min = 0.1F,
                    .range_max = 10.0F,
                    .ranges = {range_m, range_m, range_m}});
+  }
+  /// A scanner that turns from its right to its left in 0.4 s.
+  void see_slowly(std::int32_t second) {
+    laser.publish({.header = {.stamp = {.sec = second}, .frame_id = "laser"},
+                   .angle_min = -1.0F,
+                   .angle_increment = 1.0F,
+                   .time_increment = 0.2F,
+                   .range_min = 0.1F,
+                   .range_max = 10.0F,
+                   .ranges = {3.0F, 3.0F, 3.0F}});
   }
   void say_where_the_laser_is() {
     frames.publish({.transforms = {{.header = {.frame_id = "base_link"},
@@ -105,6 +116,27 @@ TEST_F(RosBodyTest, LaysScansWhereTheRobotWasThen) {
   EXPECT_DOUBLE_EQ(scans.back().odometry.x, 1.5) << "halfway between the two moments";
   EXPECT_EQ(scans.back().ranges_m, (std::vector<float>{3.0F, 3.0F, 3.0F}));
   EXPECT_DOUBLE_EQ(scans.back().time.count(), 10.5);
+}
+
+// Scanners of small robots turn five times a second. What was seen at first is then many messages of odometry ago.
+TEST_F(RosBodyTest, LaysTheBeamsOfASlowScannerWhereEachLookedFrom) {
+  be_at(10, 1.0);
+  see_slowly(10);
+  be_at(10, 1.2, 200'000'000);
+  be_at(10, 1.3, 300'000'000);
+  ASSERT_TRUE(comes_true([&] { return is_quiet(); }));
+  EXPECT_TRUE(scans.empty()) << "nobody knows yet where its last beam looked from";
+  be_at(10, 1.5, 500'000'000);
+  ASSERT_TRUE(comes_true([&] { return !scans.empty(); }));
+  auto const& scan = scans.back();
+  EXPECT_NEAR(scan.time.count(), 10.2, 1e-6);
+  EXPECT_NEAR(scan.odometry.x, 1.2, 1e-6);
+  auto const end_x = [&](std::size_t beam) {
+    return scan.ranges_m[beam] * std::cos(bearings_of(scan, *body->laser())[beam]);
+  };
+  EXPECT_NEAR(end_x(0), 3.0 * std::cos(1.0) - 0.2, 1e-4);
+  EXPECT_NEAR(end_x(1), 3.0, 1e-4);
+  EXPECT_NEAR(end_x(2), 3.0 * std::cos(1.0) + 0.2, 1e-4);
 }
 
 TEST_F(RosBodyTest, SaysHowItsBaseIsAndWhenItIsAway) {

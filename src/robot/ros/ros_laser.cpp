@@ -44,7 +44,7 @@ void RosLaser::take(bus::LaserScan const& scan) {
   }
   auto ranges = scans_->ranges(scan);
   if (!ranges) return;  // of another laser on the same topic
-  on_scan_({.stamp = scans::since_epoch(scan.header.stamp), .ranges_m = *std::move(ranges)});
+  on_scan_({.times = scans_->times(scan, scans::since_epoch(scan.header.stamp)), .ranges_m = *std::move(ranges)});
 }
 
 std::optional<scans::PlanarFrame> RosLaser::mount_of(bus::LaserScan const& scan) {

@@ -20,8 +20,8 @@ namespace lapwing::robot::ros {
 class RosLaser {
  public:
   struct Seen {
-    std::chrono::nanoseconds stamp{};  ///< by the driver's clock
-    std::vector<float> ranges_m;       ///< in the order of `sensor()`
+    scans::BeamTimes times;       ///< by the driver's clock
+    std::vector<float> ranges_m;  ///< in the order of `sensor()`
   };
   using OnScan = std::function<void(Seen)>;
 

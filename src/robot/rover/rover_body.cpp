@@ -73,7 +73,10 @@ base::Result<> RoverBody::use(LaserOnRos const& laser) {
   auto opened = ros::RosLaser::open(
       loop_, *bus_, laser.name_space + "/scan",
       [this](ros::RosLaser::Seen seen) {
-        take_scan(laser_clock_.here(seen.stamp, loop_.now()), std::move(seen.ranges_m));
+        // A scan comes when its last beam has been taken.
+        auto const end = laser_clock_.here(seen.times.end(), loop_.now());
+        seen.times.first += end.time_since_epoch() - seen.times.end();
+        take_scan(seen.times, std::move(seen.ranges_m));
       },
       log_);
   if (!opened) return std::unexpected(opened.error());
@@ -128,26 +131,20 @@ void RoverBody::take_ranges(mavlink::Received const& received) {
     ranges = ranges_.take(*single, received.at);
   if (!ranges) return;
   if (!had_sensor) log_.info(fmt::format("ranges in {} directions over MAVLink", ranges->size()));
-  take_scan(received.at, *std::move(ranges));
+  take_scan({.first = received.at.time_since_epoch(), .beams = ranges->size()}, *std::move(ranges));
 }
 
-void RoverBody::take_scan(base::TimePoint at, std::vector<float> ranges_m) {
-  waiting_ = Waiting{.at = at, .ranges_m = std::move(ranges_m)};
+void RoverBody::take_scan(scans::BeamTimes const& times, std::vector<float> ranges_m) {
+  waiting_ = Waiting{.times = times, .ranges_m = std::move(ranges_m)};
   tell_scan();
 }
 
 void RoverBody::tell_scan() {
-  if (!waiting_) return;
-  auto const pose = track_.at(waiting_->at);
-  if (!pose) return;
-  auto ranges = std::move(waiting_->ranges_m);
-  auto const at = waiting_->at;
-  waiting_.reset();
-  sides_ = ros::sides_of(*laser(), ranges);
-  if (listener_.on_scan)
-    listener_.on_scan({.time = slam::LogTime(base::to_seconds(at.time_since_epoch())),
-                       .odometry = *pose,
-                       .ranges_m = std::move(ranges)});
+  auto const pose_at = [this](std::chrono::nanoseconds time) { return track_.at(base::TimePoint(time)); };
+  if (!waiting_ || !pose_at(waiting_->times.end())) return;
+  auto const seen = *std::exchange(waiting_, std::nullopt);
+  sides_ = ros::sides_of(*laser(), seen.ranges_m);
+  if (listener_.on_scan) listener_.on_scan(*scans::lay(seen.ranges_m, *laser(), seen.times, pose_at));
 }
 
 void RoverBody::tell_reading() {

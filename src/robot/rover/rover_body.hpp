@@ -56,12 +56,12 @@ class RoverBody final : public Body {
  private:
   /// A scan that the odometry has not caught up with.
   struct Waiting {
-    base::TimePoint at{};
+    scans::BeamTimes times;  ///< by our clock
     std::vector<float> ranges_m;
   };
   void take(mavlink::Received const& received);
   void take_ranges(mavlink::Received const& received);
-  void take_scan(base::TimePoint at, std::vector<float> ranges_m);
+  void take_scan(scans::BeamTimes const& times, std::vector<float> ranges_m);
   void tell_scan();
   void tell_reading();
   void send(Motion motion);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "geo/position.hpp"
-#include "scans/pose_track.hpp"
 
 namespace lapwing::robot::rover {
 
@@ -16,6 +15,7 @@ namespace {
 constexpr base::Duration heading_is_old = 300ms;
 /// Behind a gap nobody can say what was driven and what was corrected: it is believed.
 constexpr base::Duration gap = 1s;
+constexpr base::Duration remembered = 3s;
 /// How far a step may be from what the velocity gives: the filter's noise and what a wheel can do in a tenth of a
 /// second; a half more of the step itself.
 constexpr double odd_step_m = 0.15;
@@ -48,7 +48,9 @@ bool RoverTrack::take(mavlink::LocalPosition const& position, base::TimePoint ar
   // An autopilot that has started anew begins a new frame where it stands.
   bool const goes_on = raw_ && raw.at > raw_->at && raw.since_boot > raw_->since_boot;
   if (goes_on) pose = pose * step_between(*raw_, raw);
-  before_ = goes_on ? now_ : std::nullopt;
+  if (!goes_on) track_ = {};
+  track_.add({.stamp = at.time_since_epoch(), .pose = pose});
+  track_.forget_before(at.time_since_epoch() - remembered);
   now_ = Moment{.at = at, .pose = pose, .speed_m_s = raw.ahead_m_s};
   raw_ = raw;
   return true;
@@ -72,10 +74,7 @@ Pose2 RoverTrack::step_between(Raw const& from, Raw const& to) {
 
 std::optional<Pose2> RoverTrack::at(base::TimePoint time) const {
   if (!now_ || now_->at < time) return std::nullopt;
-  if (!before_) return now_->pose;
-  if (time <= before_->at) return before_->pose;
-  double const share = base::to_seconds(time - before_->at) / base::to_seconds(now_->at - before_->at);
-  return scans::on_the_way(before_->pose, now_->pose, share);
+  return track_.at(time.time_since_epoch()).value_or(now_->pose);
 }
 
 }  // namespace lapwing::robot::rover

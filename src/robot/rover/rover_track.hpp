@@ -4,6 +4,7 @@
 
 #include "base/clock_offset.hpp"
 #include "mavlink/codec/messages.hpp"
+#include "scans/pose_track.hpp"
 #include "slam/pose2.hpp"
 
 namespace lapwing::robot::rover {
@@ -27,7 +28,7 @@ class RoverTrack {
   bool take(mavlink::LocalPosition const& position, base::TimePoint arrived);
 
   [[nodiscard]] std::optional<Moment> const& now() const { return now_; }
-  /// At that time, between the last two moments or at the nearer one; nothing as long as none is as late as that.
+  /// At that time; where it is now, when that is seconds ago. Nothing as long as no moment is as late as that.
   [[nodiscard]] std::optional<slam::Pose2> at(base::TimePoint time) const;
   /// How often the estimator has corrected itself.
   [[nodiscard]] int corrections() const { return corrections_; }
@@ -51,7 +52,7 @@ class RoverTrack {
   base::ClockOffset clock_;
   std::optional<Heading> heading_;
   std::optional<Raw> raw_;
-  std::optional<Moment> before_;
+  scans::PoseTrack track_;  ///< of the last seconds
   std::optional<Moment> now_;
   int corrections_ = 0;
 };

@@ -112,7 +112,8 @@ TEST_F(RoverTrackTest, FindsWhereItWasBetweenTwoMoments) {
   EXPECT_EQ(at, base::TimePoint(since_boot + 7s));
   EXPECT_FALSE(track.at(at + 1ms)) << "nobody knows yet";
   EXPECT_NEAR(track.at(at - 25ms)->x, pose().x - 0.025, 1e-9);
-  EXPECT_NEAR(track.at(at - 10s)->x, pose().x - 0.05, 1e-9) << "the nearer one";
+  EXPECT_NEAR(track.at(at - 125ms)->x, pose().x - 0.125, 1e-9) << "some moments ago";
+  EXPECT_NEAR(track.at(at - 10s)->x, pose().x, 1e-9) << "too long ago";
 }
 
 TEST_F(RoverTrackTest, IsNowhereWithoutAHeading) {

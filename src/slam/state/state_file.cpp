@@ -20,7 +20,8 @@ namespace {
 
 // A text file that was carried over from system to system loses its CR, and the rest is not taken for a state.
 constexpr std::string_view magic = "LWslam\r\n";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
+constexpr std::uint32_t without_bearings = 1;  // of scans; that version can be read, too
 constexpr std::size_t head_bytes = magic.size() + 4 + 8 + 4;
 
 constexpr std::uint64_t most_sensors = 10'000;
@@ -28,6 +29,7 @@ constexpr std::size_t most_beams = 20'000;
 constexpr std::uint64_t most_parameters = 1'000;
 constexpr std::size_t most_name_bytes = 4'096;
 constexpr std::uint64_t most_memory = 1'000;  // of odometry's errors
+constexpr float most_bearing_rad = 4.0F * std::numbers::pi_v<float>;
 constexpr double most_place_m = 1e6;
 constexpr double most_path_m = 1e9;
 constexpr double most_information = 1e15;
@@ -57,7 +59,6 @@ void write(ByteWriter& to, Sensor const& sensor) {
 }
 
 void write(ByteWriter& to, KeyFrame const& frame, Pose2 const& pose, Scan const& scan) {
-  LAPWING_ASSERT(scan.bearings_rad.empty());  // which no log has
   to.number(static_cast<std::uint32_t>(frame.scan));
   to.flag(frame.is_cut);
   to.real(frame.path_m);
@@ -66,6 +67,8 @@ void write(ByteWriter& to, KeyFrame const& frame, Pose2 const& pose, Scan const&
   to.pose(scan.odometry);
   to.number(static_cast<std::uint32_t>(scan.sensor));
   for (auto const range : scan.ranges_m) to.real(range);
+  to.flag(!scan.bearings_rad.empty());
+  for (auto const bearing : scan.bearings_rad) to.real(bearing);
 }
 
 void write(ByteWriter& to, Constraint const& constraint) {
@@ -113,7 +116,7 @@ std::unexpected<base::Error> wrong(std::string message) {
 /// Reads a payload part by part; the first part that is wrong ends it.
 class StateReader {
  public:
-  explicit StateReader(std::string_view payload) : from_(payload) {}
+  StateReader(std::string_view payload, std::uint32_t version) : from_(payload), version_(version) {}
 
   base::Result<SavedMap> read() && {
     bool const is_right = read_options() && read_kind() && read_sensors() && read_frames() && read_constraints() &&
@@ -191,9 +194,9 @@ class StateReader {
 
   /// Ascending, and none so close together by the others' measure that a frame of them would have no end of bins.
   static bool looks_around(std::vector<float> const& bearings) {
-    constexpr float most_rad = 4.0F * std::numbers::pi_v<float>;
     constexpr std::size_t most_bins_a_beam = 16;
-    if (!std::ranges::all_of(bearings, [](float bearing) { return std::abs(bearing) <= most_rad; })) return false;
+    if (!std::ranges::all_of(bearings, [](float bearing) { return std::abs(bearing) <= most_bearing_rad; }))
+      return false;
     if (!std::ranges::is_sorted(bearings)) return false;
     Scan nothing;
     nothing.ranges_m.assign(bearings.size(), 0.0F);
@@ -226,6 +229,7 @@ class StateReader {
     auto const& sensor = seen.sensors[static_cast<std::size_t>(scan.sensor)];
     if (!is(from_.has(sensor.bearings_rad.size(), 4), "a scan is cut off")) return false;
     for (std::size_t b = 0; b < sensor.bearings_rad.size(); ++b) scan.ranges_m.push_back(from_.single());
+    if (!read_bearings(scan, sensor)) return false;
     bool const is_next = graph.frames.empty()
                              ? frame.path_m >= 0.0
                              : frame.scan > graph.frames.back().scan && frame.path_m >= graph.frames.back().path_m;
@@ -238,6 +242,16 @@ class StateReader {
     graph.poses.push_back(pose);
     seen.scans.push_back(std::move(scan));
     return true;
+  }
+
+  bool read_bearings(Scan& scan, Sensor const& sensor) {
+    if (version_ == without_bearings || from_.number<std::uint8_t>() == 0) return true;
+    auto const beams = sensor.bearings_rad.size();
+    if (!is(from_.has(beams, 4), "a scan is cut off")) return false;
+    for (std::size_t b = 0; b < beams; ++b) scan.bearings_rad.push_back(from_.single());
+    return is(std::ranges::is_sorted(scan.bearings_rad) &&
+                  std::ranges::all_of(scan.bearings_rad, [](float b) { return std::abs(b) <= most_bearing_rad; }),
+              "beams that no laser has");
   }
 
   bool read_constraints() {
@@ -333,6 +347,7 @@ class StateReader {
   }
 
   ByteReader from_;
+  std::uint32_t version_;
   SavedMap saved_;
   std::uint32_t scans_ = 0;
   std::string against_;
@@ -382,18 +397,18 @@ base::Result<SavedMap> read_state(std::string_view bytes) {
   auto const size = head.number<std::uint64_t>();
   auto const sum = head.number<std::uint32_t>();
   if (head.is_short()) return wrong("this state of a mapping is cut off in its first bytes");
-  if (written_as != version)
-    return base::fail(
-        base::ErrorKind::invalid_input,
-        fmt::format("this state of a mapping is of version {}, and version {} is read", written_as, version),
-        "resume it with the program that wrote it, or make the map anew from its logs");
+  if (written_as != version && written_as != without_bearings)
+    return base::fail(base::ErrorKind::invalid_input,
+                      fmt::format("this state of a mapping is of version {}, and up to version {} they are read",
+                                  written_as, version),
+                      "resume it with the program that wrote it, or make the map anew from its logs");
   auto const payload = bytes.substr(head_bytes);
   if (payload.size() < size)
     return wrong(fmt::format("this state of a mapping is cut off: {} of {} bytes", payload.size(), size));
   if (payload.size() > size)
     return wrong(fmt::format("this state of a mapping has {} bytes behind its end", payload.size() - size));
   if (base::crc32(payload) != sum) return wrong("this state of a mapping is damaged: its checksum does not match");
-  return StateReader(payload).read();
+  return StateReader(payload, written_as).read();
 }
 
 }  // namespace lapwing::slam

@@ -9,8 +9,7 @@
 namespace lapwing::slam {
 
 /// The bytes of a saved mapping, as docs/reference/slam.md has them. Equal mappings give equal bytes.
-/// Precondition: scans were not gathered (RobotKind::is_sparse), for what they were joined to is no scan, and have no
-/// bearings of their own.
+/// Precondition: scans were not gathered (RobotKind::is_sparse), for what they were joined to is no scan.
 [[nodiscard]] std::string write_state(Graph const& graph, MapMemory const& memory);
 
 /// What `write_state` wrote, to the last bit; the key frames' points are found anew in their scans. Errors

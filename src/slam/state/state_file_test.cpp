@@ -8,18 +8,23 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/crc32.hpp"
 #include "slam/mapper.hpp"
+#include "slam/state/bytes.hpp"
 #include "slam/testing/simulated_drive.hpp"
 
 namespace lapwing::slam {
 namespace {
 
-/// Of a short drive, with a range that is no number and one that came back from nowhere.
+/// Of a short drive, with a range that is no number, one that came back from nowhere and bearings of a scan's own.
 Mapping const& mapping() {
   static auto const made = [] {
     auto drive = testing::drive(testing::office(20.0, 12.0, 4.0, 1.0, 5), {{0, 0}, {4, 0}, {4, 0.5}}, {.beams = 31});
     drive.log.scans[0].ranges_m[3] = std::numeric_limits<float>::quiet_NaN();
     drive.log.scans[0].ranges_m[4] = std::numeric_limits<float>::infinity();
+    auto& turned = drive.log.scans[1].bearings_rad;
+    turned = drive.log.sensors[0].bearings_rad;
+    for (auto& bearing : turned) bearing += 0.001F;
     MapperOptions options;
     options.loops.submap_frames = 12;
     options.gather.few_readings = 10;
@@ -73,8 +78,30 @@ TEST(StateFile, RefusesWhatIsNoState) {
 
 TEST(StateFile, RefusesANewerVersion) {
   auto bytes = state();
-  bytes[8] = 2;
-  EXPECT_EQ(error_of(bytes), "this state of a mapping is of version 2, and version 1 is read");
+  bytes[8] = 3;
+  EXPECT_EQ(error_of(bytes), "this state of a mapping is of version 3, and up to version 2 they are read");
+}
+
+// Its scans said nothing of bearings of their own.
+TEST(StateFile, ReadsTheVersionBefore) {
+  auto memory = mapping().memory;
+  for (auto& scan : memory.seen.scans) scan.bearings_rad.clear();
+  auto payload = write_state(mapping().graph, memory).substr(24);
+  for (auto const& scan : memory.seen.scans) {
+    ByteWriter ranges;
+    for (auto const range : scan.ranges_m) ranges.real(range);
+    auto const bytes = std::move(ranges).take();
+    auto const at = payload.find(bytes);
+    ASSERT_NE(at, std::string::npos);
+    payload.erase(at + bytes.size(), 1);
+  }
+  ByteWriter head;
+  head.number(std::uint32_t{1});
+  head.number(std::uint64_t{payload.size()});
+  head.number(base::crc32(payload));
+  auto const read = read_state("LWslam\r\n" + std::move(head).take() + payload);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(write_state(read->graph, read->memory), write_state(mapping().graph, memory));
 }
 
 TEST(StateFile, SaysWhereItIsCutOff) {

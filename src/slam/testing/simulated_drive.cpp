@@ -64,6 +64,7 @@ class Robot {
       sensor.bearings_rad.push_back(
           static_cast<float>(-0.5 * options.field_of_view_rad + options.field_of_view_rad * b / std::max(1, steps)));
     drive_.log.sensors.push_back(sensor);
+    last_ = start;
     look();
   }
 
@@ -85,6 +86,7 @@ class Robot {
   double noise(double deviation) { return deviation * std::normal_distribution<double>()(random_); }
 
   void step(Pose2 const& motion) {
+    last_ = pose_;
     pose_ = pose_ * motion;
     auto const length = motion.x;
     Pose2 const told{length * (1.0 + options_.scale_bias) + noise(options_.shift_noise * length),
@@ -100,11 +102,16 @@ class Robot {
     Scan scan{.time = LogTime(static_cast<double>(drive_.truth.size()) / options_.scans_per_s),
               .odometry = odometry_,
               .ranges_m = {}};
-    for (auto const bearing : drive_.log.sensors[0].bearings_rad) {
-      auto const yaw = pose_.yaw + double{bearing};
+    auto const& bearings = drive_.log.sensors[0].bearings_rad;
+    auto const moved = between(last_, pose_);
+    for (std::size_t b = 0; b < bearings.size(); ++b) {
+      auto const share =
+          options_.turns_while_driving ? static_cast<double>(b + 1) / static_cast<double>(bearings.size()) : 1.0;
+      auto const from = last_ * Pose2{share * moved.x, share * moved.y, share * moved.yaw};
+      auto const yaw = from.yaw + double{bearings[b]};
       Eigen::Vector2d const direction(std::cos(yaw), std::sin(yaw));
       auto range = options_.most_range_m;
-      for (auto const& wall : building_) range = cast(wall, place(pose_), direction, range);
+      for (auto const& wall : building_) range = cast(wall, place(from), direction, range);
       if (range < options_.most_range_m) range = std::max(0.02, range + noise(options_.range_noise_m));
       scan.ranges_m.push_back(static_cast<float>(range));
     }
@@ -116,6 +123,7 @@ class Robot {
   DriveOptions options_;
   std::mt19937_64 random_;
   Pose2 pose_;
+  Pose2 last_;  ///< of the scan before
   Pose2 odometry_;
   Drive drive_;
 };

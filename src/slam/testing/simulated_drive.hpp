@@ -36,6 +36,8 @@ struct DriveOptions {
   double turn_noise_per_m = 0.01;  ///< radians per metre
   double scale_bias = 0.02;        ///< every metre is told as so much more
   double turn_bias_per_m = 0.003;  ///< radians: the robot pulls to one side
+  /// Its beams are taken one after the other on the way from the place of the scan before, and not at once.
+  bool turns_while_driving = false;
   std::uint64_t seed = 1;
 };
 
