@@ -7,8 +7,8 @@
 
 #include "bus/messages/sensors.hpp"
 #include "scans/planar.hpp"
-#include "scans/pose_track.hpp"
 #include "scans/storage/bag_listener.hpp"
+#include "slam/log/pose_track.hpp"
 
 namespace lapwing::scans {
 
@@ -31,7 +31,7 @@ class BagContents final : public BagListener {
   /// A frame that something tells the place of, again and again.
   struct MovingFrame {
     bus::TransformStamped first;
-    std::vector<PoseTrack::Moment> moments;
+    std::vector<slam::PoseTrack::Moment> moments;
     bool moves = false;  ///< false: it has been in one place all the time
   };
   struct Scan {
@@ -45,7 +45,7 @@ class BagContents final : public BagListener {
   std::map<std::string, std::size_t> odometry_topics;
   /// Of the chosen topics, or the first.
   std::vector<Scan> scans;
-  std::vector<PoseTrack::Moment> odometry;
+  std::vector<slam::PoseTrack::Moment> odometry;
   std::string odometry_child;  ///< the robot's frame, as the odometry calls it
   StaticFrames fixed;
   std::map<std::string, MovingFrame> moving;  ///< by the name of the frame

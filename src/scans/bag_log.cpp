@@ -161,7 +161,7 @@ class Converter {
   BagContents& contents_;
   StaticFrames frames_;  ///< also those of /tf that never move
   std::string base_;     ///< the robot's frame
-  std::optional<PoseTrack> track_;
+  std::optional<slam::PoseTrack> track_;
   std::map<Shape, Laser> lasers_;
   slam::LogBuilder builder_;
   BagLog made_;

@@ -46,6 +46,12 @@ struct Turn {
   return {shift.x(), shift.y(), geo::wrap_pi(to.yaw - from.yaw)};
 }
 
+/// From one pose to the other it goes on evenly, ahead and in turning; `share`: 0 the first, 1 the second.
+[[nodiscard]] inline Pose2 on_the_way(Pose2 const& from, Pose2 const& to, double share) {
+  auto const step = between(from, to);
+  return from * Pose2{share * step.x, share * step.y, share * step.yaw};
+}
+
 [[nodiscard]] inline Pose2 inverse(Pose2 const& pose) {
   return between(pose, Pose2{});
 }

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <deque>
 #include <optional>
 
 #include "robot/sensors/sensor_interface.hpp"
-#include "slam/pose2.hpp"
+#include "slam/log/pose_track.hpp"
 
 namespace lapwing::robot {
 
@@ -14,24 +13,21 @@ class BoardOdometry {
  public:
   /// `begin`: where its board's own frame begins; a board that has started anew stands where it was.
   explicit BoardOdometry(firmware::Description const& description, slam::Pose2 const& begin = {})
-      : begin_(begin), sensors_(description) {}
+      : begin_(begin), now_(begin), sensors_(description) {}
 
   /// What the readings say of the body; nothing for the first ones and for those that are not newer than the last.
   std::optional<Sensed> feed(firmware::Readings const& readings);
 
   /// By the newest readings.
-  [[nodiscard]] slam::Pose2 pose() const { return samples_.empty() ? begin_ : samples_.back().pose; }
-  /// By the board's clock, between the readings around it; the nearest one before the first and behind the last.
-  [[nodiscard]] slam::Pose2 at(firmware::Time time) const;
+  [[nodiscard]] slam::Pose2 const& pose() const { return now_; }
+  /// By the board's clock, between the readings around it; by the newest ones where they do not reach so far.
+  [[nodiscard]] slam::Pose2 at(firmware::Time time) const { return track_.at(time).value_or(now_); }
 
  private:
-  struct Sample {
-    firmware::Time time{};
-    slam::Pose2 pose = {};
-  };
   slam::Pose2 begin_;
+  slam::Pose2 now_;
   SensorInterface sensors_;
-  std::deque<Sample> samples_;
+  slam::PoseTrack track_;  ///< of the last seconds
 };
 
 }  // namespace lapwing::robot

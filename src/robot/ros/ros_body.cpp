@@ -7,7 +7,6 @@
 
 #include "robot/ros/scan_sides.hpp"
 #include "robot/watch/codes.hpp"
-#include "scans/pose_track.hpp"
 #include "scans/stamp.hpp"
 
 namespace lapwing::robot::ros {

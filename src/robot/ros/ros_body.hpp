@@ -13,7 +13,7 @@
 #include "bus/participant/topics.hpp"
 #include "robot/platform/body.hpp"
 #include "robot/ros/ros_laser.hpp"
-#include "scans/pose_track.hpp"
+#include "slam/log/pose_track.hpp"
 
 namespace lapwing::robot::ros {
 
@@ -74,7 +74,7 @@ class RosBody final : public Body {
   std::unique_ptr<RosLaser> laser_;
   Listener listener_;
 
-  scans::PoseTrack track_;  ///< of the last seconds
+  slam::PoseTrack track_;  ///< of the last seconds
   std::optional<Moment> now_;
   std::optional<double> battery_;
   std::optional<RosLaser::Seen> waiting_;  ///< a scan that odometry has not caught up with

@@ -4,7 +4,7 @@
 
 #include "base/clock_offset.hpp"
 #include "mavlink/codec/messages.hpp"
-#include "scans/pose_track.hpp"
+#include "slam/log/pose_track.hpp"
 #include "slam/pose2.hpp"
 
 namespace lapwing::robot::rover {
@@ -52,7 +52,7 @@ class RoverTrack {
   base::ClockOffset clock_;
   std::optional<Heading> heading_;
   std::optional<Raw> raw_;
-  scans::PoseTrack track_;  ///< of the last seconds
+  slam::PoseTrack track_;  ///< of the last seconds
   std::optional<Moment> now_;
   int corrections_ = 0;
 };

@@ -21,12 +21,6 @@ Around around(std::vector<WayPoint> const& way, int scan) {
   return {before, next == way.end() ? before : *next};
 }
 
-/// `share` of the way from one pose to the other.
-Pose2 mixed(Pose2 const& from, Pose2 const& to, double share) {
-  auto const step = between(from, to);
-  return from * Pose2{share * step.x, share * step.y, share * step.yaw};
-}
-
 /// Where odometry puts the scan: carried from the nearer way point. Where it says something else than the map of how
 /// the robot got from one to the other, it went evenly; if that was far, as in a gap of a recording, it stayed at the
 /// one before, for the one after was taken right after the gap.
@@ -41,7 +35,7 @@ Pose2 carried(std::vector<Pose2> const& odometry, Around const& keys, int scan) 
   auto const is_wrong = distance_m(told, mapped) > wrong_m || turn_rad(told, mapped) > wrong_rad;
   auto const is_far = distance_m(before.pose, after.pose) > far_m || turn_rad(before.pose, after.pose) > far_rad;
   if (is_wrong && !is_far)
-    return mixed(before.pose, after.pose, static_cast<double>(scan - before.scan) / (after.scan - before.scan));
+    return on_the_way(before.pose, after.pose, static_cast<double>(scan - before.scan) / (after.scan - before.scan));
   auto const is_after_nearer = after.scan != before.scan && after.scan - scan < scan - before.scan && !is_wrong;
   auto const& nearest = is_after_nearer ? after : before;
   return nearest.pose * between(odometry[nearest.scan], odometry[scan]);
@@ -79,7 +73,7 @@ std::vector<Pose2> spread_over_scans(std::vector<Pose2> const& odometry, Graph c
     auto const by_before = before.pose * between(odometry[from], odometry[i]);
     auto const by_after = after.pose * between(odometry[to], odometry[i]);
     auto const length = path_m[to] - path_m[from];
-    poses[i] = length > 0.0 ? mixed(by_before, by_after, (path_m[i] - path_m[from]) / length) : by_before;
+    poses[i] = length > 0.0 ? on_the_way(by_before, by_after, (path_m[i] - path_m[from]) / length) : by_before;
   }
   return poses;
 }

@@ -6,17 +6,14 @@
 
 #include "slam/pose2.hpp"
 
-namespace lapwing::scans {
-
-/// From one pose to the other it goes on evenly, ahead and in turning; `share`: 0 the first, 1 the second.
-[[nodiscard]] slam::Pose2 on_the_way(slam::Pose2 const& from, slam::Pose2 const& to, double share);
+namespace lapwing::slam {
 
 /// Where a robot was by its odometry.
 class PoseTrack {
  public:
   struct Moment {
     std::chrono::nanoseconds stamp{};
-    slam::Pose2 pose = {};
+    Pose2 pose = {};
   };
   PoseTrack() = default;
   /// In any order; what is no number is left out. Of two that have one stamp the first counts.
@@ -29,11 +26,11 @@ class PoseTrack {
 
   /// Between two moments; up to a tenth of a second before the first and after the last it is where it was there, and
   /// beyond nobody knows.
-  [[nodiscard]] std::optional<slam::Pose2> at(std::chrono::nanoseconds stamp) const;
+  [[nodiscard]] std::optional<Pose2> at(std::chrono::nanoseconds stamp) const;
   [[nodiscard]] bool is_empty() const { return moments_.empty(); }
 
  private:
   std::vector<Moment> moments_;
 };
 
-}  // namespace lapwing::scans
+}  // namespace lapwing::slam

@@ -1,11 +1,11 @@
-#include "scans/pose_track.hpp"
+#include "slam/log/pose_track.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace lapwing::scans {
+namespace lapwing::slam {
 namespace {
 
 using namespace std::chrono_literals;
@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 TEST(PoseTrack, GoesOnEvenlyBetweenTwoMoments) {
   // Given in the wrong order: a quarter of a circle of radius one to the left.
   PoseTrack const track({{2s, {1.0, 1.0, std::numbers::pi / 2.0}}, {1s, {}}});
-  EXPECT_EQ(track.at(1s), slam::Pose2{});
+  EXPECT_EQ(track.at(1s), Pose2{});
   auto const half_way = track.at(1500ms);
   ASSERT_TRUE(half_way);
   EXPECT_NEAR(half_way->x, 0.5, 1e-12);
@@ -27,8 +27,8 @@ TEST(PoseTrack, TurnsTheShortWay) {
 
 TEST(PoseTrack, KnowsNothingFarBeyondItsEnds) {
   PoseTrack const track({{1s, {1.0, 0.0, 0.0}}, {2s, {2.0, 0.0, 0.0}}});
-  EXPECT_EQ(track.at(950ms), (slam::Pose2{1.0, 0.0, 0.0}));
-  EXPECT_EQ(track.at(2100ms), (slam::Pose2{2.0, 0.0, 0.0}));
+  EXPECT_EQ(track.at(950ms), (Pose2{1.0, 0.0, 0.0}));
+  EXPECT_EQ(track.at(2100ms), (Pose2{2.0, 0.0, 0.0}));
   EXPECT_FALSE(track.at(899ms));
   EXPECT_FALSE(track.at(2101ms));
   EXPECT_FALSE(PoseTrack().at(0s));
@@ -36,7 +36,7 @@ TEST(PoseTrack, KnowsNothingFarBeyondItsEnds) {
 
 TEST(PoseTrack, LeavesOutWhatIsNoPlaceAndWhatComesTwice) {
   PoseTrack const track({{1s, {1.0, 0.0, 0.0}}, {1s, {9.0, 0.0, 0.0}}, {2s, {std::nan(""), 0.0, 0.0}}});
-  EXPECT_EQ(track.at(1s), (slam::Pose2{1.0, 0.0, 0.0}));
+  EXPECT_EQ(track.at(1s), (Pose2{1.0, 0.0, 0.0}));
   EXPECT_FALSE(track.at(2s));
 }
 
@@ -53,4 +53,4 @@ TEST(PoseTrack, GrowsWhileTheRobotDrivesAndBeginsAnewWithItsClock) {
 }
 
 }  // namespace
-}  // namespace lapwing::scans
+}  // namespace lapwing::slam

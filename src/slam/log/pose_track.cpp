@@ -1,10 +1,10 @@
-#include "scans/pose_track.hpp"
+#include "slam/log/pose_track.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace lapwing::scans {
+namespace lapwing::slam {
 
 namespace {
 
@@ -14,13 +14,8 @@ constexpr auto most_beyond_an_end = 100ms;
 
 }  // namespace
 
-slam::Pose2 on_the_way(slam::Pose2 const& from, slam::Pose2 const& to, double share) {
-  auto const step = slam::between(from, to);
-  return from * slam::Pose2{share * step.x, share * step.y, share * step.yaw};
-}
-
 PoseTrack::PoseTrack(std::vector<Moment> moments) : moments_(std::move(moments)) {
-  std::erase_if(moments_, [](Moment const& moment) { return !slam::numbers(moment.pose).allFinite(); });
+  std::erase_if(moments_, [](Moment const& moment) { return !numbers(moment.pose).allFinite(); });
   std::ranges::stable_sort(moments_, {}, &Moment::stamp);
   auto const again = std::ranges::unique(moments_, {}, &Moment::stamp);
   moments_.erase(again.begin(), again.end());
@@ -35,7 +30,7 @@ void PoseTrack::forget_before(std::chrono::nanoseconds stamp) {
   moments_.erase(moments_.begin(), std::ranges::lower_bound(moments_, stamp, {}, &Moment::stamp));
 }
 
-std::optional<slam::Pose2> PoseTrack::at(std::chrono::nanoseconds stamp) const {
+std::optional<Pose2> PoseTrack::at(std::chrono::nanoseconds stamp) const {
   auto const next = std::ranges::lower_bound(moments_, stamp, {}, &Moment::stamp);
   if (next != moments_.end() && next->stamp == stamp) return next->pose;
   if (next == moments_.begin() || next == moments_.end()) {
@@ -48,4 +43,4 @@ std::optional<slam::Pose2> PoseTrack::at(std::chrono::nanoseconds stamp) const {
   return on_the_way(before->pose, next->pose, share);
 }
 
-}  // namespace lapwing::scans
+}  // namespace lapwing::slam
