@@ -89,7 +89,7 @@ def main():
         other = folder / "other.state"
         for content, why in ((state[:-100], "other.state: this state of a mapping is cut off"), (state[:9], "cut off in its first bytes"),
                              (state[:500] + bytes([state[500] ^ 1]) + state[501:], "damaged: its checksum does not match"),
-                             (state[:8] + b"\x07" + state[9:], "of version 7, and version 1 is read"), (b"P5\n1 1\n255\n0", "no state of a mapping")):
+                             (state[:8] + b"\x07" + state[9:], "of version 7, and up to version 2 they are read"), (b"P5\n1 1\n255\n0", "no state of a mapping")):
             other.write_bytes(content)
             refused(later, folder, other, why)
         refused(elsewhere, folder, folder / "first", "lie on walls of the map", "--start", "40,40,0")
