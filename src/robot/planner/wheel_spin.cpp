@@ -6,8 +6,8 @@ namespace {
 
 /// The map follows the wheels between one key frame and the next, and is put right there: this is several of them.
 constexpr double long_ago_s = 6.0;
-constexpr double way_m = 0.8;    ///< that the wheels must have made for anything to be said
-constexpr double stays = 0.4;    ///< of that way, and less: it does not get on
+constexpr double way_m = 0.5;  ///< that the wheels must have made for anything to be said; near walls they turn slowly
+constexpr double stays = 0.4;  ///< of that way, and less: it does not get on
 constexpr double follows = 0.7;  ///< and more: it does again
 
 }  // namespace
