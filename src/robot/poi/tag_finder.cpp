@@ -19,7 +19,7 @@ namespace {
 
 constexpr base::Duration look_period = 300ms;
 
-constexpr double most_turn_rad = 0.1;      ///< in a period: more, and pictures are smeared
+constexpr double most_turn_rad = 0.1;      ///< in a period, or while it looks: more, and pictures are smeared
 constexpr double least_confidence = 0.55;  ///< more than a single sight of a kind without a number gives
 constexpr double edge_px = 4.0;
 constexpr int most_tries = 2;  ///< the seed's
@@ -196,6 +196,8 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
   auto const look = co_await std::move(looking);
   if (!look) co_return std::nullopt;
   ++pictures_;
+  auto const after = pose_now();
+  bool const has_turned = !after || std::abs(geo::wrap_pi(after->yaw_rad - pose.yaw_rad)) > most_turn_rad;
   std::vector<std::uint32_t> numbers;
   auto const* const grid = grid_of(pose);
   if (!grid) co_return numbers;
@@ -222,6 +224,8 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
     sight->score *= std::min(1.0, clear / LookBook::clear_px_m);
     numbers.push_back(book_.take(*sight).number);
   }
+  // A picture that was smeared shows nothing where there is something.
+  if (has_turned) std::erase_if(shown, [](auto const& one) { return one.second.second == LookBook::Outcome::blank; });
   for (auto const& [piece, look_at] : shown) looks_.note(piece, look_at.first, look_at.second);
   for (auto const number : numbers) {
     auto showing = show(number, pose);

@@ -43,6 +43,7 @@ struct TagFinderAtAWall : ::testing::Test {
   Eye eye() {
     return {.mount = {.x_m = 0.0, .yaw_rad = std::numbers::pi / 2.0},
             .look = [this]() -> base::Task<std::optional<Look>> {
+              if (turns_by_rad != 0.0) stand_at(1.0, 0.4, turns_by_rad);
               if (!texts.empty() && !look.found.empty())
                 look.found.front().what.text = texts[static_cast<std::size_t>(looked++) % texts.size()];
               co_return look;
@@ -90,7 +91,8 @@ struct TagFinderAtAWall : ::testing::Test {
                                 .text = "221",
                                 .kind = "office"},
                        .crop = "its letters"}}};
-  bool is_open = false;  ///< where the map has a wall
+  bool is_open = false;       ///< where the map has a wall
+  double turns_by_rad = 0.0;  ///< while it looks
   std::vector<std::string> texts;
   int looked = 0;
   std::vector<std::string> kept;
@@ -135,6 +137,20 @@ TEST_F(TagFinderAtAWall, LooksAtAPieceOfWallTwiceAndOnceMoreWhenThatWasBlurred) 
   stand_at(3.0);
   pass(5s);
   EXPECT_EQ(finds->pictures(), 5);
+}
+
+TEST_F(TagFinderAtAWall, TakesNoWallForBlankByAPictureThatIsSmeared) {
+  look.found.clear();
+  turns_by_rad = 0.2;
+  auto const finds = finder();
+  pass(700ms);
+  EXPECT_EQ(finds->pictures(), 1);
+  turns_by_rad = 0.0;
+  stand_at(1.0);
+  pass(3s);
+  EXPECT_EQ(finds->pictures(), 2);
+  pass(3s);
+  EXPECT_EQ(finds->pictures(), 2) << "that one was sharp";
 }
 
 TEST_F(TagFinderAtAWall, TakesNoWordFromASignThatThePicturesEdgeCutsOff) {

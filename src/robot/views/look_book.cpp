@@ -59,8 +59,10 @@ void LookBook::note(WallPiece const& piece, double clearness, Outcome outcome) {
   auto& looks = pieces_[piece];
   if (clearness >= looks.clearest * clearer) looks.tries = 0;
   looks.clearest = std::max(looks.clearest, clearness);
-  // The piece's edge may be all that this picture shows of it, and the sign is at the other one.
-  if (outcome != Outcome::blank || looks.last != Outcome::cut_off) looks.last = outcome;
+  // The piece's edge may be all that this picture shows of it, and the sign is at the other one; or somebody stands
+  // before what was noticed from afar.
+  bool const may_hide_it = looks.last == Outcome::cut_off || (looks.last == Outcome::poor && clearness < clear_px_m);
+  if (outcome != Outcome::blank || !may_hide_it) looks.last = outcome;
   ++looks.tries;
   if (outcome == Outcome::read) ++looks.reads;
 }

@@ -67,6 +67,18 @@ TEST(LookBook, KnowsWhatItPassedAndNeverSawClearly) {
   EXPECT_TRUE(book.unclear().empty());
 }
 
+TEST(LookBook, GoesToWhatItNoticedFromAfarThoughSomebodyStoodBeforeItLater) {
+  LookBook book;
+  WallPoint const wall{.position = {1.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
+  book.pass(wall);
+  book.note(piece_of(wall), 1.4 * LookBook::noticed_px_m, Outcome::poor);
+  book.note(piece_of(wall), 1.7 * LookBook::noticed_px_m, Outcome::blank);
+  ASSERT_EQ(book.unclear().size(), 1U);
+  EXPECT_TRUE(book.unclear().front().shows_something);
+  book.note(piece_of(wall), clear, Outcome::blank);
+  EXPECT_TRUE(book.unclear().empty()) << "from so near nothing hides it";
+}
+
 TEST(LookBook, GivesUpNoWallThatComesToLieWhereAnotherWas) {
   LookBook book;
   WallPoint const wall{.position = {1.3, 1.7}, .range_m = 1.5, .facing_rad = std::numbers::pi / 2.0};
