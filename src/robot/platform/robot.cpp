@@ -94,7 +94,10 @@ bool Robot::is_connected() const {
 
 bool Robot::stands() const {
   constexpr double still_m_s = 0.01;
-  return asked_ == Motion{} && last_reading_ && std::abs(last_reading_->speed_m_s) < still_m_s;
+  if (asked_ != Motion{} || !last_reading_) return false;
+  // What was told before it was last asked to move says nothing of whether it stands again.
+  bool const is_told_since = !moved_at_ || last_reading_->at > *moved_at_;
+  return is_told_since && std::abs(last_reading_->speed_m_s) < still_m_s;
 }
 
 void Robot::take(Reading const& reading) {
@@ -139,6 +142,7 @@ void Robot::steer() {
     motion = follower_.steer(pose_now(odometry), room_.seen_from(odometry));
   }
   asked_ = health_.guard().drive(motion);
+  if (asked_ != Motion{}) moved_at_ = around_.loop.now();
 }
 
 base::Task<> Robot::watch_link() {

@@ -195,6 +195,7 @@ class Robot {
   Room room_;
   double driven_m_ = 0.0;
   Motion asked_;
+  std::optional<base::TimePoint> moved_at_;  ///< when it was last asked to move
 
   std::unique_ptr<Thoughts> thoughts_;  ///< null until the first scan, and while they are worked on
   bool has_thoughts_ = false;

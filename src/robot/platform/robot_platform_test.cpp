@@ -148,6 +148,15 @@ TEST_F(RobotPlatformTest, IsWaitedForNoLongerOnceItIsLost) {
   EXPECT_EQ(state().control.commander, "");
 }
 
+TEST_F(RobotPlatformTest, IsNotSeenStandingByWhatWasToldBeforeItDrove) {
+  auto const run = start({ExploreStep{"tour"}});
+  ASSERT_TRUE(run_until([this] { return body->is_asked_to_move(); }, 1min));
+  body->is_silent = true;
+  run->stop();
+  run_for(1s);
+  EXPECT_EQ(platform.unsettled(), std::vector<std::string>{"robot 1"}) << "its last reading is from when it stood";
+}
+
 TEST_F(RobotPlatformTest, GoesToAnotherTaskWithoutStanding) {
   auto const first = start({ExploreStep{"tour"}});
   ASSERT_TRUE(run_until([this] { return body->driven_m() > 2.0; }, 1min));

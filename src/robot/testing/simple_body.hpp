@@ -56,6 +56,7 @@ class SimpleBody final : public Body {
   [[nodiscard]] slam::Pose2 const& truth() const { return pose_; }
   [[nodiscard]] int collisions() const { return collisions_; }
   [[nodiscard]] double driven_m() const { return driven_m_; }
+  [[nodiscard]] bool is_asked_to_move() const { return motion_ != Motion{}; }
 
   // ---- what tests do to it
   /// Somebody takes it up and puts it down there; its wheels feel nothing of that.
