@@ -59,13 +59,15 @@ class Trial {
     auto const walls = wall_errors();
     auto const within = std::ranges::count_if(walls, [](double error_m) { return error_m <= 0.1; });
     auto const doors = judge_doors();
-    fmt::print("| {} | {} | {:.3f} m | {:.3f} | {} of {} | {} | {} | {} | {} | {:.0f} m | {} | {:.0f} s | {}| {} |\n",
-               seed, is_home ? "home" : "not home", walls.empty() ? 0.0 : walls[walls.size() * 95 / 100],
-               walls.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(walls.size()), doors.right,
-               doors.all, doors.unread, doors.misread, doors.wrong, truth().collisions().size(),
-               session_.robots.robots().front()->state().motion.track_m,
-               session_.robots.tags_of({"robot1"})->pictures(), wall_s, doors.missing,
-               drive.error.empty() ? drive.remark : drive.error);
+    fmt::print(
+        "| {} | {} | {:.3f} m | {:.3f} | {} of {} | {} | {} | {} | {} | {:.0f} m | {:.0f} s | {} | {:.0f} s | {}| {} "
+        "|\n",
+        seed, is_home ? "home" : "not home", walls.empty() ? 0.0 : walls[walls.size() * 95 / 100],
+        walls.empty() ? 0.0 : static_cast<double>(within) / static_cast<double>(walls.size()), doors.right, doors.all,
+        doors.unread, doors.misread, doors.wrong, truth().collisions().size(),
+        session_.robots.robots().front()->state().motion.track_m,
+        base::to_seconds(session_.loop.now().time_since_epoch()), session_.robots.tags_of({"robot1"})->pictures(),
+        wall_s, doors.missing, drive.error.empty() ? drive.remark : drive.error);
     if (!options_.signs.empty()) tell_signs(seed);
     std::fflush(stdout);
   }
@@ -192,9 +194,9 @@ int main(int argc, char** argv) {
   }
   fmt::print(
       "| seed | end | walls p95 | within 0.1 m | doors right | unread | misread | wrong | collisions | travel | "
-      "pictures | took "
+      "in | pictures | took "
       "| said |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (auto const seed : options->seeds) {
     auto const began = std::chrono::steady_clock::now();
     Trial trial(*options, seed);
