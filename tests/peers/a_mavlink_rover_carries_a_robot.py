@@ -49,7 +49,8 @@ def exploring():
     with rover() as (board, spec), tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as stack:
         config = pathlib.Path(folder, "station.toml")
         config.write_text(f'robots = ["{spec}"]\n[store]\nplace = "store"\n[map]\nhome = "{LAT},{LON},{ALT}"\n')
-        process = stack.enter_context(harness.lapwing("station", "--config", str(config), "--port", str(web)))
+        process = stack.enter_context(harness.lapwing("station", "--config", str(config), "--port", str(web),
+                                                      "--link", f"udpin://127.0.0.1:{harness.free_udp_port()}"))
         harness.wait_until(station.up, 20, "the station answers")
         harness.wait_until(lambda: station.vehicle("robot1").get("connection") == "ok", 60, "the robot is heard")
         assert station.ask("script", {"name": "rooms.dolphin", "source": OFFICE})[0] == 202
