@@ -25,7 +25,8 @@ with FakeCamera() as camera, Drone(decide='relies_on = ["vision"]', processes=su
     camera.shows = ("black",)
     operator.wait_for_state("Malfunction", 15)
     operator.wait(lambda o: "vision has failed" in o.last["Health Reason"] and "black" in o.last["Health Reason"], "why")
-    assert "black" in (drone.folder / "state/malfunction.txt").read_text()
+    written = drone.folder / "state/malfunction.txt"
+    operator.wait(lambda _: written.is_file() and "black" in written.read_text(), "it is written down")
     operator.wait(lambda o: o.last["State"] == "Idle" and not o.last["Armed"], "it has landed", 60)
     camera.shows = ()
     gone = vision.wait(lambda v: v.level == 2, "vision says that its camera is gone")
