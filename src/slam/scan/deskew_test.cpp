@@ -101,13 +101,13 @@ ScanLog deskewed(ScanLog log) {
 
 // As small robots have them: five turns a second, and a robot that turns on the spot by a radian a second.
 TEST(Deskew, MakesTheMapOfASlowScannerAsGoodAsThatOfAFastOne) {
-  auto const turning =
-      slam::testing::drive(slam::testing::office(24.0, 14.0, 4.0, 1.0, 3), {{0, 0}, {24, 0}, {24, 14}, {0, 14}, {0, 0}},
-                           {.beams = 360,
-                            .field_of_view_rad = 2.0 * std::numbers::pi,
-                            .most_range_m = 8.0,
-                            .turn_rad_per_scan = 0.2,
-                            .turns_while_driving = true});
+  auto const turning = slam::testing::drive(slam::testing::office(24.0, 14.0, 4.0, 1.0, 3),
+                                            {{0, 0}, {24, 0}, {24, 14}, {0, 14}, {0, 0}, {24, 0}},
+                                            {.beams = 360,
+                                             .field_of_view_rad = 2.0 * std::numbers::pi,
+                                             .most_range_m = 8.0,
+                                             .turn_rad_per_scan = 0.2,
+                                             .turns_while_driving = true});
   auto const error_m = [&](ScanLog const& log) {
     auto const mapping = map_log(log, {}, one_by_one, [](std::string_view, double) {});
     return slam::testing::greatest_error_m(mapping.trajectory, turning.truth);
