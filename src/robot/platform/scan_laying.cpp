@@ -4,7 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "base/assert.hpp"
 #include "slam/scan/deskew.hpp"
 
 namespace lapwing::robot {
@@ -39,7 +38,6 @@ firmware::Time end_of(LaserRanges const& scan, firmware::LaserPlace const& laser
 slam::Scan lay(LaserRanges const& scan, firmware::LaserPlace const& laser, slam::Sensor const& sensor,
                BoardOdometry const& odometry) {
   auto const count = scan.ranges_m.size();
-  LAPWING_ASSERT(count == sensor.bearings_rad.size(), count, sensor.bearings_rad.size());
   auto const taken = scan.time + from_seconds(0.5 * double{laser.scan_duration_s});
   slam::Scan laid{.time = std::chrono::duration_cast<slam::LogTime>(taken),
                   .odometry = odometry.at(taken),

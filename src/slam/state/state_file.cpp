@@ -29,7 +29,6 @@ constexpr std::size_t most_beams = 20'000;
 constexpr std::uint64_t most_parameters = 1'000;
 constexpr std::size_t most_name_bytes = 4'096;
 constexpr std::uint64_t most_memory = 1'000;  // of odometry's errors
-constexpr float most_bearing_rad = 4.0F * std::numbers::pi_v<float>;
 constexpr double most_place_m = 1e6;
 constexpr double most_path_m = 1e9;
 constexpr double most_information = 1e15;
@@ -192,12 +191,16 @@ class StateReader {
     return true;
   }
 
+  static bool are_ascending_angles(std::vector<float> const& bearings) {
+    constexpr float most_rad = 4.0F * std::numbers::pi_v<float>;
+    return std::ranges::is_sorted(bearings) &&
+           std::ranges::all_of(bearings, [](float bearing) { return std::abs(bearing) <= most_rad; });
+  }
+
   /// Ascending, and none so close together by the others' measure that a frame of them would have no end of bins.
   static bool looks_around(std::vector<float> const& bearings) {
     constexpr std::size_t most_bins_a_beam = 16;
-    if (!std::ranges::all_of(bearings, [](float bearing) { return std::abs(bearing) <= most_bearing_rad; }))
-      return false;
-    if (!std::ranges::is_sorted(bearings)) return false;
+    if (!are_ascending_angles(bearings)) return false;
     Scan nothing;
     nothing.ranges_m.assign(bearings.size(), 0.0F);
     auto const bins = frame_of(nothing, Sensor{.bearings_rad = bearings}, FrameOptions{}).bins();
@@ -249,9 +252,7 @@ class StateReader {
     auto const beams = sensor.bearings_rad.size();
     if (!is(from_.has(beams, 4), "a scan is cut off")) return false;
     for (std::size_t b = 0; b < beams; ++b) scan.bearings_rad.push_back(from_.single());
-    return is(std::ranges::is_sorted(scan.bearings_rad) &&
-                  std::ranges::all_of(scan.bearings_rad, [](float b) { return std::abs(b) <= most_bearing_rad; }),
-              "beams that no laser has");
+    return is(are_ascending_angles(scan.bearings_rad), "beams that no laser has");
   }
 
   bool read_constraints() {
