@@ -32,6 +32,20 @@ bool is_open(KnownMap const& map, Cell cell, Cell came_from, GridSearch::Request
                               [&](Disc const& disc) { return distance_m(disc.middle, place) < disc.radius_m; });
 }
 
+/// Cells from one to the other, as near to the straight line as cells are; without the first.
+std::vector<Cell> straight(Cell from, Cell to) {
+  auto const way = to - from;
+  int const steps = std::max(std::abs(way.x), std::abs(way.y));
+  std::vector<Cell> line;
+  line.reserve(static_cast<std::size_t>(steps));
+  for (int i = 1; i <= steps; ++i) {
+    double const share = static_cast<double>(i) / steps;
+    line.push_back(from +
+                   Cell{static_cast<int>(std::lround(share * way.x)), static_cast<int>(std::lround(share * way.y))});
+  }
+  return line;
+}
+
 }  // namespace
 
 GridSearch::GridSearch(KnownMap const& map) : marks_(map.width(), map.height()) {}
@@ -57,7 +71,38 @@ std::vector<Cell> GridSearch::path(KnownMap const& map, Request const& request) 
   std::vector<Cell> path = {request.to};
   while (path.back() != request.from) path.push_back(path.back() - neighbours[marks_[path.back()].came_by]);
   std::ranges::reverse(path);
-  return path;
+  return straightened(map, request, path);
+}
+
+bool GridSearch::is_as_cheap(KnownMap const& map, Request const& request, Cell from, std::span<Cell const> line) const {
+  constexpr float rounding = 1e-3F;  // of sums in another order
+  float const most = marks_[line.back()].so_far - marks_[from].so_far + rounding;
+  float cost = 0.0F;
+  auto before = from;
+  for (auto const cell : line) {
+    cost += octile(before, cell) * factor_of(map, cell);
+    if (cost > most || !is_open(map, cell, before, request)) return false;
+    before = cell;
+  }
+  return true;
+}
+
+std::vector<Cell> GridSearch::straightened(KnownMap const& map, Request const& request,
+                                           std::vector<Cell> const& path) const {
+  std::vector<Cell> best = {path.front()};
+  for (std::size_t at = 0; at + 1 < path.size();) {
+    std::size_t to = at + 1;
+    auto line = straight(path[at], path[to]);
+    while (to + 1 < path.size()) {
+      auto farther = straight(path[at], path[to + 1]);
+      if (!is_as_cheap(map, request, path[at], farther)) break;
+      line = std::move(farther);
+      ++to;
+    }
+    best.insert(best.end(), line.begin(), line.end());
+    at = to;
+  }
+  return best;
 }
 
 void GridSearch::look_around(KnownMap const& map, Request const& request, std::uint32_t index, Queue& open) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <queue>
+#include <span>
 #include <vector>
 
 #include "explore/known/known_map.hpp"
@@ -11,7 +12,8 @@ namespace lapwing::explore {
 
 /// Paths over standable cells (A*, Hart, Nilsson & Raphael 1968; eight directions, octile distance). Cells near walls
 /// count half as long again, so that paths keep off them where there is room, and those that can be stood on for the
-/// one reason that a robot has driven there four times. Its memory is kept between searches.
+/// one reason that a robot has driven there four times. Of all paths that cost the same, and over open floor there are
+/// many, it is a straight one where a straight line is among them. Its memory is kept between searches.
 class GridSearch {
  public:
   explicit GridSearch(KnownMap const& map);
@@ -40,6 +42,11 @@ class GridSearch {
   };
   using Queue = std::priority_queue<Open, std::vector<Open>, std::greater<>>;
 
+  /// A straight line that ends on the path that was found costs no more than that does.
+  [[nodiscard]] bool is_as_cheap(KnownMap const& map, Request const& request, Cell from,
+                                 std::span<Cell const> line) const;
+  [[nodiscard]] std::vector<Cell> straightened(KnownMap const& map, Request const& request,
+                                               std::vector<Cell> const& path) const;
   void look_around(KnownMap const& map, Request const& request, std::uint32_t index, Queue& open);
 
   DenseGrid<Mark> marks_;
