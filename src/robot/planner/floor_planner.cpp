@@ -377,7 +377,12 @@ Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose)
   for (auto const cell : std::ranges::subrange(here, path.end()))
     plan.way.points.push_back(on_map(known_->middle(cell)));
   auto const from = known_->cell_at(pose.position);
-  auto const can_stand = [&](Cell cell) { return known_->is_standable(cell); };
+  // Where it is too near to something already, what it fits on will do, as for the path: from there it would have to
+  // aim at the very next cell, which lies in one of eight directions.
+  bool const is_tight = !known_->is_standable(from) || known_->is_tight(from);
+  auto const can_stand = [&](Cell cell) {
+    return known_->is_standable(cell) || (is_tight && known_->has_room(known_->middle(cell), options_.limits.radius_m));
+  };
   plan.way.clear_to = 0;
   for (auto to = here; to != path.end() && explore::is_line_clear(from, *to, can_stand); ++to)
     plan.way.clear_to = static_cast<std::size_t>(to - here);
