@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "base/assert.hpp"
 
@@ -17,24 +19,33 @@ struct Sheet {
   int width = 0;
   int height = 0;
   std::vector<float> log_odds = {};
-  std::vector<bool> seen = {};
+
+  static constexpr float unseen = 1e3F;  ///< in place of log-odds
 
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  void add(int x, int y, float evidence) {
-    if (x < 0 || y < 0 || x >= width || y >= height) return;
-    auto const at = index(x, y);
+  [[nodiscard]] bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
+  void add(std::size_t at, float evidence) {
     // What was said a hundred times is not surer than what was said thirty times, and a door may open.
     constexpr float most = 12.0F;
-    log_odds[at] = std::clamp(log_odds[at] + evidence, -most, most);
-    seen[at] = true;
+    float const before = log_odds[at] == unseen ? 0.0F : log_odds[at];
+    log_odds[at] = std::clamp(before + evidence, -most, most);
   }
 };
 
 bool is_hit(float range, Sensor const& sensor, BeamModel const& model) {
   return range > 0.05F && range < sensor.no_return_m && range <= static_cast<float>(model.most_range_m);
 }
+
+double noise_of(double range, BeamModel const& model) {
+  return model.noise_m + model.noise_per_m * range;
+}
+
+struct Ray {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
+};
 
 Sheet sheet_for(ScanLog const& log, std::vector<Pose2> const& poses, BeamModel const& model) {
   Eigen::Vector2d low = place(poses.front());
@@ -43,7 +54,8 @@ Sheet sheet_for(ScanLog const& log, std::vector<Pose2> const& poses, BeamModel c
     auto const& sensor = log.sensors[log.scans[i].sensor];
     float longest = 1.0F;
     for (auto const range : log.scans[i].ranges_m)
-      if (is_hit(range, sensor, model)) longest = std::max(longest, range);
+      if (range < sensor.no_return_m)
+        longest = std::max(longest, std::min(range, static_cast<float>(model.most_range_m)));
     auto const reach = Eigen::Vector2d::Constant(longest + sensor.mount_m.norm());
     low = low.cwiseMin(place(poses[i]) - reach);
     high = high.cwiseMax(place(poses[i]) + reach);
@@ -56,40 +68,138 @@ Sheet sheet_for(ScanLog const& log, std::vector<Pose2> const& poses, BeamModel c
   sheet.width = static_cast<int>(size().x()) + 1;
   sheet.height = static_cast<int>(size().y()) + 1;
   auto const cells = static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height);
-  sheet.log_odds.assign(cells, 0.0F);
-  sheet.seen.assign(cells, false);
+  sheet.log_odds.assign(cells, Sheet::unseen);
   return sheet;
 }
 
-/// One beam: free up to where its end may begin, then taken as likely as the end lies in each cell.
-void draw_beam(Sheet& sheet, Eigen::Vector2d const& from, Eigen::Vector2d const& direction, double range,
-               BeamModel const& model) {
-  auto const noise = model.noise_m + model.noise_per_m * range;
-  auto const free_until = range - std::max(2.0 * noise, sheet.cell_m);
-  Eigen::Vector2d const begin = (from - sheet.origin) / sheet.cell_m;
-  auto const step = 0.7;  // cells: none on the way is left out by more than a corner
-  int last_x = -1;
-  int last_y = -1;
-  for (double way = 0.0; way * sheet.cell_m < free_until; way += step) {
-    Eigen::Vector2d const at = begin + way * direction;
+/// Along a line from `begin_m` to `end_m` nothing stands.
+void draw_free(Sheet& sheet, Ray const& ray, double begin_m, double end_m, double log_odds, BeamModel const& model) {
+  Eigen::Vector2d const begin = (ray.from - sheet.origin) / sheet.cell_m;
+  double const end = end_m / sheet.cell_m;
+  double const wide_from = 1.0 / model.width_rad;  // cells away, it is wider than one
+  constexpr double step = 0.7;                     // cells: none on the way is left out by more than a corner
+  auto last = std::numeric_limits<std::size_t>::max();
+  for (double way = begin_m / sheet.cell_m; way < end; way += step) {
+    Eigen::Vector2d const at = begin + way * ray.direction;
     auto const x = static_cast<int>(at.x());
     auto const y = static_cast<int>(at.y());
-    if (x == last_x && y == last_y) continue;
-    last_x = x;
-    last_y = y;
-    auto const width = way * sheet.cell_m * model.width_rad;
-    sheet.add(x, y, static_cast<float>(model.free_log_odds * std::min(1.0, sheet.cell_m / std::max(width, 1e-6))));
+    if (!sheet.contains(x, y)) return;
+    auto const index = sheet.index(x, y);
+    if (index == last) continue;
+    last = index;
+    sheet.add(index, static_cast<float>(way < wide_from ? log_odds : log_odds * wide_from / way));
   }
+}
+
+/// Taken as likely as the end lies in each cell.
+void draw_end(Sheet& sheet, Ray const& ray, double range, BeamModel const& model) {
+  Eigen::Vector2d const begin = (ray.from - sheet.origin) / sheet.cell_m;
+  auto const noise = noise_of(range, model);
   auto const reach = static_cast<int>(std::ceil(2.0 * noise / sheet.cell_m));
   double sum = 0.0;
   for (int c = -reach; c <= reach; ++c) sum += std::exp(-0.5 * std::pow(c * sheet.cell_m / noise, 2));
   for (int c = -reach; c <= reach; ++c) {
-    Eigen::Vector2d const at = begin + (range / sheet.cell_m + c) * direction;
+    Eigen::Vector2d const at = begin + (range / sheet.cell_m + c) * ray.direction;
     auto const share = std::exp(-0.5 * std::pow(c * sheet.cell_m / noise, 2)) / sum;
-    if (share > 0.05)
-      sheet.add(static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<float>(share * model.taken_log_odds));
+    auto const x = static_cast<int>(at.x());
+    auto const y = static_cast<int>(at.y());
+    if (share > 0.05 && sheet.contains(x, y))
+      sheet.add(sheet.index(x, y), static_cast<float>(share * model.taken_log_odds));
   }
 }
+
+/// Draws one scan.
+class Drawing {
+ public:
+  Drawing(Sheet& sheet, Scan const& scan, Sensor const& sensor, Pose2 const& pose, BeamModel const& model)
+      : sheet_(sheet), scan_(scan), sensor_(sensor), bearings_(bearings_of(scan, sensor)), pose_(pose), model_(model) {
+    from_ = place(pose) + Turn(pose.yaw) * sensor.mount_m.cast<double>();
+  }
+
+  void draw() {
+    find_what_is_free();
+    for (std::size_t b = 0; b < free_m_.size(); ++b) {
+      auto const ray = ray_at(bearings_[b]);
+      bool const is_measured = is_hit(scan_.ranges_m[b], sensor_, model_);
+      draw_free(sheet_, ray, 0.0, free_m_[b], model_.free_log_odds * (is_measured ? 1.0 : between_share), model_);
+      if (is_measured) draw_end(sheet_, ray, scan_.ranges_m[b], model_);
+    }
+    for (std::size_t b = 0; b < free_m_.size(); ++b)
+      if (has_next(b)) draw_between(b, next(b));
+  }
+
+ private:
+  /// What no beam says itself is a hint where nothing else is known, and wears no wall away.
+  static constexpr double between_share = 0.1;
+  /// Beams farther apart than this say nothing of what is between them: single rangers, a ring of sonars.
+  static constexpr double most_apart_rad = 0.04;
+  /// Nothing comes back along a corridor that is longer than the sensor sees, and from what is dark or shines. It is
+  /// the former where the beams on both sides, no farther apart than that, come to this share of the sensor's reach.
+  static constexpr double far_share = 0.8;
+  static constexpr double most_gap_rad = 1.0;
+
+  [[nodiscard]] Ray ray_at(double bearing) const {
+    double const yaw = pose_.yaw + bearing;
+    return {.from = from_, .direction = {std::cos(yaw), std::sin(yaw)}};
+  }
+  [[nodiscard]] double reach_m() const { return std::min(double{sensor_.no_return_m}, model_.most_range_m); }
+  [[nodiscard]] double gap_rad(std::size_t from, std::size_t to) const {
+    double const gap = double{bearings_[to]} - double{bearings_[from]};
+    return to > from ? gap : gap + 2.0 * std::numbers::pi;
+  }
+  /// The beam to the left of another; that of the last one is the first, where they go round.
+  [[nodiscard]] std::size_t next(std::size_t b) const { return b + 1 < bearings_.size() ? b + 1 : 0; }
+  /// It looks nearly the same way.
+  [[nodiscard]] bool has_next(std::size_t b) const {
+    double const gap = gap_rad(b, next(b));
+    return gap > 0.0 && gap < most_apart_rad;
+  }
+
+  void find_what_is_free() {
+    free_m_.assign(scan_.ranges_m.size(), 0.0);
+    for (std::size_t b = 0; b < free_m_.size(); ++b) {
+      double const range = scan_.ranges_m[b];
+      if (is_hit(scan_.ranges_m[b], sensor_, model_))
+        free_m_[b] = range - std::max(2.0 * noise_of(range, model_), sheet_.cell_m);
+      else if (range < sensor_.no_return_m && range > model_.most_range_m)
+        free_m_[b] = model_.most_range_m;
+    }
+    std::vector<double> const measured_m = free_m_;
+    for (std::size_t b = 0; b < free_m_.size(); ++b) {
+      if (measured_m[b] < far_share * reach_m()) continue;
+      auto end = b;
+      do {
+        if (!has_next(end)) break;
+        end = next(end);
+      } while (end != b && scan_.ranges_m[end] >= sensor_.no_return_m);
+      if (end == b || measured_m[end] < far_share * reach_m() || gap_rad(b, end) > most_gap_rad) continue;
+      for (auto lost = next(b); lost != end; lost = next(lost))
+        free_m_[lost] = std::min(measured_m[b], measured_m[end]);
+    }
+  }
+
+  /// Two beams that are nearly parallel leave cells between them far away, in which nothing wider than that stands
+  /// before the nearer of their ends: a line in the middle from where they are a cell apart, lines in the quarters from
+  /// where they are two, and so on.
+  void draw_between(std::size_t left, std::size_t right) {
+    double const gap = gap_rad(left, right);
+    double const end_m = std::min(free_m_[left], free_m_[right]);
+    for (int parts = 2; 0.5 * parts * sheet_.cell_m / gap < end_m; parts *= 2) {
+      for (int part = 1; part < parts; part += 2)
+        draw_free(sheet_, ray_at(double{bearings_[left]} + gap * part / parts), 0.5 * parts * sheet_.cell_m / gap,
+                  end_m, between_share * model_.free_log_odds, model_);
+    }
+  }
+
+  Sheet& sheet_;
+  Scan const& scan_;
+  Sensor const& sensor_;
+  std::vector<float> const& bearings_;
+  Pose2 pose_;
+  BeamModel const& model_;
+  Eigen::Vector2d from_ = Eigen::Vector2d::Zero();
+  std::vector<double> free_m_;  ///< along each beam; 0 where nothing is known
+};
 
 map::OccupancyGrid as_grid(Sheet const& sheet) {
   map::OccupancyGrid grid(sheet.cell_m);
@@ -100,7 +210,7 @@ map::OccupancyGrid as_grid(Sheet const& sheet) {
   for (int y = 0; y < sheet.height; ++y) {
     tile = nullptr;
     for (int x = 0; x < sheet.width; ++x) {
-      if (!sheet.seen[sheet.index(x, y)]) continue;
+      if (sheet.log_odds[sheet.index(x, y)] == Sheet::unseen) continue;
       map::Cell const cell{left + x, bottom + y};
       if (auto const of_cell = map::tile_of(cell); tile == nullptr || of_cell != key) {
         key = of_cell;
@@ -123,15 +233,7 @@ map::OccupancyGrid draw_grid(ScanLog const& log, std::vector<Pose2> const& poses
   auto sheet = sheet_for(log, poses, model);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     auto const& scan = log.scans[i];
-    auto const& sensor = log.sensors[scan.sensor];
-    auto const& bearings = bearings_of(scan, sensor);
-    Turn const turn(poses[i].yaw);
-    Eigen::Vector2d const from = place(poses[i]) + turn * sensor.mount_m.cast<double>();
-    for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
-      if (!is_hit(scan.ranges_m[b], sensor, model)) continue;
-      auto const bearing = poses[i].yaw + double{bearings[b]};
-      draw_beam(sheet, from, {std::cos(bearing), std::sin(bearing)}, scan.ranges_m[b], model);
-    }
+    Drawing(sheet, scan, log.sensors[scan.sensor], poses[i], model).draw();
   }
   return as_grid(sheet);
 }

@@ -17,8 +17,10 @@ struct BeamModel {
 };
 
 /// Draws the scans from where they were taken, as log-odds (Moravec & Elfes 1985; Thrun, Burgard & Fox 2005,
-/// table 9.1). Where a building is so large that its picture had more than a hundred million cells, cells are made
-/// larger. Precondition: as many poses as scans.
+/// table 9.1). What lies between two beams of a scanner is a little likelier to be free than not, up to the nearer of
+/// their ends; so are beams from which nothing came back, between two that come nearly as far as the sensor sees. Where
+/// a building is so large that its picture had more than a hundred million cells, cells are made larger. Precondition:
+/// as many poses as scans.
 [[nodiscard]] map::OccupancyGrid draw_grid(ScanLog const& log, std::vector<Pose2> const& poses, BeamModel const& model);
 
 }  // namespace lapwing::slam
