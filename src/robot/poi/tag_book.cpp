@@ -17,6 +17,10 @@ constexpr double same_within_m = 1.0;  ///< the seed's, on the same side of the 
 constexpr double gate = 13.8;          ///< of a squared Mahalanobis distance in two dimensions: 999 of 1,000
 constexpr double least_variance_m2 = 0.02 * 0.02;  ///< views err alike by the map that all of them are placed by
 constexpr double votes_against = 0.5;
+constexpr std::size_t most_seen_from = 8;  ///< who was seen more often than that hangs where it seems to
+constexpr double leads_on_rad = 0.1;       ///< that a robot's pose lags while it turns
+constexpr double leads_on_from_m = 0.5;    ///< nearer to one another, places err
+constexpr double leads_on_to_m = 8.0;      ///< from the camera; nothing is read from farther away
 
 Eigen::Vector2d vector_of(map::SitePoint const& point) {
   return {point.x(), point.y()};
@@ -50,6 +54,7 @@ TagBook::Entry entry_of(TagSight const& sight) {
                        .height_m = sight.place.height_m,
                        .facing_rad = sight.place.wall.facing_rad,
                        .sights = 1,
+                       .seen_from = {sight.from},
                        .names = {},
                        .kinds = {},
                        .crop = sight.crop,
@@ -63,9 +68,25 @@ double apart_m(TagBook::Entry const& one, TagBook::Entry const& other) {
   return geo::distance_m(one.position, other.position);
 }
 
+/// All lines of sight to the one lead on to the other, which looks back along them.
+bool is_seen_past(TagBook::Entry const& one, TagBook::Entry const& other) {
+  if (one.names.empty() || one.name() != other.name()) return false;
+  if (one.seen_from.size() != static_cast<std::size_t>(one.sights)) return false;
+  Eigen::Vector2d const facing(std::cos(other.facing_rad), std::sin(other.facing_rad));
+  return std::ranges::all_of(one.seen_from, [&](map::SitePoint const& from) {
+    Eigen::Vector2d const to_one = vector_of(one.position) - vector_of(from);
+    Eigen::Vector2d const to_other = vector_of(other.position) - vector_of(from);
+    double const beyond_m = to_other.norm() - to_one.norm();
+    double const off = std::atan2(to_other.y(), to_other.x()) - std::atan2(to_one.y(), to_one.x());
+    return beyond_m > leads_on_from_m && to_other.norm() < leads_on_to_m &&
+           std::abs(geo::wrap_pi(off)) < leads_on_rad && facing.dot(to_other) < 0.0;
+  });
+}
+
 /// What has the same number may lie as far off as the seed says, anything else only as far as places err: the next door
 /// may lead to a room of the same kind.
 bool is_one(TagBook::Entry const& one, TagBook::Entry const& other) {
+  if (is_seen_past(one, other) || is_seen_past(other, one)) return true;
   if (apart_m(one, other) > same_within_m) return false;
   if (std::abs(geo::wrap_pi(one.facing_rad - other.facing_rad)) > std::numbers::pi / 2.0) return false;
   if (!one.names.empty() && one.name() == other.name()) return true;
@@ -78,8 +99,15 @@ void add_votes(std::map<std::string, double>& votes, std::map<std::string, doubl
   for (auto const& [name, score] : more) votes[name] += score;
 }
 
-/// Places by their covariances, heights by the number of sights, texts by adding up the votes.
-void join(TagBook::Entry& tag, TagBook::Entry const& other) {
+void take_place_of(TagBook::Entry& tag, TagBook::Entry const& other) {
+  tag.position = other.position;
+  tag.covariance_m2 = other.covariance_m2;
+  tag.height_m = other.height_m;
+  tag.facing_rad = other.facing_rad;
+}
+
+/// By their covariances, heights by the number of sights.
+void join_places(TagBook::Entry& tag, TagBook::Entry const& other) {
   Eigen::Matrix2d const gain = tag.covariance_m2 * (tag.covariance_m2 + other.covariance_m2).inverse();
   Eigen::Vector2d const at = vector_of(tag.position) + gain * (vector_of(other.position) - vector_of(tag.position));
   tag.position = {at.x(), at.y()};
@@ -88,7 +116,17 @@ void join(TagBook::Entry& tag, TagBook::Entry const& other) {
   for (int axis = 0; axis < 2; ++axis)
     tag.covariance_m2(axis, axis) = std::max(tag.covariance_m2(axis, axis), least_variance_m2);
   tag.height_m += (other.height_m - tag.height_m) * other.sights / (tag.sights + other.sights);
+}
+
+/// Texts by adding up the votes.
+void join(TagBook::Entry& tag, TagBook::Entry const& other) {
+  if (is_seen_past(tag, other))
+    take_place_of(tag, other);
+  else if (!is_seen_past(other, tag))
+    join_places(tag, other);
   tag.sights += other.sights;
+  tag.seen_from.insert(tag.seen_from.end(), other.seen_from.begin(), other.seen_from.end());
+  if (tag.seen_from.size() > most_seen_from) tag.seen_from.clear();
   auto const called = tag.name();
   add_votes(tag.names, other.names);
   add_votes(tag.kinds, other.kinds);
@@ -147,6 +185,7 @@ std::vector<TagBook::Joined> TagBook::move(MapMove const& moved) {
     auto const now = moved({tag.position, tag.facing_rad});
     tag.position = now.position;
     tag.facing_rad = now.yaw_rad;
+    for (auto& from : tag.seen_from) from = moved({from, 0.0}).position;
   }
   std::vector<Joined> joined;
   for (std::size_t i = 0; i < tags_.size(); ++i)

@@ -12,14 +12,17 @@ namespace lapwing::robot {
 /// A name tag as it was seen once.
 struct TagSight {
   TagPlace place;
-  std::string name;       ///< the room's number; empty: none was read
-  std::string kind;       ///< of the room: "office"; empty: none was read
-  double score = 0.0;     ///< 0..1: how sure the reader is
-  std::string crop = {};  ///< the tag from the front, as a JPEG file; empty: none
+  map::SitePoint from = {};  ///< where the camera was
+  std::string name;          ///< the room's number; empty: none was read
+  std::string kind;          ///< of the room: "office"; empty: none was read
+  double score = 0.0;        ///< 0..1: how sure the reader is
+  std::string crop = {};     ///< the tag from the front, as a JPEG file; empty: none
 };
 
 /// Keeps name tags apart while a robot drives about: the same one seen from elsewhere is merged, its place by
-/// covariance, its text by vote.
+/// covariance, its text by vote. What was seen past an edge that the map has a little beside where it is, as a sign
+/// across the corridor through an open door, seems to hang there; it is the one of that name to which all its lines of
+/// sight lead on.
 class TagBook {
  public:
   struct Entry {
@@ -29,11 +32,12 @@ class TagBook {
     double height_m = 0.0;
     double facing_rad = 0.0;
     int sights = 0;
-    std::map<std::string, double> names;  ///< scores of all sights that read so
-    std::map<std::string, double> kinds;  ///< likewise
-    std::string crop = {};                ///< of the sight that was surest of what the tag is called
-    double crop_score = 0.0;              ///< how sure that was
-    std::string picture = {};             ///< where the crop is kept; whoever keeps it writes this
+    std::vector<map::SitePoint> seen_from;  ///< of each sight, while they are few
+    std::map<std::string, double> names;    ///< scores of all sights that read so
+    std::map<std::string, double> kinds;    ///< likewise
+    std::string crop = {};                  ///< of the sight that was surest of what the tag is called
+    double crop_score = 0.0;                ///< how sure that was
+    std::string picture = {};               ///< where the crop is kept; whoever keeps it writes this
 
     /// What most sights with a number read; without any, the kind of room.
     [[nodiscard]] std::string name() const;

@@ -126,6 +126,45 @@ TEST(TagBook, JoinsTwoThatComeTogetherWhenTheMapMoves) {
   EXPECT_EQ(tag.picture, "kept");
 }
 
+/// The sign of 107 hangs north of a corridor, and was seen from a room south of it.
+TagSight past_a_frame(map::SitePoint from, double x) {
+  auto one = sight(x, 3.0, "107", 0.8, -std::numbers::pi / 2.0);
+  one.from = from;
+  return one;
+}
+
+TEST(TagBook, TakesASightPastADoorFrameForTheSignAcrossTheCorridor) {
+  for (bool const comes_first : {true, false}) {
+    TagBook book;
+    auto across = sight(2.0, 6.0, "107", 0.8, -std::numbers::pi / 2.0);
+    across.from = {1.5, 4.5};
+    if (!comes_first) (void)book.take(across);
+    (void)book.take(past_a_frame({2.0, 1.0}, 2.05));
+    (void)book.take(past_a_frame({1.8, 1.0}, 1.92));
+    if (comes_first) (void)book.take(across);
+    (void)book.move([](geo::Pose<geo::SiteFrame> const& before) { return before; });
+    ASSERT_EQ(book.tags().size(), 1U) << comes_first;
+    EXPECT_NEAR(book.tags()[0].position.x(), 2.0, 1e-9);
+    EXPECT_NEAR(book.tags()[0].position.y(), 6.0, 1e-9);
+    EXPECT_EQ(book.tags()[0].sights, 3);
+  }
+}
+
+TEST(TagBook, KeepsASecondSignOfARoomThatWasSeenFromElsewhere) {
+  TagBook book;
+  (void)book.take(past_a_frame({2.0, 1.0}, 2.05));
+  (void)book.take(past_a_frame({4.0, 1.0}, 2.05));  // this line leads to where nothing hangs
+  auto across = sight(2.0, 6.0, "107", 0.8, -std::numbers::pi / 2.0);
+  across.from = {1.5, 4.5};
+  (void)book.take(across);
+  auto looks_away = sight(9.1, 7.0, "108", 0.8, std::numbers::pi / 2.0);
+  (void)book.take(looks_away);
+  auto other = past_a_frame({9.0, 1.0}, 9.05);
+  other.name = "108";
+  (void)book.take(other);
+  EXPECT_EQ(book.tags().size(), 4U);
+}
+
 TEST(TagBook, GivesNoNumberTwiceAndFindsNoneThatIsGone) {
   TagBook book;
   (void)book.take(sight(2.0, 2.0, "108", 0.8));

@@ -219,6 +219,7 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
         shown[piece_of(wall)] = {clear, outcome};
     auto sight = is_whole && is_near ? sight_of(seen, *place) : std::nullopt;
     if (!sight) continue;
+    sight->from = camera_place(level(pose), eye.mount);
     // Small letters are easily taken for others.
     double const clear = clearness(eye.mount, place->wall, way_rad);
     sight->score *= std::min(1.0, clear / LookBook::clear_px_m);
