@@ -108,11 +108,7 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       .on_map = [this, spec](map::OccupancyGrid const& grid,
                              std::vector<map::TileKey> const& changed) { write(spec, grid, changed); },
       .on_walls = [this, spec](WallBook::Changes const& changes) { write_walls(spec, changes); },
-      .on_moved =
-          [this, id = spec.id](MapMove const& moved) {
-            auto const found = sights_.find({id});
-            if (found != sights_.end() && found->second.tags) found->second.tags->move(moved);
-          },
+      .on_moved = [this, id = spec.id](MapMove const& moved) { move_what_it_saw({id}, moved); },
       .communication = [this]() -> std::optional<std::uint16_t> {
         if (!communication_) return std::nullopt;
         return communication_();
@@ -163,6 +159,14 @@ TagFinder const* RobotPlatform::tags_of(VehicleId const& id) const {
   return found == sights_.end() ? nullptr : found->second.tags.get();
 }
 
+void RobotPlatform::move_what_it_saw(VehicleId const& id, MapMove const& moved) {
+  auto const found = sights_.find(id);
+  if (found == sights_.end()) return;
+  auto& sight = found->second;
+  if (sight.tags) sight.tags->move(moved);
+  move_pictures(around_.live_map, sight.photographs, moved, {.writer = id.text, .at = around_.loop.utc_now()});
+}
+
 base::Task<base::Result<std::string>> RobotPlatform::photograph(VehicleId id) {
   auto const sight = sights_.find(id);
   if (sight == sights_.end() || !sight->second.eyes.photographer)
@@ -192,12 +196,14 @@ base::Task<base::Result<std::string>> RobotPlatform::photograph(VehicleId id) {
     if (!kept) co_return fmt::format("it is not kept: {}", kept.error().message);
     *hash = *kept;
   }
-  auto const put = around_.live_map.put({.id = fmt::format("{} picture {}", id.text, base::to_iso8601(taken_at)),
+  auto const on_map = fmt::format("{} picture {}", id.text, base::to_iso8601(taken_at));
+  auto const put = around_.live_map.put({.id = on_map,
                                          .site = pose->site,
                                          .floor = pose->floor,
                                          .account = {.writer = id.text, .at = around_.loop.utc_now()},
                                          .content = std::move(picture)});
   if (!put) co_return fmt::format("it is not shown: {}", put.error().message);
+  sight->second.photographs.push_back(on_map);
   co_return std::string();
 }
 

@@ -80,6 +80,7 @@ class RobotPlatform final : public tasks::Platform {
   /// Of a robot that maps anew, so that what it found another time does not lie among what it finds now.
   void forget_walls(RobotSpec const& spec);
   [[nodiscard]] base::Task<base::Result<std::string>> photograph(vehicle::VehicleId id);
+  void move_what_it_saw(vehicle::VehicleId const& id, MapMove const& moved);
   [[nodiscard]] Robot::SecondLooks second_looks_of(vehicle::VehicleId const& id);
   [[nodiscard]] std::optional<std::uint16_t> trouble_of_eyes(vehicle::VehicleId const& id) const;
   base::Task<> pass_on(Robot& robot);
@@ -95,6 +96,7 @@ class RobotPlatform final : public tasks::Platform {
   struct Sight {
     Eyes eyes;
     std::unique_ptr<TagFinder> tags;
+    std::vector<std::string> photographs;  ///< on the map
   };
   std::map<vehicle::VehicleId, Sight> sights_;
   std::vector<std::unique_ptr<Robot>> robots_;

@@ -24,4 +24,32 @@ map::Picture placed_picture(CameraMount const& mount, vehicle::SitePose const& b
   return picture;
 }
 
+namespace {
+
+map::Picture picture_after(MapMove const& moved, map::Picture picture) {
+  auto const now = moved({picture.position, 0.0});
+  picture.position = now.position;
+  if (picture.site_from_camera)
+    picture.site_from_camera =
+        Eigen::Quaterniond(Eigen::AngleAxisd(now.yaw_rad, Eigen::Vector3d::UnitZ())) * *picture.site_from_camera;
+  return picture;
+}
+
+}  // namespace
+
+void move_pictures(map::LiveMap& live_map, std::vector<std::string>& ids, MapMove const& moved,
+                   map::Account const& account) {
+  std::erase_if(ids, [&](std::string const& id) {
+    auto const* const record = live_map.find(map::LayerKind::pictures, id);
+    if (!record || record->is_removed) return true;
+    auto feature = record->feature;
+    auto const before = std::get<map::Picture>(feature.content);
+    auto now = picture_after(moved, before);
+    if (now == before) return false;
+    feature.account = account;
+    feature.content = std::move(now);
+    return !live_map.put(std::move(feature));
+  });
+}
+
 }  // namespace lapwing::robot
