@@ -117,7 +117,7 @@ TEST_F(RobotHealthTest, ACriticalErrorOfTheCarrierStopsTheRobotUntilItIsOver) {
 }
 
 TEST_F(RobotHealthTest, ARobotThatIsCarriedAwayHasLostItsPlaceUntilItIsBack) {
-  ASSERT_TRUE(run_until([&] { return robot->survey() && robot->survey()->coverage > 0.5; }, 10min));
+  ASSERT_TRUE(run_until([&] { return robot->survey() && robot->survey()->coverage > 0.9; }, 20min));
   command(vehicle::Action::hold);
   run_for(2s);
   auto const stood_at = body->truth();
