@@ -10,18 +10,13 @@
 #include "explore/path/grid_search.hpp"
 #include "explore/simulated/laser.hpp"
 #include "explore/testing/drawn_floor.hpp"
+#include "explore/testing/learnt_map.hpp"
 
 namespace lapwing::explore {
 namespace {
 
-struct KnownMapTest : ::testing::Test {
-  KnownMap map{60, 40, 0.1, {.keep_off_m = 0.23, .wary_m = 0.5}};
-
-  void learn(Cell least, Cell most, Knowledge knowledge) {
-    for (int y = least.y; y <= most.y; ++y) {
-      for (int x = least.x; x <= most.x; ++x) map.learn({x, y}, knowledge);
-    }
-  }
+struct KnownMapTest : ::testing::Test, testing::LearntMap {
+  KnownMapTest() : LearntMap{KnownMap(60, 40, 0.1, {.keep_off_m = 0.23, .wary_m = 0.5})} {}
 };
 
 TEST_F(KnownMapTest, OnlyWhatIsFreeAllAroundCanBeStoodOn) {

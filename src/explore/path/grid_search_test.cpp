@@ -5,17 +5,14 @@
 
 #include <algorithm>
 
+#include "explore/testing/learnt_map.hpp"
+
 namespace lapwing::explore {
 namespace {
 
-struct GridSearchTest : ::testing::Test {
-  KnownMap map{60, 40, 0.1, {.keep_off_m = 0.28, .wary_m = 0.5}};
+struct GridSearchTest : ::testing::Test, testing::LearntMap {
+  GridSearchTest() : LearntMap{KnownMap(60, 40, 0.1, {.keep_off_m = 0.28, .wary_m = 0.5})} {}
 
-  void learn(Cell least, Cell most, Knowledge knowledge) {
-    for (int y = least.y; y <= most.y; ++y) {
-      for (int x = least.x; x <= most.x; ++x) map.learn({x, y}, knowledge);
-    }
-  }
   [[nodiscard]] std::vector<Cell> path(Cell from, Cell to) const {
     return GridSearch(map).path(map, {.from = from, .to = to, .radius_m = 0.18});
   }

@@ -3,18 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "explore/testing/learnt_map.hpp"
+
 namespace lapwing::explore {
 namespace {
 
 /// Of 30 by 30 m, in cells of 0.1 m.
-struct HiddenTest : ::testing::Test {
-  KnownMap map{300, 300, 0.1, {}};
+struct HiddenTest : ::testing::Test, testing::LearntMap {
+  HiddenTest() : LearntMap{KnownMap(300, 300, 0.1, {})} {}
 
-  void learn(Cell least, Cell most, Knowledge knowledge) {
-    for (int y = least.y; y <= most.y; ++y) {
-      for (int x = least.x; x <= most.x; ++x) map.learn({x, y}, knowledge);
-    }
-  }
   /// Walls around them, and then what is inside.
   void learn_room(Cell least, Cell most) {
     learn(least + Cell{-1, -1}, most + Cell{1, 1}, Knowledge::wall);
