@@ -68,9 +68,11 @@ double apart_m(TagBook::Entry const& one, TagBook::Entry const& other) {
   return geo::distance_m(one.position, other.position);
 }
 
-/// All lines of sight to the one lead on to the other, which looks back along them.
+/// All lines of sight to the one lead on to the other, which looks back along them, and says the same or more: the edge
+/// that the one seems to hang on may have hidden some of it.
 bool is_seen_past(TagBook::Entry const& one, TagBook::Entry const& other) {
-  if (one.names.empty() || one.name() != other.name()) return false;
+  if (one.names.empty() || other.names.empty() || one.name().size() < 2) return false;
+  if (other.name().find(one.name()) == std::string::npos) return false;
   if (one.seen_from.size() != static_cast<std::size_t>(one.sights)) return false;
   Eigen::Vector2d const facing(std::cos(other.facing_rad), std::sin(other.facing_rad));
   return std::ranges::all_of(one.seen_from, [&](map::SitePoint const& from) {
@@ -99,13 +101,6 @@ void add_votes(std::map<std::string, double>& votes, std::map<std::string, doubl
   for (auto const& [name, score] : more) votes[name] += score;
 }
 
-void take_place_of(TagBook::Entry& tag, TagBook::Entry const& other) {
-  tag.position = other.position;
-  tag.covariance_m2 = other.covariance_m2;
-  tag.height_m = other.height_m;
-  tag.facing_rad = other.facing_rad;
-}
-
 /// By their covariances, heights by the number of sights.
 void join_places(TagBook::Entry& tag, TagBook::Entry const& other) {
   Eigen::Matrix2d const gain = tag.covariance_m2 * (tag.covariance_m2 + other.covariance_m2).inverse();
@@ -118,12 +113,16 @@ void join_places(TagBook::Entry& tag, TagBook::Entry const& other) {
   tag.height_m += (other.height_m - tag.height_m) * other.sights / (tag.sights + other.sights);
 }
 
-/// Texts by adding up the votes.
+/// Texts by adding up the votes. What was seen past an edge adds nothing.
 void join(TagBook::Entry& tag, TagBook::Entry const& other) {
-  if (is_seen_past(tag, other))
-    take_place_of(tag, other);
-  else if (!is_seen_past(other, tag))
-    join_places(tag, other);
+  if (is_seen_past(other, tag)) return;
+  if (is_seen_past(tag, other)) {
+    auto const number = tag.number;
+    tag = other;
+    tag.number = number;
+    return;
+  }
+  join_places(tag, other);
   tag.sights += other.sights;
   tag.seen_from.insert(tag.seen_from.end(), other.seen_from.begin(), other.seen_from.end());
   if (tag.seen_from.size() > most_seen_from) tag.seen_from.clear();
