@@ -56,9 +56,11 @@ class KnownMap {
   [[nodiscard]] Place middle(Cell cell) const { return middle_of(cell, cell_m_); }
 
   [[nodiscard]] Knowledge at(Cell cell) const { return state_.or_else(cell, Knowledge::wall); }
-  [[nodiscard]] bool is_standable(Cell cell) const { return blockers_.or_else(cell, 1) == 0 || is_driven(cell); }
+  /// Something that is not known to be free is within the keep-off distance.
+  [[nodiscard]] bool is_too_near(Cell cell) const { return blockers_.or_else(cell, 1) != 0; }
+  [[nodiscard]] bool is_standable(Cell cell) const { return !is_too_near(cell) || is_driven(cell); }
   /// Standable for the one reason that a robot has driven there.
-  [[nodiscard]] bool is_tight(Cell cell) const { return blockers_.or_else(cell, 1) != 0 && is_driven(cell); }
+  [[nodiscard]] bool is_tight(Cell cell) const { return is_too_near(cell) && is_driven(cell); }
   /// A wall is within the wary distance.
   [[nodiscard]] bool is_near_wall(Cell cell) const { return walls_near_.or_else(cell, 1) != 0; }
   /// A disc there lies on cells that are known to be free.

@@ -24,8 +24,8 @@ float octile(Cell a, Cell b) {
 
 /// May one drive over this cell? Where the robot stands too near to something already, what it fits on will do.
 bool is_open(KnownMap const& map, Cell cell, Cell came_from, GridSearch::Request const& request) {
-  bool const is_near_already = !map.is_standable(came_from) || map.is_tight(came_from);
-  if (!map.is_standable(cell) && (!is_near_already || !map.has_room(map.middle(cell), request.radius_m))) return false;
+  if (!map.is_standable(cell) && (!map.is_too_near(came_from) || !map.has_room(map.middle(cell), request.radius_m)))
+    return false;
   if (request.closed == nullptr) return true;
   auto const place = map.middle(cell);
   return std::ranges::none_of(*request.closed,

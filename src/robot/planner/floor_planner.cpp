@@ -379,9 +379,10 @@ Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose)
   auto const from = known_->cell_at(pose.position);
   // Where it is too near to something already, what it fits on will do, as for the path: from there it would have to
   // aim at the very next cell, which lies in one of eight directions.
-  bool const is_tight = !known_->is_standable(from) || known_->is_tight(from);
+  bool const is_too_near = known_->is_too_near(from);
   auto const can_stand = [&](Cell cell) {
-    return known_->is_standable(cell) || (is_tight && known_->has_room(known_->middle(cell), options_.limits.radius_m));
+    return known_->is_standable(cell) ||
+           (is_too_near && known_->has_room(known_->middle(cell), options_.limits.radius_m));
   };
   plan.way.clear_to = 0;
   for (auto to = here; to != path.end() && explore::is_line_clear(from, *to, can_stand); ++to)
