@@ -54,7 +54,9 @@ TEST_F(GridSearchTest, KeepsItsCellsNextToOneAnotherAndStandable) {
 TEST_F(GridSearchTest, KeepsOffAWallThatAStraightLineWouldComeNearTo) {
   learn({0, 0}, {59, 39}, Knowledge::free);
   learn({28, 0}, {32, 12}, Knowledge::wall);  // the line at y = 16 is within the wary distance of its end
-  for (auto const cell : path({5, 16}, {55, 16}))
+  auto const found = path({5, 16}, {55, 16});
+  ASSERT_FALSE(found.empty());
+  for (auto const cell : found)
     if (std::abs(cell.x - 30) <= 2) {
       EXPECT_FALSE(map.is_near_wall(cell)) << cell.x << ' ' << cell.y;
     }
