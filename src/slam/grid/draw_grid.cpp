@@ -184,10 +184,11 @@ class Drawing {
   void draw_between(std::size_t left, std::size_t right) {
     double const gap = gap_rad(left, right);
     double const end_m = std::min(free_m_[left], free_m_[right]);
-    for (int parts = 2; 0.5 * parts * sheet_.cell_m / gap < end_m; parts *= 2) {
+    double begin_m = sheet_.cell_m / gap;
+    for (int parts = 2; begin_m < end_m; parts *= 2, begin_m *= 2.0) {
       for (int part = 1; part < parts; part += 2)
-        draw_free(sheet_, ray_at(double{bearings_[left]} + gap * part / parts), 0.5 * parts * sheet_.cell_m / gap,
-                  end_m, between_share * model_.free_log_odds, model_);
+        draw_free(sheet_, ray_at(double{bearings_[left]} + gap * part / parts), begin_m, end_m,
+                  between_share * model_.free_log_odds, model_);
     }
   }
 
