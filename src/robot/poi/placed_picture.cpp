@@ -6,6 +6,19 @@
 
 namespace lapwing::robot {
 
+namespace {
+
+map::Picture picture_after(MapMove const& moved, map::Picture picture) {
+  auto const now = moved({picture.position, 0.0});
+  picture.position = now.position;
+  if (picture.site_from_camera)
+    picture.site_from_camera =
+        Eigen::Quaterniond(Eigen::AngleAxisd(now.yaw_rad, Eigen::Vector3d::UnitZ())) * *picture.site_from_camera;
+  return picture;
+}
+
+}  // namespace
+
 map::Picture placed_picture(CameraMount const& mount, vehicle::SitePose const& body) {
   double const cos = std::cos(body.yaw_rad);
   double const sin = std::sin(body.yaw_rad);
@@ -23,19 +36,6 @@ map::Picture placed_picture(CameraMount const& mount, vehicle::SitePose const& b
   picture.site_from_camera = Eigen::Quaterniond(turn);
   return picture;
 }
-
-namespace {
-
-map::Picture picture_after(MapMove const& moved, map::Picture picture) {
-  auto const now = moved({picture.position, 0.0});
-  picture.position = now.position;
-  if (picture.site_from_camera)
-    picture.site_from_camera =
-        Eigen::Quaterniond(Eigen::AngleAxisd(now.yaw_rad, Eigen::Vector3d::UnitZ())) * *picture.site_from_camera;
-  return picture;
-}
-
-}  // namespace
 
 void move_pictures(map::LiveMap& live_map, std::vector<std::string>& ids, MapMove const& moved,
                    map::Account const& account) {
