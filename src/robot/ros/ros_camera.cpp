@@ -24,8 +24,7 @@ base::Result<RosPicture> decoded(std::string const& bytes) {
 }  // namespace
 
 RosCamera::RosCamera(base::Loop& loop, std::shared_ptr<bus::Bus> bus, std::string topic)
-    : loop_(loop),
-      bus_(std::move(bus)),
+    : bus_(std::move(bus)),
       topic_(std::move(topic)),
       decode_(topic_.ends_with("/compressed") ? &decoded<bus::CompressedImage> : &decoded<bus::Image>),
       came_(loop) {}

@@ -33,7 +33,6 @@ class RosCamera {
  private:
   RosCamera(base::Loop& loop, std::shared_ptr<bus::Bus> bus, std::string topic);
 
-  base::Loop& loop_;
   std::shared_ptr<bus::Bus> bus_;
   std::string topic_;
   Decode decode_;
