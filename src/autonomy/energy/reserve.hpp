@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/time.hpp"
-#include "vehicle/endurance.hpp"
+#include "vehicle/energy/endurance.hpp"
 
 namespace lapwing::autonomy {
 

@@ -9,7 +9,7 @@
 #include "geo/point.hpp"
 #include "geo/polygon.hpp"
 #include "geo/position.hpp"
-#include "vehicle/endurance.hpp"
+#include "vehicle/energy/endurance.hpp"
 
 namespace lapwing::autonomy {
 

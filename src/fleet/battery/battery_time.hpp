@@ -5,7 +5,7 @@
 
 #include "base/time.hpp"
 #include "fleet/battery/battery_capacity.hpp"
-#include "vehicle/endurance.hpp"
+#include "vehicle/energy/endurance.hpp"
 
 namespace lapwing::fleet {
 

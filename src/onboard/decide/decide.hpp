@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "autonomy/energy/flight_drain.hpp"
 #include "autonomy/settings/folder.hpp"
 #include "autonomy/states/machine.hpp"
 #include "base/async/scope.hpp"
@@ -19,6 +18,7 @@
 #include "onboard/decide/lateness.hpp"
 #include "onboard/decide/operator_desk.hpp"
 #include "onboard/decide/survey_processes.hpp"
+#include "vehicle/energy/drain_meter.hpp"
 
 namespace lapwing::onboard {
 
@@ -65,7 +65,7 @@ class Decide {
   base::Logger log_;
   std::filesystem::path folder_name_;
   std::optional<autonomy::Machine> machine_;
-  autonomy::FlightDrain drain_;
+  vehicle::DrainMeter drain_;
   std::unique_ptr<FlightListener> flight_;
   std::unique_ptr<FlightHand> hand_;
   std::unique_ptr<SurveyProcesses> processes_;

@@ -5,7 +5,7 @@
 
 #include "base/time.hpp"
 #include "vehicle/aged.hpp"
-#include "vehicle/endurance.hpp"
+#include "vehicle/energy/endurance.hpp"
 
 namespace lapwing::vehicle {
 

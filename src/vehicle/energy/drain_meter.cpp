@@ -1,9 +1,9 @@
-#include "autonomy/energy/flight_drain.hpp"
+#include "vehicle/energy/drain_meter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lapwing::autonomy {
+namespace lapwing::vehicle {
 
 using namespace std::chrono_literals;
 
@@ -15,29 +15,29 @@ constexpr auto window = 3min;
 constexpr std::size_t least_parts = 3;
 /// More than that at once was another battery, or a reading that was none.
 constexpr double swapped = 0.02;
-/// That the way home draws otherwise than what was flown before it.
+/// That the way home draws otherwise than the way before it.
 constexpr double way_home_error = 0.05;
-constexpr double last_flight_error = 0.25;
+constexpr double last_time_error = 0.25;
 
 }  // namespace
 
-std::optional<vehicle::Drain> FlightDrain::add(std::optional<double> charge, bool is_flying, base::TimePoint now) {
+std::optional<Drain> DrainMeter::add(std::optional<double> charge, bool is_under_way, base::TimePoint now) {
   if (!charge) return drain_;
-  bool const begins = is_flying && (!was_flying_ || *charge > lowest_ + swapped);
-  was_flying_ = is_flying;
-  if (begins) begin_flight(*charge);
-  if (is_flying) take(*charge, now);
+  bool const begins = is_under_way && (!was_under_way_ || std::abs(*charge - lowest_) > swapped);
+  was_under_way_ = is_under_way;
+  if (begins) set_out(*charge);
+  if (is_under_way) take(*charge, now);
   return drain_;
 }
 
-void FlightDrain::begin_flight(double charge) {
+void DrainMeter::set_out(double charge) {
   lowest_ = charge;
   steps_.clear();
-  if (drain_) drain_->error = std::max(drain_->error, last_flight_error);
+  if (drain_) drain_->error = std::max(drain_->error, last_time_error);
 }
 
-/// The charge at which a flight begins has been falling for some time: the first that counts is the one after.
-void FlightDrain::take(double charge, base::TimePoint now) {
+/// The charge at which it sets out has been falling for some time: the first that counts is the one after.
+void DrainMeter::take(double charge, base::TimePoint now) {
   if (charge <= lowest_ - 0.5 * percent) {
     lowest_ = charge;
     steps_.push_back({charge, now});
@@ -46,7 +46,7 @@ void FlightDrain::take(double charge, base::TimePoint now) {
   if (steps_.size() > least_parts) learn(now);
 }
 
-void FlightDrain::learn(base::TimePoint now) {
+void DrainMeter::learn(base::TimePoint now) {
   auto const& first = steps_.front();
   double const fallen = first.charge - lowest_;
   double const fall_s = base::to_seconds(steps_.back().reached - first.reached);
@@ -64,7 +64,7 @@ void FlightDrain::learn(base::TimePoint now) {
   // When nothing has fallen for longer than one more step should have taken, it falls that much slower.
   double const since_first_s = base::to_seconds(now - first.reached);
   double const per_s = std::min(mean, (fallen + percent) / since_first_s);
-  drain_ = vehicle::Drain{.per_s = per_s, .error = std::min(1.0, spread + way_home_error)};
+  drain_ = Drain{.per_s = per_s, .error = std::min(1.0, spread + way_home_error)};
 }
 
-}  // namespace lapwing::autonomy
+}  // namespace lapwing::vehicle

@@ -4,30 +4,31 @@
 #include <optional>
 
 #include "base/time.hpp"
-#include "vehicle/endurance.hpp"
+#include "vehicle/energy/endurance.hpp"
 
-namespace lapwing::autonomy {
+namespace lapwing::vehicle {
 
-/// Learns what flying draws by how fast the charge falls in this flight: the mean of the last minutes, and how far the
-/// parts of them differ. Charges come as whole percents, so that what counts is when each one less was reached.
-class FlightDrain {
+/// Learns what a vehicle draws under way, a flight or a drive, by how fast its charge falls: the mean of the last
+/// minutes, and how far the parts of them differ. Charges come as whole percents, so that what counts is when each one
+/// less was reached.
+class DrainMeter {
  public:
-  /// Nothing before it is known; on the ground, and as a flight begins, what the flight before drew.
-  std::optional<vehicle::Drain> add(std::optional<double> charge, bool is_flying, base::TimePoint now);
+  /// Nothing before it is known; when it stands, and as it sets out, what it drew the time before.
+  std::optional<Drain> add(std::optional<double> charge, bool is_under_way, base::TimePoint now);
 
  private:
   struct Step {
     double charge;
     base::TimePoint reached;
   };
-  void begin_flight(double charge);
+  void set_out(double charge);
   void take(double charge, base::TimePoint now);
   void learn(base::TimePoint now);
 
-  bool was_flying_ = false;
-  double lowest_ = 1.0;  ///< charge of this flight
+  bool was_under_way_ = false;
+  double lowest_ = 1.0;  ///< charge since it set out
   std::deque<Step> steps_;
-  std::optional<vehicle::Drain> drain_;
+  std::optional<Drain> drain_;
 };
 
-}  // namespace lapwing::autonomy
+}  // namespace lapwing::vehicle

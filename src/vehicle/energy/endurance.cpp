@@ -1,4 +1,4 @@
-#include "vehicle/endurance.hpp"
+#include "vehicle/energy/endurance.hpp"
 
 #include <algorithm>
 
