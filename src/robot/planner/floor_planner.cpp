@@ -127,9 +127,6 @@ void FloorPlanner::learn_way(Situation const& situation, explore::Pose const& po
 /// Along the roads: the navigator draws the next metres alone.
 std::optional<double> FloorPlanner::left_m(explore::Pose const& pose) const {
   if (!navigator_.goal()) return std::nullopt;
-  auto const from = roads_->node_near(known_->cell_at(pose.position));
-  auto const to = roads_->node_near(*navigator_.goal());
-  if (!from || !to) return std::nullopt;
   auto const& path = navigator_.path();
   // Where the path ends at the goal it is finer than the roads are.
   if (!path.empty() && path.back() == *navigator_.goal()) {
@@ -137,10 +134,17 @@ std::optional<double> FloorPlanner::left_m(explore::Pose const& pose) const {
         path, {}, [&](Cell cell) { return geo::distance_m(known_->middle(cell), pose.position); });
     return static_cast<double>(path.end() - here) * options_.cell_m;
   }
-  auto const nodes = roads_->way(*from, *to, {});
+  return road_m(pose.position, *navigator_.goal());
+}
+
+std::optional<double> FloorPlanner::road_m(explore::Place const& from, Cell to) const {
+  auto const begin = roads_->node_near(known_->cell_at(from));
+  auto const end = roads_->node_near(to);
+  if (!begin || !end) return std::nullopt;
+  auto const nodes = roads_->way(*begin, *end, {});
   if (nodes.empty()) return std::nullopt;
   double length_m = 0.0;
-  auto at = pose.position;
+  auto at = from;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     auto const next = known_->middle(roads_->place_of(nodes[i]));
     length_m += geo::distance_m(at, next);
@@ -204,7 +208,7 @@ std::optional<Way> FloorPlanner::recover(Situation const& situation, Plan const&
 
 Plan FloorPlanner::given_up(Situation const& situation) const {
   double const stalled_s = progress_.stalled_s(situation.time_s);
-  if (std::holds_alternative<ExploreErrand>(errand_)) return {.state = Plan::State::done, .reason = what_is_left()};
+  if (std::holds_alternative<ExploreErrand>(errand_)) return done_exploring();
   return {.state = Plan::State::failed,
           .reason = fmt::format("it has not got on for {:.0f} s: something stands in its way", stalled_s)};
 }
@@ -282,7 +286,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   if (order_.kind == explore::Order::Kind::home) {
     // Whoever stood in the way may leave it: it waits for that where it is.
     if (frontiers_->is_any_put_off(*known_)) return {.state = Plan::State::under_way};
-    return {.state = Plan::State::done, .reason = what_is_left()};
+    return done_exploring();
   }
   if (order_.kind == explore::Order::Kind::steer) {
     bool const is_near = known_->is_near_wall(known_->cell_at(pose.position));

@@ -58,6 +58,8 @@ struct Survey {
   double coverage = 0.0;
   std::vector<Place> frontiers = {};  ///< the middles of the open ones
 };
+/// "2 places are left unseen"; empty when none is.
+[[nodiscard]] std::string what_is_left(Survey const& survey);
 
 struct Plan {
   enum class State { idle, under_way, done, failed };
@@ -93,6 +95,8 @@ class FloorPlanner {
   [[nodiscard]] Plan plan(Situation const& situation);
   /// Costs more than a plan: to be asked once a second or less.
   [[nodiscard]] Survey survey() const;
+  /// The way back to its start as far as it knows one, else the straight line.
+  [[nodiscard]] double home_m(Place const& from) const;
 
  private:
   [[nodiscard]] explore::Place on_floor(Place const& place) const;
@@ -110,12 +114,13 @@ class FloorPlanner {
   void learn_way(Situation const& situation, explore::Pose const& pose);
   void note_progress(Situation const& situation, explore::Pose const& pose, Plan const& plan);
   [[nodiscard]] std::optional<double> left_m(explore::Pose const& pose) const;
+  [[nodiscard]] std::optional<double> road_m(explore::Place const& from, explore::Cell to) const;
   [[nodiscard]] Place what_refuses(Situation const& situation) const;
   [[nodiscard]] Recovery::Now recovery_now(Situation const& situation) const;
   /// Nothing, or a way to get on again.
   [[nodiscard]] std::optional<Way> recover(Situation const& situation, Plan const& plan);
+  [[nodiscard]] Plan done_exploring() const;
   [[nodiscard]] Plan given_up(Situation const& situation) const;
-  [[nodiscard]] std::string what_is_left() const;
 
   PlannerOptions options_;
   double half_m_;  ///< of the square's side: what lies between the map's origin and the floor's

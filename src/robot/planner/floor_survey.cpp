@@ -22,12 +22,23 @@ Survey FloorPlanner::survey() const {
   return survey;
 }
 
-std::string FloorPlanner::what_is_left() const {
-  auto const left = survey();
-  if (left.frontiers.empty()) return {};
-  return fmt::format("{} {} left unseen: it could not get to see {}", left.frontiers.size(),
-                     left.frontiers.size() == 1 ? "place is" : "places are",
-                     left.frontiers.size() == 1 ? "it" : "them");
+std::string what_is_left(Survey const& survey) {
+  auto const count = survey.frontiers.size();
+  if (count == 0) return {};
+  return fmt::format("{} {} left unseen", count, count == 1 ? "place is" : "places are");
+}
+
+Plan FloorPlanner::done_exploring() const {
+  auto const seen = survey();
+  Plan plan{.state = Plan::State::done, .reason = what_is_left(seen)};
+  if (!plan.reason.empty())
+    plan.reason += fmt::format(": it could not get to see {}", seen.frontiers.size() == 1 ? "it" : "them");
+  return plan;
+}
+
+double FloorPlanner::home_m(Place const& from) const {
+  Place const home(0.0, 0.0);
+  return road_m(on_floor(from), cell_at(home)).value_or(geo::distance_m(from, home));
 }
 
 }  // namespace lapwing::robot

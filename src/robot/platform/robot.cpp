@@ -74,6 +74,7 @@ Robot::Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundin
                .log = around_.log,
                .communication = around_.communication,
                .points_of_interest = around_.points_of_interest}),
+      home_charge_(spec_.planning.limits.speed_m_s),
       scanned_(around_.loop),
       planned_(around_.loop),
       aligning_(around_.loop),
@@ -104,6 +105,7 @@ void Robot::take(Reading const& reading) {
   if (last_reading_) driven_m_ += slam::distance_m(last_reading_->odometry, reading.odometry);
   bool const is_first = !last_reading_;
   last_reading_ = reading;
+  home_charge_.note({.at = reading.at, .charge = reading.battery, .driven_m = driven_m_, .is_under_way = is_driving()});
   health_.sensed(reading.sensors_code);
   health_.set_code(Module::mapping, mapping_code());
   show_reading(reading, is_first);
@@ -244,6 +246,7 @@ void Robot::use(PlanResult result) {
     survey_ = std::move(result.survey);
     surveyed_at_ = around_.loop.now();
   }
+  if (result.home_m) home_charge_.set_way(*result.home_m);
   if (result.errand == last_errand_) {
     plan_ = std::move(result.plan);
     follower_.take(plan_.way);
@@ -367,8 +370,12 @@ base::Task<base::Result<std::string>> Robot::carry_out(Step step) {
   co_return co_await std::move(driven);
 }
 
-base::Task<base::Result<std::string>> Robot::see_through() {
-  while (plan_.state == Plan::State::under_way || plan_.state == Plan::State::idle) co_await planned_.wait();
+bool Robot::is_under_way() const {
+  return plan_.state == Plan::State::under_way || plan_.state == Plan::State::idle;
+}
+
+base::Task<base::Result<std::string>> Robot::see_through(Reach reach) {
+  while (is_under_way() && !(reach == Reach::keeps_way_home && home_charge_.is_due())) co_await planned_.wait();
   if (plan_.state == Plan::State::failed) co_return base::fail(base::ErrorKind::refused, plan_.reason);
   co_return plan_.reason;
 }
@@ -376,9 +383,10 @@ base::Task<base::Result<std::string>> Robot::see_through() {
 base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
   double const began_m = driven_m_;
   give(ExploreErrand{std::move(strategy)});
-  auto exploring = see_through();
+  auto exploring = see_through(Reach::keeps_way_home);
   auto explored = co_await std::move(exploring);
   aligns_soon_ = true;
+  if (is_under_way()) co_return turned_home();
   auto const& looks = around_.second_looks;
   if (!explored || !looks.next) co_return explored;
   auto looking = look_again(std::max(looks_at_least_m, looks_of_way * (driven_m_ - began_m)));
@@ -390,15 +398,21 @@ base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
   co_return explored;
 }
 
+std::string Robot::turned_home() const {
+  auto const left = survey_ ? what_is_left(*survey_) : std::string();
+  return fmt::format("its battery takes it home and little farther{}{}", left.empty() ? "" : ": ", left);
+}
+
 base::Task<> Robot::look_again(double most_m) {
   double const began_m = driven_m_;
-  while (driven_m_ - began_m < most_m) {
+  while (driven_m_ - began_m < most_m && !home_charge_.is_due()) {
     auto choosing = around_.second_looks.next();
     auto const view = co_await std::move(choosing);
     if (!view) co_return;
     give(LookErrand{.from = on_map(view->from), .at = on_map(view->at), .bearing_rad = view->bearing_rad});
-    auto driving = see_through();
+    auto driving = see_through(Reach::keeps_way_home);
     auto const driven = co_await std::move(driving);
+    if (is_under_way()) co_return;
     if (!driven) continue;  // there may be another place to see it from
     auto const until = around_.loop.now() + eyes_silent_after;
     while (!around_.second_looks.has_looked() && around_.loop.now() < until)

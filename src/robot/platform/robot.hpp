@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "robot/mapping/pose_check.hpp"
 #include "robot/planner/follower.hpp"
+#include "robot/planner/home_charge.hpp"
 #include "robot/planner/wheel_spin.hpp"
 #include "robot/platform/body.hpp"
 #include "robot/platform/robot_health.hpp"
@@ -171,8 +172,14 @@ class Robot {
   [[nodiscard]] base::Task<base::Result<std::string>> explore(std::string strategy);
   /// Drives before what its eyes could not read, and stands there until they have looked.
   [[nodiscard]] base::Task<> look_again(double most_m);
+  enum class Reach {
+    any,
+    keeps_way_home,  ///< it may end with the plan still under way, when its battery takes it home and little farther
+  };
   /// How the errand that was given last ends.
-  [[nodiscard]] base::Task<base::Result<std::string>> see_through();
+  [[nodiscard]] base::Task<base::Result<std::string>> see_through(Reach reach = Reach::any);
+  [[nodiscard]] bool is_under_way() const;
+  [[nodiscard]] std::string turned_home() const;
   void conclude(DriveRecord& record, DriveRecord::Outcome outcome, std::string error);
   [[nodiscard]] slam::Pose2 pose_now(slam::Pose2 const& odometry) const;
 
@@ -194,6 +201,7 @@ class Robot {
   std::optional<base::TimePoint> scanned_at_;
   Room room_;
   double driven_m_ = 0.0;
+  HomeCharge home_charge_;
   Motion asked_;
   std::optional<base::TimePoint> moved_at_;  ///< when it was last asked to move
 

@@ -59,6 +59,28 @@ TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
   for (auto const& [from, to] : testing::small_office()) EXPECT_LT(from_walls_m(0.5 * (from + to)), 0.1) << from << to;
 }
 
+TEST_F(RobotPlatformTest, EndsAnExplorationWhileItsBatteryTakesItHome) {
+  body->battery = 0.5;
+  body->drain_per_s = 1.0 / 300.0;
+  auto const run = start({ExploreStep{"tour"}, ReturnStep{}});
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_TRUE(robot->drives().back()->remark.starts_with("explore: its battery takes it home and little farther: "))
+      << robot->drives().back()->remark;
+  EXPECT_LT(robot->survey()->coverage, 0.95) << "there was more to see";
+  EXPECT_LT(std::hypot(body->truth().x, body->truth().y), 0.6) << "where it began";
+  EXPECT_GT(body->battery, 0.05) << "the margin";
+}
+
+TEST_F(RobotPlatformTest, DrivesToAPlaceWhateverItsBatterySays) {
+  body->battery = 0.1;
+  auto const& site = *live_map.site("office");
+  auto const run = start({DriveToPlaceStep{site.place_of(geo::Point3<geo::SiteFrame>(4.0, 0.0, 0.0))}});
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 5min)) << run->progress();
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_NEAR(body->truth().x, 4.0, 0.5);
+}
+
 TEST_F(RobotPlatformTest, PutsWallsWhereTheRobotStartsInItsSite) {
   RobotSpec spec{.id = "robot2", .name = "robot 2", .site = "office", .start = {{50.0, -30.0}, 1.0}};
   spec.planning.side_m = 40.0;

@@ -64,7 +64,10 @@ PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
                                 .room = Room(map.last, floor.sensor()),
                                 .driven = floor.graph().poses});
   }
-  if (input.wants_survey) result.survey = planner.survey();
+  if (input.wants_survey) {
+    result.survey = planner.survey();
+    result.home_m = planner.home_m({map.here.pose.x, map.here.pose.y});
+  }
   if (input.wants_walls) result.walls = map.thoughts->walls.take(slam::find_walls(floor.grid()));
   if (input.may_align && floor.wants_alignment(input.aligns_soon)) result.alignment = floor.begin_alignment();
   result.map = std::move(map);

@@ -55,6 +55,7 @@ struct PlanResult {
   Plan plan;
   std::uint64_t errand = 0;  ///< which one the plan is for; 0: none
   std::optional<Survey> survey = {};
+  std::optional<double> home_m = {};  ///< the way back to its start; with the survey
   std::optional<WallBook::Changes> walls = {};
   std::unique_ptr<slam::JointAlignment> alignment = {};  ///< that has begun; what comes of it is for `take_in`
 };

@@ -81,6 +81,7 @@ void SimpleBody::drive(Motion motion) {
 base::Task<> SimpleBody::live() {
   for (int i = 0;; ++i) {
     co_await loop_.sleep(step);
+    battery = std::max(0.0, battery - drain_per_s * step_s);
     move();
     if (is_silent || !listener_.on_reading) continue;
     if (!is_numb) tell_reading();

@@ -65,6 +65,7 @@ class SimpleBody final : public Body {
   bool is_numb = false;    ///< its sensors say nothing; its laser and its carrier do
   bool is_blind = false;   ///< its laser says nothing
   double battery = 0.9;
+  double drain_per_s = 0.0;  ///< of the battery, moving or not
   std::uint16_t carrier_code = 0;
   std::uint16_t sensors_code = 0;
   std::vector<Wall> put_in_the_way = {};  ///< seen and hit like walls

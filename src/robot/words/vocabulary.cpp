@@ -56,7 +56,9 @@ tasks::Vocabulary vocabulary() {
       {tasks::name_command<Step>("Names the drive."),
        {{"explore",
          {{{strategy}}},
-         "Drives about and maps the floor until nothing open is left that the robot can reach."},
+         "Drives about and maps the floor until nothing open is left that the robot can reach, or its battery takes it "
+         "home "
+         "and little farther."},
         explore},
        {{"driveTo",
          {{{{.name = "pos", .type = Type::position, .doc = "on the floor that it is on; its altitude does not count"}}},

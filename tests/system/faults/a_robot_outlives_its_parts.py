@@ -24,7 +24,6 @@ FAULTS = (
     (["encoder-dead:right"], "CAR", 204, STANDS),
     (["imu-silent"], "SIM", 101, DRIVES),
     (["wheel-slips:left=0.5"], "SIM", 107, DRIVES),
-    (["battery-low=0.1"], "CAR", 208, DRIVES),
     ([f"sonar-stuck:{number}" for number in range(5)], "SIM", 103, DRIVES),
 )
 
