@@ -24,7 +24,7 @@ struct RobotSettings {
   double braking_m_s2 = 1.0;   ///< likewise
   double battery_full_v = 12.6;
   double battery_empty_v = 10.5;
-  double battery_lasts_s = 7'200.0;
+  double battery_lasts_s = 25'200.0;  ///< seven hours: a Kobuki with its large battery
 
   /// Ahead up to 7.5 m, 30 and 90 degrees to both sides up to 5 m; from the hull's rim.
   [[nodiscard]] static std::vector<SonarSettings> seed_sonars();
