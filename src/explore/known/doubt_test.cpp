@@ -125,7 +125,7 @@ TEST_F(DoubtTest, WhatHadNoWayIsTriedAgainButNotForEver) {
     frontiers.set_moment(now_s);
     auto const found = open(frontiers);
     if (!found.empty()) ++rounds;
-    for (auto const& frontier : found) frontiers.put_off(frontier);
+    for (auto const& frontier : found) frontiers.put_off(*known, frontier);
   }
   EXPECT_EQ(rounds, FrontierSettings().most_put_off);
   EXPECT_FALSE(frontiers.is_any_put_off(*known));
@@ -136,7 +136,7 @@ TEST_F(DoubtTest, WhatHadNoWayIsNotTriedAgainAtOnce) {
   look({}, 20);
   auto const found = open(frontiers);
   ASSERT_FALSE(found.empty());
-  for (auto const& frontier : found) frontiers.put_off(frontier);
+  for (auto const& frontier : found) frontiers.put_off(*known, frontier);
   EXPECT_TRUE(open(frontiers).empty()) << "whoever stands in the way is still there";
   EXPECT_TRUE(frontiers.is_any_put_off(*known)) << "and so it is not the end";
   frontiers.set_moment(FrontierSettings().again_after_s);

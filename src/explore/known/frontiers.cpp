@@ -19,6 +19,7 @@ Frontiers::Frontiers(KnownMap const& map, FrontierSettings const& settings)
 std::vector<Frontier> Frontiers::find(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
   auto found = find_open(map, roads, reach);
   if (found.empty() && take_up_again(map)) found = find_open(map, roads, reach);
+  if (found.empty()) found = find_shut(map, roads, reach);
   if (found.empty() && map.has_seen_movement()) found = find_doubtful(map, roads, reach);
   return found;
 }
@@ -43,6 +44,25 @@ std::vector<Frontier> Frontiers::find_all(KnownMap const& map) {
     if (frontier.cells.size() >= least) grown.push_back(std::move(frontier));
   }
   return grown;
+}
+
+std::vector<Frontier> Frontiers::find_shut(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
+  auto const most = cells_in(settings_.most_m, map);
+  ++searches_;
+  std::vector<Frontier> found;
+  for (auto const& piece : put_off_) {
+    auto const& mark = marks_[piece.middle];
+    bool const is_due = time_s_ >= piece.again_s && mark.shut < settings_.most_shut && mark.is_left == 0;
+    if (!piece.from || !is_due || !map.is_frontier(piece.middle) || seen_by_[piece.middle] == searches_) continue;
+    auto const node = roads.node_near(*piece.from);
+    if (!node || !reach.reaches(*node)) continue;
+    auto frontier = grow(map, piece.middle, most, [&](Cell cell) { return map.is_frontier(cell); });
+    frontier.stand = roads.place_of(*node);
+    frontier.node = *node;
+    frontier.is_shut = true;
+    found.push_back(std::move(frontier));
+  }
+  return found;
 }
 
 std::vector<Frontier> Frontiers::find_doubtful(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
@@ -117,17 +137,25 @@ float Frontiers::again_s(int times) const {
   return static_cast<float>(time_s_ + std::min(settings_.most_again_s, settings_.again_after_s * times));
 }
 
-void Frontiers::note_put_off(Cell middle) {
+void Frontiers::note_put_off(Cell middle, std::optional<Cell> from) {
   std::erase_if(put_off_, [&](PutOff const& other) { return other.middle == middle; });
-  put_off_.push_back({middle, static_cast<double>(marks_[middle].again_s)});
+  put_off_.push_back({middle, static_cast<double>(marks_[middle].again_s), from});
+}
+
+std::optional<Cell> Frontiers::turned_away_at(KnownMap const& map, Frontier const& frontier) const {
+  auto const stand = map.middle(frontier.stand);
+  auto const nearest =
+      std::ranges::min_element(robots_, {}, [&](Place const& robot) { return distance_m(robot, stand); });
+  if (nearest == robots_.end() || distance_m(*nearest, stand) > settings_.turned_away_m) return std::nullopt;
+  return map.cell_at(*nearest);
 }
 
 void Frontiers::give_up(KnownMap const& map, Frontier const& frontier) {
   auto const middle = map.middle(frontier.middle);
   auto const near = std::ranges::count_if(
       robots_, [&](Place const& robot) { return distance_m(robot, middle) < settings_.bars_view_m; });
-  if (near > 1) {
-    put_off(frontier);
+  if (near > 1 || frontier.is_shut) {
+    put_off(map, frontier);
     return;
   }
   for (auto const cell : frontier.cells) {
@@ -137,17 +165,20 @@ void Frontiers::give_up(KnownMap const& map, Frontier const& frontier) {
     ++mark.looks;
     mark.again_s = again_s(mark.looks);
   }
-  if (map.has_seen_movement() && marks_[frontier.middle].looks < settings_.most_looks) note_put_off(frontier.middle);
+  if (map.has_seen_movement() && marks_[frontier.middle].looks < settings_.most_looks)
+    note_put_off(frontier.middle, std::nullopt);
 }
 
-void Frontiers::put_off(Frontier const& frontier) {
+void Frontiers::put_off(KnownMap const& map, Frontier const& frontier) {
   for (auto const cell : frontier.cells) {
     auto& mark = marks_.at_index(cell);
     mark.is_left = 1;
     ++mark.put_off;
+    if (frontier.is_shut) ++mark.shut;
     mark.again_s = again_s(mark.put_off);
   }
-  if (marks_[frontier.middle].put_off < settings_.most_put_off) note_put_off(frontier.middle);
+  if (marks_[frontier.middle].put_off < settings_.most_put_off)
+    note_put_off(frontier.middle, turned_away_at(map, frontier));
 }
 
 bool Frontiers::is_any_put_off(KnownMap const& map) const {

@@ -131,9 +131,81 @@ TEST_F(KnownMapTest, FrontiersAreFoundWithAPlaceToStandUntilGivenUp) {
   frontiers.give_up(map, found[0]);
   EXPECT_TRUE(frontiers.find(map, roads, reach).empty());
   Frontiers others(map);
-  others.put_off(found[0]);
+  others.put_off(map, found[0]);
   others.set_moment(FrontierSettings().again_after_s);
   EXPECT_EQ(others.find(map, roads, reach).size(), 1U) << "nothing else is left";
+}
+
+/// A room on the left of a wall with a door, and what was seen through the door of another one.
+struct ShutDoorTest : KnownMapTest {
+  ShutDoorTest() {
+    learn({0, 0}, {59, 39}, Knowledge::wall);
+    learn({1, 1}, {28, 38}, Knowledge::free);
+    learn({31, 1}, {58, 38}, Knowledge::unknown);
+    learn({29, 15}, {40, 25}, Knowledge::free);
+    see({});
+    auto const found = find();
+    EXPECT_FALSE(found.empty());
+    frontiers.set_moment(now_s, {before_door});
+    for (auto const& frontier : found) frontiers.put_off(map, frontier);
+    learn({29, 15}, {30, 25}, Knowledge::wall);
+  }
+  void see(std::vector<Place> robots) {
+    roads.update(map, map.take_changes());
+    frontiers.set_moment(now_s, std::move(robots));
+  }
+  std::vector<Frontier> find() { return frontiers.find(map, roads, roads.from(*roads.node_at({15, 20}))); }
+
+  Place before_door{2.5, 2.0};
+  RoadMap roads{map};
+  Frontiers frontiers{map};
+  double now_s = 0.0;
+};
+
+TEST_F(ShutDoorTest, IsGoneBackToWhereItWasShutBeforeTheRobot) {
+  see({before_door});
+  EXPECT_TRUE(find().empty()) << "not at once";
+  now_s = FrontierSettings().again_after_s;
+  see({});
+  auto const found = find();
+  ASSERT_FALSE(found.empty());
+  for (auto const& frontier : found) {
+    EXPECT_TRUE(frontier.is_shut);
+    EXPECT_LT(distance_m(map.middle(frontier.stand), before_door), 0.3);
+    EXPECT_TRUE(map.is_standable(frontier.stand));
+  }
+  learn({29, 15}, {30, 25}, Knowledge::free);
+  see({});
+  auto const open = find();
+  EXPECT_FALSE(open.empty());
+  for (auto const& frontier : open) EXPECT_FALSE(frontier.is_shut) << "the door is open again";
+}
+
+TEST_F(ShutDoorTest, IsNotWaitedForForEver) {
+  int rounds = 0;
+  for (; now_s < 600.0; now_s += 1.0) {
+    see({before_door});
+    auto const found = find();
+    rounds += found.empty() ? 0 : 1;
+    for (auto const& frontier : found) frontiers.give_up(map, frontier);
+  }
+  EXPECT_EQ(rounds, FrontierSettings().most_shut);
+  EXPECT_FALSE(frontiers.is_any_put_off(map));
+}
+
+TEST_F(ShutDoorTest, IsNothingToARobotThatWasFarAwayThen) {
+  Frontiers others(map);
+  learn({29, 15}, {30, 25}, Knowledge::free);
+  see({});
+  auto const reach = roads.from(*roads.node_at({15, 20}));
+  others.set_moment(now_s, {Place(0.5, 0.5)});
+  auto const found = others.find(map, roads, reach);
+  ASSERT_FALSE(found.empty());
+  for (auto const& frontier : found) others.put_off(map, frontier);
+  learn({29, 15}, {30, 25}, Knowledge::wall);
+  see({});
+  others.set_moment(60.0);
+  EXPECT_TRUE(others.find(map, roads, roads.from(*roads.node_at({15, 20}))).empty());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::vector<Order> NearestFrontier::decide(Situation const& situation) {
       if (robots[i].has_arrived)
         situation.frontiers.give_up(situation.map, *chosen_[i]);
       else
-        situation.frontiers.put_off(*chosen_[i]);
+        situation.frontiers.put_off(situation.map, *chosen_[i]);
       chosen_[i].reset();
       is_due = true;
     } else if (robots[i].has_arrived) {

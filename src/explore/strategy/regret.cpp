@@ -22,7 +22,7 @@ bool Regret::is_due(Situation const& situation) {
     auto const& site = targets_[i]->site;
     if (robots[i].has_arrived) sites_.has_remained(situation, site);
     if (robots[i].is_blocked) {
-      for (auto const& frontier : site.frontiers) situation.frontiers.put_off(frontier);
+      for (auto const& frontier : site.frontiers) situation.frontiers.put_off(situation.map, frontier);
     }
     bool const is_open = std::ranges::any_of(site.frontiers, [&](Frontier const& frontier) {
       return frontier.middle == targets_[i]->watched && Frontiers::is_open(situation.map, frontier);

@@ -179,7 +179,7 @@ Order RightHand::on_the_way(Situation const& situation, RobotView const& view, R
     if (view.has_arrived)
       situation.frontiers.give_up(situation.map, *robot.opening);
     else
-      situation.frontiers.put_off(*robot.opening);
+      situation.frontiers.put_off(situation.map, *robot.opening);
   }
   if (is_gone || (is_there && robot.opening) || view.is_blocked) return next_hall(situation, view, robot);
   if (!is_there) return {};

@@ -43,7 +43,7 @@ bool does_see_beyond(KnownMap const& map, Cell from, Cell frontier) {
 
 RoadMap::Node Sites::view_of(Situation const& situation, RoadMap::Tree const& reach, Frontier const& frontier) const {
   auto best = frontier.node;
-  if (is_near_only_[frontier.middle] != 0) return best;
+  if (is_near_only_[frontier.middle] != 0 || frontier.is_shut) return best;
   double const most = std::min(settings_.view_m, 0.7 * situation.range_m) / situation.map.cell_m();
   for (auto node = best;; node = reach.before[node]) {
     auto const place = situation.roads.place_of(node);

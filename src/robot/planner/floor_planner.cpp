@@ -270,7 +270,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
                                 .is_blocked = has_stood || navigator_.state() == explore::Navigator::State::blocked,
                                 .is_out = false,
                                 .driven_m = situation.driven_m};
-  frontiers_->set_moment(situation.time_s);
+  frontiers_->set_moment(situation.time_s, {pose.position});
   auto const orders = strategy_->decide({*known_, *roads_, *frontiers_, {&view, 1}, situation.time_s});
   auto const& order = orders.front();
   if (order.kind != explore::Order::Kind::keep) order_ = order;
