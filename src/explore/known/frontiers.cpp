@@ -47,7 +47,8 @@ std::vector<Frontier> Frontiers::find_all(KnownMap const& map) {
 }
 
 std::vector<Frontier> Frontiers::find_shut(KnownMap const& map, RoadMap const& roads, RoadMap::Tree const& reach) {
-  auto const most = cells_in(settings_.most_m, map);
+  auto const least = cells_in(settings_.least_m, map);
+  auto const most = std::max(least, cells_in(settings_.most_m, map));
   ++searches_;
   std::vector<Frontier> found;
   for (auto const& piece : put_off_) {
@@ -57,6 +58,7 @@ std::vector<Frontier> Frontiers::find_shut(KnownMap const& map, RoadMap const& r
     auto const node = roads.node_near(*piece.from);
     if (!node || !reach.reaches(*node)) continue;
     auto frontier = grow(map, piece.middle, most, [&](Cell cell) { return map.is_frontier(cell); });
+    if (frontier.cells.size() < least) continue;
     frontier.stand = roads.place_of(*node);
     frontier.node = *node;
     frontier.is_shut = true;

@@ -26,7 +26,7 @@ struct FrontierSettings {
   int most_put_off = 12;        ///< times that there was no way
   double again_after_s = 10.0;  ///< it is tried again, and after each time by so much later,
   double most_again_s = 30.0;   ///< but no later than this
-  double turned_away_m = 3.0;   ///< of where to stand for it: who was nearer when there was no way saw what was in it
+  double turned_away_m = 3.0;   ///< from where it was to stand for it: nearer than that a robot saw what shut it out
   int most_shut = 4;            ///< times that it is tried again from there
   double bars_view_m = 2.5;     ///< whoever is nearer to a frontier than this may have stood before it
   double looked_at_m = 0.6;     ///< of a frontier, around its middle, when it is given up

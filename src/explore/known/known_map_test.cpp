@@ -193,6 +193,24 @@ TEST_F(ShutDoorTest, IsNotWaitedForForEver) {
   EXPECT_FALSE(frontiers.is_any_put_off(map));
 }
 
+TEST_F(ShutDoorTest, IsLeftAloneWhereLittleMoreThanAGapBetweenBeamsIsLeft) {
+  now_s = FrontierSettings().again_after_s;
+  see({});
+  auto const shut = find();
+  ASSERT_FALSE(shut.empty());
+  learn({31, 1}, {58, 38}, Knowledge::wall);
+  learn({31, 15}, {40, 25}, Knowledge::free);
+  for (auto const& frontier : shut) {
+    auto const beyond =
+        std::ranges::find_if(neighbours, [&](Cell away) { return map.at(frontier.middle + away) == Knowledge::wall; });
+    ASSERT_NE(beyond, neighbours.end());
+    map.learn(frontier.middle + *beyond, Knowledge::unknown);
+    EXPECT_TRUE(map.is_frontier(frontier.middle));
+  }
+  see({});
+  EXPECT_TRUE(find().empty());
+}
+
 TEST_F(ShutDoorTest, IsNothingToARobotThatWasFarAwayThen) {
   Frontiers others(map);
   learn({29, 15}, {30, 25}, Knowledge::free);
