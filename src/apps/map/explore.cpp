@@ -1,11 +1,13 @@
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/verb.hpp"
+#include "base/async/parallel_for.hpp"
 #include "explore/run/exploration.hpp"
 #include "explore/run/picture.hpp"
 #include "explore/run/starts.hpp"
@@ -34,6 +37,7 @@ struct ExploreOptions {
   std::filesystem::path picture;
   std::vector<double> start;  ///< x, y, yaw in the map's frame
   int runs = 1;
+  unsigned threads = 0;  ///< 0: as many as the machine has
   explore::Settings settings;
 };
 
@@ -70,33 +74,25 @@ Json run_json(explore::World const& world, explore::RunReport const& report, std
           {"wall_s", rounded(wall_s, 2)}};
 }
 
-/// On a terminal one line that changes; elsewhere nothing until the end.
-void show(int run, int runs, Exploration const& exploration) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r\033[Krun {} of {}: {:5.1f} % seen, {:.0f} m, {:.0f} s", run, runs,
-             exploration.coverage() * 100.0, exploration.travel_m(), exploration.time_s());
-}
-
-/// Makes each run's world once a start needs another one: most starts lie in the same part of the floor.
+/// Makes the world of each part of the floor once: most starts lie in the same one.
 class Worlds {
  public:
   explicit Worlds(explore::FloorPlan const& plan) : plan_(plan) {}
 
   base::Result<std::shared_ptr<explore::World const>> around(explore::Pose const& start,
                                                              explore::Settings const& settings) {
-    if (world_) {
-      auto const cell = explore::cell_under(start.position - world_->plan_from_world(), world_->cell_m());
-      if (world_->is_standable().or_else(cell, 0) != 0) return world_;
+    for (auto const& world : worlds_) {
+      auto const cell = explore::cell_under(start.position - world->plan_from_world(), world->cell_m());
+      if (world->is_standable().or_else(cell, 0) != 0) return world;
     }
     auto world = explore::World::around(plan_, start.position, settings);
     if (!world) return std::unexpected(world.error());
-    world_ = std::make_shared<explore::World const>(std::move(*world));
-    return world_;
+    return worlds_.emplace_back(std::make_shared<explore::World const>(std::move(*world)));
   }
 
  private:
   explore::FloorPlan const& plan_;
-  std::shared_ptr<explore::World const> world_;
+  std::vector<std::shared_ptr<explore::World const>> worlds_;
 };
 
 base::Result<> write(std::filesystem::path const& path, std::string const& text) {
@@ -127,50 +123,114 @@ base::Result<Floor> read_floor(ExploreOptions const& options) {
   return floor;
 }
 
-base::Result<Json> run_once(ExploreOptions const& options, Floor const& floor, Worlds& worlds, int number) {
-  auto settings = options.settings;
-  settings.seed += static_cast<std::uint64_t>(number);
+/// One run, ready to begin.
+struct Run {
+  explore::Settings settings;
+  std::shared_ptr<explore::World const> world;
+  std::vector<explore::Pose> starts;
+};
+
+base::Result<std::vector<Run>> lay_out(ExploreOptions const& options, Floor const& floor) {
+  Worlds worlds(floor.plan);
+  std::vector<Run> runs;
+  for (int i = 0; i < options.runs; ++i) {
+    auto settings = options.settings;
+    settings.seed += static_cast<std::uint64_t>(i);
+    auto const first = options.start.empty() ? explore::random_start(floor.plan, floor.possible, settings.seed)
+                                             : pose_in(floor.plan, options.start);
+    if (!first) return std::unexpected(first.error());
+    auto world = worlds.around(*first, settings);
+    if (!world) return std::unexpected(world.error());
+    auto starts =
+        explore::starts_around(**world, {first->position - (*world)->plan_from_world(), first->yaw_rad}, settings);
+    if (!starts) return std::unexpected(starts.error());
+    runs.push_back({std::move(settings), *std::move(world), *std::move(starts)});
+  }
+  return runs;
+}
+
+/// What was found, told in the order of the runs by whichever threads they ended on.
+class Findings {
+ public:
+  explicit Findings(std::size_t runs) : runs_(runs) {}
+
+  /// On a terminal one line that changes; elsewhere nothing.
+  void show(std::size_t run, Exploration const& exploration) {
+    if (!is_terminal_) return;
+    std::scoped_lock const lock(mutex_);
+    fmt::print(stderr, "\r\033[Krun {} of {}: {:5.1f} % seen, {:.0f} m, {:.0f} s", run + 1, runs_.size(),
+               exploration.coverage() * 100.0, exploration.travel_m(), exploration.time_s());
+  }
+
+  void add(std::size_t run, std::string line, Json report) {
+    std::scoped_lock const lock(mutex_);
+    if (is_terminal_) fmt::print(stderr, "\r\033[K");
+    runs_[run] = {std::move(line), std::move(report)};
+    for (; told_ < runs_.size() && !runs_[told_].report.is_null(); ++told_) fmt::print("{}\n", runs_[told_].line);
+    std::fflush(stdout);
+  }
+  void fail(base::Error error) {
+    std::scoped_lock const lock(mutex_);
+    if (!error_) error_ = std::move(error);
+  }
+
+  /// When all have ended.
+  [[nodiscard]] base::Result<Json> reports() {
+    if (error_) return std::unexpected(*error_);
+    Json all = Json::array();
+    for (auto& run : runs_) all.push_back(std::move(run.report));
+    return all;
+  }
+
+ private:
+  struct Found {
+    std::string line;
+    Json report;
+  };
+
+  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+  std::mutex mutex_;
+  std::vector<Found> runs_;
+  std::size_t told_ = 0;
+  std::optional<base::Error> error_;
+};
+
+base::Result<> explore_once(ExploreOptions const& options, Run const& run, std::size_t number, Findings& findings) {
   auto const began = std::chrono::steady_clock::now();
-  auto const first = options.start.empty() ? explore::random_start(floor.plan, floor.possible, settings.seed)
-                                           : pose_in(floor.plan, options.start);
-  if (!first) return std::unexpected(first.error());
-  auto const world = worlds.around(*first, settings);
-  if (!world) return std::unexpected(world.error());
-  auto const starts =
-      explore::starts_around(**world, {first->position - (*world)->plan_from_world(), first->yaw_rad}, settings);
-  if (!starts) return std::unexpected(starts.error());
-  auto exploration = Exploration::begin(*world, settings, *starts);
+  auto exploration = Exploration::begin(run.world, run.settings, run.starts);
   if (!exploration) return std::unexpected(exploration.error());
   for (int steps = 0; exploration->step(); ++steps) {
-    if (steps % 5000 == 0) show(number + 1, options.runs, *exploration);
+    if (steps % 5000 == 0) findings.show(number, *exploration);
   }
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
   auto const report = exploration->report();
   double const wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  fmt::print("{:3}  {:8.1f} m  {:8.0f} s  {:6.2f} %  {}{}\n", number + 1, report.travel_m, report.time_s,
-             report.coverage * 100.0, explore::to_string(report.ending), report.is_finished ? ", returned" : "");
-  std::fflush(stdout);
   if (!options.picture.empty() && number == 0) {
-    if (auto const written = write(options.picture, explore::svg_of(*exploration)); !written)
-      return std::unexpected(written.error());
+    if (auto const written = write(options.picture, explore::svg_of(*exploration)); !written) return written;
   }
-  return run_json(**world, report, settings.seed, wall_s);
+  findings.add(
+      number,
+      fmt::format("{:3}  {:8.1f} m  {:8.0f} s  {:6.2f} %  {}{}", number + 1, report.travel_m, report.time_s,
+                  report.coverage * 100.0, explore::to_string(report.ending), report.is_finished ? ", returned" : ""),
+      run_json(*run.world, report, run.settings.seed, wall_s));
+  return {};
 }
 
 base::Result<Json> explore_floor(ExploreOptions const& options) {
   auto const floor = read_floor(options);
   if (!floor) return std::unexpected(floor.error());
-  Worlds worlds(floor->plan);
-  Json runs = Json::array();
-  for (int i = 0; i < options.runs; ++i) {
-    auto run = run_once(options, *floor, worlds, i);
-    if (!run) return std::unexpected(run.error());
-    runs.push_back(std::move(*run));
-  }
+  auto const runs = lay_out(options, *floor);
+  if (!runs) return std::unexpected(runs.error());
+  auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  Findings findings(runs->size());
+  base::parallel_for(threads, runs->size(), [&](std::size_t i) {
+    if (auto done = explore_once(options, (*runs)[i], i, findings); !done) findings.fail(std::move(done.error()));
+  });
+  auto reports = findings.reports();
+  if (!reports) return reports;
   return Json{{"strategy", options.settings.strategy},
               {"robots", options.settings.robots},
               {"map", options.map.string()},
-              {"runs", std::move(runs)}};
+              {"runs", *std::move(reports)}};
 }
 
 int run_explore(ExploreOptions const& options) {
@@ -202,6 +262,9 @@ void add_explore(CLI::App& program, int& exit_code) {
       ->delimiter(',')
       ->expected(2, 3);
   verb->add_option("--runs", options->runs, "How many runs")->check(CLI::Range(1, 1000))->capture_default_str();
+  verb->add_option("--threads", options->threads,
+                   "How many runs at once; default: as many as the machine has threads. They are the same")
+      ->check(CLI::Range(1U, 256U));
   verb->add_option("--people", settings.people, "How many people walk about")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();

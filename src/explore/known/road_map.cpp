@@ -1,6 +1,7 @@
 #include "explore/known/road_map.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <queue>
 
@@ -33,7 +34,17 @@ RoadMap::RoadMap(KnownMap const& map)
       label_(map.width(), map.height(), 0),
       parts_((map.width() + side_ - 1) / side_, (map.height() + side_ - 1) / side_, 0),
       mark_(parts_.width(), parts_.height(), 0),
-      nodes_(parts_.size() * most_parts) {}
+      nodes_(parts_.size() * most_parts) {
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      for (int part = 1; part <= most_parts; ++part) {
+        // Unsigned numbers wrap: what is added for a block before this one takes away.
+        auto const away = static_cast<Node>(y * parts_.width() + x);
+        to_joint_[joint_to({x, y}, part)] = static_cast<Node>(part - 1) * static_cast<Node>(parts_.size()) + away;
+      }
+    }
+  }
+}
 
 void RoadMap::update(KnownMap const& map, std::vector<std::uint32_t> const& changed) {
   if (changed.empty()) return;
@@ -75,10 +86,11 @@ void RoadMap::divide(KnownMap const& map, Cell block) {
       ++parts;
       cells.assign(1, {x, y});
       fill(map, block, parts, cells);
-      nodes_[first_node(block) + parts - 1U].place = middle_one(cells);
+      nodes_[node_of(block, parts)].place = middle_one(cells);
     }
   }
   parts_[block] = parts;
+  most_used_ = std::max(most_used_, parts);
 }
 
 void RoadMap::fill(KnownMap const& map, Cell block, std::uint8_t part, std::vector<Cell>& cells) {
@@ -97,36 +109,28 @@ void RoadMap::fill(KnownMap const& map, Cell block, std::uint8_t part, std::vect
 void RoadMap::join(KnownMap const& map, Cell block) {
   Cell const least{block.x * side_, block.y * side_};
   Cell const most{std::min(least.x + side_, map.width()), std::min(least.y + side_, map.height())};
-  for (int part = 0; part < most_parts; ++part) nodes_[first_node(block) + static_cast<Node>(part)].edges.clear();
-  if (parts_[block] == 0) return;
+  for (int part = 1; part <= parts_[block]; ++part) {
+    auto& node = nodes_[node_of(block, part)];
+    node.joined = 0;
+    node.is_near_wall = map.is_near_wall(node.place);
+  }
   for (int y = least.y; y < most.y; ++y) {
     for (int x = least.x; x < most.x; ++x) {
       bool const is_border = x == least.x || y == least.y || x == most.x - 1 || y == most.y - 1;
       if (!is_border || label_[{x, y}] == 0) continue;
+      auto& node = nodes_[node_of(block, label_[{x, y}])];
       for (auto const away : neighbours) {
         auto const next = Cell{x, y} + away;
-        if (block_of(next) != block || next.x < 0 || next.y < 0) join_cells(map, {x, y}, next);
+        if (label_.or_else(next, 0) == 0 || block_of(next) == block) continue;
+        node.joined |= std::uint64_t{1} << joint_to(block_of(next) - block, label_[next]);
       }
     }
   }
 }
 
-void RoadMap::join_cells(KnownMap const& map, Cell cell, Cell next) {
-  if (!label_.contains(next) || label_[next] == 0) return;
-  auto const here = first_node(block_of(cell)) + label_[cell] - 1U;
-  auto const there = first_node(block_of(next)) + label_[next] - 1U;
-  auto& edges = nodes_[here].edges;
-  if (std::ranges::any_of(edges, [&](Edge const& edge) { return edge.to == there; })) return;
-  auto const from = nodes_[here].place;
-  auto const to = nodes_[there].place;
-  bool const is_near_wall = map.is_near_wall(from) || map.is_near_wall(to);
-  auto const length_m = static_cast<float>(length_of(to - from) * cell_m_);
-  edges.push_back({there, is_near_wall ? length_m * near_wall_factor : length_m});
-}
-
 std::optional<RoadMap::Node> RoadMap::node_at(Cell cell) const {
   if (!label_.contains(cell) || label_[cell] == 0) return {};
-  return first_node(block_of(cell)) + label_[cell] - 1U;
+  return node_of(block_of(cell), label_[cell]);
 }
 
 std::optional<RoadMap::Node> RoadMap::node_near(Cell cell) const {
@@ -160,10 +164,15 @@ std::vector<RoadMap::Node> RoadMap::way(Node root, Node goal, std::vector<Disc> 
   return way;
 }
 
+float RoadMap::between_m(NodeData const& a, NodeData const& b) const {
+  auto const length_m = static_cast<float>(length_of(b.place - a.place) * cell_m_);
+  return a.is_near_wall || b.is_near_wall ? length_m * near_wall_factor : length_m;
+}
+
 RoadMap::Tree RoadMap::grow(Node root, float most_m, std::optional<Node> goal, std::vector<Disc> const& closed) const {
   Tree tree;
-  tree.distance_m.assign(nodes_.size(), unreachable);
-  tree.before.assign(nodes_.size(), root);
+  tree.distance_m.assign(nodes(), unreachable);
+  tree.before.assign(nodes(), root);
   auto const is_closed = [&](Node node) {
     auto const place = middle_of(nodes_[node].place, cell_m_);
     return std::ranges::any_of(closed,
@@ -178,13 +187,17 @@ RoadMap::Tree RoadMap::grow(Node root, float most_m, std::optional<Node> goal, s
     open.pop();
     if (so_far > tree.distance_m[node]) continue;
     if (node == goal) break;
-    for (auto const& edge : nodes_[node].edges) {
-      float const length = so_far + edge.length_m;
-      if (length >= tree.distance_m[edge.to] || length > most_m) continue;
-      if (!closed.empty() && is_closed(edge.to)) continue;
-      tree.distance_m[edge.to] = length;
-      tree.before[edge.to] = node;
-      open.push({length, edge.to});
+    auto const& here = nodes_[node];
+    auto const block = node % static_cast<Node>(parts_.size());
+    for (auto joined = here.joined; joined != 0; joined &= joined - 1) {
+      auto const to = block + to_joint_[static_cast<std::size_t>(std::countr_zero(joined))];
+      if (so_far >= tree.distance_m[to]) continue;
+      float const length = so_far + between_m(here, nodes_[to]);
+      if (length >= tree.distance_m[to] || length > most_m) continue;
+      if (!closed.empty() && is_closed(to)) continue;
+      tree.distance_m[to] = length;
+      tree.before[to] = node;
+      open.push({length, to});
     }
   }
   return tree;

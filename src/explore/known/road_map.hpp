@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -27,7 +28,8 @@ class RoadMap {
   [[nodiscard]] std::optional<Node> node_at(Cell cell) const;
   /// A standable cell in the middle of it.
   [[nodiscard]] Cell place_of(Node node) const { return nodes_[node].place; }
-  [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
+  /// More than all of them.
+  [[nodiscard]] std::size_t nodes() const { return most_used_ * parts_.size(); }
   /// Grows with every change.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
@@ -45,13 +47,13 @@ class RoadMap {
 
  private:
   static constexpr int most_parts = 6;
-  struct Edge {
-    Node to = 0;
-    float length_m = 0.0F;
-  };
+  /// The parts of a block and of those around it: so many a node may be joined to.
+  static constexpr std::size_t joints = 9 * most_parts;
+  static_assert(joints <= 64);
   struct NodeData {
     Cell place = {};
-    std::vector<Edge> edges = {};
+    std::uint64_t joined = 0;  ///< to which of its joints, a bit each
+    bool is_near_wall = false;
   };
 
   [[nodiscard]] Cell block_of(Cell cell) const { return {cell.x / side_, cell.y / side_}; }
@@ -60,16 +62,24 @@ class RoadMap {
   /// All cells of the block that hang together with the one in `cells`; they are added to it.
   void fill(KnownMap const& map, Cell block, std::uint8_t part, std::vector<Cell>& cells);
   void join(KnownMap const& map, Cell block);
-  /// An edge between the parts of two cells that touch.
-  void join_cells(KnownMap const& map, Cell cell, Cell next);
-  [[nodiscard]] Node first_node(Cell block) const { return static_cast<Node>(parts_.index_of(block) * most_parts); }
+  [[nodiscard]] float between_m(NodeData const& a, NodeData const& b) const;
+  /// The number of the joint to a part of the block that lies `away`, at most one to each side.
+  [[nodiscard]] static std::size_t joint_to(Cell away, int part) {
+    return static_cast<std::size_t>(((away.y + 1) * 3 + away.x + 1) * most_parts + part - 1);
+  }
+  /// The first parts of all blocks lie side by side in memory, as few blocks have others.
+  [[nodiscard]] Node node_of(Cell block, int part) const {
+    return static_cast<Node>(static_cast<std::size_t>(part - 1) * parts_.size() + parts_.index_of(block));
+  }
 
   double cell_m_;
   int side_;
   DenseGrid<std::uint8_t> label_;  ///< of cells: part of the block from 1, 0 for none
   DenseGrid<std::uint8_t> parts_;  ///< of blocks: how many
+  std::uint8_t most_used_ = 1;     ///< parts of any block
   DenseGrid<std::uint8_t> mark_;   ///< of blocks: 1 changed, 2 beside such a one
   std::vector<NodeData> nodes_;
+  std::array<Node, joints> to_joint_ = {};  ///< from the first part of a block, by the number of the joint
   std::uint64_t version_ = 0;
 };
 

@@ -73,9 +73,13 @@ with tempfile.TemporaryDirectory() as name:
             del run["wall_s"]
         return found
 
-    two = runs("--seed", 5, "--runs", 2)
-    assert two == runs("--seed", 5, "--runs", 2), "repeats"
+    two = runs("--seed", 5, "--runs", 2, "--threads", 2)
+    assert two == runs("--seed", 5, "--runs", 2, "--threads", 1), "repeats"
     assert two[1] == runs("--seed", 6)[0] and two[0] != two[1]
+
+    # Lines come in the order of the runs, whichever ends first.
+    lines = explore("--map", plan, "--runs", 6, "--threads", 3).stdout.splitlines()
+    assert [line.split()[0] for line in lines] == ["1", "2", "3", "4", "5", "6"], lines
 
     # The same floor drawn the other way around, with a turned origin: the same way from the same place.
     pgm(folder / "negative.pgm", wall=255, free=0)
