@@ -38,6 +38,27 @@ Palette const& trinary_palette() {
   return palette;
 }
 
+Palette const& parking_palette() {
+  static Palette const palette = [] {
+    constexpr Colour parking{.red = 255, .green = 255, .blue = 255, .opacity = 90};
+    constexpr Colour other{.red = 51, .green = 65, .blue = 85, .opacity = 110};
+    Palette made = {};
+    for (std::size_t shade = 1; shade < made.size(); ++shade) {
+      auto const between = [share = *probability_of(static_cast<Shade>(shade))](std::uint8_t from, std::uint8_t to) {
+        return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
+      };
+      made[shade] = {between(parking.red, other.red), between(parking.green, other.green),
+                     between(parking.blue, other.blue), between(parking.opacity, other.opacity)};
+    }
+    return made;
+  }();
+  return palette;
+}
+
+Palette const& palette_for(std::string_view grid) {
+  return grid.ends_with("parking") ? parking_palette() : scale_palette();
+}
+
 std::string png_of(std::span<Shade const> shades, int side, Palette const& palette) {
   LAPWING_ASSERT(side > 0 && shades.size() == static_cast<std::size_t>(side) * static_cast<std::size_t>(side), side,
                  shades.size());

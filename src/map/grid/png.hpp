@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "map/grid/grid_pyramid.hpp"
 
@@ -26,6 +27,12 @@ using Palette = std::array<Colour, 256>;
 /// The same in mode "trinary", by its usual thresholds: taken above 0.65, free below 0.25, and grey (205) for what is
 /// between.
 [[nodiscard]] Palette const& trinary_palette();
+
+/// Of a survey of a car park, where what is "taken" is ground on which nobody parks: slate there and white where one
+/// does, as thin as glass, since slots are drawn on it and often a picture of the ground below.
+[[nodiscard]] Palette const& parking_palette();
+/// The one to show a grid of that name with, as `GridKey` has it.
+[[nodiscard]] Palette const& palette_for(std::string_view grid);
 
 /// A square picture as PNG, row by row from the top, with a palette; packed quickly rather than tightly, as it is
 /// thrown away at the next change. Precondition: `side * side` shades, at least one.

@@ -44,6 +44,21 @@ TEST(Png, HasThePaletteOfMapServer) {
   EXPECT_EQ(trinary_palette()[shade_of(Evidence::of_probability(0.1))].red, 254);
 }
 
+TEST(Png, LetsTheGroundBeSeenBelowACarPark) {
+  EXPECT_EQ(parking_palette()[0].opacity, 0);
+  auto const parking = parking_palette()[1];
+  auto const other = parking_palette()[255];
+  EXPECT_GT(parking.red, 200);
+  EXPECT_LT(other.red, 100);
+  for (auto const& colour : {parking, other}) {
+    EXPECT_GT(colour.opacity, 64);
+    EXPECT_LT(colour.opacity, 128);
+  }
+  EXPECT_EQ(&palette_for("hawk parking"), &parking_palette());
+  EXPECT_EQ(&palette_for("floor"), &scale_palette());
+  EXPECT_EQ(&palette_for("robot 1"), &scale_palette());
+}
+
 TEST(Png, IsSmallForAnEvenPicture) {
   EXPECT_LT(png_of(std::vector<Shade>(65'536, 127), 256, scale_palette()).size(), 2'500U) << "1 KiB of it are colours";
 }

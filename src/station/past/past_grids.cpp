@@ -86,8 +86,8 @@ std::string draw(GridPyramid const& pyramid, geo::Site const& site, map::XyzTile
 }
 
 std::string draw_grid(map::GridPlace const& place, GridPyramid::Tiles const& tiles, geo::Site const& site,
-                      map::XyzTile tile) {
-  return draw(GridPyramid(place.resolution_m, place.site_from_grid, tiles), site, tile, map::scale_palette());
+                      map::XyzTile tile, std::string const& grid) {
+  return draw(GridPyramid(place.resolution_m, place.site_from_grid, tiles), site, tile, map::palette_for(grid));
 }
 
 std::string draw_changes(map::GridPlace const& place, GridPyramid::Tiles const& before, GridPyramid::Tiles const& after,
@@ -171,7 +171,7 @@ base::Task<base::Result<PastGrids::Picture>> PastGrids::picture(Moment moment, m
       within(grid->tiles, tiles_under(grid->place.resolution_m, grid->place.site_from_grid, *site, tile));
   auto ready = co_await tiles(names);
   if (!ready) co_return std::unexpected(ready.error());
-  auto png = co_await loop_.on_pool(draw_grid, grid->place, *std::move(ready), *site, tile);
+  auto png = co_await loop_.on_pool(draw_grid, grid->place, *std::move(ready), *site, tile, key.name);
   co_return Picture{std::move(png), tag_of("grid", grid->place, {&names})};
 }
 

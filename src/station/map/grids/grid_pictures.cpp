@@ -21,10 +21,10 @@ Pyramid make_ready(map::OccupancyGrid const& grid, Pyramid const& before) {
                 : std::make_shared<map::GridPyramid const>(grid);
 }
 
-std::string draw(Pyramid const& pyramid, geo::Site const& site, map::XyzTile tile) {
+std::string draw(Pyramid const& pyramid, geo::Site const& site, map::XyzTile tile, std::string const& grid) {
   auto shades = map::render(*pyramid, site, tile);
   if (!shades) shades.emplace(std::size_t{map::tile_px} * map::tile_px);
-  return map::png_of(*shades, map::tile_px, map::scale_palette());
+  return map::png_of(*shades, map::tile_px, map::palette_for(grid));
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ base::Task<std::shared_ptr<std::string const>> GridPictures::picture(map::GridKe
   UnderWay const entry(under_way_, name, ended_);
   auto const revision = revision_of(key, tile);
   auto ready = co_await pyramid(key);
-  auto png = co_await loop_.on_pool(draw, std::move(ready), *map_.site(key.site), tile);
+  auto png = co_await loop_.on_pool(draw, std::move(ready), *map_.site(key.site), tile, key.name);
   ++drawn_;
   auto shared = std::make_shared<std::string const>(std::move(png));
   keep(name, revision, shared);

@@ -62,7 +62,7 @@ export const grids: MakeLayer = ({ feeds, floors, mapLayers, session }) => {
     id: 'grids',
     name: 'Occupancy',
     group: 'Found',
-    legend: [{ sign: 'grid', text: 'dark where something stands, light where it is free' }],
+    legend: [{ sign: 'grid', text: 'dark where something stands, or in a car park nobody parks; light elsewhere' }],
     sources: { [MARK]: EMPTY },
     layers: () => [{ id: MARK, type: 'line', source: MARK }],
     update({ generation, map }) {
