@@ -1,10 +1,31 @@
 import { describe, expect, it } from 'vitest';
-import { age, clock, heading, latitude, linkSummary, linkTitle, longitude, metres, percent, span, spanAbout, speed } from './format';
+import {
+  age,
+  clock,
+  heading,
+  latitude,
+  linkSummary,
+  linkTitle,
+  longitude,
+  metres,
+  percent,
+  sentences,
+  span,
+  spanAbout,
+  speed,
+} from './format';
 
 describe('format', () => {
   it('shows what is unknown as a dash, never as 0', () => {
     for (const show of [metres, speed, percent, age, heading]) expect(show(undefined)).toBe('–');
     expect(metres(null)).toBe('–');
+  });
+  it('makes sentences of what went wrong and what to do', () => {
+    expect(sentences('nothing comes from 127.0.0.1:3080', 'is [stream] in its file?')).toBe(
+      'nothing comes from 127.0.0.1:3080. Is [stream] in its file?',
+    );
+    expect(sentences('It is away.', undefined, '')).toBe('It is away.');
+    expect(sentences(undefined)).toBe('');
   });
   it('shows metres with one decimal below ten', () => {
     expect([metres(0.04), metres(-0.04), metres(9.94), metres(9.96), metres(-12.4)]).toEqual(['0.0 m', '0.0 m', '9.9 m', '10 m', '−12 m']);

@@ -3,6 +3,15 @@ import type { LinkQuality } from './protocol';
 /** Numbers for people. What is not known is an en dash, never 0. */
 const UNKNOWN = '–';
 
+/** What went wrong and what to do, which the station says without the marks of sentences. The first word may be a name. */
+export function sentences(...parts: unknown[]): string {
+  return parts
+    .filter((part): part is string => typeof part === 'string' && part !== '')
+    .map((part) => (/[.!?]$/.test(part) ? part : `${part}.`))
+    .map((part, index) => (index === 0 ? part : part[0]!.toUpperCase() + part.slice(1)))
+    .join(' ');
+}
+
 export function metres(value: number | undefined | null): string {
   if (value === undefined || value === null) return UNKNOWN;
   return `${clean(value.toFixed(Math.abs(value) < 9.95 ? 1 : 0))} m`;

@@ -56,7 +56,7 @@ describe('texts', () => {
   });
   it('say why a request was refused', () => {
     expect(problemText(409, { detail: 'copter 1 is commanded by anna', hint: 'ask for it' })).toBe(
-      'Copter 1 is commanded by anna. Ask for it.',
+      'copter 1 is commanded by anna. Ask for it.',
     );
     expect(problemText(undefined, undefined)).toBe('The station did not answer.');
     expect(problemText(500, 'text')).toBe('The station answered with 500.');

@@ -1,3 +1,5 @@
+import { sentences } from './format';
+
 /** A vehicle's parameters as the station's API gives them (docs/reference/openapi.yaml), and what the panel makes of them. */
 
 export interface Parameter {
@@ -77,8 +79,5 @@ export function problemText(status: number | undefined, body: unknown): string {
   if (status === undefined) return 'The station did not answer.';
   const { detail, hint } = (typeof body === 'object' && body !== null ? body : {}) as { detail?: string; hint?: string };
   if (!detail) return `The station answered with ${status}.`;
-  return [detail, hint]
-    .flatMap((text) => (text ? [/[.!?]$/.test(text) ? text : `${text}.`] : []))
-    .map((text) => text[0]?.toUpperCase() + text.slice(1))
-    .join(' ');
+  return sentences(detail, hint);
 }

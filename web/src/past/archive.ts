@@ -1,3 +1,4 @@
+import { sentences } from '../lib/format';
 import { changesOf, type Changes } from './changes';
 
 /** One run of a station whose past is kept. Times are ms since 1970. */
@@ -66,8 +67,7 @@ export class Archive {
     if (!answer) throw new NoPast('The station does not answer.');
     const body: unknown = await answer.json().catch(() => undefined);
     const object = isObject(body) ? body : {};
-    if (!answer.ok)
-      throw new NoPast([object.detail, object.hint].filter((word) => typeof word === 'string').join(' ') || 'The station refuses.');
+    if (!answer.ok) throw new NoPast(sentences(object.detail, object.hint) || 'The station refuses.');
     return object;
   }
 }

@@ -1,4 +1,5 @@
 import { bodyOf, isObject } from '../lib/files/answers';
+import { sentences } from '../lib/format';
 import { saveFile } from '../lib/files/save_file';
 import type { Session } from './session.svelte';
 
@@ -44,7 +45,7 @@ export class ExportsStore {
   async ask(): Promise<void> {
     const { body, failure } = await bodyOf(await this.session.ask('/api/v1/exports'));
     this.formats = Array.isArray(body.formats) ? body.formats.filter(isFormat) : [];
-    const why = [body.reason, body.hint].filter((word) => typeof word === 'string').join(' ');
+    const why = sentences(body.reason, body.hint);
     this.missing = this.formats.length > 0 ? '' : failure || why || 'This station writes no files of the map.';
   }
 
@@ -74,7 +75,7 @@ export class ExportsStore {
       const { body, failure } = await bodyOf(await this.session.ask(address));
       if (this.running !== id) return '';
       if (failure) return failure;
-      if (body.state === 'failed') return [body.reason, body.hint].filter((word) => typeof word === 'string').join(' ');
+      if (body.state === 'failed') return sentences(body.reason, body.hint);
       if (body.state === 'done') return this.fetch(address, String(body.name));
       this.progress = typeof body.progress === 'number' ? body.progress : 0;
       await new Promise((resolve) => setTimeout(resolve, PAUSE_MS));

@@ -1,5 +1,6 @@
 import { Connection, type Socket } from '../connection/connection';
 import type { Frame } from '../connection/frame';
+import { sentences } from '../lib/format';
 import { PROTOCOL, type Hello, type Position, type Reply, type Request, type ServerMessage } from '../lib/protocol';
 
 /** locked: the station is there and asks for a token that this browser does not have. */
@@ -197,5 +198,5 @@ export class Session {
 
 /** Why a request was refused, and what to do. */
 export function reasonOf({ error }: Reply): string {
-  return [error?.message, error?.hint].filter(Boolean).join(' ');
+  return sentences(error?.message, error?.hint);
 }

@@ -78,6 +78,6 @@ describe('VehicleParameters', () => {
     await answer(Response.json({ detail: 'vehicle 1 stored RTL_ALT = 8000, not 9000' }, { status: 409 }));
     await answer(Response.json({ name: 'RTL_ALT', value: 8000, type: 'int32' }));
     expect(parameters.list?.parameters[0]?.value).toBe(8000);
-    expect(parameters.problem).toBe('Vehicle 1 stored RTL_ALT = 8000, not 9000.');
+    expect(parameters.problem).toBe('vehicle 1 stored RTL_ALT = 8000, not 9000.');
   });
 });

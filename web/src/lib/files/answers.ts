@@ -1,3 +1,5 @@
+import { sentences } from '../format';
+
 type Body = Readonly<Record<string, unknown>>;
 
 export function isObject(value: unknown): value is Body {
@@ -10,6 +12,6 @@ export async function bodyOf(answer: Response | undefined): Promise<{ body: Body
   const value: unknown = await answer.json().catch(() => undefined);
   const body = isObject(value) ? value : {};
   if (answer.ok) return { body, failure: '' };
-  const words = [body.detail, body.hint].filter((word) => typeof word === 'string').join(' ');
+  const words = sentences(body.detail, body.hint);
   return { body, failure: words || `The station refuses (${answer.status}).` };
 }

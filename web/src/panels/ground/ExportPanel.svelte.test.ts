@@ -89,7 +89,7 @@ it('tells why there is no file, and what to do', async () => {
     .on('POST ', () => json({ id: 'b2' }, 202))
     .on('GET /b2', () => json({ state: 'failed', reason: 'there is nothing in the map that geotiff holds', hint: '' }));
   await userEvent.click(screen.getByRole('button', { name: 'Export' }));
-  await screen.findByText('there is nothing in the map that geotiff holds');
+  await screen.findByText('there is nothing in the map that geotiff holds.');
   expect(saved).toEqual([]);
 });
 
