@@ -51,6 +51,24 @@ test('leaves the view alone once the operator has moved it, until F', async ({ o
   await inSight(page);
 });
 
+test('zooms about the middle of what the panels leave of the map', async ({ open }) => {
+  const page = await open({ size: { width: 1280, height: 800 }, reducedMotion: 'reduce' });
+  await openPanel(page, 'Log');
+  await inSight(page);
+  await page.locator('#vehicles').getByText('lost').waitFor(); // it stands still
+  const [map, dock] = [await page.locator('.map').boundingBox(), await page.locator('#dock').boundingBox()];
+  const middle = { x: map.x + map.width / 2, y: (map.y + dock.y) / 2 };
+  const before = await placeOnMap(page, 'rover 5');
+  await page.getByRole('button', { name: 'Zoom out' }).click();
+  const wanted = { x: (before.x + middle.x) / 2, y: (before.y + middle.y) / 2 };
+  await expect
+    .poll(async () => {
+      const { x, y } = await placeOnMap(page, 'rover 5');
+      return Math.hypot(x - wanted.x, y - wanted.y);
+    })
+    .toBeLessThan(5);
+});
+
 test('goes to a survey drone where no vehicle is heard', async ({ open }) => {
   const drone = { name: 'drone1', connected: true, words: [], state: 'Idle', position: { lat_deg: 43.2585, lon_deg: -79.9201 } };
   const told = { type: 'survey', feed: 'survey', revision: 1, whole: true, drones: [drone] };

@@ -53,6 +53,14 @@ export class FittedView {
     if (Math.hypot(...by) >= 1) map.panBy(by, { animate: false });
   }
 
+  /** About the middle of what is in sight. */
+  zoom(map: MapLibreMap, steps: number): void {
+    const { clientWidth, clientHeight } = map.getContainer();
+    const { top, right, bottom, left } = this.covered();
+    const around = map.unproject([(left + clientWidth - right) / 2, (top + clientHeight - bottom) / 2]);
+    map.easeTo({ zoom: map.getZoom() + steps, around, animate: this.mayAnimate(), duration: 200 });
+  }
+
   /** Moves the map as far as it takes to have a place in sight beside the panels. */
   reveal(map: MapLibreMap, at: LonLat): void {
     const { x, y } = map.project(at);
