@@ -57,6 +57,17 @@ for (const size of [
     await expect.poll(() => picture.evaluate((image) => image.naturalWidth)).toBeGreaterThan(0);
     await expect(panel.locator('.delay')).toHaveText(/^\d+ ms$/);
     assert.equal(asked[0].get('view'), 'annotated');
+    await panel.getByRole('button', { name: 'Large' }).click();
+    const stop = await page.getByRole('button', { name: 'E-STOP' }).boundingBox();
+    const seen = await picture.boundingBox();
+    assert.ok(seen.y >= stop.y + stop.height && seen.width === size.width && seen.y + seen.height === size.height, JSON.stringify(seen));
+    await expect(panel.locator('.delay')).toBeInViewport({ ratio: 1 });
+    await page.evaluate(axe);
+    assert.deepEqual(await violations(page), []);
+    await page.keyboard.press('Escape');
+    await expect.poll(async () => (await picture.boundingBox()).width).toBeLessThan(size.width);
+    await panel.getByRole('button', { name: 'Large' }).click();
+    await panel.getByRole('button', { name: 'Small' }).click();
     await panel.getByRole('button', { name: 'Plain' }).click();
     await expect.poll(() => asked.at(-1).get('view')).toBe('raw');
     await page.evaluate(axe);

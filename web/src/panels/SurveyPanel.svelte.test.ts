@@ -55,6 +55,10 @@ it('lets it do only what it can do now', () => {
   tell({ state: 'Idle', armed: false });
   expect(button('Arm')).toBeEnabled();
   for (const name of ['Take off', 'Explore', 'Move in the lot', 'Disarm']) expect(button(name)).toBeDisabled();
+  tell({ state: 'Arm', armed: false });
+  expect(button('Take off')).toBeDisabled();
+  tell({ state: 'Arm', armed: true });
+  expect(button('Take off')).toBeEnabled();
   tell({});
   expect(button('Arm')).toBeDisabled();
   for (const name of ['Explore', 'Move in the lot', 'Move anyway', 'Come home']) expect(button(name)).toBeEnabled();
@@ -83,5 +87,5 @@ it('says why a command was not handed on', async () => {
   show();
   tell({});
   await userEvent.click(button('Come home'));
-  expect(await screen.findByRole('alert')).toHaveTextContent('hawk is not connected connection refused');
+  expect(await screen.findByRole('alert')).toHaveTextContent('hawk is not connected. Connection refused.');
 });
