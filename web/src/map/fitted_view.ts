@@ -1,4 +1,4 @@
-import type { Map as MapLibreMap } from 'maplibre-gl';
+import type { LngLat, Map as MapLibreMap } from 'maplibre-gl';
 import { contains, cover, widenedBy, type Bounds, type LonLat } from './geometry';
 import type { Sides } from './aim';
 
@@ -47,18 +47,25 @@ export class FittedView {
   /** Brings a place into the middle of what is in sight. */
   centre(map: MapLibreMap, at: LonLat): void {
     const { x, y } = map.project(at);
-    const { clientWidth, clientHeight } = map.getContainer();
-    const { top, right, bottom, left } = this.covered();
-    const by: [number, number] = [x - (left + clientWidth - right) / 2, y - (top + clientHeight - bottom) / 2];
+    const [middleX, middleY] = this.middlePx(map);
+    const by: [number, number] = [x - middleX, y - middleY];
     if (Math.hypot(...by) >= 1) map.panBy(by, { animate: false });
   }
 
   /** About the middle of what is in sight. */
   zoom(map: MapLibreMap, steps: number): void {
+    map.easeTo({ zoom: map.getZoom() + steps, around: this.middle(map), animate: this.mayAnimate(), duration: 200 });
+  }
+
+  /** Of what the panels leave of the map. */
+  middle(map: MapLibreMap): LngLat {
+    return map.unproject(this.middlePx(map));
+  }
+
+  private middlePx(map: MapLibreMap): [number, number] {
     const { clientWidth, clientHeight } = map.getContainer();
     const { top, right, bottom, left } = this.covered();
-    const around = map.unproject([(left + clientWidth - right) / 2, (top + clientHeight - bottom) / 2]);
-    map.easeTo({ zoom: map.getZoom() + steps, around, animate: this.mayAnimate(), duration: 200 });
+    return [(left + clientWidth - right) / 2, (top + clientHeight - bottom) / 2];
   }
 
   /** Moves the map as far as it takes to have a place in sight beside the panels. */
