@@ -44,7 +44,8 @@ double Evidence::log_odds() const {
 
 double Evidence::probability() const {
   static auto const table = probabilities();
-  return is_seen() ? table[static_cast<std::size_t>(steps_ + most_steps)] : 0.5;
+  int const place = steps_ + most_steps;
+  return is_seen() ? table[static_cast<std::size_t>(place)] : 0.5;
 }
 
 Evidence Evidence::and_also(Evidence other) const {

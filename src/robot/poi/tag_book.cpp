@@ -72,7 +72,7 @@ double apart_m(TagBook::Entry const& one, TagBook::Entry const& other) {
 /// that the one seems to hang on may have hidden some of it.
 bool is_seen_past(TagBook::Entry const& one, TagBook::Entry const& other) {
   if (one.names.empty() || other.names.empty() || one.name().size() < 2) return false;
-  if (other.name().find(one.name()) == std::string::npos) return false;
+  if (!other.name().contains(one.name())) return false;
   if (one.seen_from.size() != static_cast<std::size_t>(one.sights)) return false;
   Eigen::Vector2d const facing(std::cos(other.facing_rad), std::sin(other.facing_rad));
   return std::ranges::all_of(one.seen_from, [&](map::SitePoint const& from) {

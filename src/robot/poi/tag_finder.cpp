@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "base/async/pool.hpp"
-#include "robot/views/seen_walls.hpp"
 #include "robot/views/wall_views.hpp"
 
 namespace lapwing::robot {
@@ -196,14 +195,24 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
   auto const look = co_await std::move(looking);
   if (!look) co_return std::nullopt;
   ++pictures_;
+  auto const numbers = note(*look, eye, pose, views, clear_way);
+  for (auto const number : numbers) {
+    auto showing = show(number, pose);
+    co_await std::move(showing);
+  }
+  co_return numbers;
+}
+
+std::vector<std::uint32_t> TagFinder::note(Look const& look, Eye const& eye, vehicle::SitePose const& pose,
+                                           std::vector<SeenWall> const& views, ClearWay const& clear_way) {
   auto const after = pose_now();
   bool const has_turned = !after || std::abs(geo::wrap_pi(after->yaw_rad - pose.yaw_rad)) > most_turn_rad;
   std::vector<std::uint32_t> numbers;
   auto const* const grid = grid_of(pose);
-  if (!grid) co_return numbers;
+  if (!grid) return numbers;
   std::map<WallPiece, std::pair<double, LookBook::Outcome>> shown;
   for (auto const& [wall, clear] : views) shown.emplace(piece_of(wall), std::pair(clear, LookBook::Outcome::blank));
-  for (auto const& seen : look->found) {
+  for (auto const& seen : look.found) {
     if (seen.what.category != "sign") continue;
     auto const place = tag_place(*grid, level(pose), eye.mount, seen.what.box);
     if (!place || is_seen_past(place->wall, eye.mount, pose, clear_way)) continue;
@@ -211,9 +220,9 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
     // From afar a sign is noticed: where it hangs, and what it says, is told by who comes nearer.
     double const way_rad = way_to(place->wall, pose);
     bool const is_near = is_readable(place->wall, way_rad);
-    auto const outcome = !is_whole                                     ? LookBook::Outcome::cut_off
-                         : is_near && look->is_sharp && seen.what.text ? LookBook::Outcome::read
-                                                                       : LookBook::Outcome::poor;
+    auto const outcome = !is_whole                                    ? LookBook::Outcome::cut_off
+                         : is_near && look.is_sharp && seen.what.text ? LookBook::Outcome::read
+                                                                      : LookBook::Outcome::poor;
     for (auto const& [wall, clear] : views)
       if (geo::distance_m(wall.position, place->wall.position) < sign_reaches_m)
         shown[piece_of(wall)] = {clear, outcome};
@@ -228,11 +237,7 @@ base::Task<std::optional<std::vector<std::uint32_t>>> TagFinder::look_with(Eye c
   // A picture that was smeared shows nothing where there is something.
   if (has_turned) std::erase_if(shown, [](auto const& one) { return one.second.second == LookBook::Outcome::blank; });
   for (auto const& [piece, look_at] : shown) looks_.note(piece, look_at.first, look_at.second);
-  for (auto const number : numbers) {
-    auto showing = show(number, pose);
-    co_await std::move(showing);
-  }
-  co_return numbers;
+  return numbers;
 }
 
 base::Task<> TagFinder::show(std::uint32_t number, vehicle::SitePose pose) {

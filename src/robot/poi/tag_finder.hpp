@@ -13,6 +13,7 @@
 #include "robot/poi/eye.hpp"
 #include "robot/poi/tag_book.hpp"
 #include "robot/views/look_book.hpp"
+#include "robot/views/seen_walls.hpp"
 #include "robot/views/viewpoint.hpp"
 #include "vehicle/registry.hpp"
 
@@ -74,6 +75,10 @@ class TagFinder {
   base::Task<> look_again();
   /// Gives what was seen, as the numbers of tags; nothing: there was no look.
   base::Task<std::optional<std::vector<std::uint32_t>>> look_with(Eye const& eye, vehicle::SitePose pose);
+  /// Into the books goes what a picture showed that was taken at `pose`; gives the tags on it. `views` and `clear_way`
+  /// are of that moment.
+  std::vector<std::uint32_t> note(Look const& look, Eye const& eye, vehicle::SitePose const& pose,
+                                  std::vector<SeenWall> const& views, ClearWay const& clear_way);
   base::Task<> show(std::uint32_t number, vehicle::SitePose pose);
   [[nodiscard]] std::optional<vehicle::SitePose> pose_now() const;
   void take_in(TagBook::Joined const& joined);

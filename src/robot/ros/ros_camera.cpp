@@ -47,11 +47,14 @@ base::Result<std::unique_ptr<RosCamera>> RosCamera::open(base::Loop& loop, std::
 }
 
 base::Task<base::Result<RosCamera::Raw>> RosCamera::next() {
-  struct Waiting {  // also when nobody awaits this any more
+  class Waiting {  // also when nobody awaits this any more
+   public:
     explicit Waiting(int& count) : count_(count) { ++count_; }
     ~Waiting() { --count_; }
     Waiting(Waiting const&) = delete;
     Waiting& operator=(Waiting const&) = delete;
+
+   private:
     int& count_;
   };
   Waiting const waiting(waiting_);

@@ -131,7 +131,8 @@ void RoverBody::take_ranges(mavlink::Received const& received) {
     ranges = ranges_.take(*single, received.at);
   if (!ranges) return;
   if (!had_sensor) log_.info(fmt::format("ranges in {} directions over MAVLink", ranges->size()));
-  take_scan({.first = received.at.time_since_epoch(), .beams = ranges->size()}, *std::move(ranges));
+  scans::BeamTimes const times{.first = received.at.time_since_epoch(), .beams = ranges->size()};
+  take_scan(times, *std::move(ranges));
 }
 
 void RoverBody::take_scan(scans::BeamTimes const& times, std::vector<float> ranges_m) {

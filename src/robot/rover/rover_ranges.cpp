@@ -46,7 +46,8 @@ std::optional<std::vector<float>> RoverRanges::take(mavlink::ObstacleDistance co
   if (sensor_ && !is_of_sectors_) return std::nullopt;
   if (!sensor_) {
     // Those beyond a full turn would be the first ones again.
-    auto const count = std::min<std::size_t>(sectors, static_cast<std::size_t>(full_turn / std::abs(step) + 0.5));
+    auto const count =
+        std::min<std::size_t>(sectors, static_cast<std::size_t>(std::lround(full_turn / std::abs(step))));
     std::vector<double> bearings;
     for (std::size_t i = 0; i < count; ++i)
       bearings.push_back(geo::wrap_pi(-(seen.first_bearing_rad.value_or(0.0) + static_cast<double>(i) * step)));

@@ -41,7 +41,7 @@ struct RoverBench : ::testing::Test {
   }
   [[nodiscard]] bool has_logged(std::string const& part) const {
     for (auto const& line : lines)
-      if (line.find(part) != std::string::npos) return true;
+      if (line.contains(part)) return true;
     return false;
   }
 

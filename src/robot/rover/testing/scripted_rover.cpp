@@ -67,8 +67,8 @@ base::Task<> ScriptedRover::live() {
     if (!is_mute && i % 10 == 5) tell(mavlink::SysStatus{.battery_remaining = wheels_.battery});
     co_await loop_.sleep(100ms);
     bool const obeys = mode == guided && is_armed && loop_.now() - steered_at_ < setpoint_times_out;
-    if (!obeys) motion_ = {};
-    wheels_.drive(motion_);
+    if (!obeys) motion = {};
+    wheels_.drive(motion);
   }
 }
 
@@ -117,7 +117,7 @@ MavResult ScriptedRover::tell_on_request(float message) {
 void ScriptedRover::on(mavlink::SetPositionTargetLocalNed const& setpoint) {
   if (mode != guided || !has_origin) return;
   steered_at_ = loop_.now();
-  motion_ = {.speed_m_s = setpoint.velocity_m_s.north, .turn_rad_s = -setpoint.yaw_rate_rad_s};
+  motion = {.speed_m_s = setpoint.velocity_m_s.north, .turn_rad_s = -setpoint.yaw_rate_rad_s};
 }
 
 /// The map's x axis is laid to the north.

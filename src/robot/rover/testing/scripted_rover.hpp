@@ -23,7 +23,7 @@ class ScriptedRover {
                 robot::testing::SimpleBodyOptions const& options = {});
 
   [[nodiscard]] robot::testing::SimpleBody& wheels() { return wheels_; }
-  [[nodiscard]] bool stands() const { return motion_ == Motion{}; }
+  [[nodiscard]] bool stands() const { return motion == Motion{}; }
   template <class M>
   [[nodiscard]] std::vector<M> all() const {
     std::vector<M> found;
@@ -39,7 +39,7 @@ class ScriptedRover {
   std::vector<mavlink::Message> heard;
   std::uint32_t mode = manual;
   bool is_armed = false;
-  Motion motion_;  ///< that its wheels are told
+  Motion motion;  ///< that its wheels are told
 
   // ---- what tests do to it
   std::optional<std::string> objects_to_arming;  ///< it says so
