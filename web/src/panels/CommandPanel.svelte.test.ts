@@ -51,6 +51,23 @@ describe('the command panel', () => {
     expect(station.asked).toEqual([{ type: 'command', action: 'take_off', vehicles: ['1'], height_m: 25, take_over: false }]);
   });
 
+  it('offers what one of the vehicles can do', () => {
+    const flies = ['Land', 'Take off'];
+    const missions = ['Start mission', 'Pause', 'Resume'];
+    const offered = (): string[] => [...flies, ...missions].filter((name) => screen.queryByRole('button', { name }));
+    const wanted = { robot: [], rover: missions, copter: [...flies, ...missions] };
+    for (const family of ['robot', 'rover', 'copter'] as const) {
+      station = TestStation.live([copter('1', { family }), copter('2', { family: 'robot' })]);
+      const { unmount } = render(CommandPanel, {
+        props: { selected: ['1', '2'], tool: 'none', target: undefined },
+        context: station.context,
+      });
+      expect(offered(), family).toEqual(wanted[family]);
+      for (const name of ['Hold', 'Return', 'Disarm', 'Arm', 'Go to…']) expect(button(name)).toBeVisible();
+      unmount();
+    }
+  });
+
   it('says why a command was refused', async () => {
     show(['1']);
     await fireEvent.click(button('Land'));
