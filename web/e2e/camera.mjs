@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
 const programs = path.join(process.env.LAPWING_BUILD ?? path.join(root, 'build/release'), 'bin');
 
-const freeTcpPort = () =>
+export const freeTcpPort = () =>
   new Promise((resolve) => {
     const probe = createServer().listen(0, '127.0.0.1', () => {
       const { port } = probe.address();

@@ -18,7 +18,7 @@ function dataHome() {
   return folder;
 }
 
-const freeUdpPort = () =>
+export const freeUdpPort = () =>
   new Promise((resolve) => {
     const probe = createSocket('udp4').bind(0, '127.0.0.1', () => {
       const { port } = probe.address();
