@@ -108,15 +108,17 @@ class Wire:
 
     def missions(self, vehicle: int) -> list[list]:
         """The missions that were uploaded to the vehicle, in order: their items by sequence number, each as it was sent
-        last."""
-        missions, items = [], {}
-        for seen in self.of(vehicle, "MISSION_ITEM_INT", "MISSION_ACK"):
+        last. One that is sent again after the vehicle has all of them belongs to no mission."""
+        missions, items, is_under_way = [], {}, False
+        for seen in self.of(vehicle, "MISSION_COUNT", "MISSION_ITEM_INT", "MISSION_ACK"):
             kind = seen.message.get_type()
-            if seen.to_vehicle and kind == "MISSION_ITEM_INT" and seen.message.mission_type == 0:
+            if seen.to_vehicle and kind == "MISSION_COUNT" and seen.message.mission_type == 0:
+                is_under_way = True
+            elif seen.to_vehicle and kind == "MISSION_ITEM_INT" and seen.message.mission_type == 0 and is_under_way:
                 items[seen.message.seq] = seen.message
             elif not seen.to_vehicle and kind == "MISSION_ACK" and seen.message.type == 0 and items:
                 missions.append([items[number] for number in sorted(items)])
-                items = {}
+                items, is_under_way = {}, False
         return missions
 
     def of(self, vehicle: int, *kinds: str) -> list[Seen]:
