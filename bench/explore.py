@@ -72,13 +72,14 @@ def measure(program: pathlib.Path, say, named=()) -> list:
     for floor in chosen:
         for robots in ROBOTS:
             base = None
+            name = f"{floor.parent.name}/{floor.stem}"  # many are called map.yaml
             for strategy in sorted(STRATEGIES, key=lambda name: name != BASELINE):
                 if strategy == YARDSTICK and robots > 1:
                     continue
-                row = {"floor": floor.stem, "robots": robots, "strategy": strategy} | row_of(runs(program, floor, strategy, robots))
+                row = {"floor": name, "robots": robots, "strategy": strategy} | row_of(runs(program, floor, strategy, robots))
                 base = base or row["to_99_m"]
                 rows.append(row)
-                say(f"explore {floor.stem:18} {robots} x {strategy:11} {row['to_99_m']:8.0f} m {row['to_99_s']:8.0f} s to 99 % "
+                say(f"explore {name:26} {robots} x {strategy:11} {row['to_99_m']:8.0f} m {row['to_99_s']:8.0f} s to 99 % "
                     f"({100 * (row['to_99_m'] / base - 1):+4.0f} %), in all {row['travel_m']:6.0f} m, "
                     f"{row['reached_99']}/{row['runs']} saw 99 %, {row['finished']} home, {row['collisions']} collisions, {row['wall_s']:.1f} s a run")
     table(rows, say)
