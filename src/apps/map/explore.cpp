@@ -169,9 +169,14 @@ class Findings {
     for (; told_ < runs_.size() && !runs_[told_].report.is_null(); ++told_) fmt::print("{}\n", runs_[told_].line);
     std::fflush(stdout);
   }
+
   void fail(base::Error error) {
     std::scoped_lock const lock(mutex_);
     if (!error_) error_ = std::move(error);
+  }
+  [[nodiscard]] bool has_failed() {
+    std::scoped_lock const lock(mutex_);
+    return error_.has_value();
   }
 
   /// When all have ended.
@@ -223,6 +228,7 @@ base::Result<Json> explore_floor(ExploreOptions const& options) {
   auto const threads = options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   Findings findings(runs->size());
   base::parallel_for(threads, runs->size(), [&](std::size_t i) {
+    if (findings.has_failed()) return;
     if (auto done = explore_once(options, (*runs)[i], i, findings); !done) findings.fail(std::move(done.error()));
   });
   auto reports = findings.reports();
