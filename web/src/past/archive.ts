@@ -1,4 +1,4 @@
-import { sentences } from '../lib/format';
+import { bodyOf, isObject } from '../lib/files/answers';
 import { changesOf, type Changes } from './changes';
 
 /** One run of a station whose past is kept. Times are ms since 1970. */
@@ -63,17 +63,10 @@ export class Archive {
   }
 
   private async get(address: string): Promise<Record<string, unknown>> {
-    const answer = await this.ask(address);
-    if (!answer) throw new NoPast('The station does not answer.');
-    const body: unknown = await answer.json().catch(() => undefined);
-    const object = isObject(body) ? body : {};
-    if (!answer.ok) throw new NoPast(sentences(object.detail, object.hint) || 'The station refuses.');
-    return object;
+    const { body, failure } = await bodyOf(await this.ask(address));
+    if (failure) throw new NoPast(failure);
+    return body;
   }
-}
-
-function isObject(value: unknown): value is Record<string, unknown> {
-  return typeof value === 'object' && value !== null && !Array.isArray(value);
 }
 
 function sessionOf(value: unknown): KeptSession | undefined {
