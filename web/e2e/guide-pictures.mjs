@@ -1,6 +1,6 @@
 // Takes the pictures of README.md and of the guides, of the scripts that they tell of.
-// usage: node e2e/guide-pictures.mjs [demo|first-mission|ground|survey|robot|explore]; needs the built program (LAPWING, default build/release/bin/lapwing) and
-// web/dist.
+// usage: node e2e/guide-pictures.mjs [demo|first-mission|ground|survey|robot|explore]; needs the built program (LAPWING, default
+// build/release/bin/lapwing) and web/dist.
 import { execFile, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
