@@ -28,7 +28,7 @@ class RoadMap {
   [[nodiscard]] std::optional<Node> node_at(Cell cell) const;
   /// A standable cell in the middle of it.
   [[nodiscard]] Cell place_of(Node node) const { return nodes_[node].place; }
-  /// More than all of them.
+  /// All nodes are numbers below this, and so long are trees.
   [[nodiscard]] std::size_t nodes() const { return most_used_ * parts_.size(); }
   /// Grows with every change.
   [[nodiscard]] std::uint64_t version() const { return version_; }
