@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace lapwing::station::internal {
+namespace {
+
+Places::Standing counted_as(Places::Standing standing) {
+  return standing == Places::Standing::newcomer ? Places::Standing::stranger : standing;
+}
+
+}  // namespace
 
 std::size_t Places::count(Standing standing, std::string const& address) const {
   auto const found = counts_.find({standing, address});
@@ -12,12 +19,13 @@ std::size_t Places::count(Standing standing, std::string const& address) const {
 
 std::optional<Places::Guest> Places::first(Standing standing, std::string const& address) const {
   std::optional<Guest> found;
-  std::uint64_t earliest = 0;
+  std::pair<bool, std::uint64_t> before_others;
   for (auto const& [guest, place] : places_) {
-    if (place.standing != standing || place.address != address) continue;
-    if (found && place.since >= earliest) continue;
+    if (counted_as(place.standing) != standing || place.address != address) continue;
+    auto const turn = std::pair(place.standing == Standing::newcomer, place.since);
+    if (found && turn >= before_others) continue;
     found = guest;
-    earliest = place.since;
+    before_others = turn;
   }
   return found;
 }
@@ -46,7 +54,7 @@ Places::Entrance Places::enter(std::string address) {
   ++changes_;
   entrance.guest = Guest{changes_};
   ++counts_[{Standing::stranger, address}];
-  places_.emplace(*entrance.guest, Place{std::move(address), Standing::stranger, changes_});
+  places_.emplace(*entrance.guest, Place{std::move(address), Standing::newcomer, changes_});
   return entrance;
 }
 
@@ -57,14 +65,14 @@ void Places::set(Guest guest, Standing standing) {
   leave(guest);
   place.standing = standing;
   place.since = ++changes_;
-  ++counts_[{standing, place.address}];
+  ++counts_[{counted_as(standing), place.address}];
   places_.emplace(guest, std::move(place));
 }
 
 void Places::leave(Guest guest) {
   auto const place = places_.extract(guest);
   if (place.empty()) return;
-  auto const counted = counts_.find({place.mapped().standing, place.mapped().address});
+  auto const counted = counts_.find({counted_as(place.mapped().standing), place.mapped().address});
   if (--counted->second == 0) counts_.erase(counted);
 }
 

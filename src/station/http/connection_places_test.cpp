@@ -36,6 +36,23 @@ TEST(Places, GoFromTheOldestStrangerToWhoComes) {
   (void)known;
 }
 
+TEST(Places, GoFromWhoSaidSomethingBeforeWhoJustCame) {
+  Places places({.all = 3, .strangers_per_address = 3});
+  auto const newcomer = let_in(places, "a", Standing::newcomer);
+  auto const heard_first = let_in(places, "a");
+  let_in(places, "a");
+  EXPECT_EQ(places.enter("a").must_leave, heard_first);
+  for (int i = 0; i < 50; ++i) let_in(places, "a");
+  EXPECT_NE(places.enter("a").must_leave, newcomer);
+}
+
+TEST(Places, GoFromTheFirstNewcomerWhereNobodySaidAnything) {
+  Places places({.all = 100, .strangers_per_address = 2});
+  auto const first = let_in(places, "a", Standing::newcomer);
+  let_in(places, "a", Standing::newcomer);
+  EXPECT_EQ(places.enter("a").must_leave, first);
+}
+
 TEST(Places, GoFromTheLargestCrowdAndNotFromWhoStandsAlone) {
   Places places({.all = 4, .strangers_per_address = 4});
   let_in(places, "operator");

@@ -127,6 +127,7 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   asio::awaitable<HttpResponse> finish(std::shared_ptr<Reply> reply);
   asio::awaitable<void> accept_connections();
   asio::awaitable<void> serve(std::shared_ptr<Connection> connection);
+  asio::awaitable<error_code> hear(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
   asio::awaitable<bool> serve_request(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer);
   Received judge(Connection& connection, Parser const& parser);
   asio::awaitable<error_code> read_body(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer,
@@ -286,6 +287,19 @@ asio::awaitable<error_code> HttpServer::Core::read_body(std::shared_ptr<Connecti
   co_return error;
 }
 
+/// Waits for the first bytes of a request. Who sends less than a request's head has had his turn, and gives way to who
+/// has not.
+asio::awaitable<error_code> HttpServer::Core::hear(std::shared_ptr<Connection> connection, beast::flat_buffer& buffer) {
+  error_code error;
+  if (connection->is_known || buffer.size() > 0) co_return error;
+  auto const room = buffer.prepare(4096);
+  auto const came = co_await connection->transport().async_read_some(room, redirect_error(use_awaitable, error));
+  buffer.commit(came);
+  std::string_view const said(static_cast<char const*>(buffer.cdata().data()), buffer.size());
+  if (!said.contains("\r\n\r\n")) places.set(connection->guest, internal::Places::Standing::stranger);
+  co_return error;
+}
+
 /// One request and its answer; true when another may follow on the same connection.
 asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection> connection,
                                                       beast::flat_buffer& buffer) {
@@ -294,8 +308,8 @@ asio::awaitable<bool> HttpServer::Core::serve_request(std::shared_ptr<Connection
   parser.header_limit(static_cast<std::uint32_t>(options.max_header_bytes));
   parser.body_limit(std::max(options.max_body_bytes, router.largest_body_bytes()));
   transport.expires_after(connection->is_known ? options.request_timeout : options.first_request_timeout);
-  error_code error;
-  co_await http::async_read_header(transport, buffer, parser, redirect_error(use_awaitable, error));
+  error_code error = co_await hear(connection, buffer);
+  if (!error) co_await http::async_read_header(transport, buffer, parser, redirect_error(use_awaitable, error));
   Received received;
   if (!error) {
     received = judge(*connection, parser);
@@ -328,7 +342,8 @@ asio::awaitable<bool> HttpServer::Core::respond(std::shared_ptr<Connection> conn
   transport.expires_after(options.request_timeout);
   error_code error;
   co_await http::async_write(transport, message, redirect_error(use_awaitable, error));
-  if (connection->is_known) places.set(connection->guest, internal::Places::Standing::resting);
+  using enum internal::Places::Standing;
+  places.set(connection->guest, connection->is_known ? resting : stranger);
   if (!error && !is_whole) co_await drain(connection);
   co_return !error && keep_alive;
 }

@@ -48,8 +48,8 @@ class HttpServer {
     Compression compression = Compression::to_other_machines;
     /// When all are taken, the one that has done nothing for longest gives way to who comes (internal/places.hpp).
     std::size_t max_connections = 256;
-    std::size_t max_strangers_per_address = 64;  ///< connections that have shown no token; with none set, no request
-    std::size_t max_sessions = 64;               ///< WebSockets among them
+    std::size_t max_strangers_per_address = 192;  ///< connections that have shown no token; with none set, no request
+    std::size_t max_sessions = 64;                ///< WebSockets among them
     std::size_t max_header_bytes = 16 * 1024;
     std::size_t max_body_bytes = 1024 * 1024;    ///< of a WebSocket message, and of a request whose route says nothing
     std::size_t max_backlog_bytes = 512 * 1024;  ///< unsent bytes of a WebSocket's lane 0 above which `send` refuses

@@ -185,6 +185,27 @@ TEST_F(HttpServerTest, LetsInWhoHasARequestThoughOthersSitOnEveryPlace) {
   EXPECT_FALSE(idle.back()->is_over());
 }
 
+TEST_F(HttpServerTest, KeepsThePlaceOfWhoHasNotSpokenYetThoughCrowdsPassBy) {
+  serve({.token = "secret", .max_connections = 8, .max_strangers_per_address = 8});
+  auto const slow = RawConnection::open(loop, server->port());
+  ASSERT_TRUE(slow);
+  std::vector<std::unique_ptr<RawConnection>> crowd;
+  for (int i = 0; i < 40; ++i) {
+    crowd.push_back(RawConnection::open(loop, server->port()));
+    ASSERT_TRUE(crowd.back());
+    if (i % 2 == 0) {
+      crowd.back()->send("GET / HTTP/1.1\r\nHost: 127");
+    } else {
+      crowd.back()->send("GET /api/v1/hello HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+      EXPECT_NE(crowd.back()->receive("\r\n\r\n").find(" 401 "), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(run_until(loop, [&] { return crowd.front()->is_over(); }));
+  EXPECT_FALSE(slow->is_over());
+  slow->send("GET /api/v1/hello?late HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer secret\r\n\r\n");
+  EXPECT_NE(slow->receive("hello late").find("hello late"), std::string::npos);
+}
+
 TEST_F(HttpServerTest, LetsInWhoHasARequestThoughEveryPlaceIsKeptAlive) {
   serve({.max_connections = 4});
   std::vector<std::unique_ptr<RawConnection>> resting;

@@ -12,18 +12,20 @@ namespace lapwing::station::internal {
 /// held by who does nothing: whoever has a request to send, above all for an emergency stop, is never kept out by
 /// those that only sit there.
 ///
-/// Who goes: of strangers the one that came first, of the address that has the most of them, so that a crowd from
-/// elsewhere pushes out none but its own; when there are none, of those who rest likewise. Who is being served never
-/// goes. Pure: knows neither sockets nor time.
+/// Who goes: of strangers the one that is so for longest, of the address that has the most of them, so that a crowd
+/// from elsewhere pushes out none but its own; when there are none, of those who rest likewise. Newcomers go only after
+/// all strangers of their address: between a client's connecting and its first byte a busy machine may let many others
+/// in. Who is being served never goes. Pure: knows neither sockets nor time.
 class Places {
  public:
   struct Limits {
     std::size_t all = 256;
-    std::size_t strangers_per_address = 64;
+    std::size_t strangers_per_address = 192;  ///< newcomers among them
   };
   enum class Guest : std::uint64_t {};
   enum class Standing {
-    stranger,  ///< has not yet shown that it may ask for anything
+    newcomer,  ///< has said nothing yet
+    stranger,  ///< has said something, but has not shown that it may ask for anything
     resting,   ///< has, and asks for nothing just now
     served,    ///< its request is being answered, or it watches over a WebSocket
   };
@@ -43,7 +45,7 @@ class Places {
  private:
   struct Place {
     std::string address;
-    Standing standing = Standing::stranger;
+    Standing standing = Standing::newcomer;
     std::uint64_t since = 0;  ///< when it took this standing, counted in changes
   };
   [[nodiscard]] std::size_t count(Standing standing, std::string const& address) const;
@@ -52,7 +54,7 @@ class Places {
 
   Limits limits_;
   std::map<Guest, Place> places_;
-  std::map<std::pair<Standing, std::string>, std::size_t> counts_;
+  std::map<std::pair<Standing, std::string>, std::size_t> counts_;  // newcomers as strangers
   std::uint64_t changes_ = 0;
 };
 
