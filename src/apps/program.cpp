@@ -54,7 +54,8 @@ int hand_over(Verb const& verb, char** argv) {
   host::print_error(
       {.kind = base::ErrorKind::io,
        .message = fmt::format("cannot start {}: {}", program.string(), std::strerror(errno)),
-       .hint = fmt::format("'{}' is in a program of its own; ./lapwing build makes all of them", verb.name)});
+       .hint = fmt::format("'{0}' is in a program of its own, which ./lapwing {0} makes when it is first used",
+                           verb.name)});
   return host::exit_failed;
 }
 
