@@ -47,6 +47,7 @@ std::vector<Shift> beam_ways(double yaw_rad, std::size_t beams) {
 
 KnownMap::KnownMap(int width, int height, double cell_m, Distances distances)
     : cell_m_(cell_m),
+      keep_off_m_(distances.keep_off_m),
       state_(width, height, Knowledge::unknown),
       odds_(width, height, 0),
       walls_near_(width, height, 0),

@@ -49,6 +49,7 @@ class KnownMap {
   [[nodiscard]] int width() const { return state_.width(); }
   [[nodiscard]] int height() const { return state_.height(); }
   [[nodiscard]] double cell_m() const { return cell_m_; }
+  [[nodiscard]] double keep_off_m() const { return keep_off_m_; }
   [[nodiscard]] bool contains(Cell cell) const { return state_.contains(cell); }
   [[nodiscard]] std::size_t index_of(Cell cell) const { return state_.index_of(cell); }
   [[nodiscard]] Cell cell_of(std::size_t index) const { return state_.cell_of(index); }
@@ -107,6 +108,7 @@ class KnownMap {
   void look_for_frontier(Cell cell);
 
   double cell_m_;
+  double keep_off_m_;
   DenseGrid<Knowledge> state_;
   DenseGrid<std::int8_t> odds_;  ///< in steps: -1 for a beam that passes, 3 for one that ends
   DenseGrid<std::uint16_t> blockers_;

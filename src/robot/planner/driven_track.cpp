@@ -1,12 +1,14 @@
 #include "robot/planner/driven_track.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "explore/floor/ray.hpp"
 
 namespace lapwing::robot {
 
 using explore::Cell;
+using explore::operator+;
 using explore::operator-;
 
 namespace {
@@ -26,6 +28,36 @@ void for_each_cell(Cell from, Cell to, Visit const& visit) {
   });
 }
 
+/// How far a cell is from the nearest that is not known to be free, in cells; `most` where that is farther.
+double clearance(explore::KnownMap const& map, Cell cell, int most) {
+  double nearest = most;
+  for (int y = -most; y <= most; ++y) {
+    for (int x = -most; x <= most; ++x) {
+      double const far = std::hypot(x, y);
+      if (far < nearest && map.at(cell + Cell{x, y}) != explore::Knowledge::free) nearest = far;
+    }
+  }
+  return nearest;
+}
+
+/// Cells near `here` that are by at least half of the way to them farther from all that is not known to be free.
+std::vector<Cell> cells_away(explore::KnownMap const& map, Cell here) {
+  constexpr double least_gain = 0.5;
+  if (!map.is_too_near(here)) return {};
+  int const keep_off = static_cast<int>(std::ceil(map.keep_off_m() / map.cell_m()));
+  double const begin = clearance(map, here, keep_off);
+  int const reach = static_cast<int>(std::ceil((keep_off - begin) / least_gain));
+  std::vector<Cell> found;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      auto const cell = here + Cell{x, y};
+      bool const gains = clearance(map, cell, keep_off) >= begin + least_gain * std::hypot(x, y);
+      if (gains && map.is_too_near(cell)) found.push_back(cell);
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 void DrivenTrack::lay(explore::KnownMap& map, std::span<explore::Place const> places) {
@@ -42,6 +74,10 @@ void DrivenTrack::lay(explore::KnownMap& map, std::span<explore::Place const> pl
     if (i < laid_.size()) for_each_cell(laid_[i].from, laid_[i].to, [&](Cell cell) { map.take_back_driven(cell); });
   }
   laid_ = std::move(legs);
+  auto away = laid_.empty() ? std::vector<Cell>() : cells_away(map, laid_.back().to);
+  for (auto const cell : away) map.add_driven(cell);
+  for (auto const cell : leads_away_) map.take_back_driven(cell);
+  leads_away_ = std::move(away);
 }
 
 }  // namespace lapwing::robot

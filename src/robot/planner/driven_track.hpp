@@ -7,7 +7,9 @@
 
 namespace lapwing::robot {
 
-/// Keeps a map told where the robot has driven, while loops move what is known of that.
+/// Keeps a map told where the robot has driven, while loops move what is known of that, and where it can be led from
+/// where it is: where that is too near to something, to wherever it gets clearly farther away from all of it. A scanner
+/// that looks no way back, or sees nothing ahead, leaves what is unknown at the robot's very hull.
 class DrivenTrack {
  public:
   /// All places from the start to where it is now, in the order in which it came by them.
@@ -20,6 +22,7 @@ class DrivenTrack {
     friend bool operator==(Leg const&, Leg const&) = default;
   };
   std::vector<Leg> laid_;
+  std::vector<explore::Cell> leads_away_;
 };
 
 }  // namespace lapwing::robot

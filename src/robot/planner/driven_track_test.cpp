@@ -42,5 +42,27 @@ TEST_F(DrivenTrackTest, LeadsNotThroughWhatItWasCarriedOver) {
   EXPECT_FALSE(map.is_standable({20, 10}));
 }
 
+TEST_F(DrivenTrackTest, LeadsAwayFromWhatTheRobotDoesNotSee) {
+  // Nothing is known of what lies to the right of where it stands.
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 20; ++x) map.learn({x, y}, explore::Knowledge::free);
+  track.lay(map, std::array{Place(1.95, 2.05)});
+  for (int x = 3; x < 20; ++x) EXPECT_TRUE(map.is_standable({x, 20})) << x;
+  EXPECT_FALSE(map.is_standable({19, 21})) << "it would go along what is unknown";
+  EXPECT_FALSE(map.is_standable({20, 20}));
+  track.lay(map, std::array{Place(1.95, 2.05), Place(1.45, 2.05)});
+  EXPECT_TRUE(map.is_standable({18, 20})) << "it came along there";
+  EXPECT_FALSE(map.is_standable({18, 21})) << "it is away now";
+}
+
+TEST_F(DrivenTrackTest, LeadsNowhereBetweenTwoWalls) {
+  for (int y = 19; y <= 21; ++y)
+    for (int x = 0; x < 60; ++x) map.learn({x, y}, explore::Knowledge::free);
+  track.lay(map, std::array{Place(1.95, 2.05)});
+  EXPECT_TRUE(map.is_standable({19, 20}));
+  EXPECT_FALSE(map.is_standable({18, 20}));
+  EXPECT_FALSE(map.is_standable({20, 20}));
+}
+
 }  // namespace
 }  // namespace lapwing::robot

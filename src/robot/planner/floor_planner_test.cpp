@@ -10,18 +10,23 @@ namespace {
 
 using State = Plan::State;
 
-/// Free where `is_free(x, y)` in metres, taken elsewhere, within 4 m; beyond `known_to_x` unknown.
-template <class IsFree>
-map::OccupancyGrid drawn(IsFree const& is_free, double known_to_x = 10.0) {
+/// Free where `is_free(x, y)` in metres, taken elsewhere, within 4 m; unknown where `is_known(x, y)` does not hold.
+template <class IsFree, class IsKnown>
+map::OccupancyGrid drawn_in_part(IsFree const& is_free, IsKnown const& is_known) {
   map::OccupancyGrid grid(0.05);
   for (int y = -80; y < 80; ++y) {
     for (int x = -80; x < 80; ++x) {
       auto const at = grid.centre_of({x, y});
-      if (at.x() > known_to_x) continue;
+      if (!is_known(at.x(), at.y())) continue;
       grid.set({x, y}, map::Evidence::of_log_odds(is_free(at.x(), at.y()) ? -3.0 : 3.0));
     }
   }
   return grid;
+}
+
+template <class IsFree>
+map::OccupancyGrid drawn(IsFree const& is_free, double known_to_x = 10.0) {
+  return drawn_in_part(is_free, [&](double x, double) { return x <= known_to_x; });
 }
 
 void learn_all(FloorPlanner& planner, map::OccupancyGrid const& grid) {
@@ -248,6 +253,24 @@ TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
   auto const plan = planner.plan({.time_s = 281.0});
   EXPECT_EQ(plan.state, State::failed);
   EXPECT_EQ(plan.reason, "it has not got on for 181 s: something stands in its way");
+}
+
+TEST(FloorPlanner, LeavesAPlaceAtWhoseSideNothingIsKnown) {
+  // Of a quarter behind it, or ahead of it, its scanner says nothing.
+  for (double const blind_rad : {0.0, 3.14}) {
+    FloorPlanner planner(small());
+    auto const is_known = [&](double x, double y) {
+      return std::abs(geo::wrap_pi(std::atan2(y, x) - blind_rad)) > 0.78;
+    };
+    learn_all(planner, drawn_in_part(in_room, is_known));
+    ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
+    Plan plan = planner.plan({});
+    // What is unknown right beside it, it looks at from where it stands.
+    for (int time_s = 1; time_s < 20 && plan.way.points.empty(); ++time_s)
+      plan = planner.plan({.time_s = 1.0 * time_s});
+    EXPECT_EQ(plan.state, State::under_way) << blind_rad << ": " << plan.reason;
+    EXPECT_FALSE(plan.way.points.empty()) << blind_rad;
+  }
 }
 
 TEST(FloorPlanner, EndsAnExplorationThatDoesNotGetOnAndSaysWhatIsLeft) {
