@@ -130,19 +130,24 @@ void Explorer::make_room(KnownMap const& map) {
 
 void Explorer::plan_ways(KnownMap const& map, std::span<Disc const> moving) {
   constexpr double near_m = 3.0;
+  constexpr double far_m = 20.0;
   double const apart_m = settings_.carrier.radius_m + settings_.carrier.safe_distance_m + 0.1;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     auto& member = members_[i];
     if (!member.navigator.goal()) continue;
     std::vector<Disc> closed;
-    auto const close = [&](Place const& middle, double radius_m) {
-      double const far_m = distance_m(middle, member.pose.position);
-      if (far_m <= near_m && far_m >= radius_m) closed.push_back({middle, radius_m});
+    auto const close = [&](Place const& middle, double radius_m, bool stays) {
+      double const away_m = distance_m(middle, member.pose.position);
+      // Between two ways that others bar for long it would go to and fro if it forgot the one as it comes to the other.
+      if (away_m > (stays ? far_m : near_m)) return;
+      // Whoever is nearer than that is on the move, or is to be kept off as far as one can: never gone through.
+      if (away_m >= radius_m || stays) closed.push_back({middle, std::min(radius_m, away_m)});
     };
     for (std::size_t j = 0; j < members_.size(); ++j) {
-      if (j != i) close(members_[j].pose.position, settings_.carrier.radius_m + apart_m);
+      bool const stays = time_s_ - members_[j].stood_since_s > blocked_after_s;
+      if (j != i) close(members_[j].pose.position, settings_.carrier.radius_m + apart_m, stays);
     }
-    for (auto const& disc : moving) close(disc.middle, disc.radius_m + apart_m);
+    for (auto const& disc : moving) close(disc.middle, disc.radius_m + apart_m, false);
     Roads const roads{map, roads_, search_};
     member.navigator.plan(roads, member.pose, closed);
     // Where others leave no way, it goes up to them and waits.

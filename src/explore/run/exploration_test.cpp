@@ -89,12 +89,15 @@ INSTANTIATE_TEST_SUITE_P(SeveralRobots, ExplorationTest,
                                            Case{"dead_ends", &testing::dead_ends, "tour", 4, 0},
                                            Case{"narrow", &testing::narrow, "tour", 2, 0},
                                            Case{"narrow", &testing::narrow, "tour", 3, 0},
-                                           Case{"narrow", &testing::narrow, "tour", 8, 0}));
+                                           Case{"narrow", &testing::narrow, "tour", 8, 0},
+                                           Case{"narrow", &testing::narrow, "nearest", 8, 0}));
 INSTANTIATE_TEST_SUITE_P(People, ExplorationTest,
                          ::testing::Values(Case{"island", &testing::island, "tour", 2, 3},
                                            Case{"narrow", &testing::narrow, "tour", 2, 4},
                                            Case{"dead_ends", &testing::dead_ends, "nearest", 1, 6},
                                            Case{"dead_ends", &testing::dead_ends, "right-hand", 1, 4},
+                                           Case{"dead_ends", &testing::dead_ends, "tour", 1, 6},
+                                           Case{"narrow", &testing::narrow, "nearest", 1, 4},
                                            Case{"narrow", &testing::narrow, "nearest", 2, 4}));
 
 // Robots that push one another back in doorways and corridors.
@@ -102,13 +105,9 @@ INSTANTIATE_TEST_SUITE_P(InOneAnothersWay, ExplorationTest,
                          ::testing::Values(Case{"dead_ends", &testing::dead_ends, "nearest", 3, 0},
                                            Case{"narrow", &testing::narrow, "nearest", 4, 0}));
 
-// Known limits: from one start each these leave a percent unseen, look again for an hour, or end with a robot that is
-// not home, since others who are stand in its way.
+// A known limit: from the first of these starts a part is left unseen.
 INSTANTIATE_TEST_SUITE_P(DISABLED_NotFromEveryStart, ExplorationTest,
-                         ::testing::Values(Case{"narrow", &testing::narrow, "right-hand", 3, 0},
-                                           Case{"narrow", &testing::narrow, "nearest", 8, 0},
-                                           Case{"narrow", &testing::narrow, "nearest", 1, 4},
-                                           Case{"dead_ends", &testing::dead_ends, "tour", 1, 6}));
+                         ::testing::Values(Case{"narrow", &testing::narrow, "right-hand", 3, 0}));
 
 TEST(Exploration, TheSameSeedGivesTheSameRun) {
   auto const settings = settings_of({"", nullptr, "tour", 2, 3});
