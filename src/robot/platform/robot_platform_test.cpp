@@ -1,6 +1,9 @@
 // Robots in a simulated office, mapped from their laser and wheels alone.
 #include "robot/platform/robot_platform.hpp"
 
+#include <numbers>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "robot/testing/platform_bench.hpp"
@@ -57,6 +60,19 @@ TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
 
   // Where walls were drawn some were found.
   for (auto const& [from, to] : testing::small_office()) EXPECT_LT(from_walls_m(0.5 * (from + to)), 0.1) << from << to;
+}
+
+TEST_F(RobotPlatformTest, ExploresWithAScannerThatLooksNoWayBack) {
+  // Most scanners see three quarters of a circle, some a half.
+  for (double const view_rad : {1.5 * std::numbers::pi, std::numbers::pi}) {
+    auto const id = fmt::format("robot{:.0f}", 100.0 * view_rad);
+    auto* const other = add(id, {.beams = 270, .view_rad = view_rad});
+    ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));
+    auto const run = start({ExploreStep{"tour"}, ReturnStep{}}, id);
+    ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();
+    EXPECT_EQ(run->state(), RunState::done) << run->error();
+    EXPECT_GE(other->survey()->coverage, 0.95) << view_rad << ": " << other->drives().back()->remark;
+  }
 }
 
 TEST_F(RobotPlatformTest, EndsAnExplorationWhileItsBatteryTakesItHome) {

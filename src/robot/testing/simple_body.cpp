@@ -68,7 +68,7 @@ SimpleBody::SimpleBody(base::Loop& loop, Walls walls, SimpleBodyOptions const& o
     : loop_(loop), walls_(std::move(walls)), options_(options), random_(options.seed), pose_(options.start) {
   laser_.no_return_m = static_cast<float>(options.laser_m);
   for (int b = 0; b < options.beams; ++b)
-    laser_.bearings_rad.push_back(static_cast<float>(-std::numbers::pi + 2.0 * std::numbers::pi * b / options.beams));
+    laser_.bearings_rad.push_back(static_cast<float>(options.view_rad * (1.0 * b / options.beams - 0.5)));
   life_ = live();
   life_.start();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
@@ -28,6 +29,7 @@ inline constexpr double small_office_m2 = 14.0 * 2.0 + 6 * 4.0 * 3.5;
 struct SimpleBodyOptions {
   slam::Pose2 start = {};
   int beams = 360;
+  double view_rad = 2.0 * std::numbers::pi;  ///< of the laser; half to each side of ahead
   double laser_m = 10.0;
   double range_noise_m = 0.01;
   double shift_noise = 0.03;  ///< of odometry: standard deviation of a step, per metre
