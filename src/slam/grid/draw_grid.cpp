@@ -135,8 +135,8 @@ class Drawing {
   static constexpr double most_apart_rad = 0.04;
   /// Nothing comes back along a corridor that is longer than the sensor sees, and from what is dark or shines. It is
   /// the former where the beams on both sides, no farther apart than that, come to this share of the sensor's reach.
-  static constexpr double far_share = 0.8;
-  static constexpr double most_gap_rad = 1.0;
+  static constexpr double far_share = 0.5;
+  static constexpr double most_gap_rad = 2.0;
 
   [[nodiscard]] Ray ray_at(double bearing) const {
     double const yaw = pose_.yaw + bearing;

@@ -32,6 +32,15 @@ double corridor_m(double bearing) {
   return 1.5 / std::max(1e-6, std::abs(std::sin(bearing)));
 }
 
+/// Of a hall, from 1.5 m before the middle of its wall: 14 m wide, 12 m deep, with a pillar 7 m off on either side.
+double hall_m(double bearing) {
+  constexpr double pillar_rad = 0.43;
+  if (std::abs(std::abs(bearing) - pillar_rad) < 0.04) return 7.0;
+  double const ahead = std::cos(bearing);
+  double const to_the_end = ahead > 0.0 ? 10.5 / ahead : -1.5 / ahead;
+  return std::min(to_the_end, 7.0 / std::max(1e-6, std::abs(std::sin(bearing))));
+}
+
 bool is_free(map::OccupancyGrid const& grid, double x, double y) {
   auto const evidence = grid.at(grid.cell_at({x, y}));
   return evidence.is_seen() && evidence.log_odds() < 0.0;
@@ -46,6 +55,19 @@ TEST(DrawGrid, SaysThatACorridorIsFreeAheadThoughItIsLongerThanTheSensorSees) {
   for (double x = -9.0; x < 9.0; x += 0.05)
     for (double y = -1.0; y <= 1.0; y += 0.05) EXPECT_TRUE(is_free(grid, x, y)) << x << ' ' << y;
   EXPECT_FALSE(is_seen(grid, 10.2, 0.0));
+}
+
+TEST(DrawGrid, SaysThatAHallIsFreeAheadThoughPillarsStandInIt) {
+  auto const grid = drawn(scanner(360), hall_m);
+  for (double x = 0.0; x < 6.0; x += 0.05)
+    for (double y = -1.0; y <= 1.0; y += 0.05) EXPECT_TRUE(is_free(grid, x, y)) << x << ' ' << y;
+  EXPECT_FALSE(is_seen(grid, 8.5, 0.0)) << "farther off than the pillars";
+}
+
+TEST(DrawGrid, SaysNothingOfAWideGap) {
+  // A black wall may be as long as that; whoever stands near it has nothing ahead, and far walls on both sides.
+  auto const grid = drawn(scanner(360), [](double bearing) { return std::abs(bearing) < 1.1 ? 99.0 : 9.0; });
+  EXPECT_FALSE(is_seen(grid, 2.0, 0.0));
 }
 
 TEST(DrawGrid, SaysNothingOfWhatSwallowsLight) {
