@@ -26,7 +26,8 @@ with tempfile.TemporaryDirectory() as folder:
     for words in (("run", EXAMPLE), ("help", "station"), ("plan", "--help")):
         missing = said(*words)
         assert missing.returncode == 1 and not missing.stdout, missing
-        assert f"cannot start {folder}/lapwing-vehicles: No such file" in missing.stderr and "./lapwing build" in missing.stderr, missing
+        assert f"cannot start {folder}/lapwing-vehicles: No such file" in missing.stderr, missing
+        assert f"./lapwing {words[1] if words[0] == 'help' else words[0]} makes" in missing.stderr, missing
     typo = said("rum")
     assert typo.returncode == 2 and "there is no command 'rum'" in typo.stderr and "run" in typo.stderr, typo
 
