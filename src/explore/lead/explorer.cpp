@@ -138,9 +138,10 @@ void Explorer::plan_ways(KnownMap const& map, std::span<Disc const> moving) {
     std::vector<Disc> closed;
     auto const close = [&](Place const& middle, double radius_m, bool stays) {
       double const away_m = distance_m(middle, member.pose.position);
-      // Between two ways that others bar for long it would go to and fro if it forgot the one as it comes to the other.
+      // Between two ways that others bar, a robot that forgot the one before it came to the other would go to and fro.
       if (away_m > (stays ? far_m : near_m)) return;
-      // Whoever is nearer than that is on the move, or is to be kept off as far as one can: never gone through.
+      // One that is nearer than that already and moves is left out, as it will be gone; one that stays is kept off as
+      // far as can be, and never gone through.
       if (away_m >= radius_m || stays) closed.push_back({middle, std::min(radius_m, away_m)});
     };
     for (std::size_t j = 0; j < members_.size(); ++j) {
