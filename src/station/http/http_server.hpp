@@ -46,7 +46,8 @@ class HttpServer {
     std::string token = {};                    ///< API requests must carry it; must be set beyond loopback
     std::vector<std::string> host_names = {};  ///< further names of this machine that browsers may use
     Compression compression = Compression::to_other_machines;
-    /// When all are taken, the one that has done nothing for longest gives way to who comes (internal/places.hpp).
+    /// When all are taken, the one that has done nothing for longest gives way to who comes
+    /// (internal/connection_places.hpp).
     std::size_t max_connections = 256;
     std::size_t max_strangers_per_address = 192;  ///< connections that have shown no token; with none set, no request
     std::size_t max_sessions = 64;                ///< WebSockets among them
