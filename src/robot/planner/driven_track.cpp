@@ -28,31 +28,20 @@ void for_each_cell(Cell from, Cell to, Visit const& visit) {
   });
 }
 
-/// How far a cell is from the nearest that is not known to be free, in cells; `most` where that is farther.
-double clearance(explore::KnownMap const& map, Cell cell, int most) {
-  double nearest = most;
-  for (int y = -most; y <= most; ++y) {
-    for (int x = -most; x <= most; ++x) {
-      double const far = std::hypot(x, y);
-      if (far < nearest && map.at(cell + Cell{x, y}) != explore::Knowledge::free) nearest = far;
-    }
-  }
-  return nearest;
-}
-
 /// Cells near `here` that are by at least half of the way to them farther from all that is not known to be free.
 std::vector<Cell> cells_away(explore::KnownMap const& map, Cell here) {
   constexpr double least_gain = 0.5;
   if (!map.is_too_near(here)) return {};
-  int const keep_off = static_cast<int>(std::ceil(map.keep_off_m() / map.cell_m()));
-  double const begin = clearance(map, here, keep_off);
-  int const reach = static_cast<int>(std::ceil((keep_off - begin) / least_gain));
+  double room_m = map.keep_off_m();
+  while (room_m > 0.0 && !map.has_room(map.middle(here), room_m)) room_m -= map.cell_m();
+  room_m = std::max(room_m, 0.0);
+  int const reach = static_cast<int>(std::ceil((map.keep_off_m() - room_m) / least_gain / map.cell_m()));
   std::vector<Cell> found;
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
       auto const cell = here + Cell{x, y};
-      bool const gains = clearance(map, cell, keep_off) >= begin + least_gain * std::hypot(x, y);
-      if (gains && map.is_too_near(cell)) found.push_back(cell);
+      double const wanted_m = room_m + least_gain * std::hypot(x, y) * map.cell_m();
+      if (map.is_too_near(cell) && map.has_room(map.middle(cell), wanted_m)) found.push_back(cell);
     }
   }
   return found;
