@@ -33,6 +33,7 @@
 #include "station/http/internal/beast_messages.hpp"
 #include "station/http/internal/connection_places.hpp"
 #include "station/http/internal/outbox.hpp"
+#include "station/http/internal/pending_answer.hpp"
 #include "station/http/internal/web_socket_options.hpp"
 #include "station/http/static_files.hpp"
 #include "station/messages/message_pace.hpp"
@@ -72,20 +73,6 @@ std::string network_of(asio::ip::address const& address) {
   return asio::ip::address_v6(bytes).to_string();
 }
 
-/// An answer that takes its time: the work, and what wakes the connection at its end.
-struct Pending {
-  Pending(asio::io_context& io, base::Task<HttpResponse> task)
-      : work(std::move(task)), ended(io, asio::steady_timer::time_point::max()) {}
-
-  base::Task<HttpResponse> work;
-  asio::steady_timer ended;
-};
-
-void wake(void* pending) noexcept {
-  error_code ignored;
-  static_cast<Pending*>(pending)->ended.cancel(ignored);
-}
-
 using Parser = http::request_parser<http::string_body>;
 
 /// What came, as far as it could be read, and the answer that it gets without being carried out.
@@ -117,7 +104,7 @@ struct HttpServer::Core : std::enable_shared_from_this<HttpServer::Core> {
   std::map<internal::Places::Guest, std::shared_ptr<Connection>> connections;
   std::map<SessionId, std::shared_ptr<Connection>> sessions;
   std::set<std::shared_ptr<asio::steady_timer>> timers;
-  std::set<std::shared_ptr<Pending>> pending;
+  std::set<std::shared_ptr<internal::PendingAnswer>> pending;
   std::uint64_t last_session = 0;
   bool closed = false;
 
@@ -204,9 +191,10 @@ Reply HttpServer::Core::answer(HttpRequest const& request) const {
 asio::awaitable<HttpResponse> HttpServer::Core::finish(std::shared_ptr<Reply> reply) {
   auto const self = shared_from_this();
   if (auto* const response = std::get_if<HttpResponse>(reply.get())) co_return std::move(*response);
-  auto const waiting = std::make_shared<Pending>(io, std::get<base::Task<HttpResponse>>(std::move(*reply)));
+  auto const waiting =
+      std::make_shared<internal::PendingAnswer>(io, std::get<base::Task<HttpResponse>>(std::move(*reply)));
   pending.insert(waiting);
-  waiting->work.on_end(wake, waiting.get());
+  waiting->work.on_end(internal::PendingAnswer::wake, waiting.get());
   waiting->work.start();
   error_code ignored;
   if (!waiting->work.done()) co_await waiting->ended.async_wait(redirect_error(use_awaitable, ignored));

@@ -19,8 +19,8 @@ namespace lapwing::station::internal {
 class Places {
  public:
   struct Limits {
-    std::size_t all = 256;
-    std::size_t strangers_per_address = 192;  ///< newcomers among them
+    std::size_t all = 0;
+    std::size_t strangers_per_address = 0;  ///< newcomers among them
   };
   enum class Guest : std::uint64_t {};
   enum class Standing {
