@@ -121,8 +121,9 @@ void LookingChild::note(base::Result<LookFrame> const& answer) {
   if (answer.error().kind == ErrorKind::cancelled) return;
   if (answer.error().kind == ErrorKind::not_found) {
     if (!std::exchange(is_missing_, true))
-      log_.warn(fmt::format("pictures are not looked at: {}; ./lapwing build makes it where OpenCV and Tesseract are",
-                            answer.error().message));
+      log_.warn(
+          fmt::format("pictures are not looked at: {}; ./lapwing run and ./lapwing demo make it where they need it",
+                      answer.error().message));
     return;
   }
   if (failures_ == 0) log_.warn(fmt::format("what looks at pictures is started anew: {}", answer.error().message));
