@@ -47,6 +47,13 @@ int last_on_the_way(std::vector<KeyFrame> const& frames, int most) {
   return found;
 }
 
+std::size_t points_of_last(std::vector<KeyFrame> const& frames, int most) {
+  std::size_t points = 0;
+  for (auto k = std::ssize(frames) - last_on_the_way(frames, most); k < std::ssize(frames); ++k)
+    points += frames[static_cast<std::size_t>(k)].frame.points.size();
+  return points;
+}
+
 Eigen::Vector3d trust_of(OdometryNoise::Spread const& spread) {
   auto const shift = 1.0 / (spread.shift_m * spread.shift_m);
   return {shift, shift, 1.0 / (spread.turn_rad * spread.turn_rad)};
@@ -173,7 +180,10 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   auto const is_misled = is_misleading(driven, doubt, frames.back().frame, frame);
   auto const guess = is_misled ? Guess{.pose = poses.back() * last_motion_, .spread = unknown} : told;
   draw_last(frames, poses, guess.pose);
-  auto const found = search(frame, guess);
+  // What begins with a single look of a few rangers shows no place.
+  constexpr std::size_t enough_to_know = 20;
+  bool const knows_place = points_of_last(frames, options_.grid_frames) >= enough_to_know;
+  auto const found = knows_place ? search(frame, guess) : Found{guess.pose, 0.0, false};
   auto const is_wrong = is_misled || found.has_slipped;
   auto const error = between(told.pose, found.pose);
   constexpr double incredible = 4.5;

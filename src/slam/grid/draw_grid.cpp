@@ -6,33 +6,13 @@
 #include <numbers>
 
 #include "base/assert.hpp"
+#include "slam/grid/draw_cone.hpp"
+#include "slam/grid/sheet.hpp"
 
 namespace lapwing::slam {
 namespace {
 
 constexpr float steps_per_log_odds = 256.0F;
-
-/// A rectangle of cells, each with what beams have said of it so far.
-struct Sheet {
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
-  double cell_m = 0.05;
-  int width = 0;
-  int height = 0;
-  std::vector<float> log_odds = {};
-
-  static constexpr float unseen = 1e3F;  ///< in place of log-odds
-
-  [[nodiscard]] std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  }
-  [[nodiscard]] bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
-  void add(std::size_t at, float evidence) {
-    // What was said a hundred times is not surer than what was said thirty times, and a door may open.
-    constexpr float most = 12.0F;
-    float const before = log_odds[at] == unseen ? 0.0F : log_odds[at];
-    log_odds[at] = std::clamp(before + evidence, -most, most);
-  }
-};
 
 bool is_hit(float range, Sensor const& sensor, BeamModel const& model) {
   return range > 0.05F && range < sensor.no_return_m && range <= static_cast<float>(model.most_range_m);
@@ -41,11 +21,6 @@ bool is_hit(float range, Sensor const& sensor, BeamModel const& model) {
 double noise_of(double range, BeamModel const& model) {
   return model.noise_m + model.noise_per_m * range;
 }
-
-struct Ray {
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();
-  Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
-};
 
 Sheet sheet_for(ScanLog const& log, std::vector<Pose2> const& poses, BeamModel const& model) {
   Eigen::Vector2d low = place(poses.front());
@@ -117,10 +92,12 @@ class Drawing {
   }
 
   void draw() {
+    if (sensor_.half_cone_rad > 0.0F) return draw_cones();
     find_what_is_free();
     for (std::size_t b = 0; b < free_m_.size(); ++b) {
       auto const ray = ray_at(bearings_[b]);
       bool const is_measured = is_hit(scan_.ranges_m[b], sensor_, model_);
+      if (is_silent_alone(b)) free_m_[b] = silence_m;
       draw_free(sheet_, ray, 0.0, free_m_[b], model_.free_log_odds * (is_measured ? 1.0 : between_share), model_);
       if (is_measured) draw_end(sheet_, ray, scan_.ranges_m[b], model_);
     }
@@ -137,6 +114,7 @@ class Drawing {
   /// the former where the beams on both sides, no farther apart than that, come to this share of the sensor's reach.
   static constexpr double far_share = 0.5;
   static constexpr double most_gap_rad = 2.0;
+  static constexpr double beside_rad = 1.2;  ///< so far apart at most are sonars that may hear the same wall
 
   [[nodiscard]] Ray ray_at(double bearing) const {
     double const yaw = pose_.yaw + bearing;
@@ -153,6 +131,35 @@ class Drawing {
   [[nodiscard]] bool has_next(std::size_t b) const {
     double const gap = gap_rad(b, next(b));
     return gap > 0.0 && gap < most_apart_rad;
+  }
+
+  void draw_cones() {
+    for (std::size_t b = 0; b < bearings_.size(); ++b) {
+      auto const axis = ray_at(bearings_[b]);
+      float const range = scan_.ranges_m[b];
+      double const half_cone_rad = sensor_.half_cone_rad;
+      if (is_hit(range, sensor_, model_))
+        draw_cone(sheet_, axis, half_cone_rad, range, model_);
+      else if (range >= sensor_.no_return_m)
+        draw_silent_cone(sheet_, axis, half_cone_rad, heard_beside_m(b), model_);
+    }
+  }
+
+  /// The nearest that the sonars next to one hear: it may be a wall that goes on before that one and mirrors its sound.
+  [[nodiscard]] double heard_beside_m(std::size_t b) const {
+    double nearest_m = reach_m();
+    for (auto const other : {b, b > 0 ? b - 1 : bearings_.size() - 1}) {
+      bool const is_beside = gap_rad(other, next(other)) < beside_rad;
+      auto const range = scan_.ranges_m[other == b ? next(b) : other];
+      if (is_beside && is_hit(range, sensor_, model_)) nearest_m = std::min(nearest_m, double{range});
+    }
+    return nearest_m;
+  }
+
+  /// Nothing came back, and no beam beside it says why.
+  [[nodiscard]] bool is_silent_alone(std::size_t b) const {
+    auto const before = b > 0 ? b - 1 : bearings_.size() - 1;
+    return scan_.ranges_m[b] >= sensor_.no_return_m && !has_next(b) && !has_next(before);
   }
 
   void find_what_is_free() {

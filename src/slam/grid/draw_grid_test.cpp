@@ -122,5 +122,14 @@ TEST(DrawGrid, KnowsTheWayToWhatIsFartherThanItDraws) {
   EXPECT_FALSE(is_seen(grid, 21.0, 0.0));
 }
 
+TEST(DrawGrid, SilenceOfASingleRangerIsAHintForTheNextStep) {
+  auto const grid = drawn(scanner(4), [](double) { return 100.0; });
+  EXPECT_TRUE(is_free(grid, 1.0, 0.0));
+  EXPECT_GT(grid.at(grid.cell_at({1.0, 0.0})).log_odds(), -0.1);
+  EXPECT_FALSE(is_seen(grid, 1.7, 0.0));
+  EXPECT_FALSE(is_seen(drawn(scanner(360), [](double) { return 100.0; }), 1.0, 0.0))
+      << "a scanner's beams say together what is free";
+}
+
 }  // namespace
 }  // namespace lapwing::slam

@@ -16,6 +16,8 @@ struct Sensor {
   Eigen::Vector2f mount_m = Eigen::Vector2f::Zero();  ///< where the beams begin, in the robot's frame
   /// Readings from here on say that nothing came back.
   float no_return_m = 1e9F;
+  /// Of a ring of sonars: half the angle of the cone in which each hears the nearest thing. 0: beams.
+  float half_cone_rad = 0.0F;
   friend bool operator==(Sensor const&, Sensor const&) = default;
 };
 

@@ -36,6 +36,21 @@ void find_normals(Frame& frame, std::vector<Seen> const& seen) {
   }
 }
 
+/// Of what sonars heard, walls alone: a smooth one sends sound back to where its normal points, and what shows no such
+/// line, as corners and what came back over two walls, may have been anywhere on its arc.
+void keep_walls(std::vector<Seen>& seen) {
+  constexpr float most_aslant_rad = 0.5F;
+  Frame frame;
+  for (auto const& point : seen) frame.points.push_back(point.at);
+  find_normals(frame, seen);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    Eigen::Vector2f const back = (seen[k].from - seen[k].at).normalized();
+    if (frame.has_normal(k) && frame.normals[k].dot(back) > std::cos(most_aslant_rad)) seen[kept++] = seen[k];
+  }
+  seen.resize(kept);
+}
+
 Frame frame_of(std::vector<Seen>& seen) {
   std::ranges::sort(seen, {}, [](Seen const& s) { return std::tuple(s.bearing, s.at.x(), s.at.y()); });
   Frame frame;
@@ -74,6 +89,7 @@ void Gatherer::add(Scan const& scan, Sensor const& sensor, Pose2 const& odometry
   }
   has_begun_ = true;
   last_ = odometry;
+  hears_cones_ = sensor.half_cone_rad > 0.0F;
   auto const& bearings = bearings_of(scan, sensor);
   Turn const turn(odometry.yaw);
   Eigen::Vector2d const from = place(odometry) + turn * sensor.mount_m.cast<double>();
@@ -101,6 +117,7 @@ Frame Gatherer::take() {
   points_.clear();
   path_m_ = 0.0;
   turn_rad_ = 0.0;
+  if (hears_cones_) keep_walls(seen);
   return frame_of(seen);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iterator>
 #include <vector>
 
 #include "slam/scan/frame.hpp"
@@ -22,6 +23,11 @@ struct GatherOptions {
   double point_information = 150.0;
   double step_trust = 1.0;
 };
+
+/// Whether one scan of that sensor shows too little to know a place by.
+[[nodiscard]] inline bool is_sparse(Sensor const& sensor, GatherOptions const& options = {}) {
+  return std::ssize(sensor.bearings_rad) < options.few_readings;
+}
 
 /// Joins scans of few beams along odometry into frames with enough points to match: what a laser sees at once, sonars
 /// or single rangers see over a metre or two of the way (as Zhou et al. 2022 do).
@@ -48,6 +54,7 @@ class Gatherer {
   FrameOptions frame_options_;
   std::vector<Point> points_;
   bool has_begun_ = false;
+  bool hears_cones_ = false;
   Pose2 last_;  ///< scan that was taken in
   Pose2 now_;
   double path_m_ = 0.0;
