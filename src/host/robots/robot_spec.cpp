@@ -40,6 +40,15 @@ std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
 
 base::Result<RobotRequest> simulated(std::string_view text, std::string_view file) {
   SimulatedRobots request;
+  if (auto const comma = file.find(laser_mark); comma != std::string_view::npos) {
+    auto const named = file.substr(comma + laser_mark.size());
+    if (named != "none" && named != "ring")
+      return refuse(text, fmt::format("'{}' is no laser of a simulated robot: write ,laser=none for sonars alone, "
+                                      ",laser=ring for four single rangers, or nothing for a scanner",
+                                      named));
+    request.laser = named == "none" ? SimulatedRobots::Laser::none : SimulatedRobots::Laser::ring;
+    file = file.substr(0, comma);
+  }
   auto const colon = file.rfind(':');
   if (colon != std::string_view::npos) {
     auto const digits = file.substr(colon + 1);

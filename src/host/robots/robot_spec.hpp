@@ -14,10 +14,13 @@
 
 namespace lapwing::host {
 
-/// Robots in a simulated building: `sim:examples/buildings/office.toml`, `sim:office.toml:2` for two.
+/// Robots in a simulated building: `sim:examples/buildings/office.toml`, `sim:office.toml:2` for two;
+/// `sim:office.toml,laser=none` for one that has its five sonars alone, `,laser=ring` for one with four single rangers.
 struct SimulatedRobots {
+  enum class Laser { scanner, ring, none };
   std::string file;
   int count = 1;
+  Laser laser = Laser::scanner;
   friend bool operator==(SimulatedRobots const&, SimulatedRobots const&) = default;
 };
 
@@ -56,7 +59,7 @@ using RobotRequest = std::variant<SimulatedRobots, LinkedRobot, RosRobot, Mavlin
 /// What `--robot` says. Errors: invalid_input, with an example.
 [[nodiscard]] base::Result<RobotRequest> parse_robot(std::string_view text);
 inline constexpr auto robot_help =
-    "A robot (may be repeated): sim:BUILDING.toml[:COUNT] in a simulated building, its link, "
+    "A robot (may be repeated): sim:BUILDING.toml[:COUNT][,laser=none|ring] in a simulated building, its link, "
     "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, "
     "ros2://DOMAIN[/NAMESPACE][@...], "
     "ros2-lan:// beyond this machine, or a MAVLink rover, mavlink:SYSTEM:LINK[,laser=ros2://DOMAIN[/NAMESPACE]][@...]";

@@ -12,6 +12,14 @@ TEST(RobotSpec, NamesASimulatedBuilding) {
   EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:office.toml:3")), (SimulatedRobots{"office.toml", 3}));
 }
 
+TEST(RobotSpec, NamesWhatTheRobotsInASimulatedBuildingMeasureBy) {
+  using Laser = SimulatedRobots::Laser;
+  EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:office.toml,laser=none")),
+            (SimulatedRobots{"office.toml", 1, Laser::none}));
+  EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:office.toml:2,laser=ring")),
+            (SimulatedRobots{"office.toml", 2, Laser::ring}));
+}
+
 TEST(RobotSpec, NamesALinkAndWhereTheRobotStands) {
   auto const plain = std::get<LinkedRobot>(*parse_robot("serial:///dev/ttyUSB0:115200"));
   EXPECT_EQ(plain.url, (link::Url{link::Transport::serial, "/dev/ttyUSB0", 115200}));
@@ -49,6 +57,9 @@ TEST(RobotSpec, SaysWhatIsWrong) {
   EXPECT_EQ(wrong("sim:"), "--robot sim:: it names no building");
   EXPECT_EQ(wrong("sim:a.toml:0"), "--robot sim:a.toml:0: '0' is no number of robots from 1 to 8");
   EXPECT_EQ(wrong("sim:a.toml:x"), "--robot sim:a.toml:x: 'x' is no number of robots from 1 to 8");
+  EXPECT_EQ(wrong("sim:a.toml,laser=red"),
+            "--robot sim:a.toml,laser=red: 'red' is no laser of a simulated robot: write ,laser=none for sonars alone, "
+            ",laser=ring for four single rangers, or nothing for a scanner");
   EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,2"),
             "--robot serial:///dev/ttyUSB0:115200@1,2: '1,2' is not EAST,NORTH,YAW");
   EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,2,3,4"),

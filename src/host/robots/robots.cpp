@@ -31,6 +31,13 @@ double side_around(building::Pose const& start, building::BuildingPlan const& pl
   return 2.0 * (far_m + margin_m);
 }
 
+building::RobotSettings settings_with(SimulatedRobots::Laser laser) {
+  building::RobotSettings settings;
+  if (laser == SimulatedRobots::Laser::ring) settings.laser = building::tof_ring();
+  if (laser == SimulatedRobots::Laser::none) settings.laser.beams = 0;
+  return settings;
+}
+
 /// Makes robots one after the other, and counts them.
 class Maker {
  public:
@@ -50,7 +57,8 @@ class Maker {
     if (!text) return std::unexpected(text.error());
     auto plan = building::building_of(request.file, *std::move(text));
     if (!plan) return std::unexpected(plan.error());
-    auto made = building::Building::make(*plan, {.seed = seed_, .robots = request.count});
+    auto made = building::Building::make(
+        *plan, {.seed = seed_, .robots = request.count, .robot = settings_with(request.laser)});
     if (!made) return std::unexpected(made.error());
     auto simulated = std::make_unique<SimulatedBuilding>();
     simulated->building = *std::move(made);
@@ -60,6 +68,7 @@ class Maker {
       auto const start = simulated->building->robot(i).body().pose();
       auto spec = next_spec(simulated->site_from_floor * start);
       spec.planning.side_m = side_around(start, *plan, spec.planning.side_m);
+      if (request.laser == SimulatedRobots::Laser::none) spec.payload = {"Sonar"};
       spec.payload.emplace_back(robot::camera_payload);
       simulated->robots.push_back(spec.id);
       add(std::move(spec), simulated->run->connect(i));

@@ -9,6 +9,7 @@
 #include "robot/mapping/who_walks.hpp"
 #include "slam/graph/pose_graph.hpp"
 #include "slam/prune/let_go.hpp"
+#include "slam/robot_kind.hpp"
 
 namespace lapwing::robot {
 
@@ -37,10 +38,34 @@ Eigen::Matrix3d spread_of(Pose2 const& driven) {
       .asDiagonal();
 }
 
+/// What is joined on the way is matched as logs of few readings are.
+MappingOptions fitted(MappingOptions options, slam::Sensor const& sensor) {
+  if (!slam::is_sparse(sensor, options.gather)) return options;
+  // At twice that, an echo may have come from half a metre beside where it is laid.
+  constexpr float cones_match_within_m = 3.0F;
+  if (sensor.half_cone_rad > 0.0F)
+    options.frame.most_range_m = std::min(options.frame.most_range_m, cones_match_within_m);
+  slam::MapperOptions as_for_logs;
+  as_for_logs.front_end = options.front_end;
+  as_for_logs.loops = options.loops;
+  as_for_logs.joint = options.joint;
+  as_for_logs.gather = options.gather;
+  as_for_logs = slam::options_for({.is_sparse = true}, std::move(as_for_logs));
+  options.front_end = as_for_logs.front_end;
+  options.loops = as_for_logs.loops;
+  options.joint = as_for_logs.joint;
+  options.leaves_out_who_walks = false;
+  // An echo lies anywhere on its arc: two of them weigh as much as one beam.
+  if (sensor.half_cone_rad > 0.0F) options.front_end.point_information *= 0.5;
+  return options;
+}
+
 }  // namespace
 
 FloorMap::FloorMap(slam::Sensor sensor, MappingOptions options)
-    : options_(std::move(options)),
+    : options_(fitted(std::move(options), sensor)),
+      is_sparse_(slam::is_sparse(sensor, options_.gather)),
+      gatherer_(options_.gather, options_.frame),
       front_end_(options_.front_end),
       loops_(options_.loops, slam::one_by_one),
       grid_(options_.beam.cell_m, options_.site_from_map) {
@@ -49,20 +74,50 @@ FloorMap::FloorMap(slam::Sensor sensor, MappingOptions options)
 
 void FloorMap::add(slam::Scan scan) {
   odometry_ = scan.odometry;
-  if (front_end_.wants(scan.odometry)) return add_key_frame(std::move(scan));
-  auto const driven = slam::between(log_.scans.back().odometry, scan.odometry);
-  here_ = {graph_.poses.back() * driven, key_covariance_ + spread_of(driven)};
+  if (is_sparse_)
+    add_sparse(std::move(scan));
+  else if (front_end_.wants(scan.odometry))
+    add_dense(std::move(scan));
+  here_ = by_odometry(odometry_);
 }
 
-void FloorMap::add_key_frame(slam::Scan scan) {
+void FloorMap::add_dense(slam::Scan scan) {
   auto const& sensor = log_.sensors.front();
+  bool const may_show_people = !graph_.frames.empty() && options_.leaves_out_who_walks;
+  auto const stands_out =
+      may_show_people ? without_who_walks(scan, sensor, by_odometry(scan.odometry).pose, graph_) : scan;
+  add_key_frame(slam::frame_of(stands_out, sensor, options_.frame), std::move(scan));
+  let_go_of_redundant();
+  if (wants_redraw()) {
+    redraw();
+  } else {
+    draw_last();
+  }
+}
+
+void FloorMap::add_sparse(slam::Scan scan) {
+  constexpr double step_m = 0.03;
+  constexpr double step_rad = 0.02;
+  constexpr slam::LogTime still_s(0.5);  // a door may open before a robot that stands
+  gatherer_.add(scan, log_.sensors.front(), scan.odometry);
+  bool const is_first = graph_.frames.empty();
+  if (is_first || gatherer_.is_due()) {
+    add_key_frame(gatherer_.take(), std::move(scan));
+    if (wants_redraw()) return redraw();
+    return draw_last();
+  }
+  auto const& last = log_.scans.back();
+  bool const is_new = slam::distance_m(last.odometry, scan.odometry) > step_m ||
+                      slam::turn_rad(last.odometry, scan.odometry) > step_rad || scan.time - last.time > still_s;
+  if (!is_new) return;
+  hold(std::move(scan));
+  draw_last();
+}
+
+void FloorMap::add_key_frame(slam::Frame frame, slam::Scan scan) {
   // The map begins where the robot does, whatever its wheels had counted before.
   bool const is_first = graph_.frames.empty();
-  auto const driven = is_first ? Pose2() : slam::between(log_.scans.back().odometry, scan.odometry);
-  bool const may_show_people = !is_first && options_.leaves_out_who_walks;
-  auto frame =
-      slam::frame_of(may_show_people ? without_who_walks(scan, sensor, graph_.poses.back() * driven, graph_) : scan,
-                     sensor, options_.frame);
+  auto const driven = is_first ? Pose2() : slam::between(key_odometry_, scan.odometry);
   auto step = front_end_.add(graph_.frames, graph_.poses, frame, scan.odometry);
   if (is_first) step.pose = {};
   if (step.constraint) path_m_ += slam::place(driven).norm();
@@ -74,15 +129,39 @@ void FloorMap::add_key_frame(slam::Scan scan) {
     turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(graph_.poses[graph_.poses.size() - 2].yaw).toRotationMatrix();
     key_covariance_ = turn * step.constraint->information.inverse() * turn.transpose();
   }
-  log_.scans.push_back(std::move(scan));
+  key_times_.push_back(scan.time);
+  key_odometry_ = scan.odometry;
+  // What was seen on the way to it was laid together with it.
+  for (auto i = since_key_; i < holds_.size(); ++i)
+    holds_[i] = {graph_.size() - 1, slam::between(key_odometry_, log_.scans[i].odometry)};
+  hold(std::move(scan));
+  since_key_ = holds_.size();
   loops_.follow(graph_);
-  let_go_of_redundant();
-  if (wants_redraw()) {
-    redraw();
-  } else {
-    draw_last();
-  }
-  here_ = {graph_.poses.back(), key_covariance_};
+}
+
+void FloorMap::hold(slam::Scan scan) {
+  bool const is_far = on_the_way_.empty() || slam::distance_m(log_.scans[on_the_way_.back()].odometry, scan.odometry) >
+                                                 options_.front_end.key_step_m;
+  if (is_sparse_ && is_far) on_the_way_.push_back(log_.scans.size());
+  holds_.push_back({graph_.size() - 1, slam::between(key_odometry_, scan.odometry)});
+  log_.scans.push_back(std::move(scan));
+}
+
+std::vector<Pose2> FloorMap::way() const {
+  if (!is_sparse_) return graph_.poses;
+  std::vector<Pose2> poses;
+  poses.reserve(on_the_way_.size());
+  for (auto const scan : on_the_way_) poses.push_back(pose_of(scan));
+  return poses;
+}
+
+Pose2 FloorMap::pose_of(std::size_t scan) const {
+  return graph_.poses[holds_[scan].frame] * holds_[scan].in_frame;
+}
+
+Located FloorMap::by_odometry(Pose2 const& odometry) const {
+  auto const driven = slam::between(key_odometry_, odometry);
+  return {graph_.poses.back() * driven, key_covariance_ + spread_of(driven)};
 }
 
 /// What is aligned beside this map has the key frames' numbers as they were when that began.
@@ -93,6 +172,10 @@ void FloorMap::let_go_of_redundant() {
   if (redundant.empty()) return;
   auto const renumbering = slam::let_go(graph_, redundant, options_.prune.most_loops);
   slam::keep_staying(log_.scans, renumbering);
+  slam::keep_staying(key_times_, renumbering);
+  slam::keep_staying(holds_, renumbering);
+  for (int frame = 0; frame < graph_.size(); ++frame) holds_[static_cast<std::size_t>(frame)].frame = frame;
+  since_key_ = holds_.size();
   slam::keep_staying(drawn_at_, renumbering);
   loops_.renumber(graph_, renumbering);
 }
@@ -147,14 +230,17 @@ bool FloorMap::wants_redraw() const {
 
 void FloorMap::draw_last() {
   slam::ScanLog const last{.sensors = log_.sensors, .scans = {log_.scans.back()}};
-  merge(grid_, slam::draw_grid(last, {graph_.poses.back()}, options_.beam), changed_);
-  drawn_at_.push_back(graph_.poses.back());
+  merge(grid_, slam::draw_grid(last, {pose_of(log_.scans.size() - 1)}, options_.beam), changed_);
+  drawn_at_.insert(drawn_at_.end(), graph_.poses.begin() + std::ssize(drawn_at_), graph_.poses.end());
 }
 
 void FloorMap::redraw() {
   map::OccupancyGrid grid(options_.beam.cell_m, options_.site_from_map);
   std::set<map::TileKey> drawn;
-  merge(grid, slam::draw_grid(log_, graph_.poses, options_.beam), drawn);
+  std::vector<Pose2> poses;
+  poses.reserve(log_.scans.size());
+  for (std::size_t scan = 0; scan < log_.scans.size(); ++scan) poses.push_back(pose_of(scan));
+  merge(grid, slam::draw_grid(log_, poses, options_.beam), drawn);
   for (auto const& [key, tile] : grid_.tiles())
     if (!drawn.contains(key)) drawn.insert(key);
   for (auto const key : drawn) {

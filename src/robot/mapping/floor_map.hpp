@@ -9,10 +9,12 @@
 
 #include "map/grid/occupancy_grid.hpp"
 #include "robot/mapping/map_shift.hpp"
+#include "slam/front_end.hpp"
 #include "slam/grid/draw_grid.hpp"
-#include "slam/mapper.hpp"
+#include "slam/loops/loop_closer.hpp"
 #include "slam/prune/prune_options.hpp"
 #include "slam/refine/joint.hpp"
+#include "slam/scan/gather.hpp"
 
 namespace lapwing::robot {
 
@@ -30,6 +32,8 @@ struct MappingOptions {
   slam::JointOptions joint = {.radius_m = 8.0, .apart_m = 1.5};
   /// Which of them are let go, so that a robot may drive about for days.
   slam::PruneOptions prune;
+  /// Of a robot without a laser, with a few sonars or single rangers: what they saw on the way is joined to key frames.
+  slam::GatherOptions gather;
   slam::BeamModel beam;
   /// Where the robot's map lies in its site. The map begins where the robot does, looking along x.
   geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map = {};
@@ -56,6 +60,9 @@ struct Located {
 
 /// The map of one floor while a robot drives over it: each scan with the wheels' odometry in, where the robot is and
 /// what is taken and free out. Nothing is known beforehand. Pure: the same scans give the same map.
+///
+/// A sensor of few beams sees too little at once to know a place by: what it sees over a metre or two of the way makes
+/// a key frame (`slam::Gatherer`), and each scan is drawn.
 class FloorMap {
  public:
   FloorMap(slam::Sensor sensor, MappingOptions options);
@@ -83,26 +90,46 @@ class FloorMap {
   [[nodiscard]] std::vector<MapShift> take_shifts() { return std::exchange(shifts_, {}); }
 
   [[nodiscard]] slam::Graph const& graph() const { return graph_; }
+  /// The way that it came, a few decimetres from place to place, as it is known by now.
+  [[nodiscard]] std::vector<slam::Pose2> way() const;
   /// When a key frame's scan was taken.
-  [[nodiscard]] slam::LogTime key_time(std::size_t frame) const { return log_.scans[frame].time; }
+  [[nodiscard]] slam::LogTime key_time(std::size_t frame) const { return key_times_[frame]; }
   [[nodiscard]] slam::LoopCounts loops() const { return loops_.counts(); }
   /// How often loops and alignments have made the grid be drawn anew.
   [[nodiscard]] int redrawn() const { return redrawn_; }
 
  private:
-  void add_key_frame(slam::Scan scan);
+  void add_dense(slam::Scan scan);
+  void add_sparse(slam::Scan scan);
+  /// Precondition: the frame is what was seen at or before this scan, in the robot's frame at it.
+  void add_key_frame(slam::Frame frame, slam::Scan scan);
   void let_go_of_redundant();
+  /// The scan is drawn from now on, from where it was taken beside the last key frame.
+  void hold(slam::Scan scan);
   void draw_last();
+  [[nodiscard]] slam::Pose2 pose_of(std::size_t scan) const;
+  [[nodiscard]] Located by_odometry(slam::Pose2 const& odometry) const;
   void redraw();
   [[nodiscard]] bool wants_redraw() const;
 
   MappingOptions options_;
-  slam::ScanLog log_;  ///< of key frames alone: what the grid is drawn from
+  bool is_sparse_;
+  slam::ScanLog log_;  ///< what the grid is drawn from: the key frames' scans, of sparse ones all that say anything new
+  struct Hold {
+    int frame;
+    slam::Pose2 in_frame;
+  };
+  std::vector<Hold> holds_;              ///< of these scans: the key frame that each moves with
+  std::size_t since_key_ = 0;            ///< the first of them that was taken after the last key frame
+  std::vector<std::size_t> on_the_way_;  ///< of sparse ones: scans a key frame's usual step apart
+  slam::Gatherer gatherer_;
   slam::FrontEnd front_end_;
   slam::LoopCloser loops_;
   slam::Graph graph_;
-  int key_frames_ = 0;    ///< that there ever were
-  int until_let_go_ = 0;  ///< key frames, until it is looked for what can be let go
+  std::vector<slam::LogTime> key_times_;
+  slam::Pose2 key_odometry_;  ///< of the last key frame
+  int key_frames_ = 0;        ///< that there ever were
+  int until_let_go_ = 0;      ///< key frames, until it is looked for what can be let go
   bool is_aligning_ = false;
   double path_m_ = 0.0;
   double redrawn_at_m_ = 0.0;

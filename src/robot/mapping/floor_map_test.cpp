@@ -308,5 +308,49 @@ TEST(FloorMap, IsTheSameForTheSameScans) {
   for (auto const& [key, tile] : one.map.grid().tiles()) EXPECT_EQ(tile->cells, two.map.grid().tiles().at(key)->cells);
 }
 
+/// Twice round a ring of corridors with rangers at right angles that see 4 m.
+slam::testing::Drive drive_of_few_rangers() {
+  auto const building = slam::testing::office(16.0, 8.0, 4.0, 1.0, 3);
+  std::vector<Eigen::Vector2d> const way{{0, 0}, {16, 0}, {16, 8}, {0, 8}, {0, 0}, {16, 0}, {16, 8}, {0, 8}, {0, 0}};
+  slam::testing::DriveOptions options;
+  options.beams = 5;  // the first and the last look back
+  options.field_of_view_rad = 2.0 * std::numbers::pi;
+  options.most_range_m = 4.0;
+  options.scans_per_s = 12.0;
+  return slam::testing::drive(building, way, options);
+}
+
+TEST(FloorMap, OfFewRangersKnowsWhereTheRobotIsBetterThanItsWheelsDo) {
+  auto const drive = drive_of_few_rangers();
+  auto const mapped = map_of(drive, drive.log.scans.size());
+  std::vector<Pose2> wheels;
+  for (auto const& scan : drive.log.scans) wheels.push_back(scan.odometry);
+  double const by_map = slam::testing::greatest_error_m(mapped.map.graph().poses, truth_of(mapped.map, drive));
+  EXPECT_GT(mapped.map.loops().closures, 0);
+  EXPECT_LT(by_map, 0.5);
+  EXPECT_GT(slam::testing::greatest_error_m(wheels, drive.truth), 3.0 * by_map);
+}
+
+TEST(FloorMap, OfFewRangersDrawsWhatEachScanSawAndNotKeyFramesAlone) {
+  auto const drive = drive_of_few_rangers();
+  auto const mapped = map_of(drive, 80);
+  // Of the corridor behind it, from wall to wall.
+  auto const& grid = mapped.map.grid();
+  double const come_m = mapped.map.here().pose.x;
+  ASSERT_GT(come_m, 2.0);
+  int cells = 0;
+  int free = 0;
+  for (double x = 0.3; x < come_m - 0.3; x += 0.1) {
+    for (double y = -0.8; y <= 0.8; y += 0.2, ++cells) {
+      auto const cell = grid.at(grid.cell_at({x, y}));
+      free += cell.is_seen() && cell.probability() < 0.5 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(free, 0.8 * cells) << "where doors stand open nothing comes back";
+  EXPECT_LT(mapped.map.graph().size(), 8);
+  auto const way = mapped.map.way();
+  for (std::size_t i = 1; i < way.size(); ++i) EXPECT_LT(slam::distance_m(way[i - 1], way[i]), 0.5);
+}
+
 }  // namespace
 }  // namespace lapwing::robot

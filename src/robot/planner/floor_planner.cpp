@@ -107,6 +107,7 @@ base::Result<> FloorPlanner::begin(Errand errand) {
   errand_ = std::move(errand);
   order_ = {};
   is_there_ = false;
+  look_round_.stop();
   navigator_.stop();
   is_new_ = true;
   recovery_.rest();
@@ -259,6 +260,12 @@ Plan FloorPlanner::plan(Situation const& situation) {
 }
 
 Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose) {
+  bool const has_come = is_new_ || navigator_.state() == explore::Navigator::State::arrived;
+  if (options_.looks_round && has_come) look_round_.arrive(*known_, pose);
+  if (auto const yaw_rad = look_round_.next(pose.yaw_rad)) {
+    progress_.begin(situation.time_s);
+    return {.state = Plan::State::under_way, .way = {.yaw_rad = yaw_rad, .turn_rad_s = LookRound::turn_rad_s}};
+  }
   double const stalled_s =
       is_new_ ? 0.0 : std::min(progress_.stalled_s(situation.time_s), situation.time_s - goal_since_s_);
   bool const has_stood = stalled_s > blocked_after_s;

@@ -12,6 +12,7 @@
 #include "explore/path/navigator.hpp"
 #include "explore/strategy/strategy.hpp"
 #include "robot/planner/driven_track.hpp"
+#include "robot/planner/look_round.hpp"
 #include "robot/planner/progress.hpp"
 #include "robot/planner/recovery.hpp"
 #include "robot/planner/refusals.hpp"
@@ -46,6 +47,8 @@ struct PlannerOptions {
   double cell_m = 0.05;  ///< of the map
   double side_m = 60.0;  ///< of the square around the start that the robot plans in
   double wary_m = 0.5;   ///< ways keep so far from walls where there is room
+  /// It sees little at a time: where it sets out, and where it has come to, it turns round and looks.
+  bool looks_round = false;
   double give_up_s =
       180.0;  ///< without getting on, an errand is over: an exploration with what it has, others have failed
 };
@@ -136,6 +139,7 @@ class FloorPlanner {
   explore::Order order_;
   bool is_there_ = false;  ///< where it is to look from
   std::size_t free_cells_ = 0;
+  LookRound look_round_;
   DrivenTrack track_;
   Progress progress_;
   double measured_s_ = 0.0;    ///< when progress was

@@ -49,7 +49,8 @@ Motion Follower::steer(slam::Pose2 const& pose, Room const& room) {
   } else if (!way_.points.empty() && !has_arrived_) {
     wanted = along(pose, room, most_m_s);
   }
-  wanted.turn_rad_s = std::clamp(wanted.turn_rad_s, -limits_.turn_rad_s, limits_.turn_rad_s);
+  double const most_rad_s = std::min(limits_.turn_rad_s, way_.turn_rad_s);
+  wanted.turn_rad_s = std::clamp(wanted.turn_rad_s, -most_rad_s, most_rad_s);
   return wanted;
 }
 

@@ -159,5 +159,13 @@ TEST(Follower, GoesBackNoFartherThanThereIsRoom) {
   EXPECT_EQ(follower.steer({}, room_with({{-0.1, 0.0}})).speed_m_s, 0.0);
 }
 
+TEST(Follower, TurnsNoFasterThanItsWayAllows) {
+  Follower follower{Limits{}};
+  follower.take({.yaw_rad = 3.0, .turn_rad_s = 0.5});
+  EXPECT_EQ(follower.steer({}, Room()).turn_rad_s, 0.5);
+  follower.take({.yaw_rad = -3.0, .turn_rad_s = 0.5});
+  EXPECT_EQ(follower.steer({}, Room()).turn_rad_s, -0.5);
+}
+
 }  // namespace
 }  // namespace lapwing::robot

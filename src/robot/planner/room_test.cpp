@@ -48,5 +48,33 @@ TEST(Room, GoesWithTheRobot) {
   EXPECT_EQ(room.towards(0.0, 0.2), 2.0);
 }
 
+TEST(Room, OfFewSonarsIsWhatTheyHeardLately) {
+  slam::Sensor const sonar{.bearings_rad = {0.0F}, .no_return_m = 5.0F, .half_cone_rad = 0.13F};
+  auto const heard = [](double time_s, slam::Pose2 const& odometry, float range_m) {
+    return slam::Scan{.time = slam::LogTime(time_s), .odometry = odometry, .ranges_m = {range_m}};
+  };
+  Room room(heard(0.0, {}, 1.0F), sonar);
+  // It turns to the left by a quarter, where nothing is.
+  room.take(heard(1.0, {0.0, 0.0, half_turn / 2.0}, 5.0F), sonar);
+  EXPECT_EQ(room.towards(0.0, 0.2), 2.0);
+  slam::Scan const back = heard(1.5, {0.1, 0.0, 0.0}, 5.0F);
+  room.take(back, sonar);
+  EXPECT_NEAR(room.towards(0.0, 0.2), 0.7, 1e-6) << "it is silent now, and stands there still";
+  room.take(heard(2.5, {0.1, 0.0, 0.0}, 5.0F), sonar);
+  EXPECT_EQ(room.towards(0.0, 0.2), 2.0) << "who walked is elsewhere by now";
+}
+
+TEST(Room, OfALaserIsWhatTheLastScanShows) {
+  slam::Sensor laser{.bearings_rad = {}, .no_return_m = 5.0F};
+  for (int i = 0; i < 360; ++i) laser.bearings_rad.push_back(static_cast<float>(-half_turn + i * half_turn / 180.0));
+  slam::Scan scan;
+  scan.ranges_m.assign(360, 1.0F);
+  Room room(scan, laser);
+  EXPECT_NEAR(room.towards(0.0, 0.2), 0.8, 0.01);
+  scan.ranges_m.assign(360, 5.0F);
+  room.take(scan, laser);
+  EXPECT_EQ(room.towards(0.0, 0.2), 2.0);
+}
+
 }  // namespace
 }  // namespace lapwing::robot

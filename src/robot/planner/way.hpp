@@ -39,6 +39,7 @@ struct Way {
   bool is_to_the_end = false;  ///< the last point is the goal; else the way goes on behind it
   std::optional<double> yaw_rad = {};
   double speed_m_s = 0.0;
+  double turn_rad_s = std::numeric_limits<double>::infinity();  ///< at most
 };
 
 }  // namespace lapwing::robot

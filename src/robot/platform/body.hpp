@@ -39,8 +39,9 @@ class Body {
     std::function<void(slam::Scan const&)> on_scan = {};
   };
   virtual void listen(Listener listener) = 0;
-  /// How its laser looks; null until it has said so. Scans come only afterwards.
-  [[nodiscard]] virtual slam::Sensor const* laser() const = 0;
+  /// What it maps by: its laser or, without one, its sonars or single rangers. Null until it has said so; scans come
+  /// only afterwards.
+  [[nodiscard]] virtual slam::Sensor const* sensor() const = 0;
   /// Over what it is reached, for people.
   [[nodiscard]] virtual std::string link() const = 0;
 

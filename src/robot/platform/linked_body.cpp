@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "robot/platform/scan_laying.hpp"
+#include "robot/ranges/scan_laying.hpp"
+#include "robot/ranges/sonar_scan.hpp"
 #include "robot/watch/self_report.hpp"
 
 namespace lapwing::robot {
@@ -39,8 +40,12 @@ void LinkedBody::meet(firmware::Hello const& hello) {
   odometry_.emplace(hello.description, here);
   scan_.reset();
   bool const has_laser = hello.description.laser.beams > 0;
-  if (!has_laser) log_.warn("the board has no laser: without one there is no map, and the robot stands");
-  if (has_laser && !sensor_) sensor_ = sensor_of(hello.description.laser);
+  if (!sensor_ && has_laser) sensor_ = sensor_of(hello.description.laser);
+  if (!sensor_) sensor_ = sensor_of(hello.description.sonar_places());
+  if (!has_laser && hello.description.sonar_count > 0)
+    log_.warn(
+        "the board has no laser: a map by sonars alone is coarse, and edges that they do not hear may be touched");
+  if (!sensor_) log_.warn("the board has neither laser nor sonars: there is no map, and the robot stands");
   log_.info(fmt::format("a board with {} sonars and a laser of {} beams", hello.description.sonar_count,
                         hello.description.laser.beams));
 }
@@ -60,6 +65,8 @@ void LinkedBody::take(firmware::Readings const& readings) {
                           .is_too_near = readings.has(Flag::too_near),
                           .is_waiting = readings.has(Flag::watchdog),
                           .sensors_code = sensors_code(sensed->faults)});
+  bool const has_laser = description_->laser.beams > 0;
+  if (!has_laser && sensor_ && listener_.on_scan) listener_.on_scan(scan_of(*sensed, odometry_->pose(), *sensor_));
   if (!scan_ || end_of(*scan_, description_->laser) > readings.time) return;
   auto const scan = *std::exchange(scan_, std::nullopt);
   bool const fits = sensor_ && scan.ranges_m.size() == sensor_->bearings_rad.size();

@@ -5,8 +5,8 @@
 
 #include "base/log.hpp"
 #include "robot/carrier/carrier_client.hpp"
-#include "robot/platform/board_odometry.hpp"
 #include "robot/platform/body.hpp"
+#include "robot/ranges/board_odometry.hpp"
 
 namespace lapwing::robot {
 
@@ -18,7 +18,7 @@ class LinkedBody final : public Body {
   LinkedBody(base::Loop& loop, std::unique_ptr<link::ByteLink> link, base::Logger log);
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
-  [[nodiscard]] slam::Sensor const* laser() const override { return sensor_ ? &*sensor_ : nullptr; }
+  [[nodiscard]] slam::Sensor const* sensor() const override { return sensor_ ? &*sensor_ : nullptr; }
   [[nodiscard]] std::string link() const override { return link_->name(); }
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;

@@ -113,7 +113,7 @@ void Robot::take(Reading const& reading) {
 
 void Robot::take(slam::Scan const& scan) {
   scanned_at_ = around_.loop.now();
-  room_ = Room(scan, *body_->laser());
+  room_.take(scan, *body_->sensor());
   if (scans_.size() == most_waiting_scans) {
     scans_.pop_front();
     left_out_at_ = around_.loop.now();
@@ -168,7 +168,7 @@ base::Task<> Robot::keep_thinking() {
   for (;;) {
     while (scans_.empty()) co_await scanned_.wait();
     if (!has_thoughts_) {
-      thoughts_ = std::make_unique<Thoughts>(*body_->laser(), mapping_options(spec_), spec_.planning);
+      thoughts_ = std::make_unique<Thoughts>(*body_->sensor(), mapping_options(spec_), spec_.planning);
       has_thoughts_ = true;
     }
     auto mapping = map_scans();

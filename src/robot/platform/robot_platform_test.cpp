@@ -75,6 +75,15 @@ TEST_F(RobotPlatformTest, ExploresWithAScannerThatLooksNoWayBack) {
   }
 }
 
+TEST_F(RobotPlatformTest, ExploresWithFourRangers) {
+  auto* const other = add("robot4", {.beams = 4, .laser_m = 4.0});
+  ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));
+  auto const run = start({ExploreStep{"nearest"}, ReturnStep{}}, "robot4");
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 60min)) << run->progress();
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_GE(other->survey()->free_m2, 0.9 * testing::small_office_m2) << other->drives().back()->remark;
+}
+
 TEST_F(RobotPlatformTest, EndsAnExplorationWhileItsBatteryTakesItHome) {
   body->battery = 0.5;
   body->drain_per_s = 1.0 / 300.0;

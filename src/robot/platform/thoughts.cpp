@@ -28,15 +28,18 @@ std::vector<Place> ends_of(slam::Scan const& scan, slam::Sensor const& sensor, s
 MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans, std::vector<slam::Pose2> aligned) {
   auto& map = thoughts->map;
   MapResult result;
-  result.last = scans.back();
+  auto const last = scans.back();
   if (!aligned.empty()) map.take(aligned);
-  for (auto& scan : scans) map.add(std::move(scan));
+  for (auto& scan : scans) {
+    thoughts->room.take(scan, map.sensor());
+    map.add(std::move(scan));
+  }
   result.changed = map.take_changes();
   if (!result.changed.empty()) result.grid = map.grid();
   result.shifts = map.take_shifts();
   result.here = map.here();
   result.odometry = map.odometry();
-  result.seen = ends_of(result.last, map.sensor(), result.here.pose);
+  result.seen = ends_of(last, map.sensor(), result.here.pose);
   result.misfit = misfit(map.grid(), result.seen);
   result.thoughts = std::move(thoughts);
   return result;
@@ -56,13 +59,14 @@ PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
   if (refused) {
     result.plan = {.state = Plan::State::failed, .reason = refused->message};
   } else {
+    auto const way = floor.way();
     result.plan = planner.plan({.pose = map.here.pose,
                                 .driven_m = input.driven_m,
                                 .time_s = input.time_s,
                                 .sides = input.sides,
                                 .seen = map.seen,
-                                .room = Room(map.last, floor.sensor()),
-                                .driven = floor.graph().poses});
+                                .room = map.thoughts->room,
+                                .driven = way});
   }
   if (input.wants_survey) {
     result.survey = planner.survey();

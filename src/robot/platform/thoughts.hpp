@@ -14,10 +14,17 @@ namespace lapwing::robot {
 /// All that a robot works out beside the loop: its map, and the planning on it.
 struct Thoughts {
   Thoughts(slam::Sensor sensor, MappingOptions const& mapping, PlannerOptions const& planning)
-      : map(std::move(sensor), mapping), planner(planning) {}
+      : map(std::move(sensor), mapping), planner(for_sensor(planning, map.sensor())) {}
   FloorMap map;
   FloorPlanner planner;
   WallBook walls;
+  Room room;  ///< by the last scan
+
+ private:
+  [[nodiscard]] static PlannerOptions for_sensor(PlannerOptions planning, slam::Sensor const& sensor) {
+    planning.looks_round = planning.looks_round || slam::is_sparse(sensor);
+    return planning;
+  }
 };
 
 struct NewErrand {
@@ -28,7 +35,6 @@ struct NewErrand {
 /// What mapping has made of some scans, and planning goes on with.
 struct MapResult {
   std::unique_ptr<Thoughts> thoughts;
-  slam::Scan last;  ///< of them
   Located here;
   slam::Pose2 odometry;  ///< of the scan at which it was here
   /// How little the scan fits the map there: see `misfit`. Nothing where too little of what it shows is known.

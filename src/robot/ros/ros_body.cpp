@@ -111,10 +111,10 @@ void RosBody::take(bus::BatteryState const& battery) {
 void RosBody::tell_scan() {
   if (!waiting_ || !now_ || waiting_->times.end() > now_->stamp) return;
   auto const seen = *std::exchange(waiting_, std::nullopt);
-  sides_ = sides_of(*laser(), seen.ranges_m);
+  sides_ = sides_of(*sensor(), seen.ranges_m);
   // By another clock than the base's, or one that was set: then it is as if it had just been taken.
   auto const pose_at = [this](std::chrono::nanoseconds stamp) { return track_.at(stamp).value_or(now_->pose); };
-  if (listener_.on_scan) listener_.on_scan(*scans::lay(seen.ranges_m, *laser(), seen.times, pose_at));
+  if (listener_.on_scan) listener_.on_scan(*scans::lay(seen.ranges_m, *sensor(), seen.times, pose_at));
 }
 
 void RosBody::tell_reading() {

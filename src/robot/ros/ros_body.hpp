@@ -41,7 +41,7 @@ class RosBody final : public Body {
   ~RosBody() override;
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
-  [[nodiscard]] slam::Sensor const* laser() const override { return laser_ ? laser_->sensor() : nullptr; }
+  [[nodiscard]] slam::Sensor const* sensor() const override { return laser_ ? laser_->sensor() : nullptr; }
   [[nodiscard]] std::string link() const override;
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;

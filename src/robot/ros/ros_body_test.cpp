@@ -25,7 +25,7 @@ struct RosBodyTest : ::testing::Test {
       be_at(1, 0.0);
       see(0, 0, 1.0F);
       body->drive({.speed_m_s = 0.3});
-      return !readings.empty() && body->laser() && !scans.empty() && !driven.empty();
+      return !readings.empty() && body->sensor() && !scans.empty() && !driven.empty();
     }));
     EXPECT_TRUE(comes_true([&] { return is_quiet(); }));
     readings.clear();
@@ -103,7 +103,7 @@ struct RosBodyTest : ::testing::Test {
 };
 
 TEST_F(RosBodyTest, LaysScansWhereTheRobotWasThen) {
-  EXPECT_NEAR(body->laser()->mount_m.x(), 0.3, 1e-6);
+  EXPECT_NEAR(body->sensor()->mount_m.x(), 0.3, 1e-6);
   be_at(10, 1.0);
   ASSERT_TRUE(comes_true([&] { return !readings.empty(); }));
   EXPECT_DOUBLE_EQ(readings.back().odometry.x, 1.0);
@@ -132,7 +132,7 @@ TEST_F(RosBodyTest, LaysTheBeamsOfASlowScannerWhereEachLookedFrom) {
   EXPECT_NEAR(scan.time.count(), 10.2, 1e-6);
   EXPECT_NEAR(scan.odometry.x, 1.2, 1e-6);
   auto const end_x = [&](std::size_t beam) {
-    return scan.ranges_m[beam] * std::cos(bearings_of(scan, *body->laser())[beam]);
+    return scan.ranges_m[beam] * std::cos(bearings_of(scan, *body->sensor())[beam]);
   };
   EXPECT_NEAR(end_x(0), 3.0 * std::cos(1.0) - 0.2, 1e-4);
   EXPECT_NEAR(end_x(1), 3.0, 1e-4);

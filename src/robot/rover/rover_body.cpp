@@ -85,7 +85,7 @@ base::Result<> RoverBody::use(LaserOnRos const& laser) {
   return {};
 }
 
-slam::Sensor const* RoverBody::laser() const {
+slam::Sensor const* RoverBody::sensor() const {
   return laser_ ? laser_->sensor() : ranges_.sensor();
 }
 
@@ -144,8 +144,8 @@ void RoverBody::tell_scan() {
   auto const pose_at = [this](std::chrono::nanoseconds time) { return track_.at(base::TimePoint(time)); };
   if (!waiting_ || !pose_at(waiting_->times.end())) return;
   auto const seen = *std::exchange(waiting_, std::nullopt);
-  sides_ = ros::sides_of(*laser(), seen.ranges_m);
-  if (listener_.on_scan) listener_.on_scan(*scans::lay(seen.ranges_m, *laser(), seen.times, pose_at));
+  sides_ = ros::sides_of(*sensor(), seen.ranges_m);
+  if (listener_.on_scan) listener_.on_scan(*scans::lay(seen.ranges_m, *sensor(), seen.times, pose_at));
 }
 
 void RoverBody::tell_reading() {

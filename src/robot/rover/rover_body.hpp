@@ -46,7 +46,7 @@ class RoverBody final : public Body {
   [[nodiscard]] base::Result<> use(LaserOnRos const& laser);
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
-  [[nodiscard]] slam::Sensor const* laser() const override;
+  [[nodiscard]] slam::Sensor const* sensor() const override;
   [[nodiscard]] std::string link() const override;
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;

@@ -110,8 +110,8 @@ TEST_F(RoverBodyTest, DoesNotDriveByTheEstimatorsJumps) {
 TEST_F(RoverBodyTest, LaysScansOfSeventyTwoDirections) {
   run_for(2s);
   ASSERT_FALSE(scans.empty());
-  ASSERT_NE(body->laser(), nullptr);
-  auto const& bearings = body->laser()->bearings_rad;
+  ASSERT_NE(body->sensor(), nullptr);
+  auto const& bearings = body->sensor()->bearings_rad;
   auto const& ranges = scans.back().ranges_m;
   ASSERT_EQ(bearings.size(), 72U);
   auto const at = [&](float bearing) {

@@ -41,7 +41,7 @@ TEST(RoverLaser, IsReadFromRosByItsOwnClock) {
   };
   auto watching = sees(loop);
   ASSERT_TRUE(loop.run_until_done(std::move(watching)));
-  EXPECT_NEAR(body.laser()->mount_m.x(), 0.3, 1e-6);
+  EXPECT_NEAR(body.sensor()->mount_m.x(), 0.3, 1e-6);
   EXPECT_EQ(scans.front().ranges_m, (std::vector<float>{1.0F, 2.0F, 3.0F})) << "not the companion's seventy-two";
   auto const now_s = base::to_seconds(loop.now().time_since_epoch());
   EXPECT_NEAR(scans.front().time.count(), now_s, 1.0) << "on our clock, whatever the laser's says";

@@ -46,7 +46,7 @@ class SimpleBody final : public Body {
   SimpleBody(base::Loop& loop, Walls walls, SimpleBodyOptions const& options);
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
-  [[nodiscard]] slam::Sensor const* laser() const override { return &laser_; }
+  [[nodiscard]] slam::Sensor const* sensor() const override { return &laser_; }
   [[nodiscard]] std::string link() const override { return "test://"; }
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override {
     return is_silent ? std::nullopt : std::optional(carrier_code);

@@ -1,4 +1,4 @@
-#include "robot/planner/wheel_spin.hpp"
+#include "robot/mapping/wheel_spin.hpp"
 
 namespace lapwing::robot {
 

@@ -2,7 +2,7 @@
 
 #include "firmware/frames/description.hpp"
 #include "robot/carrier/scan.hpp"
-#include "robot/platform/board_odometry.hpp"
+#include "robot/ranges/board_odometry.hpp"
 #include "slam/log/scan_log.hpp"
 
 namespace lapwing::robot {

@@ -1,4 +1,4 @@
-#include "robot/platform/board_odometry.hpp"
+#include "robot/ranges/board_odometry.hpp"
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-#include "robot/platform/scan_laying.hpp"
+#include "robot/ranges/scan_laying.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // A scanner turns while its robot does: what it saw is laid where it was.
-#include "robot/platform/scan_laying.hpp"
+#include "robot/ranges/scan_laying.hpp"
 
 #include <cmath>
 #include <numbers>
