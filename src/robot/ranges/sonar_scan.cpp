@@ -19,9 +19,9 @@ float from_axle_m(firmware::SonarPlace const& place) {
   return std::hypot(place.x_m, place.y_m);
 }
 
-Told told_by(SonarReading const& sonar, bool is_believed, float no_return_m) {
+Told told_by(SonarReading const& sonar, SensorFault fault, float no_return_m) {
   auto const& place = sonar.place;
-  if (!is_believed) return {place.angle_rad, std::numeric_limits<float>::quiet_NaN()};
+  if (!is_believed(fault)) return {place.angle_rad, std::numeric_limits<float>::quiet_NaN()};
   if (!sonar.range_m) return {place.angle_rad, no_return_m};
   auto const range_m = static_cast<float>(*sonar.range_m);
   float const x_m = place.x_m + range_m * std::cos(place.angle_rad);
@@ -46,11 +46,8 @@ std::optional<slam::Sensor> sensor_of(std::span<firmware::SonarPlace const> sona
 
 slam::Scan scan_of(Sensed const& sensed, slam::Pose2 const& odometry, slam::Sensor const& sensor) {
   std::vector<Told> told;
-  for (std::size_t i = 0; i < sensed.sonars.size(); ++i) {
-    auto const fault = sensed.faults.sonars[i];
-    bool const is_believed = fault == SensorFault::none || fault == SensorFault::dropouts;
-    told.push_back(told_by(sensed.sonars[i], is_believed, sensor.no_return_m));
-  }
+  for (std::size_t i = 0; i < sensed.sonars.size(); ++i)
+    told.push_back(told_by(sensed.sonars[i], sensed.faults.sonars[i], sensor.no_return_m));
   std::ranges::sort(told, {}, &Told::bearing_rad);
   slam::Scan scan{.time = std::chrono::duration_cast<slam::LogTime>(sensed.time), .odometry = odometry, .ranges_m = {}};
   for (auto const& [bearing_rad, range_m] : told) {

@@ -104,9 +104,8 @@ void SensorInterface::listen(firmware::Readings const& readings, Sensed& sensed)
     auto const echo = i < echoes.size() ? echoes[i] : firmware::no_echo_us;
     auto const fault = sonar_watches_[i].feed(echo, moved_);
     sensed.faults.sonars.push_back(fault);
-    bool const is_believed = fault == SensorFault::none || fault == SensorFault::dropouts;
     sensed.sonars.push_back(
-        {.place = places[i], .range_m = is_believed ? range_of_echo(echo, places[i]) : std::nullopt});
+        {.place = places[i], .range_m = is_believed(fault) ? range_of_echo(echo, places[i]) : std::nullopt});
   }
   sensed.walls = wall_distances(sensed.sonars, body_.hull);
 }

@@ -18,6 +18,11 @@ enum class SensorFault {
   jumping,   ///< it says what cannot be, or one thing and another in turns
 };
 
+/// Whether what such a sonar says is taken for true: what it drops is missing, and what it says is right.
+[[nodiscard]] constexpr bool is_believed(SensorFault fault) {
+  return fault == SensorFault::none || fault == SensorFault::dropouts;
+}
+
 /// How far the body has gone and turned since it began, each way counted up.
 struct MovedSoFar {
   double way_m = 0;
