@@ -17,7 +17,6 @@ constexpr slam::LogTime remembered(2.0);  ///< who walks is elsewhere by then
 /// Two echoes of one sonar so far apart are of one wall, if it is not met more aslant than smooth walls are heard.
 constexpr double of_one_wall_least_m = 0.05;
 constexpr double of_one_wall_most_m = 0.4;
-constexpr double most_aslant_rad = 0.5;
 constexpr double goes_on_step_m = 0.15;  ///< less than any robot is wide
 constexpr int goes_on_steps = 4;
 
@@ -56,7 +55,7 @@ void Room::guess_how_walls_go_on(std::size_t heard, slam::LogTime now) {
         });
     if (before == ends_.begin() + static_cast<std::ptrdiff_t>(i)) continue;
     Eigen::Vector2d const along = (last.at - before->at).normalized();
-    if (std::abs(along.dot(last.at.normalized())) > std::sin(most_aslant_rad)) continue;
+    if (std::abs(along.dot(last.at.normalized())) > std::sin(slam::heard_aslant_rad)) continue;
     for (int step = 1; step <= goes_on_steps; ++step)
       ends_.push_back(
           {.at = last.at + step * goes_on_step_m * along, .seen = now, .beam = last.beam, .is_guess = true});

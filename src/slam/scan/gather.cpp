@@ -39,14 +39,14 @@ void find_normals(Frame& frame, std::vector<Seen> const& seen) {
 /// Of what sonars heard, walls alone: a smooth one sends sound back to where its normal points, and what shows no such
 /// line, as corners and what came back over two walls, may have been anywhere on its arc.
 void keep_walls(std::vector<Seen>& seen) {
-  constexpr float most_aslant_rad = 0.5F;
   Frame frame;
   for (auto const& point : seen) frame.points.push_back(point.at);
   find_normals(frame, seen);
   std::size_t kept = 0;
   for (std::size_t k = 0; k < seen.size(); ++k) {
     Eigen::Vector2f const back = (seen[k].from - seen[k].at).normalized();
-    if (frame.has_normal(k) && frame.normals[k].dot(back) > std::cos(most_aslant_rad)) seen[kept++] = seen[k];
+    if (frame.has_normal(k) && frame.normals[k].dot(back) > static_cast<float>(std::cos(heard_aslant_rad)))
+      seen[kept++] = seen[k];
   }
   seen.resize(kept);
 }

@@ -29,6 +29,9 @@ struct GatherOptions {
   return std::ssize(sensor.bearings_rad) < options.few_readings;
 }
 
+/// A smooth wall sends sound back to a sonar that it is met no more aslant by than this, its cone included.
+inline constexpr double heard_aslant_rad = 0.5;
+
 /// Joins scans of few beams along odometry into frames with enough points to match: what a laser sees at once, sonars
 /// or single rangers see over a metre or two of the way (as Zhou et al. 2022 do).
 class Gatherer {
