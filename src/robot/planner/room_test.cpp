@@ -64,6 +64,22 @@ TEST(Room, OfFewSonarsIsWhatTheyHeardLately) {
   EXPECT_EQ(room.towards(0.0, 0.2), 2.0) << "who walked is elsewhere by now";
 }
 
+TEST(Room, TakesAWallThatASonarPassesByToGoOn) {
+  slam::Sensor const sonars{.bearings_rad = {0.0F, 1.5708F}, .no_return_m = 5.0F, .half_cone_rad = 0.13F};
+  // It comes nearer to a wall on its left, by 0.3 m on a metre; ahead nothing is heard.
+  auto const passed_by = [&](float step_m) {
+    Room room;
+    for (int i = 0; i < 5; ++i)
+      room.take({.time = slam::LogTime(0.1 * i),
+                 .odometry = {0.1 * i, 0.0, 0.0},
+                 .ranges_m = {5.0F, 0.5F - step_m * static_cast<float>(i)}},
+                sonars);
+    return room.towards(0.0, 0.25);
+  };
+  EXPECT_LT(passed_by(0.03F), 0.5) << "it would touch it there";
+  EXPECT_EQ(passed_by(0.0F), 2.0) << "along the wall it goes on";
+}
+
 TEST(Room, OfALaserIsWhatTheLastScanShows) {
   slam::Sensor laser{.bearings_rad = {}, .no_return_m = 5.0F};
   for (int i = 0; i < 360; ++i) laser.bearings_rad.push_back(static_cast<float>(-half_turn + i * half_turn / 180.0));
