@@ -41,7 +41,7 @@ Eigen::Matrix3d spread_of(Pose2 const& driven) {
 /// What is joined on the way is matched as logs of few readings are.
 MappingOptions fitted(MappingOptions options, slam::Sensor const& sensor) {
   if (!slam::is_sparse(sensor, options.gather)) return options;
-  // At twice that, an echo may have come from half a metre beside where it is laid.
+  // There an echo may have come from 0.4 m beside where it is laid.
   constexpr float cones_match_within_m = 3.0F;
   if (sensor.half_cone_rad > 0.0F)
     options.frame.most_range_m = std::min(options.frame.most_range_m, cones_match_within_m);

@@ -8,7 +8,7 @@
 namespace lapwing::slam {
 namespace {
 
-/// A cone is half a metre wide there, as is a robot.
+/// A cone is a metre wide there, and its arc says little of where something is.
 constexpr double farthest_m = 4.0;
 /// Of what a beam says of a cell. One sonar hears the same from many places on its way, mistakes included.
 constexpr double free_share = 0.15;
