@@ -69,6 +69,15 @@ TEST(DrawCone, SilenceIsAHintForTheNextStep) {
   EXPECT_GT(log_odds(heard, 1.0, 0.0), 0.0);
 }
 
+TEST(DrawCone, SilenceGoesNoFartherThanWhatIsHeardBesideIt) {
+  Sensor const sonars{.bearings_rad = {0.0F, 1.0F}, .no_return_m = no_echo_m, .half_cone_rad = 0.13F};
+  Scan scan;
+  scan.ranges_m = {no_echo_m, 0.8F};
+  auto const grid = draw_grid({.sensors = {sonars}, .scans = {scan}}, {Pose2{}}, {});
+  EXPECT_LT(log_odds(grid, 0.6, 0.0), 0.0);
+  EXPECT_FALSE(is_seen(grid, 1.0, 0.0)) << "the same wall may go on there, aslant";
+}
+
 TEST(DrawCone, ASonarThatIsNotBelievedDrawsNothing) {
   EXPECT_TRUE(drawn({std::numeric_limits<float>::quiet_NaN()}).tiles().empty());
 }
