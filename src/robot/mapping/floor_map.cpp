@@ -88,11 +88,7 @@ void FloorMap::add_dense(slam::Scan scan) {
       may_show_people ? without_who_walks(scan, sensor, by_odometry(scan.odometry).pose, graph_) : scan;
   add_key_frame(slam::frame_of(stands_out, sensor, options_.frame), std::move(scan));
   let_go_of_redundant();
-  if (wants_redraw()) {
-    redraw();
-  } else {
-    draw_last();
-  }
+  draw_key_frame();
 }
 
 void FloorMap::add_sparse(slam::Scan scan) {
@@ -103,8 +99,7 @@ void FloorMap::add_sparse(slam::Scan scan) {
   bool const is_first = graph_.frames.empty();
   if (is_first || gatherer_.is_due()) {
     add_key_frame(gatherer_.take(), std::move(scan));
-    if (wants_redraw()) return redraw();
-    return draw_last();
+    return draw_key_frame();
   }
   auto const& last = log_.scans.back();
   bool const is_new = slam::distance_m(last.odometry, scan.odometry) > step_m ||
@@ -226,6 +221,14 @@ bool FloorMap::wants_redraw() const {
   if (shift_m > options_.far_m || turn_rad > options_.far_rad) return true;
   bool const has_moved = shift_m > options_.redraw_m || turn_rad > options_.redraw_rad;
   return has_moved && path_m_ - redrawn_at_m_ > options_.redraw_every_m;
+}
+
+void FloorMap::draw_key_frame() {
+  if (wants_redraw()) {
+    redraw();
+  } else {
+    draw_last();
+  }
 }
 
 void FloorMap::draw_last() {

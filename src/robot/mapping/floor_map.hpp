@@ -106,6 +106,7 @@ class FloorMap {
   void let_go_of_redundant();
   /// The scan is drawn from now on, from where it was taken beside the last key frame.
   void hold(slam::Scan scan);
+  void draw_key_frame();
   void draw_last();
   [[nodiscard]] slam::Pose2 pose_of(std::size_t scan) const;
   [[nodiscard]] Located by_odometry(slam::Pose2 const& odometry) const;
