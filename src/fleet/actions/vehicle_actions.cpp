@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "fleet/plausibility/situation.hpp"
 #include "mavlink/exchange/command.hpp"
 #include "mavlink/wire/modes.hpp"
 
@@ -236,12 +237,6 @@ Task<Result<>> change_mode(mavlink::Connection& connection, MavlinkVehicle& craf
 }
 
 namespace {
-
-bool knows_its_place(MavlinkVehicle const& craft) {
-  auto const& health = craft.state.arming.health.value;
-  bool const estimated = health && health->position_ok;
-  return craft.state.motion.position.known() && (estimated || craft.state.autopilot == vehicle::Autopilot::other);
-}
 
 std::string_view missing_for_place(MavlinkVehicle const& craft) {
   return !craft.heard->fix || *craft.heard->fix < mavlink::GpsFix::fix_3d ? "no GPS fix" : "no position estimate";

@@ -202,8 +202,7 @@ Task<Result<>> fly_mission(RunContext context, plan::Mission mission, RunRecord&
   record.lands_at = plan::plausibility::landing_places(mission, shown.motion.home.value);
   // Where it stands is what most words are about: a vehicle that does not know it yet is looked at when it does.
   Doubts doubts;
-  bool const knows_its_place = situation_of(craft, {}).position.has_value();
-  if (auto heeded = knows_its_place ? heed(context, mission, doubts) : Result<>(); !heeded) co_return heeded;
+  if (auto heeded = knows_its_place(craft) ? heed(context, mission, doubts) : Result<>(); !heeded) co_return heeded;
 
   record.progress = "waiting until the vehicle is ready";
   auto ready = co_await wait_until_ready(craft, context.connection.loop(), context.options.ready_timeout);

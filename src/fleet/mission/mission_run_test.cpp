@@ -174,6 +174,24 @@ TEST_F(MissionRun, SurvivesASilenceShorterThanTheTimeout) {
   EXPECT_EQ(end_of(*run), RunState::done) << run->error();
 }
 
+// What it last told of its place was in the air; it has landed since.
+TEST_F(MissionRun, JudgesAVehicleThatIsBackByWhatItTellsThen) {
+  auto& copter = world->add();
+  world->run_for(5s);
+  auto const lost = start(mission_ending_with(MavCmd::nav_land));
+  ASSERT_TRUE(world->comes_to(*lost, "item 2/"));
+  copter.is_silent = true;
+  ASSERT_EQ(end_of(*lost), RunState::failed);
+  ASSERT_TRUE(world->run_until([&] { return !copter.is_armed; }));
+  copter.stream(mavlink::MessageId::global_position_int, 5s);
+  world->run_for(1s);
+  copter.is_silent = false;
+  ASSERT_TRUE(world->run_until([&] { return world->state().links.connection == vehicle::Connection::ok; }, 3s));
+  ASSERT_GT(world->state().motion.position.value->alt_m, TestAutopilot::home.alt_m + 10.0) << "its place came first";
+  auto const run = start(mission_ending_with(MavCmd::nav_land));
+  EXPECT_EQ(end_of(*run), RunState::done) << run->error();
+}
+
 // Row 89, as far as it is the platform's: the language compares with what it finds here.
 TEST_F(MissionRun, KnowsNoBatteryThatTheVehicleDoesNotReport) {
   auto& copter = world->add();

@@ -226,6 +226,7 @@ void Network::note_restart(MavlinkVehicle& craft, TimePoint now) {
   auto& heard = heard_of(craft);
   auto& asked = asked_of(craft);
   ++heard.boots;
+  heard.current_from = now;
   heard.since_boot.reset();
   heard.fix.reset();
   heard.trace = {};
@@ -284,6 +285,7 @@ void Network::check_connection(MavlinkVehicle& craft) {
                      "commanded",
                      craft.address.system, conflict->first, conflict->second)
                : "";
+  if (before == Connection::conflict) heard_of(craft).current_from = loop().now();
   registry_.touch_membership(craft.id());
   craft.changed.notify_all();
 }
@@ -291,6 +293,7 @@ void Network::check_connection(MavlinkVehicle& craft) {
 void Network::note_heard(MavlinkVehicle& craft, TimePoint at) {
   craft.state.links.heard = at;
   if (!std::exchange(craft.state.links.is_silent, false)) return;
+  heard_of(craft).current_from = at;
   registry_.touch_membership(craft.id());
 }
 

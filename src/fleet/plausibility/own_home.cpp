@@ -39,8 +39,7 @@ Task<> learn_home(MavlinkVehicle& craft, base::Duration patience) {
   auto& loop = craft.connection.loop();
   bool const did_not_tell = craft.asked->home_untold && loop.now() - *craft.asked->home_untold < left_alone_for;
   // One that does not know where it is has no home yet.
-  bool const knows_its_place = situation_of(craft, {}).position.has_value();
-  if (craft.state.motion.home.known() || did_not_tell || !knows_its_place) co_return;
+  if (craft.state.motion.home.known() || did_not_tell || !knows_its_place(craft)) co_return;
   // Another question may be before it, for longer than anybody waits.
   base::Scope scope(loop);
   scope.spawn(request_home(craft));

@@ -4,12 +4,6 @@ namespace lapwing::fleet {
 
 namespace {
 
-bool knows_its_place(vehicle::VehicleState const& state) {
-  auto const& health = state.arming.health.value;
-  return state.motion.position.known() &&
-         ((health && health->position_ok) || state.autopilot == vehicle::Autopilot::other);
-}
-
 /// Zero only when it says that there is none: an autopilot that does not count tells nothing.
 std::optional<int> items_held(vehicle::VehicleState const& state) {
   auto const& mission = state.mission.progress.value;
@@ -20,9 +14,17 @@ std::optional<int> items_held(vehicle::VehicleState const& state) {
 
 }  // namespace
 
+bool knows_its_place(MavlinkVehicle const& craft) {
+  auto const& health = craft.state.arming.health.value;
+  bool const estimated = health && health->position_ok;
+  return craft.is_current(craft.state.motion.position) &&
+         (estimated || craft.state.autopilot == vehicle::Autopilot::other);
+}
+
 std::optional<bool> stands_on_ground(MavlinkVehicle const& craft) {
   if (!craft.heard->is_armed) return true;
-  return craft.state.motion.landed.value;
+  auto const& landed = craft.state.motion.landed;
+  return craft.is_current(landed) ? landed.value : std::nullopt;
 }
 
 plan::plausibility::Situation situation_of(MavlinkVehicle const& craft, Neighbours const& neighbours) {
@@ -34,7 +36,7 @@ plan::plausibility::Situation situation_of(MavlinkVehicle const& craft, Neighbou
                                           .on_ground = stands_on_ground(craft),
                                           .items_held = items_held(state),
                                           .own_fence = craft.heard->fence.known(state.autopilot, state.family)};
-  if (knows_its_place(state)) situation.position = state.motion.position.value;
+  if (knows_its_place(craft)) situation.position = state.motion.position.value;
   // What standing on the ground uses says nothing about a flight.
   bool const is_under_way = situation.on_ground == false;
   if (is_under_way && state.power.battery.value) situation.endurance = state.power.battery.value->time_left;

@@ -32,9 +32,10 @@ struct MissionTrace {
 /// What a vehicle has said, beyond what its state shows to everybody: what telemetry keeps between messages.
 struct Heard {
   mavlink::MavAutopilot mav_autopilot{};
-  std::string type;          ///< "UAV"
-  mavlink::PeerRef from{};   ///< where the last heartbeat came from
-  int boots = 1;             ///< grows with every restart that was noticed
+  std::string type;                ///< "UAV"
+  mavlink::PeerRef from{};         ///< where the last heartbeat came from
+  base::TimePoint current_from{};  ///< what was told before is of before a silence, a conflict or a restart
+  int boots = 1;                   ///< grows with every restart that was noticed
   unsigned plans_taken = 0;  ///< grows when it says that it has taken a whole plan or was cleared, whoever sent it
   std::optional<std::uint64_t> capabilities;  ///< MAV_PROTOCOL_CAPABILITY, once the vehicle has told
 

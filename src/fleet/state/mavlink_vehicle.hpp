@@ -11,6 +11,7 @@
 #include "fleet/state/written_by.hpp"
 #include "mavlink/connection/connection.hpp"
 #include "mavlink/wire/system_name.hpp"
+#include "vehicle/aged.hpp"
 #include "vehicle/vehicle_state.hpp"
 
 namespace lapwing::fleet {
@@ -73,6 +74,11 @@ struct MavlinkVehicle {
     return !heard->capabilities || (*heard->capabilities & command_int) != 0;
   }
   [[nodiscard]] bool is_connected() const { return state.links.connection == vehicle::Connection::ok; }
+  /// Whether it has told this since it was last silent, in conflict or restarted: what it did meanwhile nobody knows.
+  template <typename T>
+  [[nodiscard]] bool is_current(vehicle::Aged<T> const& told) const {
+    return told.known() && told.heard >= heard->current_from;
+  }
   [[nodiscard]] bool holds_parts() const {
     return runs->parts_left_after && *runs->parts_left_after == heard->plans_taken;
   }
