@@ -155,6 +155,37 @@ TEST(Fleet, EndsTheConflictWhenOneOfTheTwoLeaves) {
   EXPECT_EQ(world.state().links.connection, Connection::ok);
 }
 
+// The last place may be the other one's.
+TEST(Fleet, TakesNothingToldInAConflictAsCurrent) {
+  TestWorld world;
+  auto& first = world.add();
+  world.run_for(5s);
+  world.add();
+  world.run_for(10s);
+  ASSERT_EQ(world.state().links.connection, Connection::conflict);
+  auto const& craft = *world.fleet->find(VehicleId{"1"});
+  first.is_silent = true;
+  ASSERT_TRUE(world.run_until([&] { return craft.is_connected(); }, 10s));
+  ASSERT_TRUE(craft.state.motion.position.known());
+  EXPECT_FALSE(craft.is_current(craft.state.motion.position));
+  world.run_for(5s);
+  EXPECT_TRUE(craft.is_current(craft.state.motion.position));
+}
+
+TEST(Fleet, TakesNothingToldBeforeARestartAsCurrent) {
+  TestWorld world;
+  auto& copter = world.add();
+  copter.change_mode(copter_mode::guided);
+  world.run_for(20s);
+  auto const& craft = *world.fleet->find(VehicleId{"1"});
+  ASSERT_TRUE(craft.is_current(craft.state.motion.landed));
+  copter.reboot(world.hub.connect());
+  ASSERT_TRUE(world.run_until([&] { return craft.heard->boots == 2; }, 10s));
+  EXPECT_FALSE(craft.is_current(craft.state.motion.landed));
+  world.run_for(10s);
+  EXPECT_TRUE(craft.is_current(craft.state.motion.landed));
+}
+
 TEST(Fleet, AsksOnlyForMessagesThatDoNotComeByThemselves) {
   TestWorld world;
   auto& copter = world.add();
