@@ -11,10 +11,16 @@ namespace lapwing::vision {
 namespace {
 
 using internal::LineRow;
+using internal::Parking;
 using internal::Tooth;
 
-constexpr double narrowest_slot = 2.0;
-constexpr double widest_slot = 4.3;
+/// Along the row, in metres.
+bool is_as_wide_as_slots(double width, Parking parking) {
+  bool const is_in_line = parking == Parking::in_line;
+  double const narrowest = is_in_line ? 4.4 : 2.0;
+  double const widest = is_in_line ? 8.5 : 4.3;
+  return width >= narrowest && width <= widest;
+}
 
 /// A place of the row's comb; what is painted there, if anything.
 struct Side {
@@ -61,11 +67,12 @@ bool is_on_car(PaintedLine const& line, std::span<TurnedBox const> cars) {
          std::ranges::any_of(cars, [&](TurnedBox const& car) { return is_edge_of(car, line); });
 }
 
-/// Whether a car stands between two places of the row, as it would in a slot.
-bool has_car(LineRow const& row, double from, double to, Depth const& depth, std::span<TurnedBox const> cars) {
+/// Whether a car between two places of the row looks that way, within the part of its depth.
+bool has_car_along(cv::Point2d const& way, LineRow const& row, double from, double to, Depth const& depth,
+                   std::span<TurnedBox const> cars) {
   double const middle = 0.5 * (from + to);
-  double const direction = std::atan2(row.along.y, row.along.x);
-  constexpr double most_aside = 0.35;  // of the slot's width
+  double const direction = std::atan2(way.y, way.x);
+  constexpr double most_aside = 0.35;  // of the width
   constexpr double most_turned = 0.35;
   return std::ranges::any_of(cars, [&](TurnedBox const& car) {
     cv::Point2d const at(car.middle.x, car.middle.y);
@@ -74,6 +81,20 @@ bool has_car(LineRow const& row, double from, double to, Depth const& depth, std
     bool const is_parallel = std::abs(std::sin(car.heading_rad - direction)) < std::sin(most_turned);
     return is_parallel && aside < most_aside * (to - from) && deep > depth.begin && deep < depth.end;
   });
+}
+
+/// Whether a car stands between two places of the row, as it would in a slot.
+bool has_car(LineRow const& row, double from, double to, Depth const& depth, std::span<TurnedBox const> cars) {
+  return has_car_along(row.parking == Parking::in_line ? row.across : row.along, row, from, to, depth, cars);
+}
+
+/// Paint between cars that stand side by side may lie as far apart as slots that are in line: some of it is hidden.
+bool is_contradicted(LineRow const& row, std::span<TurnedBox const> cars) {
+  constexpr Depth around{.begin = -0.6, .end = 1.6};
+  constexpr double beside = 1.5;  // the part of a row that `has_car_along` leaves out at its ends, and more
+  double const more = beside * row.pitch;
+  return row.parking == Parking::in_line &&
+         has_car_along(row.along, row, row.teeth.front().at - more, row.teeth.back().at + more, around, cars);
 }
 
 /// The painted sides, those that must stand between them by the pitch, and those that cars show beyond the last ones.
@@ -157,7 +178,7 @@ void add_slots(LineRow const& row, std::span<TurnedBox const> cars, std::vector<
   for (std::size_t k = 1; k < comb.size(); ++k) {
     auto const& first = comb[k - 1];
     auto const& second = comb[k];
-    if (second.at - first.at < narrowest_slot || second.at - first.at > widest_slot) continue;
+    if (!is_as_wide_as_slots(second.at - first.at, row.parking)) continue;
     for (auto const& depth : depths) {
       int const painted = (is_painted(row, first, depth) ? 1 : 0) + (is_painted(row, second, depth) ? 1 : 0);
       auto const surety = surety_of({.painted_sides = painted,
@@ -184,7 +205,8 @@ std::vector<SlotShape> slots_between(std::span<PaintedLine const> lines, std::sp
   std::vector<PaintedLine> sides;
   std::ranges::copy_if(lines, std::back_inserter(sides), [&](auto const& line) { return !is_on_car(line, cars); });
   std::vector<SlotShape> all;
-  for (auto const& row : internal::rows_of(sides, seen)) add_slots(row, cars, all);
+  for (auto const& row : internal::rows_of(sides, seen))
+    if (!is_contradicted(row, cars)) add_slots(row, cars, all);
   std::erase_if(all, [&](SlotShape const& slot) { return is_hatched(slot, sides) || !is_on(seen, slot); });
   // Rows that share a slot: the surer one has it.
   std::ranges::stable_sort(all, std::ranges::greater(), &SlotShape::surety);

@@ -130,6 +130,38 @@ TEST(Layout, WhatIsHatchedIsNoSlot) {
   EXPECT_FALSE(has_slot_at(slots, 10.0 + 1.5 * pitch, 6.5));
 }
 
+/// Sides of slots in line, as along a kerb: 6 m long, 2.2 m deep.
+std::vector<PaintedLine> sides_in_line(int count) {
+  std::vector<PaintedLine> lines;
+  for (int k = 0; k < count; ++k) lines.push_back({{10.0 + 6.0 * k, 4.0}, {10.0 + 6.0 * k, 6.2}});
+  return lines;
+}
+
+TEST(Layout, SlotsMayLieInLineAsAlongAKerb) {
+  auto const slots = slots_between(sides_in_line(4), {}, everything);
+  ASSERT_EQ(slots.size(), 3U);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(has_slot_at(slots, 13.0 + 6.0 * k, 5.1)) << k;
+}
+
+TEST(Layout, HiddenSidesInLineAreCompletedWhereCarsStandOneBehindTheOther) {
+  auto lines = sides_in_line(6);
+  lines.erase(lines.begin() + 3);
+  std::vector<TurnedBox> const cars{{.middle = {25.5, 5.1}, .length = 4.5, .width = 1.8, .heading_rad = 0.0},
+                                    {.middle = {31.0, 5.1}, .length = 4.5, .width = 1.8, .heading_rad = 3.1}};
+  auto const slots = slots_between(lines, cars, everything);
+  EXPECT_EQ(slots.size(), 5U);
+  for (int k = 0; k < 5; ++k) EXPECT_TRUE(has_slot_at(slots, 13.0 + 6.0 * k, 5.1)) << k;
+}
+
+TEST(Layout, PaintBetweenCarsThatStandSideBySideIsNoRowOfSlotsInLine) {
+  // Of each side only what is before the cars is seen, and only every second one.
+  std::vector<PaintedLine> lines;
+  std::vector<TurnedBox> cars;
+  for (int k = 0; k < 4; ++k) lines.push_back({{10.0 + 2.0 * pitch * k, 4.0}, {10.0 + 2.0 * pitch * k, 6.0}});
+  for (int k = 0; k < 6; ++k) cars.push_back(car(k));
+  EXPECT_TRUE(slots_between(lines, cars, everything).empty());
+}
+
 TEST(Layout, LinesThatAreNoRowMakeNone) {
   std::vector<PaintedLine> const road{{{0.0, 0.0}, {60.0, 0.0}}, {{0.0, 3.0}, {60.0, 3.0}}, {{0.0, 6.0}, {60.0, 6.0}}};
   EXPECT_TRUE(slots_between(road, {}, everything).empty());

@@ -11,14 +11,38 @@ namespace lapwing::vision::internal {
 
 namespace {
 
-/// Metres, as car parks are built: slots of 2.3 to 3.3 m, wider ones for those who need room, 4.5 to 6 m deep.
-constexpr double narrowest_pitch = 2.1;
-constexpr double widest_pitch = 3.4;
-constexpr double farthest_neighbour = 10.5;  // some lines between are hidden
-constexpr double shallowest = 3.2;
-constexpr double deepest = 14.0;      // two slots head to head
-constexpr double deepest_slot = 7.6;  // what is deeper is two slots head to head
-constexpr double shortest_side = 1.8;
+/// Metres, as car parks are built.
+struct Measures {
+  double narrowest_pitch;
+  double widest_pitch;
+  double farthest_neighbour;  ///< some lines between are hidden
+  double shortest_side;
+  double shallowest;
+  double deepest;
+  double usual_depth;
+};
+
+Measures measures_of(Parking parking) {
+  // Slots of 2.3 to 3.3 m, wider ones for those who need room, 4.5 to 6 m deep, two of them head to head.
+  if (parking == Parking::side_by_side)
+    return {.narrowest_pitch = 2.1,
+            .widest_pitch = 3.4,
+            .farthest_neighbour = 10.5,
+            .shortest_side = 1.8,
+            .shallowest = 3.2,
+            .deepest = 14.0,
+            .usual_depth = 5.0};
+  // As long as a car and its way out, 1.8 to 2.7 m deep.
+  return {.narrowest_pitch = 4.8,
+          .widest_pitch = 7.5,
+          .farthest_neighbour = 15.5,
+          .shortest_side = 1.4,
+          .shallowest = 1.5,
+          .deepest = 3.1,
+          .usual_depth = 2.2};
+}
+
+constexpr double deepest_slot = 7.6;    // what is deeper is two slots head to head
 constexpr double same_direction = 0.1;  // radians
 constexpr double same_tooth = 0.6;      // both lines of a hairpin
 
@@ -27,13 +51,13 @@ cv::Point2d direction_of(PaintedLine const& line) {
 }
 
 /// Parallel, a slot or some of them apart, and beside each other for a good part of the longer one.
-bool are_neighbours(PaintedLine const& a, PaintedLine const& b) {
+bool are_neighbours(PaintedLine const& a, PaintedLine const& b, Measures const& measures) {
   auto const along = direction_of(a);
   auto const other = direction_of(b);
   if (std::abs(along.x * other.y - along.y * other.x) > std::sin(same_direction)) return false;
   auto const between = 0.5 * (b.from + b.to) - 0.5 * (a.from + a.to);
   double const apart = std::abs(along.x * between.y - along.y * between.x);
-  if (apart < narrowest_pitch || apart > farthest_neighbour) return false;
+  if (apart < measures.narrowest_pitch || apart > measures.farthest_neighbour) return false;
   double const shift = along.dot(between);
   double const common =
       std::min(0.5 * a.length(), shift + 0.5 * b.length()) - std::max(-0.5 * a.length(), shift - 0.5 * b.length());
@@ -42,7 +66,7 @@ bool are_neighbours(PaintedLine const& a, PaintedLine const& b) {
   return common > least_common && common > least_share * std::max(a.length(), b.length());
 }
 
-std::vector<std::vector<PaintedLine>> families(std::span<PaintedLine const> lines) {
+std::vector<std::vector<PaintedLine>> families(std::span<PaintedLine const> lines, Measures const& measures) {
   std::vector<std::size_t> parent(lines.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   auto const root = [&](std::size_t k) {
@@ -51,7 +75,7 @@ std::vector<std::vector<PaintedLine>> families(std::span<PaintedLine const> line
   };
   for (std::size_t a = 0; a < lines.size(); ++a) {
     for (std::size_t b = a + 1; b < lines.size(); ++b) {
-      if (are_neighbours(lines[a], lines[b])) parent[root(a)] = root(b);
+      if (are_neighbours(lines[a], lines[b], measures)) parent[root(a)] = root(b);
     }
   }
   std::vector<std::vector<PaintedLine>> all(lines.size());
@@ -108,11 +132,11 @@ std::vector<Tooth> teeth_of(std::span<PaintedLine const> family, LineRow const& 
   return merged;
 }
 
-std::optional<double> pitch_of(std::span<Tooth const> teeth) {
+std::optional<double> pitch_of(std::span<Tooth const> teeth, Measures const& measures) {
   std::vector<double> gaps;
   for (std::size_t k = 1; k < teeth.size(); ++k) {
     double const gap = teeth[k].at - teeth[k - 1].at;
-    if (gap > narrowest_pitch && gap < widest_pitch) gaps.push_back(gap);
+    if (gap > measures.narrowest_pitch && gap < measures.widest_pitch) gaps.push_back(gap);
   }
   if (gaps.size() < 2) return std::nullopt;
   return base::median(std::move(gaps));
@@ -300,7 +324,7 @@ bool close_end(LineRow& row, Ends const& ends, std::span<PaintedLine const> line
     row.end.offset = shown_to(row.teeth, ends.slope, &Tooth::end, 1.0);
   else
     row.begin.offset = shown_to(row.teeth, ends.slope, &Tooth::begin, -1.0);
-  constexpr double usual_depth = 5.0;
+  double const usual_depth = measures_of(row.parking).usual_depth;
   double const shown = row.end.offset - row.begin.offset;
   if (shown < usual_depth) return false;
   double depth = usual_depth;
@@ -313,12 +337,14 @@ bool close_end(LineRow& row, Ends const& ends, std::span<PaintedLine const> line
 }
 
 std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<PaintedLine const> lines,
-                              SeenGround const& seen) {
+                              SeenGround const& seen, Parking parking) {
+  auto const measures = measures_of(parking);
   LineRow row;
+  row.parking = parking;
   row.along = common_direction(family);
   row.across = {-row.along.y, row.along.x};
   row.teeth = teeth_of(family, row, seen);
-  auto const pitch = pitch_of(row.teeth);
+  auto const pitch = pitch_of(row.teeth, measures);
   if (!pitch) return std::nullopt;
   row.pitch = *pitch;
   row.teeth = on_comb(row.teeth, row.pitch);
@@ -328,7 +354,7 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<Pai
   row.end = {.slope = ends.slope, .offset = ends.end.at};
   if (!close_end(row, ends, lines)) return std::nullopt;
   double const depth = row.end.offset - row.begin.offset;
-  if (depth < shallowest || depth > deepest) return std::nullopt;
+  if (depth < measures.shallowest || depth > measures.deepest) return std::nullopt;
   drop_beside(row);
   if (depth >= deepest_slot) {
     row.head = 0.5;
@@ -337,16 +363,31 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<Pai
   return row;
 }
 
+/// Whether a line's middle lies within the row or half a slot beside it.
+bool is_in(PaintedLine const& line, LineRow const& row) {
+  auto const middle = 0.5 * (line.from + line.to);
+  double const at = middle.dot(row.across);
+  double const along = middle.dot(row.along);
+  double const beside = 0.5 * row.pitch;
+  return at > row.teeth.front().at - beside && at < row.teeth.back().at + beside && along > row.begin(at) &&
+         along < row.end(at);
+}
+
 }  // namespace
 
 std::vector<LineRow> rows_of(std::span<PaintedLine const> lines, SeenGround const& seen) {
-  std::vector<PaintedLine> sides;
-  std::ranges::copy_if(lines, std::back_inserter(sides), [](PaintedLine const& line) {
-    return line.length() > shortest_side && line.length() < deepest;
-  });
   std::vector<LineRow> rows;
-  for (auto const& family : families(sides)) {
-    if (auto row = row_of(family, lines, seen)) rows.push_back(*std::move(row));
+  for (auto const parking : {Parking::side_by_side, Parking::in_line}) {
+    auto const measures = measures_of(parking);
+    auto const known = rows;
+    std::vector<PaintedLine> sides;
+    std::ranges::copy_if(lines, std::back_inserter(sides), [&](PaintedLine const& line) {
+      return line.length() > measures.shortest_side && line.length() < measures.deepest &&
+             std::ranges::none_of(known, [&](LineRow const& row) { return is_in(line, row); });
+    });
+    for (auto const& family : families(sides, measures)) {
+      if (auto row = row_of(family, lines, seen, parking)) rows.push_back(*std::move(row));
+    }
   }
   return rows;
 }

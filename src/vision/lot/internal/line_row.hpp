@@ -29,8 +29,12 @@ struct Linear {
   [[nodiscard]] double operator()(double x) const { return offset + slope * x; }
 };
 
+/// How cars stand in a row: side by side, or one behind the other, as along a kerb.
+enum class Parking { side_by_side, in_line };
+
 /// Lines side by side at a pitch: one row of slots, or two that share their lines head to head.
 struct LineRow {
+  Parking parking = Parking::side_by_side;
   cv::Point2d along;         ///< a unit vector, as the sides lie
   cv::Point2d across;        ///< the other one
   std::vector<Tooth> teeth;  ///< by place
@@ -45,7 +49,8 @@ struct LineRow {
 };
 
 /// Every row that three or more of the lines make, as deep as they say. Where the picture cuts off its sides at one
-/// end, the row that lies at the other one is told alone; where it does so at both, nothing is.
+/// end, the row that lies at the other one is told alone; where it does so at both, nothing is. Lines of a row in which
+/// cars stand side by side are no sides of slots in line.
 [[nodiscard]] std::vector<LineRow> rows_of(std::span<PaintedLine const> lines, SeenGround const& seen);
 
 }  // namespace lapwing::vision::internal
