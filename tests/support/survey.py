@@ -30,14 +30,16 @@ def tables(camera: str = f'kind = "simulated"\nworld = "{WORLD}"\nwidth = 640\nh
 
 
 def true_slots(world: pathlib.Path = WORLD) -> list[tuple[float, float, bool]]:
-    """The middles of the world's slots, and whether they are taken; of slots of the usual size, of which each row says all that are taken."""
+    """The middles of the world's slots, and whether they are taken; of rows that say all that are taken."""
     slots = []
     for row in tomllib.loads(world.read_text())["row"]:
-        heading = math.radians(row.get("heading_deg", 0))
-        ahead, deep = (math.cos(heading), math.sin(heading)), (-math.sin(heading), math.cos(heading))
+        heading, slant = math.radians(row.get("heading_deg", 0)), math.radians(row.get("slant_deg", 0))
+        ahead = (math.cos(heading), math.sin(heading))
+        deep = (-math.sin(heading - slant), math.cos(heading - slant))
+        pitch, half_length = row.get("width_m", 2.5) / math.cos(slant), 0.5 * row.get("length_m", 5.0)
         for i in range(row["count"]):
-            along, in_depth = 2.5 * (i + 0.5), 2.5
-            slots.append((row["at"][0] + along * ahead[0] + in_depth * deep[0], row["at"][1] + along * ahead[1] + in_depth * deep[1],
+            along = pitch * (i + 0.5)
+            slots.append((row["at"][0] + along * ahead[0] + half_length * deep[0], row["at"][1] + along * ahead[1] + half_length * deep[1],
                           i + 1 in row["taken"]))
     return slots
 
