@@ -140,6 +140,7 @@ FrontEnd::Guess FrontEnd::by_odometry(Pose2 const& last, Pose2 const& driven) co
 
 bool FrontEnd::is_misleading(Pose2 const& driven, OdometryDoubt doubt, Frame const& last, Frame const& now) {
   constexpr double farthest_m = 3.0;  // that a robot may have gone while nothing was recorded
+  if (doubt == OdometryDoubt::has_spun) return true;
   // What odometry missed while it was frozen it may tell now, all at once, though it is known.
   auto const was_frozen = std::exchange(is_frozen_, doubt == OdometryDoubt::has_frozen);
   if (is_frozen_ || was_frozen) return true;
@@ -178,7 +179,9 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   auto const count = static_cast<int>(frames.size());
   auto const told = by_odometry(poses.back(), driven);
   auto const is_misled = is_misleading(driven, doubt, frames.back().frame, frame);
-  auto const guess = is_misled ? Guess{.pose = poses.back() * last_motion_, .spread = unknown} : told;
+  // Wheels that spin do not turn the robot beside what its odometry says.
+  auto const unmisled = doubt == OdometryDoubt::has_spun ? Pose2{.yaw = driven.yaw} : last_motion_;
+  auto const guess = is_misled ? Guess{.pose = poses.back() * unmisled, .spread = unknown} : told;
   draw_last(frames, poses, guess.pose);
   // What begins with a single look of a few rangers shows no place.
   constexpr std::size_t enough_to_know = 20;

@@ -19,8 +19,7 @@ using nlohmann::json;
 using sim::building::Fault;
 namespace code = robot::code;
 
-/// Three rooms in a row with doorways between them: enough to explore for a minute and more. It begins aslant to the
-/// walls: along them its map would follow wheels that spin, which it takes for nearly true.
+/// Three rooms in a row with doorways between them: enough to explore for a minute and more.
 constexpr auto rooms = R"(
 name = "Rooms"
 wall_thickness_m = 0.1
@@ -38,7 +37,7 @@ line = [[8, 0], [8, 2]]
 line = [[8, 3], [8, 4]]
 
 [[start]]
-at = [3.3, 0.6]
+at = [1.5, 2]
 )";
 
 struct RobotFaults : ::testing::Test {

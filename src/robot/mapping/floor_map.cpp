@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "robot/mapping/stands_still.hpp"
 #include "robot/mapping/who_walks.hpp"
 #include "slam/graph/pose_graph.hpp"
 #include "slam/prune/let_go.hpp"
@@ -86,7 +87,10 @@ void FloorMap::add_dense(slam::Scan scan) {
   bool const may_show_people = !graph_.frames.empty() && options_.leaves_out_who_walks;
   auto const stands_out =
       may_show_people ? without_who_walks(scan, sensor, by_odometry(scan.odometry).pose, graph_) : scan;
-  add_key_frame(slam::frame_of(stands_out, sensor, options_.frame), std::move(scan));
+  bool const has_spun =
+      !log_.scans.empty() && stands_still(log_.scans.back(), scan, sensor, slam::between(key_odometry_, scan.odometry));
+  add_key_frame(slam::frame_of(stands_out, sensor, options_.frame), std::move(scan),
+                has_spun ? slam::OdometryDoubt::has_spun : slam::OdometryDoubt::none);
   let_go_of_redundant();
   draw_key_frame();
 }
@@ -109,11 +113,11 @@ void FloorMap::add_sparse(slam::Scan scan) {
   draw_last();
 }
 
-void FloorMap::add_key_frame(slam::Frame frame, slam::Scan scan) {
+void FloorMap::add_key_frame(slam::Frame frame, slam::Scan scan, slam::OdometryDoubt doubt) {
   // The map begins where the robot does, whatever its wheels had counted before.
   bool const is_first = graph_.frames.empty();
   auto const driven = is_first ? Pose2() : slam::between(key_odometry_, scan.odometry);
-  auto step = front_end_.add(graph_.frames, graph_.poses, frame, scan.odometry);
+  auto step = front_end_.add(graph_.frames, graph_.poses, frame, scan.odometry, doubt);
   if (is_first) step.pose = {};
   if (step.constraint) path_m_ += slam::place(driven).norm();
   graph_.frames.push_back({.scan = key_frames_++, .frame = std::move(frame), .path_m = path_m_});

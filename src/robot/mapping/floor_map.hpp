@@ -23,7 +23,7 @@ struct MappingOptions {
   /// Of logs nobody knows what their wheels are worth; a robot's own odometry is good to a few percent of the way. Held
   /// to less, or doubted where scans fit better elsewhere, somebody who walks along a corridor beside the robot,
   /// towards it, or before it while it waits, takes its place on the map with them. Sensors that are stuck and wheels
-  /// that slip its watchdog names.
+  /// that slip its watchdog names; wheels that spin on the spot are seen all around (`stands_still`).
   slam::FrontEndOptions front_end = {
       .odometry_spread = 0.25, .may_freeze = false, .may_slip = false, .may_be_refuted = false};
   bool leaves_out_who_walks = true;  ///< of what is laid on what: `without_who_walks`
@@ -102,7 +102,7 @@ class FloorMap {
   void add_dense(slam::Scan scan);
   void add_sparse(slam::Scan scan);
   /// Precondition: the frame is what was seen at or before this scan, in the robot's frame at it.
-  void add_key_frame(slam::Frame frame, slam::Scan scan);
+  void add_key_frame(slam::Frame frame, slam::Scan scan, slam::OdometryDoubt doubt = slam::OdometryDoubt::none);
   void let_go_of_redundant();
   /// The scan is drawn from now on, from where it was taken beside the last key frame.
   void hold(slam::Scan scan);

@@ -142,6 +142,30 @@ TEST(FloorMap, IsNotTakenAlongByWhoComesTowardsTheRobot) {
   EXPECT_GT(slam::distance_m(taken_along.poses.back(), drive.truth.back()), 1.0) << "or this test shows nothing";
 }
 
+TEST(FloorMap, StaysWhereTheRobotDoesWhenItsWheelsSpinAlongAWall) {
+  slam::testing::Building const room{
+      {{-2, -0.6}, {5, -0.6}}, {{5, -0.6}, {5, 3}}, {{5, 3}, {-2, 3}}, {{-2, 3}, {-2, -0.6}}};
+  auto drive = slam::testing::drive(room, {{0, 0}, {4, 0}},
+                                    {.beams = 360, .field_of_view_rad = 2.0 * std::numbers::pi, .most_range_m = 8.0});
+  // It drives for 2 m, then its wheels turn and it does not get on, then it drives again.
+  auto const begins = drive.log.scans.size() / 2;
+  auto const& stuck = drive.log.scans[begins];
+  constexpr int while_spinning = 30;
+  constexpr double step_m = 0.1;
+  auto const on = [&](slam::Scan scan, int steps) {
+    scan.odometry = scan.odometry * Pose2{.x = step_m * steps};
+    return scan;
+  };
+  std::vector<slam::Scan> scans(drive.log.scans.begin(), drive.log.scans.begin() + static_cast<std::ptrdiff_t>(begins));
+  for (int i = 0; i < while_spinning; ++i) scans.push_back(on(stuck, i));
+  for (auto i = begins; i < drive.log.scans.size(); ++i) scans.push_back(on(drive.log.scans[i], while_spinning));
+  FloorMap map(drive.log.sensors.front(), {});
+  for (std::size_t i = 0; i < begins + while_spinning; ++i) map.add(scans[i]);
+  EXPECT_LT(slam::distance_m(map.here().pose, drive.truth[begins]), 0.25) << "a key frame's step, as wheels have it";
+  for (auto i = begins + while_spinning; i < scans.size(); ++i) map.add(scans[i]);
+  EXPECT_LT(slam::distance_m(map.here().pose, drive.truth.back()), 0.1);
+}
+
 TEST(FloorMap, DrawsWhatIsTakenAndWhatIsFree) {
   auto const drive = ring_drive();
   auto mapped = map_of(drive, 60);

@@ -10,6 +10,7 @@ enum class OdometryDoubt {
   none,
   has_leapt,   ///< it has moved as no robot does: counters that began anew, or a gap in the recording
   has_frozen,  ///< it says the same again and again while what is seen changes: it comes late, or its wheels are lifted
+  has_spun,    ///< wheels have turned and what is seen has stayed: the robot stands, or nearly so
 };
 
 /// Whether that is next to nothing: what spinning wheels tell of a robot that slides, or noise.
