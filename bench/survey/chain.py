@@ -1,7 +1,7 @@
 """Survey drones over drawn car parks, whole programs in real time: a simulated flight controller on MAVLink, `lapwing onboard` with its bus, camera,
 vision, mapper and planner, and an operator in plain Python; a row a seed: slots found within half a metre, states told rightly, coverage, time.
 
-    python3 bench/survey/chain.py [PROGRAM]       # LAPWING_BENCH_SEEDS=1-20
+    python3 bench/survey/chain.py [PROGRAM]       # LAPWING_BENCH_SEEDS=1-20, LAPWING_BENCH_KIND=usual
 """
 
 import json
@@ -11,17 +11,41 @@ import pathlib
 import random
 import sys
 import time
+from dataclasses import dataclass
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SEEDS = os.environ.get("LAPWING_BENCH_SEEDS", "1-20")
+KIND = os.environ.get("LAPWING_BENCH_KIND", "usual")
 os.environ.setdefault("LAPWING", sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "build/release/bin/lapwing"))
 sys.path.insert(0, str(ROOT / "tests/support"))
 
 import drone  # noqa: E402
 import survey  # noqa: E402
 
-SLOT_M, DEPTH_M, AISLE_M = 2.5, 5.0, 6.0
+AISLE_M = 6.0
 MARGIN_M = 6.0
+
+
+@dataclass(frozen=True)
+class Kind:
+    """How the slots of a car park are built: metres from and to, degrees of which one is drawn."""
+
+    width_m: tuple[float, float] = (2.5, 2.5)
+    length_m: tuple[float, float] = (5.0, 5.0)
+    slants_deg: tuple[float, ...] = (0.0,)
+    paint: tuple[str, ...] = ("sides",)
+    columns: float = 1.0  # times as many as usual
+    is_head_to_head: bool = True
+
+
+KINDS = {
+    "usual": Kind(),
+    "wide": Kind(width_m=(2.7, 3.1), length_m=(5.0, 5.6)),
+    "heads": Kind(width_m=(2.3, 2.6), length_m=(4.7, 5.2), paint=("sides", "heads")),
+    "single": Kind(is_head_to_head=False),
+    "slanted": Kind(width_m=(2.4, 2.7), length_m=(4.8, 5.4), slants_deg=(20, 30, 45, -30, -40)),
+    "in-line": Kind(width_m=(5.8, 6.6), length_m=(2.1, 2.5), paint=("sides", "mouths"), columns=0.5, is_head_to_head=False),
+}
 
 
 def seeds() -> list[int]:
@@ -33,11 +57,19 @@ def seeds() -> list[int]:
     return found
 
 
-def drawn(seed: int) -> tuple[str, list[list[float]]]:
-    """The file of a car park north of home, with rows head to head, and the corners of the ground that is to be surveyed."""
+def drawn(seed: int, kind: Kind) -> tuple[str, list[list[float]]]:
+    """The file of a car park north of home, with one or two blocks of rows, and the corners of the ground that is to be surveyed."""
     dice = random.Random(seed)
-    turn, columns, blocks = dice.uniform(-0.5, 0.5), dice.randint(8, 14), dice.randint(1, 2)
-    wide, deep = columns * SLOT_M, blocks * 2 * DEPTH_M + (blocks - 1) * AISLE_M
+    turn, columns, blocks = dice.uniform(-0.5, 0.5), round(kind.columns * dice.randint(8, 14)), dice.randint(1, 2)
+    of_kind = random.Random(f"{seed} {kind}")
+    width_m, length_m, slant_deg = of_kind.uniform(*kind.width_m), of_kind.uniform(*kind.length_m), of_kind.choice(kind.slants_deg)
+    slant = math.radians(slant_deg)
+    # Slanted rows shift from their mouths to their heads, where the next one's sides go on.
+    shift, depth = length_m * math.sin(slant), length_m * math.cos(slant)
+    block_m = (2 if kind.is_head_to_head else 1) * depth
+    slots_m = columns * width_m / math.cos(slant)
+    wide, deep = slots_m + 2 * abs(shift), blocks * block_m + (blocks - 1) * AISLE_M
+    first = max(0.0, -2 * shift)
     ahead, left = (math.cos(turn), math.sin(turn)), (-math.sin(turn), math.cos(turn))
     # So far north that the drone stands outside of it.
     south = 16 + 0.5 * wide * abs(math.sin(turn)) + dice.uniform(0, 4)
@@ -67,8 +99,11 @@ kerb = true
 corners = {json.dumps(box(MARGIN_M + 2))}
 """
     for block in range(blocks):
-        low = block * (2 * DEPTH_M + AISLE_M)
-        for name, begin, heading in (("A", at(0, low), turn), ("B", at(wide, low + 2 * DEPTH_M), turn + math.pi)):
+        low = block * (block_m + AISLE_M)
+        rows = [("A", at(first, low), turn)]
+        if kind.is_head_to_head:
+            rows.append(("B", at(first + slots_m + 2 * shift, low + block_m), turn + math.pi))
+        for name, begin, heading in rows:
             taken = [i for i in range(1, columns + 1) if dice.random() < share]
             free = [i for i in range(1, columns + 1) if i not in taken]
             text += f"""[[row]]
@@ -76,6 +111,10 @@ name = "{name}{block}"
 at = {json.dumps(begin)}
 heading_deg = {math.degrees(heading):.6f}
 count = {columns}
+width_m = {width_m}
+length_m = {length_m}
+slant_deg = {slant_deg}
+paint = {json.dumps(kind.paint)}
 taken = {taken}
 free = {free}
 """
@@ -94,7 +133,7 @@ def fly(operator: drone.Operator) -> None:
 
 
 def row(seed: int) -> dict:
-    text, corners = drawn(seed)
+    text, corners = drawn(seed, KINDS[KIND])
     flight = drone.Drone(decide='relies_on = ["vision", "mapper", "planner"]')
     world = flight.folder / "world.toml"
     world.write_text(text)
@@ -130,6 +169,8 @@ folder = "found"
 
 
 def main() -> None:
+    if KIND not in KINDS:
+        sys.exit(f"LAPWING_BENCH_KIND={KIND}: there are {', '.join(KINDS)}")
     print("| seed | slots | within 0.5 m | off | told | rightly | others | coverage | took | pictures |")
     print("|---|---|---|---|---|---|---|---|---|---|", flush=True)
     rows = []
