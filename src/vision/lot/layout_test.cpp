@@ -241,17 +241,20 @@ TEST(Layout, PaintBesideACarThatIsLongerThanTheCarStays) {
   EXPECT_EQ(slots_between(lines, std::vector{leaning}, everything).size(), 3U);
 }
 
-TEST(Layout, TwoOfThreeEndsThatCarsHideTellNoSlant) {
-  // Cut off at the far end; each nearer end but one is hidden by a car, the last two by as much more as sides lie
-  // apart.
+TEST(Layout, WhereNoTwoEndsAgreeNothingIsTold) {
+  // Cut off at the far end. Of the nearer ones cars may hide two, or the row is slanted.
   std::vector<double> const hidden{0.0, 1.3, 2.6};
   std::vector<PaintedLine> lines;
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     double const x = 10.0 + static_cast<double>(k) * pitch;
     lines.push_back({{x, 4.0 + hidden[k]}, {x, 12.0}});
   }
-  auto const slots = slots_between(lines, {}, SeenGround::rectangle(40.0, 12.1));
-  ASSERT_EQ(slots.size(), 2U);
+  auto const seen = SeenGround::rectangle(40.0, 12.1);
+  EXPECT_TRUE(slots_between(lines, {}, seen).empty());
+  // One more that agrees with the first tells that the row is straight.
+  lines.push_back({{10.0 + 3.0 * pitch, 4.0}, {10.0 + 3.0 * pitch, 12.0}});
+  auto const slots = slots_between(lines, {}, seen);
+  ASSERT_EQ(slots.size(), 3U);
   for (auto const& slot : slots) EXPECT_NEAR(slot.middle().y, 6.5, 0.1);
 }
 

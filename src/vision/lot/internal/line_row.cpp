@@ -225,7 +225,8 @@ std::optional<double> shift_of(Tooth const& from, Tooth const& to, double Tooth:
 }
 
 /// Most rows go straight across their sides. Slanted ones shift as some two of their sides do, and most others agree.
-Ends ends_of(std::span<Tooth const> teeth) {
+/// None where several ends are seen and no two agree: then too little of a slanted row is seen to tell how it lies.
+std::optional<Ends> ends_of(std::span<Tooth const> teeth) {
   auto const straight = ends_with(0.0, teeth);
   auto best = straight;
   constexpr double steepest = 1.2;
@@ -246,7 +247,11 @@ Ends ends_of(std::span<Tooth const> teeth) {
   constexpr double clearly = 1.3;
   bool const is_slanted =
       static_cast<double>(best.agreed()) - telling > clearly * static_cast<double>(straight.agreed());
-  return is_slanted ? best : straight;
+  if (is_slanted) return best;
+  bool const is_straight = straight.begin.count > 1 || straight.end.count > 1;
+  bool const shows_several = std::ranges::count(teeth, false, &Tooth::is_begin_cut) > 1 ||
+                             std::ranges::count(teeth, false, &Tooth::is_end_cut) > 1;
+  return is_straight || !shows_several ? std::optional(straight) : std::nullopt;
 }
 
 /// Kerbs and walls beside the row are parallel to its sides, too, but go beyond them at one end and not to the other.
@@ -350,15 +355,16 @@ std::optional<LineRow> row_of(std::span<PaintedLine const> family, std::span<Pai
   row.teeth = on_comb(row.teeth, row.pitch);
   if (row.teeth.size() < 3) return std::nullopt;
   auto const ends = ends_of(row.teeth);
-  row.begin = {.slope = ends.slope, .offset = ends.begin.at};
-  row.end = {.slope = ends.slope, .offset = ends.end.at};
-  if (!close_end(row, ends, lines)) return std::nullopt;
+  if (!ends) return std::nullopt;
+  row.begin = {.slope = ends->slope, .offset = ends->begin.at};
+  row.end = {.slope = ends->slope, .offset = ends->end.at};
+  if (!close_end(row, *ends, lines)) return std::nullopt;
   double const depth = row.end.offset - row.begin.offset;
   if (depth < measures.shallowest || depth > measures.deepest) return std::nullopt;
   drop_beside(row);
   if (depth >= deepest_slot) {
     row.head = 0.5;
-    if (auto const head = spine_of(row, lines)) even_out(row, ends, *head);
+    if (auto const head = spine_of(row, lines)) even_out(row, *ends, *head);
   }
   return row;
 }
