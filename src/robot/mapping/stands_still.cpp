@@ -43,6 +43,12 @@ std::vector<float> expected_after(slam::Pose2 const& motion, slam::Scan const& s
     Eigen::Vector2d const end = mount + scan.ranges_m[i] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
     return turn.back(end - slam::place(motion)) - mount;
   };
+  // Scanners count bearings from anywhere, some from 0 to a whole turn.
+  auto const bearing_of = [&](Eigen::Vector2d const& point) {
+    constexpr double whole = 2.0 * std::numbers::pi;
+    double const beyond_first = std::atan2(point.y(), point.x()) - bearings.front();
+    return static_cast<float>(bearings.front() + beyond_first - whole * std::floor(beyond_first / whole));
+  };
   std::vector<float> expected(bearings.size(), 0.0F);
   for (std::size_t i = 1; i < bearings.size(); ++i) {
     if (!is_seen(scan.ranges_m[i - 1], sensor) || !is_seen(scan.ranges_m[i], sensor)) continue;
@@ -50,9 +56,6 @@ std::vector<float> expected_after(slam::Pose2 const& motion, slam::Scan const& s
     auto const to = from_there(i);
     Eigen::Vector2d const along = to - from;
     if (along.norm() > longest_gap_m) continue;
-    auto const bearing_of = [](Eigen::Vector2d const& point) {
-      return static_cast<float>(std::atan2(point.y(), point.x()));
-    };
     auto const first = std::ranges::lower_bound(bearings, bearing_of(from));
     auto const last = std::ranges::upper_bound(bearings, bearing_of(to));
     for (auto beam = first; beam < last; ++beam) {

@@ -1,5 +1,6 @@
 #include "robot/mapping/stands_still.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -33,6 +34,20 @@ TEST(StandsStill, IsSaidWhenAllAroundStaysAsItWas) {
   for (std::size_t i = 0; i < again.ranges_m.size(); ++i) again.ranges_m[i] += i % 2 == 0 ? 0.02F : -0.02F;
   EXPECT_TRUE(stands_still(scans[10], again, sensor, {.x = 0.2}));
   EXPECT_TRUE(stands_still(scans[10], again, sensor, {.x = -0.2, .y = 0.03, .yaw = 0.01}));
+}
+
+TEST(StandsStill, IsSaidWhereverTheScannersBearingsBegin) {
+  // From 0 to a whole turn, and not from half a turn on one side to half a turn on the other.
+  auto drive = through_a_room();
+  auto sensor = drive.log.sensors.front();
+  auto scan = drive.log.scans[10];
+  auto const ahead = std::ssize(sensor.bearings_rad) / 2;
+  std::ranges::rotate(scan.ranges_m, scan.ranges_m.begin() + ahead);
+  std::ranges::rotate(sensor.bearings_rad, sensor.bearings_rad.begin() + ahead);
+  for (auto& bearing : sensor.bearings_rad)
+    if (bearing < 0.0F) bearing += static_cast<float>(2.0 * std::numbers::pi);
+  ASSERT_TRUE(std::ranges::is_sorted(sensor.bearings_rad));
+  EXPECT_TRUE(stands_still(scan, scan, sensor, {.x = 0.2}));
 }
 
 TEST(StandsStill, IsNotSaidOfARobotThatGetsOn) {
