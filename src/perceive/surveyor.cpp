@@ -195,8 +195,14 @@ std::string Surveyor::end(std::string_view reason) {
   goal_.reset();
   ending_ = reason;
   auto const told = figures();
-  return fmt::format("the survey is over: {}; {:.0f} % of the area seen, {} slots on the map, {} free, {} taken",
-                     reason, most_percent * told.coverage, told.slots, told.free, told.taken);
+  auto const begun =
+      fmt::format("the survey is over: {}; {:.0f} % of the area seen, ", reason, most_percent * told.coverage);
+  // An area without slots, most of which was seen, is a survey that went wrong.
+  constexpr double most_of_it = 0.5;
+  if (told.slots == 0 && told.coverage > most_of_it)
+    return begun +
+           "no slot found: fly higher, where a picture shows more of a row, or check the area and the camera's lens";
+  return begun + fmt::format("{} slots on the map, {} free, {} taken", told.slots, told.free, told.taken);
 }
 
 void Surveyor::lead(News const& news, Conclusion& conclusion) {

@@ -45,12 +45,14 @@ struct Flight {
   double yaw_rad = 0.0;
   double now_s = 0.0;
   double home_by_s = std::numeric_limits<double>::infinity();
+  bool shows_slots = true;
 
   Conclusion step(Surveyor& surveyor, bool explores) {
     News news{.now = at(now_s), .drone = place(drone, yaw_rad), .flying_s = home_by_s - now_s, .explores = explores};
     news.sight = park.look(
         {.lens = order.planner.camera, .site_from_camera = geo::camera_at(drone, yaw_rad + order.camera_yaw_rad, 0.0)},
         at(now_s), now_s);
+    if (!shows_slots) news.sight->slots.clear();
     auto conclusion = surveyor.think(std::move(news));
     now_s += step_s;
     if (!conclusion.goal) return conclusion;
@@ -80,6 +82,16 @@ TEST(Surveyor, LeadsUntilTheCarParkIsKnown) {
   // Told to explore again, it looks again, and has nothing to do.
   (void)flight.step(surveyor, false);
   EXPECT_TRUE(flight.step(surveyor, true).report);
+}
+
+TEST(Surveyor, SaysWhatToDoWhenItFoundNoSlotAtAll) {
+  Flight flight;
+  flight.shows_slots = false;
+  auto surveyor = Surveyor::make(flight.order, {.anchor = anchor, .home = flight.home}, {}).value();
+  std::optional<std::string> report;
+  for (int i = 0; i < 1600 && !report; ++i) report = flight.step(surveyor, true).report;
+  ASSERT_TRUE(report);
+  EXPECT_NE(report->find("% of the area seen, no slot found: fly higher"), std::string::npos) << *report;
 }
 
 TEST(Surveyor, LeadsOnlyWhileTheDroneExplores) {
