@@ -27,7 +27,7 @@ Sheet sheet_for(ScanLog const& log, std::vector<Pose2> const& poses, BeamModel c
   Eigen::Vector2d high = low;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     auto const& sensor = log.sensors[log.scans[i].sensor];
-    float longest = 1.0F;
+    auto longest = static_cast<float>(silence_m);
     for (auto const range : log.scans[i].ranges_m)
       if (range < sensor.no_return_m)
         longest = std::max(longest, std::min(range, static_cast<float>(model.most_range_m)));
@@ -97,7 +97,6 @@ class Drawing {
     for (std::size_t b = 0; b < free_m_.size(); ++b) {
       auto const ray = ray_at(bearings_[b]);
       bool const is_measured = is_hit(scan_.ranges_m[b], sensor_, model_);
-      if (is_silent_alone(b)) free_m_[b] = silence_m;
       draw_free(sheet_, ray, 0.0, free_m_[b], model_.free_log_odds * (is_measured ? 1.0 : between_share), model_);
       if (is_measured) draw_end(sheet_, ray, scan_.ranges_m[b], model_);
     }
@@ -114,6 +113,9 @@ class Drawing {
   /// the former where the beams on both sides, no farther apart than that, come to this share of the sensor's reach.
   static constexpr double far_share = 0.5;
   static constexpr double most_gap_rad = 2.0;
+  /// Where more is silent than that, it is a hall that is larger than the sensor sees, or a black wall right before it:
+  /// a hint for the next step, as from a single ranger. Nothing flat fills more than this.
+  static constexpr double widest_rad = 3.1;
   static constexpr double beside_rad = 1.2;  ///< so far apart at most are sonars that may hear the same wall
 
   [[nodiscard]] Ray ray_at(double bearing) const {
@@ -123,7 +125,7 @@ class Drawing {
   [[nodiscard]] double reach_m() const { return std::min(double{sensor_.no_return_m}, model_.most_range_m); }
   [[nodiscard]] double gap_rad(std::size_t from, std::size_t to) const {
     double const gap = double{bearings_[to]} - double{bearings_[from]};
-    return to > from ? gap : gap + 2.0 * std::numbers::pi;
+    return to >= from ? gap : gap + 2.0 * std::numbers::pi;
   }
   /// The beam to the left of another; that of the last one is the first, where they go round.
   [[nodiscard]] std::size_t next(std::size_t b) const { return b + 1 < bearings_.size() ? b + 1 : 0; }
@@ -140,7 +142,7 @@ class Drawing {
       double const half_cone_rad = sensor_.half_cone_rad;
       if (is_hit(range, sensor_, model_))
         draw_cone(sheet_, axis, half_cone_rad, range, model_);
-      else if (range >= sensor_.no_return_m)
+      else if (is_silent(b))
         draw_silent_cone(sheet_, axis, half_cone_rad, heard_beside_m(b), model_);
     }
   }
@@ -148,18 +150,12 @@ class Drawing {
   /// The nearest that the sonars next to one hear: it may be a wall that goes on before that one and mirrors its sound.
   [[nodiscard]] double heard_beside_m(std::size_t b) const {
     double nearest_m = reach_m();
-    for (auto const other : {b, b > 0 ? b - 1 : bearings_.size() - 1}) {
+    for (auto const other : {b, before(b)}) {
       bool const is_beside = gap_rad(other, next(other)) < beside_rad;
       auto const range = scan_.ranges_m[other == b ? next(b) : other];
       if (is_beside && is_hit(range, sensor_, model_)) nearest_m = std::min(nearest_m, double{range});
     }
     return nearest_m;
-  }
-
-  /// Nothing came back, and no beam beside it says why.
-  [[nodiscard]] bool is_silent_alone(std::size_t b) const {
-    auto const before = b > 0 ? b - 1 : bearings_.size() - 1;
-    return scan_.ranges_m[b] >= sensor_.no_return_m && !has_next(b) && !has_next(before);
   }
 
   void find_what_is_free() {
@@ -171,18 +167,49 @@ class Drawing {
       else if (range < sensor_.no_return_m && range > model_.most_range_m)
         free_m_[b] = model_.most_range_m;
     }
-    std::vector<double> const measured_m = free_m_;
-    for (std::size_t b = 0; b < free_m_.size(); ++b) {
-      if (measured_m[b] < far_share * reach_m()) continue;
-      auto end = b;
-      do {
-        if (!has_next(end)) break;
-        end = next(end);
-      } while (end != b && scan_.ranges_m[end] >= sensor_.no_return_m);
-      if (end == b || measured_m[end] < far_share * reach_m() || gap_rad(b, end) > most_gap_rad) continue;
-      for (auto lost = next(b); lost != end; lost = next(lost))
-        free_m_[lost] = std::min(measured_m[b], measured_m[end]);
+    auto const count = free_m_.size();
+    auto const begin = begin_of_a_run();
+    for (std::size_t k = 0; k < count;) {
+      auto const first = (begin + k) % count;
+      std::size_t silent = 0;
+      while (k + silent < count && is_silent((first + silent) % count) &&
+             (silent == 0 || has_next((first + silent - 1) % count)))
+        ++silent;
+      if (silent > 0) find_what_silence_frees(first, silent);
+      k += std::max<std::size_t>(silent, 1);
     }
+  }
+
+  [[nodiscard]] bool is_silent(std::size_t b) const { return scan_.ranges_m[b] >= sensor_.no_return_m; }
+  [[nodiscard]] std::size_t before(std::size_t b) const { return b > 0 ? b - 1 : bearings_.size() - 1; }
+
+  /// A beam with which no run of silent ones goes on; the first of all where they go round and none came back.
+  [[nodiscard]] std::size_t begin_of_a_run() const {
+    for (std::size_t b = 0; b < scan_.ranges_m.size(); ++b)
+      if (!is_silent(b) || !has_next(before(b))) return b;
+    return 0;
+  }
+
+  /// Of beams beside each other from which nothing came back.
+  void find_what_silence_frees(std::size_t first, std::size_t count) {
+    auto const last = (first + count - 1) % bearings_.size();
+    bool const is_all = count == bearings_.size();
+    bool const begins_beside = !is_all && has_next(before(first));
+    bool const ends_beside = !is_all && has_next(last);
+    double const begin_m = begins_beside ? free_m_[before(first)] : reach_m();
+    double const end_m = ends_beside ? free_m_[next(last)] : reach_m();
+    double const far_m = far_share * reach_m();
+    bool const is_between_far = begin_m >= far_m && end_m >= far_m;
+    double wide_rad = 2.0 * std::numbers::pi;
+    if (!is_all || !has_next(last))
+      wide_rad = gap_rad(begins_beside ? before(first) : first, ends_beside ? next(last) : last);
+    bool const is_alone = count == 1 && !begins_beside && !ends_beside;  // no beam beside it says why
+    double free_m = 0.0;
+    if (is_alone || wide_rad > widest_rad || (wide_rad > most_gap_rad && is_between_far))
+      free_m = silence_m;
+    else if (begins_beside && ends_beside && is_between_far)
+      free_m = std::min(begin_m, end_m);
+    for (std::size_t k = 0; k < count; ++k) free_m_[(first + k) % bearings_.size()] = free_m;
   }
 
   /// Two beams that are nearly parallel leave cells between them far away, in which nothing wider than that stands

@@ -127,8 +127,44 @@ TEST(DrawGrid, SilenceOfASingleRangerIsAHintForTheNextStep) {
   EXPECT_TRUE(is_free(grid, 1.0, 0.0));
   EXPECT_GT(grid.at(grid.cell_at({1.0, 0.0})).log_odds(), -0.1);
   EXPECT_FALSE(is_seen(grid, 1.7, 0.0));
-  EXPECT_FALSE(is_seen(drawn(scanner(360), [](double) { return 100.0; }), 1.0, 0.0))
-      << "a scanner's beams say together what is free";
+}
+
+TEST(DrawGrid, DrawsNothingOfAScanOfWhichNothingWasKept) {
+  // As those of a mapping that goes on from its state.
+  auto const grid = draw_grid({.sensors = {scanner(360)}, .scans = {Scan()}}, {Pose2{}}, {});
+  EXPECT_FALSE(is_seen(grid, 0.0, 0.0));
+}
+
+TEST(DrawGrid, SilenceAllRoundIsAHintForTheNextStep) {
+  // In the middle of a hall that is larger than the scanner sees.
+  auto const round = drawn(scanner(360), [](double) { return 99.0; });
+  auto const ahead = drawn(scanner(180, std::numbers::pi), [](double) { return 99.0; });
+  for (double bearing = -1.5; bearing < 1.5; bearing += 0.01) {
+    EXPECT_TRUE(is_free(round, 1.2 * std::cos(bearing), 1.2 * std::sin(bearing))) << bearing;
+    EXPECT_TRUE(is_free(ahead, 1.2 * std::cos(bearing), 1.2 * std::sin(bearing))) << bearing;
+  }
+  EXPECT_FALSE(is_seen(round, 1.8, 0.0));
+  EXPECT_FALSE(is_seen(ahead, -0.5, 0.0)) << "where it does not look";
+}
+
+TEST(DrawGrid, SilenceOnOneSideIsAHintForTheNextStep) {
+  // The side walls of a hall are too far away, the other two are seen from the middle.
+  auto const far_walls = drawn(scanner(360), [](double bearing) {
+    double const wall_m = 9.0 / std::max(1e-6, std::abs(std::sin(bearing)));
+    return wall_m < reach_m ? wall_m : 99.0;
+  });
+  EXPECT_TRUE(is_free(far_walls, 1.3, 0.0));
+  EXPECT_TRUE(is_free(far_walls, -1.3, 0.0));
+  EXPECT_FALSE(is_seen(far_walls, 1.8, 0.0));
+  // It stands beside the only pillar: nothing flat is as wide as the rest.
+  auto const pillar = drawn(scanner(360), [](double bearing) { return std::abs(bearing) < 0.5 ? 0.8 : 99.0; });
+  EXPECT_TRUE(is_free(pillar, -1.3, 0.0));
+  EXPECT_FALSE(is_seen(pillar, 1.3, 0.0));
+}
+
+TEST(DrawGrid, SaysNothingBeforeABlackWallBetweenNearThings) {
+  auto const grid = drawn(scanner(360), [](double bearing) { return std::abs(bearing) < 1.2 ? 99.0 : 2.0; });
+  EXPECT_FALSE(is_seen(grid, 0.5, 0.0));
 }
 
 }  // namespace
