@@ -103,6 +103,7 @@ Json loops_json(LogsMap const& made) {
                     {"shift_m", r.shift_m},
                     {"turn_rad", r.turn_rad},
                     {"witnesses", r.witnesses},
+                    {"deviations", r.deviations},
                     {"contradiction", r.contradiction},
                     {"was_contradiction", r.was_contradiction},
                     {"is_late", r.is_late},

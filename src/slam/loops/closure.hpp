@@ -36,7 +36,9 @@ struct Closure {
   int matches = 0;  ///< points of the one on lines of the other
   Agreement agreement;
   double window_m = 0.0;
-  int record = 0;  ///< of the closer's records
+  double deviations = 0.0;   ///< standard ones of the drift between the two, of x, y and yaw together
+  bool is_expected = false;  ///< it is not near the limit of what is believed at all
+  int record = 0;            ///< of the closer's records
 
   /// Whether enough points match, and the two did not see through each other's walls.
   [[nodiscard]] bool fits(LoopOptions const& options) const {

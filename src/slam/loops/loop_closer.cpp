@@ -67,7 +67,9 @@ LoopCloser::Evidence LoopCloser::evidence_of(Group const& group) const {
   std::set<int> queries;
   std::set<int> unmistakable;
   double window_m = 0.0;
+  bool is_expected = false;
   for (auto const& closure : group) {
+    is_expected = is_expected || closure.is_expected;
     queries.insert(closure.query);
     if (closure.rival <= options_.ambiguous_rival * closure.score) unmistakable.insert(closure.query);
     window_m = std::max(window_m, closure.window_m);
@@ -75,7 +77,7 @@ LoopCloser::Evidence LoopCloser::evidence_of(Group const& group) const {
   constexpr double wide_m = 4.0;
   auto const is_wide = window_m > wide_m;
   auto const needed = 1 + options_.witnesses + (is_wide ? 1 : 0);
-  auto const is_clear = static_cast<int>(unmistakable.size()) >= needed;
+  auto const is_clear = static_cast<int>(unmistakable.size()) >= needed && (is_expected || !is_wide);
   // Along a corridor any number of claims agree on a wrong place, for each sees what the last one saw.
   if (is_wide && unmistakable.empty()) return {};
   auto const doubt = unmistakable.empty() ? 2 : 0;
@@ -166,7 +168,9 @@ bool LoopCloser::look(Graph& graph, int query) {
   bool has_closed = false;
   // Not as far as what no scan saw may be off: that window holds many places, and on the way little speaks against a
   // wrong one yet.
-  LoopSearch::Scope const scope{.window_sigmas = options_.window_sigmas, .most_places = options_.most_candidates};
+  LoopSearch::Scope const scope{.window_sigmas = options_.window_sigmas,
+                                .most_deviations = options_.most_deviations,
+                                .most_places = options_.most_candidates};
   for (auto& closure : search_.look(graph, query, scope)) {
     if (is_small(graph, closure)) {
       note(graph, closure, 0, Verdict::doubted);
@@ -228,6 +232,7 @@ bool LoopCloser::follow(Graph& graph) {
 
 bool LoopCloser::look_everywhere(Graph& graph, int first) {
   LoopSearch::Scope const scope{.window_sigmas = options_.late_sigmas,
+                                .most_deviations = options_.late_deviations,
                                 .most_places = 2 * options_.most_candidates,
                                 .counts_unseen = true,
                                 .skips_joined = true};

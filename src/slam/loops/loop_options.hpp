@@ -13,6 +13,8 @@ struct LoopOptions {
   double window_m = 0.6;  ///< least search window; beyond, `window_sigmas` of the drift
   double window_rad = 0.08;
   double window_sigmas = 2.5;
+  /// Standard deviations of x, y and yaw together; a window, by each alone, holds much that is farther off than that.
+  double most_deviations = 3.5;
   double most_window_m = 40.0;
   int most_branches = 20'000;  ///< of one search: `LoopWindow`
   double most_window_rad = 0.6;
@@ -28,6 +30,7 @@ struct LoopOptions {
   double most_contradiction = 0.25;
   double most_contradiction_in_doubt = 0.12;  ///< where most claims fit elsewhere, too
   double late_sigmas = 4.0;                   ///< of the drift, when everything is looked for again after the last scan
+  double late_deviations = 5.0;
   int late_rounds = 3;
   int least_points = 60;  ///< of the query; with fewer nothing is looked for
   int near_submaps = 3;   ///< of submaps nearer to each other in time only one is looked at

@@ -6,6 +6,9 @@
 namespace lapwing::slam {
 namespace {
 
+/// Of what a claim may be off at most: beyond, it is hardly believed.
+constexpr double expected_share = 0.7;
+
 /// The earlier ends of loops that begin near the query.
 std::vector<int> joined_with(Graph const& graph, int query, int frames) {
   std::vector<int> targets;
@@ -26,6 +29,20 @@ double rival_elsewhere(std::vector<std::optional<LoopMatch>> const& matches, std
     if (!is_same) rival = std::max(rival, matches[i]->score);
   }
   return rival;
+}
+
+/// How far what a closure says is from where its target is now as seen from its query, in standard deviations of what
+/// has drifted between them: of x, y and yaw together (Mahalanobis 1936).
+double deviations_of(Graph const& graph, Closure const& closure, Eigen::Matrix3d const& drift,
+                     LoopOptions const& options) {
+  auto const& now = graph.poses[closure.target];
+  auto const claimed = graph.poses[closure.query] * inverse(closure.target_to_query);
+  Eigen::Vector3d const off(claimed.x - now.x, claimed.y - now.y, geo::wrap_pi(claimed.yaw - now.yaw));
+  // What is not known even where nothing has drifted. What slips is off by more than it is turned.
+  Eigen::Vector3d const least(options.window_m, options.window_m, 0.5 * options.window_rad);
+  Eigen::Matrix3d covariance = drift;
+  covariance.diagonal() += least.cwiseAbs2();
+  return std::sqrt(off.dot(covariance.ldlt().solve(off)));
 }
 
 }  // namespace
@@ -146,7 +163,8 @@ std::vector<LoopSearch::Candidate> LoopSearch::candidates(Graph const& graph, in
           .reach_rad = std::min(options_.most_window_rad, options_.window_rad + scope.window_sigmas * drift.turn_rad),
           .sigma_m = options_.window_m + drift.shift_m,
           .sigma_rad = options_.window_rad + drift.turn_rad,
-          .most_branches = options_.most_branches}});
+          .most_branches = options_.most_branches},
+         drift.covariance});
     // The less is known of where the query is, the more places it may be at.
     auto const most = std::max(1.0, window_of(drift) / narrow_m) * scope.most_places;
     if (static_cast<double>(chosen.size()) >= most) break;
@@ -161,11 +179,15 @@ std::vector<Closure> LoopSearch::look(Graph const& graph, int query, Scope const
   std::vector<std::optional<LoopMatch>> matches(places.size());
   std::vector<std::optional<Closure>> found(places.size());
   for_each_(places.size(), [&](std::size_t i) {
-    auto const& [submap, window] = places[i];
+    auto const& [submap, window, covariance] = places[i];
     matches[i] = branch_and_bound(submaps_[submap].pyramid, cloud, window, options_.least_score);
     if (matches[i] && !matches[i]->is_at_edge)
       found[i] = make_closure(graph, submaps_[submap], query, *matches[i], options_);
-    if (found[i]) found[i]->window_m = window.reach_m;
+    if (found[i]) {
+      found[i]->window_m = window.reach_m;
+      found[i]->deviations = deviations_of(graph, *found[i], covariance, options_);
+      found[i]->is_expected = found[i]->deviations <= expected_share * scope.most_deviations;
+    }
   });
   std::vector<Pose2> claimed(places.size());
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -184,7 +206,8 @@ std::vector<Closure> LoopSearch::look(Graph const& graph, int query, Scope const
     found[i]->record = static_cast<int>(records_.size()) - 1;
     records_.back().conflict = found[i]->agreement.conflict();
     records_.back().matches = found[i]->matches;
-    if (found[i]->fits(options_)) closures.push_back(*found[i]);
+    records_.back().deviations = found[i]->deviations;
+    if (found[i]->fits(options_) && found[i]->deviations <= scope.most_deviations) closures.push_back(*found[i]);
   }
   return closures;
 }

@@ -21,6 +21,7 @@ struct LoopRecord {
   int matches = 0;
   double shift_m = 0.0;  ///< that it would move the query by
   double turn_rad = 0.0;
+  double deviations = 0.0;  ///< of x, y and yaw together
   int witnesses = 0;
   double contradiction = 0.0;      ///< of the map that it would have made
   double was_contradiction = 0.0;  ///< of the same passes before
@@ -46,6 +47,7 @@ class LoopSearch {
 
   struct Scope {
     double window_sigmas = 2.5;
+    double most_deviations = 3.5;  ///< that a closure may be away from what the drift lets expect
     int most_places = 4;
     bool counts_unseen = false;  ///< looks as far as odometry may have erred where no scan saw a turn
     bool skips_joined = false;   ///< leaves out pairs of places between which there is a loop already
@@ -65,6 +67,7 @@ class LoopSearch {
   struct Candidate {
     int submap;
     LoopWindow window;
+    Eigen::Matrix3d covariance;
   };
   [[nodiscard]] std::vector<Candidate> candidates(Graph const& graph, int query, Scope const& scope) const;
 

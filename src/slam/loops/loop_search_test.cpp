@@ -25,10 +25,8 @@ testing::Building two_equal_rooms() {
   return building;
 }
 
-/// A robot that drives into both and into the first one again, which odometry puts half-way between the two.
-Graph into_two_rooms_and_the_first_again() {
-  std::vector<Eigen::Vector2d> const way{{-4, -1}, {0, -1},  {0, 3},   {0, -1}, {12, -1},
-                                         {12, 3},  {12, -1}, {-4, -1}, {0, -1}, {0, 3}};
+/// What a robot sees that drives into them along a way.
+Graph along(std::vector<Eigen::Vector2d> const& way) {
   auto const drive = testing::drive(two_equal_rooms(), way, {});
   Graph graph;
   double path_m = 0.0;
@@ -47,14 +45,21 @@ Graph into_two_rooms_and_the_first_again() {
     if (k > 0)
       graph.constraints.push_back({.from = k - 1, .to = k, .from_to = between(graph.poses[k - 1], graph.poses[k])});
   }
-  for (int k = 0; k < graph.size(); ++k)
-    if (path_m - graph.frames[k].path_m < 4.0) graph.poses[k].x += 0.5 * apart_m;
   return graph;
 }
 
-std::vector<Closure> claims_of_the_last(Graph const& whole) {
+/// Into both and into the first one again, which odometry puts half-way between the two.
+Graph into_two_rooms_and_the_first_again() {
+  auto graph = along({{-4, -1}, {0, -1}, {0, 3}, {0, -1}, {12, -1}, {12, 3}, {12, -1}, {-4, -1}, {0, -1}, {0, 3}});
+  auto const last_m = graph.frames.back().path_m;
+  for (int k = 0; k < graph.size(); ++k)
+    if (last_m - graph.frames[k].path_m < 4.0) graph.poses[k].x += 0.5 * apart_m;
+  return graph;
+}
+
+std::vector<Closure> claims_of_the_last(Graph const& whole, DriftRates const& rates) {
   LoopOptions options;
-  options.rates.shift_per_sqrt_m = 0.4;
+  options.rates = rates;
   LoopSearch search(options, one_by_one);
   Graph graph;
   for (int k = 0; k < whole.size(); ++k) {
@@ -62,12 +67,12 @@ std::vector<Closure> claims_of_the_last(Graph const& whole) {
     graph.poses.push_back(whole.poses[k]);
     search.follow(graph);
   }
-  return search.look(whole, whole.size() - 1, {.window_sigmas = 2.5, .most_places = 4});
+  return search.look(whole, whole.size() - 1, {.most_places = 4});
 }
 
 TEST(LoopSearch, CallsAClaimAmbiguousThatFitsAsWellAtAnotherPlace) {
   auto const graph = into_two_rooms_and_the_first_again();
-  auto const claims = claims_of_the_last(graph);
+  auto const claims = claims_of_the_last(graph, {.shift_per_sqrt_m = 0.4});
   auto const claimed_x = [&](Closure const& claim) { return (graph.poses[claim.target] * claim.target_to_query).x; };
   auto const is_at = [&](double x) {
     return std::ranges::any_of(claims, [&](Closure const& c) { return std::abs(claimed_x(c) - x) < 0.5; });
@@ -75,6 +80,18 @@ TEST(LoopSearch, CallsAClaimAmbiguousThatFitsAsWellAtAnotherPlace) {
   EXPECT_TRUE(is_at(0.0));
   EXPECT_TRUE(is_at(apart_m));
   for (auto const& claim : claims) EXPECT_GT(claim.rival, LoopOptions{}.ambiguous_rival * claim.score);
+}
+
+TEST(LoopSearch, DropsWhatTheWayBetweenDoesNotLetExpect) {
+  // Into the first room, and into the second one for the first time, which is like it. Turns that err move what is far
+  // to one side: as far as the first room, but across the corridor and not along it.
+  auto const graph = along({{-4, -1}, {0, -1}, {0, 3}, {0, -1}, {12, -1}, {12, 3}});
+  for (auto const& claim : claims_of_the_last(graph, {.turn_per_sqrt_m = 0.25}))
+    ADD_FAILURE() << claim.target << ", " << claim.deviations << " standard deviations";
+  auto const hardly = claims_of_the_last(graph, {.shift_per_sqrt_m = 1.0});
+  ASSERT_FALSE(hardly.empty()) << "where odometry may err so far";
+  for (auto const& claim : hardly) EXPECT_FALSE(claim.is_expected) << claim.deviations;
+  for (auto const& claim : claims_of_the_last(graph, {.shift_per_sqrt_m = 2.0})) EXPECT_TRUE(claim.is_expected);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct Sums {
   double shift2 = 0.0;
   double turn2 = 0.0;
   Eigen::Vector2d turn2_at = Eigen::Vector2d::Zero();
-  double turn2_at2 = 0.0;
+  Eigen::Matrix2d turn2_at2 = Eigen::Matrix2d::Zero();
   double path = 0.0;
 
   void pass(Constraint const& edge, Pose2 const& at, DriftRates const& rates) {
@@ -34,12 +34,22 @@ struct Sums {
     shift2 += shift;
     turn2 += turn;
     turn2_at += turn * place(at);
-    turn2_at2 += turn * place(at).squaredNorm();
+    turn2_at2 += turn * place(at) * place(at).transpose();
   }
 
   [[nodiscard]] Drift at(Pose2 const& end) const {
-    auto const lever2 = turn2 * place(end).squaredNorm() - 2.0 * place(end).dot(turn2_at) + turn2_at2;
-    return {.shift_m = std::sqrt(shift2 + std::max(0.0, lever2)), .turn_rad = std::sqrt(turn2), .path_m = path};
+    Eigen::Vector2d const p = place(end);
+    Eigen::Matrix2d const arms2 =
+        turn2 * p * p.transpose() - p * turn2_at.transpose() - turn2_at * p.transpose() + turn2_at2;
+    Eigen::Matrix2d const quarter_turn = (Eigen::Matrix2d() << 0.0, -1.0, 1.0, 0.0).finished();
+    Drift drift{
+        .shift_m = std::sqrt(shift2 + std::max(0.0, arms2.trace())), .turn_rad = std::sqrt(turn2), .path_m = path};
+    drift.covariance.topLeftCorner<2, 2>() =
+        quarter_turn * arms2 * quarter_turn.transpose() + shift2 * Eigen::Matrix2d::Identity();
+    drift.covariance.topRightCorner<2, 1>() = quarter_turn * (turn2 * p - turn2_at);
+    drift.covariance.bottomLeftCorner<1, 2>() = drift.covariance.topRightCorner<2, 1>().transpose();
+    drift.covariance(2, 2) = turn2;
+    return drift;
   }
 };
 

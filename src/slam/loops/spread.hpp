@@ -11,6 +11,8 @@ struct Drift {
   double shift_m = 1e9;  ///< standard deviation, of the worse axis
   double turn_rad = 1e9;
   double path_m = 1e9;  ///< along the constraints
+  /// Of x, y and yaw along the map's axes, of the key frame as seen from `origin`: m^2, m rad, rad^2.
+  Eigen::Matrix3d covariance = 1e18 * Eigen::Matrix3d::Identity();
 };
 
 struct DriftRates {

@@ -1,6 +1,8 @@
 #include "slam/loops/spread.hpp"
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,43 @@ TEST(Spread, AddsUpAsTheRatesSayWhereScansSawEachStep) {
   auto const drift = drift_of_the_last(steps_with_one_of(0.001), rates);
   EXPECT_NEAR(drift.turn_rad, rates.turn_per_sqrt_m * std::sqrt(0.5 * steps), 1e-9);
   EXPECT_NEAR(drift.path_m, 0.5 * steps, 1e-9);
+}
+
+TEST(Spread, CovarianceIsThatOfManyDrivesWhoseStepsErr) {
+  // Round a corner: 10 m ahead, then 5 m to the left.
+  std::vector<Pose2> poses{{}};
+  std::vector<Constraint> constraints;
+  for (int k = 0; k < 30; ++k) {
+    Pose2 const step{0.5, 0.0, k == 20 ? 0.5 * std::numbers::pi : 0.0};
+    constraints.push_back({.from = k, .to = k + 1, .from_to = step, .information = 1e6 * Eigen::Matrix3d::Identity()});
+    poses.push_back(poses.back() * step);
+  }
+  DriftRates const rates;
+  auto const drift = drift_from(0, poses, constraints, rates).back();
+  std::mt19937 dice(1);
+  std::normal_distribution<double> normal;
+  constexpr int drives = 20'000;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < drives; ++i) {
+    Pose2 at;
+    for (auto const& constraint : constraints) {
+      auto const& step = constraint.from_to;
+      double const shift_m = rates.shift_per_sqrt_m * std::sqrt(step.x);
+      double const turn2 =
+          rates.turn_per_sqrt_m * rates.turn_per_sqrt_m * step.x + rates.turn_per_rad * rates.turn_per_rad * step.yaw;
+      at = at * Pose2{0.0, 0.0, std::sqrt(turn2) * normal(dice)} *
+           Pose2{step.x + shift_m * normal(dice), shift_m * normal(dice), step.yaw};
+    }
+    Eigen::Vector3d const off(at.x - poses.back().x, at.y - poses.back().y, geo::wrap_pi(at.yaw - poses.back().yaw));
+    sum += off * off.transpose();
+  }
+  Eigen::Matrix3d const seen = sum / drives;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      double const scale = std::sqrt(seen(row, row) * seen(column, column));
+      EXPECT_NEAR(drift.covariance(row, column), seen(row, column), 0.05 * scale) << row << ' ' << column;
+    }
+  }
 }
 
 TEST(Spread, GrowsByATurnThatNoScanSaw) {
