@@ -16,7 +16,8 @@ struct Reach {
   double farthest_m;
   double most_slant_rad;
 };
-constexpr Reach to_pass{.farthest_m = most_range_m, .most_slant_rad = 1.4};
+/// Across a hall, whose walls the robot may never come near to by itself.
+constexpr Reach to_pass{.farthest_m = 12.0, .most_slant_rad = 1.4};
 constexpr Reach to_read{.farthest_m = 3.0, .most_slant_rad = 1.0};             ///< beyond, letters are too small
 constexpr Reach to_notice{.farthest_m = most_range_m, .most_slant_rad = 0.9};  ///< with enough pixels
 /// Where in a picture the wall is looked for, in parts of its view: nearer to its edges signs are cut off.
@@ -59,7 +60,7 @@ std::vector<WallPoint> walls_round(map::OccupancyGrid const& grid, geo::Pose<geo
   CameraMount const middle{.x_m = 0.0, .y_m = 0.0};
   for (int k = 0; k < lines_all_round; ++k) {
     double const bearing_rad = 2.0 * std::numbers::pi * k / lines_all_round;
-    auto const wall = wall_seen(grid, body, middle, bearing_rad);
+    auto const wall = wall_seen(grid, body, middle, bearing_rad, to_pass.farthest_m);
     if (wall && is_within(to_pass, *wall, body.yaw_rad + bearing_rad)) walls.push_back(*wall);
   }
   return walls;

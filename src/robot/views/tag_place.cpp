@@ -27,10 +27,11 @@ SitePoint ahead_of(SitePoint const& from, double way_rad, double by_m) {
   return {from.x() + by_m * std::cos(way_rad), from.y() + by_m * std::sin(way_rad)};
 }
 
-std::optional<double> range_to_wall(map::OccupancyGrid const& grid, SitePoint const& from, double way_rad) {
+std::optional<double> range_to_wall(map::OccupancyGrid const& grid, SitePoint const& from, double way_rad,
+                                    double most_m) {
   auto const grid_from_site = grid.site_from_grid().inverse();
   double const step_m = grid.resolution_m() / 2.0;
-  for (double range_m = step_m; range_m <= most_range_m; range_m += step_m) {
+  for (double range_m = step_m; range_m <= most_m; range_m += step_m) {
     auto const evidence = grid.at(grid.cell_at(grid_from_site * ahead_of(from, way_rad, range_m)));
     if (!evidence.is_seen()) return std::nullopt;
     if (evidence.probability() >= taken) return range_m;
@@ -40,11 +41,11 @@ std::optional<double> range_to_wall(map::OccupancyGrid const& grid, SitePoint co
 
 /// Beside a doorway one of the neighbours is the next room's wall: the nearer one belongs to the same wall.
 std::optional<SitePoint> neighbour(map::OccupancyGrid const& grid, SitePoint const& from, double way_rad,
-                                   SitePoint const& met, double range_m) {
+                                   SitePoint const& met, double range_m, double most_m) {
   std::optional<SitePoint> nearest;
   double const aside_rad = std::atan2(beside_m, range_m);
   for (double const turn_rad : {-aside_rad, aside_rad}) {
-    auto const range = range_to_wall(grid, from, way_rad + turn_rad);
+    auto const range = range_to_wall(grid, from, way_rad + turn_rad, most_m);
     if (!range) continue;
     auto const point = ahead_of(from, way_rad + turn_rad, *range);
     if (!nearest || geo::distance_m(point, met) < geo::distance_m(*nearest, met)) nearest = point;
@@ -121,15 +122,15 @@ SitePoint camera_place(geo::Pose<SiteFrame> const& body, CameraMount const& moun
 }
 
 std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<SiteFrame> const& body,
-                                   CameraMount const& mount, double bearing_rad) {
+                                   CameraMount const& mount, double bearing_rad, double most_m) {
   auto const from = camera_place(body, mount);
   double const way_rad = body.yaw_rad + bearing_rad;
-  auto const range_m = range_to_wall(grid, from, way_rad);
+  auto const range_m = range_to_wall(grid, from, way_rad, most_m);
   if (!range_m) return std::nullopt;
   auto const met = ahead_of(from, way_rad, *range_m);
   auto along_rad = direction_of_cells(grid, from, met);
   if (!along_rad) {
-    auto const beside = neighbour(grid, from, way_rad, met, *range_m);
+    auto const beside = neighbour(grid, from, way_rad, met, *range_m, most_m);
     if (!beside) return std::nullopt;
     along_rad = std::atan2(beside->y() - met.y(), beside->x() - met.x());
   }

@@ -27,11 +27,13 @@ struct WallPoint {
 /// Where a body has its camera.
 [[nodiscard]] map::SitePoint camera_place(geo::Pose<geo::SiteFrame> const& body, CameraMount const& mount);
 
-/// The first thing on a robot's map that a camera's line meets; nothing where what lies between is not known, or where
-/// nothing is met within `most_range_m`.
-[[nodiscard]] std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<geo::SiteFrame> const& body,
-                                                 CameraMount const& mount, double bearing_rad);
+/// A wall farther off shows a camera nothing that could be read or noticed.
 inline constexpr double most_range_m = 5.0;
+/// The first thing on a robot's map that a camera's line meets; nothing where what lies between is not known, or where
+/// nothing is met within `most_m`.
+[[nodiscard]] std::optional<WallPoint> wall_seen(map::OccupancyGrid const& grid, geo::Pose<geo::SiteFrame> const& body,
+                                                 CameraMount const& mount, double bearing_rad,
+                                                 double most_m = most_range_m);
 
 /// Where a name tag hangs.
 struct TagPlace {
