@@ -1,7 +1,8 @@
-"""Buildings that nobody drew by hand: rooms round a ring of corridors, along an L, on three sides of a hall with pillars; their sizes, doors, signs,
-furniture and people by a seed.
+"""Buildings that nobody drew by hand: rooms round a ring of corridors, along an L, on three sides of a hall with pillars, round a
+lobby across which a scanner of 10 m does not see; their sizes, doors, signs, furniture and people by a seed.
 
-    python3 bench/drawn_buildings.py DIR SEED...                # writes DIR/SEED.toml
+    python3 bench/drawn_buildings.py DIR SEED...                # writes DIR/SEED.toml: a ring, an L or a hall by turns
+    python3 bench/drawn_buildings.py DIR lobby SEED...          # writes DIR/lobby-SEED.toml: all of one kind
     build/bench/bin/bench_robot_doors DIR/SEED.toml 1           # has a robot map it
 """
 
@@ -157,14 +158,36 @@ def hall(dice: random.Random) -> Building:
     return building
 
 
+def lobby(dice: random.Random) -> Building:
+    building = Building("Lobby", dice)
+    deep, wide, high = 4.5, 24.0, 18.0
+    right, top = deep + wide, deep + high
+    building.outside((0, 0), (right + deep, 0), (right + deep, top + deep), (0, top + deep))
+    building.wall((deep, deep), (right, deep), (right, top), (deep, top), closed=True)
+    for x, far_x, into in ((deep, 0, "W"), (right, right + deep, "E")):
+        building.wall((x, deep), (far_x, deep))
+        building.wall((x, top), (far_x, top))
+        building.rooms_beside(x, far_x, (deep, top), (5, 9), into)
+    building.rooms_above(deep, 0, (0, right + deep), (5, 9), "S", deep, right)
+    building.rooms_above(top, top + deep, (0, right + deep), (5, 9), "N", deep, right)
+    building.part("start", at=[deep + wide / 2, deep + high / 2], facing_deg=90)
+    return building
+
+
+KINDS = {"ring": ring, "ell": ell, "hall": hall, "lobby": lobby}
+
+
 def main() -> None:
-    if len(sys.argv) < 3:
+    words = sys.argv[2:]
+    kind = words.pop(0) if words and words[0] in KINDS else None
+    if not words:
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    for seed in map(int, sys.argv[2:]):
-        drawing = (ring, ell, hall)[seed % 3](random.Random(seed))
-        (folder / f"{seed}.toml").write_text("\n".join(drawing.lines) + "\n")
+    for seed in map(int, words):
+        drawn = KINDS[kind] if kind else (ring, ell, hall)[seed % 3]
+        name = f"{kind}-{seed}" if kind else seed
+        (folder / f"{name}.toml").write_text("\n".join(drawn(random.Random(seed)).lines) + "\n")
 
 
 main()
