@@ -27,6 +27,7 @@ constexpr base::Duration eyes_asked_every = 100ms;
 constexpr base::Duration between_pieces = 10ms;  ///< of an alignment
 /// What looking again may cost, of what exploring did: at most so much of the way, and so much at any rate.
 constexpr double looks_of_way = 0.3;
+constexpr double likely_looks_of_way = 1.0;
 constexpr double looks_at_least_m = 30.0;
 
 geo::Transform<geo::SiteFrame, map::GridFrame> place_of(RobotSpec const& spec) {
@@ -387,12 +388,14 @@ base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
   if (is_under_way()) co_return turned_home();
   auto const& looks = around_.second_looks;
   if (!explored || !looks.next) co_return explored;
-  auto looking = look_again(std::max(looks_at_least_m, looks_of_way * (driven_m_ - began_m)));
-  co_await std::move(looking);
+  double const way_m = driven_m_ - began_m;
+  auto looking = look_again(std::max(looks_at_least_m, looks_of_way * way_m),
+                            std::max(looks_at_least_m, likely_looks_of_way * way_m));
+  bool const has_seen_all = co_await std::move(looking);
+  auto const say = [&](std::string const& more) { *explored += (explored->empty() ? "" : "; ") + more; };
   auto const unread = looks.unread();
-  if (unread > 0)
-    *explored += fmt::format("{}{} could not be read", explored->empty() ? "" : "; ",
-                             unread == 1 ? "1 sign" : fmt::format("{} signs", unread));
+  if (unread > 0) say(fmt::format("{} could not be read", unread == 1 ? "1 sign" : fmt::format("{} signs", unread)));
+  if (!has_seen_all) say("doorways are left whose signs no camera may have seen: explore() again goes on");
   co_return explored;
 }
 
@@ -401,16 +404,19 @@ std::string Robot::turned_home() const {
   return fmt::format("its battery takes it home and little farther{}{}", left.empty() ? "" : ": ", left);
 }
 
-base::Task<> Robot::look_again(double most_m) {
+base::Task<bool> Robot::look_again(double any_m, double likely_m) {
   double const began_m = driven_m_;
-  while (driven_m_ - began_m < most_m && !home_charge_.is_due()) {
-    auto choosing = around_.second_looks.next();
+  for (;;) {
+    double const way_m = driven_m_ - began_m;
+    bool const is_over = way_m >= likely_m || home_charge_.is_due();
+    auto choosing = around_.second_looks.next(way_m >= any_m || is_over ? WallChoice::likely : WallChoice::any);
     auto const view = co_await std::move(choosing);
-    if (!view) co_return;
+    if (!view) co_return true;
+    if (is_over) co_return false;
     give(LookErrand{.from = on_map(view->from), .at = on_map(view->at), .bearing_rad = view->bearing_rad});
     auto driving = see_through(Reach::keeps_way_home);
     auto const driven = co_await std::move(driving);
-    if (is_under_way()) co_return;
+    if (is_under_way()) co_return false;
     if (!driven) continue;  // there may be another place to see it from
     auto const until = around_.loop.now() + eyes_silent_after;
     while (!around_.second_looks.has_looked() && around_.loop.now() < until)

@@ -78,7 +78,7 @@ class Robot {
   /// What its eyes want to look at once more before an exploration is over, as TagFinder says it. All empty: it has
   /// none.
   struct SecondLooks {
-    std::function<base::Task<std::optional<Viewpoint>>()> next;
+    std::function<base::Task<std::optional<Viewpoint>>(WallChoice which)> next;
     std::function<bool()> has_looked;
     std::function<std::size_t()> unread;
   };
@@ -170,8 +170,9 @@ class Robot {
   /// Gives what is to be said of a step that is done.
   [[nodiscard]] base::Task<base::Result<std::string>> carry_out(Step step);
   [[nodiscard]] base::Task<base::Result<std::string>> explore(std::string strategy);
-  /// Drives before what its eyes could not read, and stands there until they have looked.
-  [[nodiscard]] base::Task<> look_again(double most_m);
+  /// Drives before what its eyes could not read, and stands there until they have looked: `any_m` of way for any wall,
+  /// `likely_m` for those on which most likely a sign is. Whether none of these is left.
+  [[nodiscard]] base::Task<bool> look_again(double any_m, double likely_m);
   enum class Reach {
     any,
     keeps_way_home,  ///< it may end with the plan still under way, when its battery takes it home and little farther

@@ -149,7 +149,7 @@ Robot::SecondLooks RobotPlatform::second_looks_of(VehicleId const& id) {
     auto const found = sights_.find(id);
     return found == sights_.end() ? nullptr : found->second.tags.get();
   };
-  return {.next = [finder] { return finder() ? finder()->next_view() : nowhere(); },
+  return {.next = [finder](WallChoice which) { return finder() ? finder()->next_view(which) : nowhere(); },
           .has_looked = [finder] { return !finder() || finder()->has_looked(); },
           .unread = [finder] { return finder() ? finder()->unread() : std::size_t{0}; }};
 }

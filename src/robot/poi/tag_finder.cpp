@@ -287,7 +287,7 @@ std::vector<CameraMount> TagFinder::mounts() const {
   return mounts;
 }
 
-base::Task<std::optional<Viewpoint>> TagFinder::next_view() {
+base::Task<std::optional<Viewpoint>> TagFinder::next_view(WallChoice which) {
   retake_.reset();
   auto const pose = pose_now();
   auto const* const grid = pose ? grid_of(*pose) : nullptr;
@@ -295,19 +295,20 @@ base::Task<std::optional<Viewpoint>> TagFinder::next_view() {
   map::SitePoint const here(pose->position.x(), pose->position.y());
   auto next = next_tag(*grid, here);
   if (!next) {
-    auto looking = next_wall(*grid, here);
+    auto looking = next_wall(*grid, here, which);
     next = co_await std::move(looking);
   }
   retake_ = next;
   co_return next ? std::optional(next->view) : std::nullopt;
 }
 
-base::Task<std::optional<TagFinder::Retake>> TagFinder::next_wall(map::OccupancyGrid grid, map::SitePoint here) {
+base::Task<std::optional<TagFinder::Retake>> TagFinder::next_wall(map::OccupancyGrid grid, map::SitePoint here,
+                                                                  WallChoice which) {
   auto cameras = mounts();
   auto const wall = co_await loop_.on_pool(
       [](LookBook const& looks, map::OccupancyGrid const& on, std::vector<CameraMount> const& with,
-         map::SitePoint const& from) { return next_wall_view(looks, on, with, from); },
-      looks_, std::move(grid), std::move(cameras), here);
+         map::SitePoint const& from, WallChoice of) { return next_wall_view(looks, on, with, from, of); },
+      looks_, std::move(grid), std::move(cameras), here, which);
   if (!wall) co_return std::nullopt;
   looks_.give_up(wall->piece);
   co_return Retake{.view = wall->view};

@@ -44,11 +44,11 @@ class TagFinder {
   [[nodiscard]] std::vector<std::string> texts() const;
 
   /// From where it wants to look now: at the nearest of the tags that it is not sure of, and when there are none, at
-  /// the nearest wall that it came past and did not see clearly. A tag has two tries, of which this may be
-  /// one, and a wall one, so that there is an end. Who drives there stands until `has_looked`. Nothing: there is no
-  /// more to be looked at, or nowhere to stand. Walls are compared beside the loop, which may take half a second. One
-  /// call at a time.
-  [[nodiscard]] base::Task<std::optional<Viewpoint>> next_view();
+  /// the nearest wall, of those that are `which`, that it came past and did not see clearly. A tag has two tries, of
+  /// which this may be one, and a wall one, so that there is an end. Who drives there stands until `has_looked`.
+  /// Nothing: there is no more to be looked at, or nowhere to stand. Walls are compared beside the loop, which may take
+  /// half a second. One call at a time.
+  [[nodiscard]] base::Task<std::optional<Viewpoint>> next_view(WallChoice which = WallChoice::any);
   [[nodiscard]] bool has_looked() const { return !retake_; }
   /// The map has moved: what hangs on its walls goes with them.
   void move(MapMove const& moved);
@@ -84,7 +84,7 @@ class TagFinder {
   void take_in(TagBook::Joined const& joined);
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
-  base::Task<std::optional<Retake>> next_wall(map::OccupancyGrid grid, map::SitePoint here);
+  base::Task<std::optional<Retake>> next_wall(map::OccupancyGrid grid, map::SitePoint here, WallChoice which);
   [[nodiscard]] std::vector<CameraMount> mounts() const;
   [[nodiscard]] bool is_there(Retake const& retake, vehicle::SitePose const& pose) const;
   [[nodiscard]] Tries tries_of(std::uint32_t number) const;

@@ -18,6 +18,12 @@ struct Viewpoint {
   double bearing_rad = 0.0;  ///< on the body, that it looks along: counterclockwise from straight ahead
 };
 
+/// Which walls a camera is to look at.
+enum class WallChoice {
+  any,
+  likely,  ///< where most likely a sign is: something was noticed there, or a doorway is beside it
+};
+
 /// Something on a wall.
 struct OnWall {
   map::SitePoint position;

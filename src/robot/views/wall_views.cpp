@@ -50,11 +50,11 @@ struct Candidate {
 
 /// Nothing when there is no place from which it can be looked at.
 std::optional<Candidate> candidate_of(LookBook::Unclear const& unclear, map::OccupancyGrid const& grid,
-                                      std::span<CameraMount const> mounts, WayLengths const& ways) {
+                                      std::span<CameraMount const> mounts, WayLengths const& ways, WallChoice which) {
   auto const& wall = unclear.wall;
   OnWall const what{.position = wall.position, .height_m = high_tag_m, .facing_rad = wall.facing_rad};
   bool const is_likely = unclear.shows_something || is_beside_an_opening(what, grid);
-  if (!is_wide_enough(what, grid)) return std::nullopt;
+  if ((which == WallChoice::likely && !is_likely) || !is_wide_enough(what, grid)) return std::nullopt;
   auto const views = viewpoints_for(what, grid, mounts);
   if (views.empty()) return std::nullopt;
   // What is most likely a sign is read from near; where there may be one, more is seen from afar.
@@ -68,7 +68,8 @@ std::optional<Candidate> candidate_of(LookBook::Unclear const& unclear, map::Occ
 }  // namespace
 
 std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid const& grid,
-                                       std::span<CameraMount const> mounts, map::SitePoint const& here) {
+                                       std::span<CameraMount const> mounts, map::SitePoint const& here,
+                                       WallChoice which) {
   WayLengths const ways(grid, here);
   std::vector<std::pair<double, LookBook::Unclear>> known;
   std::set<WallPiece> unseen;
@@ -83,7 +84,7 @@ std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid
   double least_m = 0.0;
   std::size_t compared = 0;
   for (auto one = known.begin(); one != known.end() && compared < most_compared; ++one) {
-    auto const candidate = candidate_of(one->second, grid, mounts, ways);
+    auto const candidate = candidate_of(one->second, grid, mounts, ways, which);
     if (!candidate) continue;
     if (one->second.shows_something) return candidate->wall;
     ++compared;

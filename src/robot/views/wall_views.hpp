@@ -17,8 +17,9 @@ struct WallView {
 /// Where a robot looks next, from `here`: at the nearest wall on which something was noticed that is not read, however
 /// far off; when there is none, at walls on which no camera of it would have noticed a sign. Of these it is the view
 /// that is worth most for its way: beside doorways from near, at others from where much is seen at once. Nothing when
-/// there is none that it can get to.
+/// there is none that it can get to. `which`: of which walls at all.
 [[nodiscard]] std::optional<WallView> next_wall_view(LookBook const& looks, map::OccupancyGrid const& grid,
-                                                     std::span<CameraMount const> mounts, map::SitePoint const& here);
+                                                     std::span<CameraMount const> mounts, map::SitePoint const& here,
+                                                     WallChoice which = WallChoice::any);
 
 }  // namespace lapwing::robot

@@ -28,8 +28,13 @@ struct WallViews : ::testing::Test {
   void note(double from_m, double to_m, double clearness, LookBook::Outcome outcome) {
     for (double x_m = from_m; x_m < to_m; x_m += 0.4) looks.note(piece_of(at(x_m)), clearness, outcome);
   }
-  [[nodiscard]] std::optional<WallView> next(map::SitePoint const& here) const {
-    return next_wall_view(looks, grid, mounts, here);
+  /// 0.9 m wide.
+  void open_doorway(double from_m) {
+    for (std::int32_t x = 0; x < 18; ++x)
+      grid.set({static_cast<std::int32_t>(from_m / 0.05) + x, 40}, map::Evidence::of_probability(0.1));
+  }
+  [[nodiscard]] std::optional<WallView> next(map::SitePoint const& here, WallChoice which = WallChoice::any) const {
+    return next_wall_view(looks, grid, mounts, here, which);
   }
 
   map::OccupancyGrid grid{0.05};
@@ -81,6 +86,25 @@ TEST_F(WallViews, AreNotThoseBehindAWallThatItWouldDriveRound) {
   auto const view = next({4.0, 0.8});
   ASSERT_TRUE(view);
   EXPECT_EQ(view->piece, piece_of(at(7.0)));
+}
+
+TEST_F(WallViews, AreOfTheWallsBesideDoorwaysWhereThoseAloneAreWanted) {
+  pass(0.6, 5.4);
+  EXPECT_FALSE(next({1.0, 0.5}, WallChoice::likely));
+  open_doorway(6.0);
+  pass(5.4, 6.0);
+  auto const view = next({1.0, 0.5}, WallChoice::likely);
+  ASSERT_TRUE(view);
+  EXPECT_GT(view->view.at.x(), 5.0);
+  EXPECT_LT(next({1.0, 0.5})->view.at.x(), 5.0) << "another one is nearer";
+}
+
+TEST_F(WallViews, AreOfWhatShowedSomethingAlsoWhereLikelyOnesAloneAreWanted) {
+  pass(1.0, 7.0);
+  looks.note(piece_of(at(5.1)), 1.2 * LookBook::noticed_px_m, LookBook::Outcome::poor);
+  auto const view = next({1.0, 0.5}, WallChoice::likely);
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->piece, piece_of(at(5.1)));
 }
 
 TEST_F(WallViews, PassByASinglePieceForManyAtOnce) {

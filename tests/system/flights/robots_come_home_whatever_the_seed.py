@@ -17,7 +17,8 @@ with tempfile.TemporaryDirectory() as folder:
         harness.expect_exit(0, "run", str(script), "--robot", f"sim:{FLAT}", "--seed", str(seed), "--report", str(path), seconds=100)
         vehicle = json.loads(path.read_text())["vehicles"][0]
         robot = vehicle["robot"]
-        assert robot["drives"] == [{"name": "Flat", "outcome": "done", "error": ""}], (seed, robot)
+        # What it says besides, of walls that it has not looked at, is its own affair.
+        assert [(drive["name"], drive["outcome"], drive["error"]) for drive in robot["drives"]] == [("Flat", "done", "")], (seed, robot)
         # It was 1.0 when the exploration ended; on the way home one beam through a doorway may still open a hole in a far wall, which counts for 5 m2.
         assert robot["collisions"] == 0 and robot["coverage"] > 0.9, (seed, robot)
         ways.add(vehicle["track_m"])
