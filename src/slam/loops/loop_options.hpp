@@ -14,7 +14,7 @@ struct LoopOptions {
   double window_rad = 0.08;
   double window_sigmas = 2.5;
   /// Standard deviations of x, y and yaw together; a window, by each alone, holds much that is farther off than that.
-  double most_deviations = 3.5;
+  double most_deviations = 4.5;
   double most_window_m = 40.0;
   int most_branches = 20'000;  ///< of one search: `LoopWindow`
   double most_window_rad = 0.6;

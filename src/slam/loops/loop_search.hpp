@@ -47,7 +47,7 @@ class LoopSearch {
 
   struct Scope {
     double window_sigmas = 2.5;
-    double most_deviations = 3.5;  ///< that a closure may be away from what the drift lets expect
+    double most_deviations = 4.5;  ///< that a closure may be away from what the drift lets expect
     int most_places = 4;
     bool counts_unseen = false;  ///< looks as far as odometry may have erred where no scan saw a turn
     bool skips_joined = false;   ///< leaves out pairs of places between which there is a loop already
