@@ -138,6 +138,20 @@ FrontEnd::Guess FrontEnd::by_odometry(Pose2 const& last, Pose2 const& driven) co
   return {.pose = last * driven, .spread = spread};
 }
 
+FrontEnd::Guess FrontEnd::by_walls(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
+                                   Frame const& frame, Guess guess) {
+  auto const expected_rad = std::hypot(heading_sigma_rad_, guess.spread.turn_rad);
+  auto const told = compass_.heading(frames, poses, frame, {guess.pose.yaw, expected_rad});
+  heading_sigma_rad_ = expected_rad;
+  if (!told) return guess;
+  auto const both_rad = std::hypot(expected_rad, told->sigma_rad);
+  auto const share = expected_rad / both_rad;
+  guess.pose.yaw += share * share * (told->yaw_rad - guess.pose.yaw);
+  heading_sigma_rad_ = share * told->sigma_rad;
+  guess.spread.turn_rad = std::min(guess.spread.turn_rad, heading_sigma_rad_);
+  return guess;
+}
+
 bool FrontEnd::is_misleading(Pose2 const& driven, OdometryDoubt doubt, Frame const& last, Frame const& now) {
   constexpr double farthest_m = 3.0;  // that a robot may have gone while nothing was recorded
   if (doubt == OdometryDoubt::has_spun) return true;
@@ -181,7 +195,8 @@ FrontEnd::Step FrontEnd::add(std::vector<KeyFrame> const& frames, std::vector<Po
   auto const is_misled = is_misleading(driven, doubt, frames.back().frame, frame);
   // Wheels that spin do not turn the robot beside what its odometry says.
   auto const unmisled = doubt == OdometryDoubt::has_spun ? Pose2{.yaw = driven.yaw} : last_motion_;
-  auto const guess = is_misled ? Guess{.pose = poses.back() * unmisled, .spread = unknown} : told;
+  auto const by_last = is_misled ? Guess{.pose = poses.back() * unmisled, .spread = unknown} : told;
+  auto const guess = options_.heads_by_walls ? by_walls(frames, poses, frame, by_last) : by_last;
   draw_last(frames, poses, guess.pose);
   // What begins with a single look of a few rangers shows no place.
   constexpr std::size_t enough_to_know = 20;

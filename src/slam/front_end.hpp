@@ -3,11 +3,12 @@
 #include <optional>
 #include <vector>
 
-#include "slam/key_frame.hpp"
+#include "slam/graph.hpp"
 #include "slam/match/align.hpp"
 #include "slam/match/local_grid.hpp"
 #include "slam/match/odometry_noise.hpp"
 #include "slam/match/odometry_watch.hpp"
+#include "slam/match/wall_compass.hpp"
 
 namespace lapwing::slam {
 
@@ -22,6 +23,7 @@ struct FrontEndOptions {
   bool may_freeze = true;        ///< odometry that stands still while the scans do not is late or stuck
   bool may_slip = true;          ///< what fits clearly better farther along the way speaks against the wheels
   bool may_be_refuted = true;    ///< what fits clearly better than odometry ever errs speaks against it
+  bool heads_by_walls = false;   ///< which run in few directions; for who sees too little to hold a heading by
   double edge_share =
       0.1;  ///< of a key frame's information that its edge to the last one has, as neighbours err together
 };
@@ -53,6 +55,11 @@ class FrontEnd {
   [[nodiscard]] Step add(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
                          Pose2 const& odometry, OdometryDoubt doubt = OdometryDoubt::none);
 
+  /// What the walls say of where the robot headed at each key frame, if it heads by them.
+  [[nodiscard]] std::vector<HeldHeading> headings(Graph const& graph) {
+    return options_.heads_by_walls ? compass_.headings(graph.frames, graph.poses) : std::vector<HeldHeading>();
+  }
+
   [[nodiscard]] OdometryNoise const& noise() const { return noise_; }
 
   /// What it must know to go on from its last key frame.
@@ -80,6 +87,8 @@ class FrontEnd {
   };
   void draw_last(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Pose2 const& around);
   [[nodiscard]] Guess by_odometry(Pose2 const& last, Pose2 const& driven) const;
+  [[nodiscard]] Guess by_walls(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses, Frame const& frame,
+                               Guess guess);
   /// Whether this step of odometry is better not looked at.
   [[nodiscard]] bool is_misleading(Pose2 const& driven, OdometryDoubt doubt, Frame const& last, Frame const& now);
   [[nodiscard]] Found search(Frame const& frame, Guess const& guess) const;
@@ -88,6 +97,8 @@ class FrontEnd {
 
   FrontEndOptions options_;
   OdometryNoise noise_;
+  WallCompass compass_;
+  double heading_sigma_rad_ = 0.0;  ///< against the building's walls: it grows from one that was seen to the next
   LocalGrid grid_;
   Pose2 last_motion_;       ///< of the key frame before last to the last
   bool is_frozen_ = false;  ///< odometry was, at the last key frame

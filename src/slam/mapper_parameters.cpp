@@ -87,7 +87,6 @@ constexpr std::array table{
     parameter<&M::gather, &G::least_score>("gather.least_score"),
     parameter<&M::gather, &G::odometry_spread>("gather.odometry_spread"),
     parameter<&M::gather, &G::point_information>("gather.point_information"),
-    parameter<&M::gather, &G::step_trust>("gather.step_trust"),
     parameter<&M::fill, &FillOptions::neighbours>("fill.neighbours"),
     parameter<&M::fill, &FillOptions::radius_m>("fill.radius_m"),
     parameter<&M::fill, &FillOptions::stride>("fill.stride"),

@@ -76,7 +76,6 @@ MapperOptions options_for(RobotKind const& kind, MapperOptions options) {
   options.front_end.odometry_spread = options.gather.odometry_spread;
   options.front_end.point_information = options.gather.point_information;
   options.joint.in_time = 1;
-  options.joint.step_trust = options.gather.step_trust;
   options.joint.point_information = options.gather.point_information;
   return options;
 }

@@ -56,8 +56,16 @@ MappingOptions fitted(MappingOptions options, slam::Sensor const& sensor) {
   options.loops = as_for_logs.loops;
   options.joint = as_for_logs.joint;
   options.leaves_out_who_walks = false;
+  constexpr double align_every_share = 0.1;  // there are few key frames, and they drift more
+  options.align_every_share = std::min(options.align_every_share, align_every_share);
+  if (sensor.half_cone_rad == 0.0F) return options;
   // An echo lies anywhere on its arc: two of them weigh as much as one beam.
-  if (sensor.half_cone_rad > 0.0F) options.front_end.point_information *= 0.5;
+  options.front_end.point_information *= 0.5;
+  // Nor do they hold a heading by what they are laid on, as beams do.
+  options.front_end.heads_by_walls = true;
+  // Most steps are turns on the spot, from which wheels and gyroscope know the next place better than echoes do.
+  options.joint.steps = {
+      .shift_m = 0.01, .shift_per_m = 0.02, .turn_rad = 0.004, .turn_per_m = 0.003, .turn_per_rad = 0.01};
   return options;
 }
 
@@ -187,7 +195,7 @@ bool FloorMap::wants_alignment(bool soon) const {
 std::unique_ptr<slam::JointAlignment> FloorMap::begin_alignment() {
   aligned_at_m_ = path_m_;
   is_aligning_ = true;
-  return std::make_unique<slam::JointAlignment>(graph_, options_.joint);
+  return std::make_unique<slam::JointAlignment>(graph_, options_.joint, front_end_.headings(graph_));
 }
 
 void FloorMap::take(std::vector<Pose2> const& aligned) {

@@ -46,8 +46,9 @@ class LoopSearch {
   [[nodiscard]] std::vector<int> renumber(Graph const& graph, Renumbering const& renumbering);
 
   struct Scope {
-    double window_sigmas = 2.5;
-    double most_deviations = 4.5;  ///< that a closure may be away from what the drift lets expect
+    double window_sigmas = LoopOptions().window_sigmas;
+    double most_deviations =
+        LoopOptions().most_deviations;  ///< that a closure may be away from what the drift lets expect
     int most_places = 4;
     bool counts_unseen = false;  ///< looks as far as odometry may have erred where no scan saw a turn
     bool skips_joined = false;   ///< leaves out pairs of places between which there is a loop already

@@ -57,7 +57,8 @@ Graph into_two_rooms_and_the_first_again() {
   return graph;
 }
 
-std::vector<Closure> claims_of_the_last(Graph const& whole, DriftRates const& rates, double most_deviations = 4.5) {
+std::vector<Closure> claims_of_the_last(Graph const& whole, DriftRates const& rates,
+                                        double most_deviations = LoopOptions().most_deviations) {
   LoopOptions options;
   options.rates = rates;
   LoopSearch search(options, one_by_one);

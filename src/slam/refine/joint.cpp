@@ -7,6 +7,16 @@
 #include "slam/refine/overlap.hpp"
 
 namespace lapwing::slam {
+namespace {
+
+Eigen::Vector3d trust_in(Pose2 const& step, StepSpread const& spread) {
+  auto const length_m = std::hypot(step.x, step.y);
+  auto const shift_m = spread.shift_m + spread.shift_per_m * length_m;
+  auto const turn_rad = spread.turn_rad + spread.turn_per_m * length_m + spread.turn_per_rad * std::abs(step.yaw);
+  return {1.0 / (shift_m * shift_m), 1.0 / (shift_m * shift_m), 1.0 / (turn_rad * turn_rad)};
+}
+
+}  // namespace
 
 std::vector<JointAlignment::Pair> JointAlignment::overlapping(Graph const& graph, JointOptions const& options) {
   auto const in_time = options.in_time;
@@ -28,10 +38,11 @@ BlockSystem JointAlignment::system_for(Graph const& graph, std::vector<Pair> con
   return {graph.size(), std::move(couples)};
 }
 
-JointAlignment::JointAlignment(Graph graph, JointOptions const& options)
+JointAlignment::JointAlignment(Graph graph, JointOptions const& options, std::vector<HeldHeading> headings)
     : options_(options),
       graph_(std::move(graph)),
       before_(graph_.poses),
+      headings_(std::move(headings)),
       pairs_(overlapping(graph_, options)),
       terms_(pairs_.size()),
       system_(system_for(graph_, pairs_)) {
@@ -63,17 +74,25 @@ void JointAlignment::hold_steps() {
   auto const& poses = graph_.poses;
   for (int k = 1; k < static_cast<int>(poses.size()); ++k) {
     constexpr double over_a_cut = 0.01;  // so that what sees nothing stays, and nothing else is held by it
-    Eigen::Vector3d const trust =        // 5 cm, 1.1 degrees
-        (graph_.frames[k].is_cut ? over_a_cut : 1.0) * options_.step_trust * Eigen::Vector3d(400.0, 400.0, 2500.0);
+    auto const was = between(before_[k - 1], before_[k]);
+    Eigen::Vector3d const trust = (graph_.frames[k].is_cut ? over_a_cut : 1.0) * trust_in(was, options_.steps);
     auto const& from = poses[k - 1];
     auto const& to = poses[k];
-    Eigen::Vector3d error = numbers(between(from, to)) - numbers(between(before_[k - 1], before_[k]));
+    Eigen::Vector3d error = numbers(between(from, to)) - numbers(was);
     error.z() = geo::wrap_pi(error.z());
     auto const [by_from, by_to] = relative_pose_slopes(from, to);
     system_.add(k - 1, by_from.transpose() * trust.asDiagonal() * by_from,
                 by_from.transpose() * trust.cwiseProduct(error));
     system_.add(k, by_to.transpose() * trust.asDiagonal() * by_to, by_to.transpose() * trust.cwiseProduct(error));
     system_.add_coupling(k - 1, k, by_from.transpose() * trust.asDiagonal() * by_to);
+  }
+}
+
+void JointAlignment::hold_headings() {
+  for (auto const& [frame, heading] : headings_) {
+    auto const trust = 1.0 / (heading.sigma_rad * heading.sigma_rad);
+    auto const off_rad = geo::wrap_pi(graph_.poses[static_cast<std::size_t>(frame)].yaw - heading.yaw_rad);
+    system_.add(frame, Eigen::Vector3d(0.0, 0.0, trust).asDiagonal(), Eigen::Vector3d(0.0, 0.0, trust * off_rad));
   }
 }
 
@@ -90,6 +109,7 @@ void JointAlignment::move_all() {
     system_.add_coupling(source, target, hessian.topRightCorner<3, 3>());
   }
   hold_steps();
+  hold_headings();
   system_.fix(0);
   next_ = 0;
   auto const solution = system_.solve();

@@ -7,9 +7,20 @@
 #include "slam/graph.hpp"
 #include "slam/graph/block_system.hpp"
 #include "slam/match/point_to_line.hpp"
+#include "slam/match/wall_compass.hpp"
 #include "slam/parallel.hpp"
 
 namespace lapwing::slam {
+
+/// How far off a step from key frame to key frame may be, as standard deviations: so much, and more by its length and
+/// its turn.
+struct StepSpread {
+  double shift_m = 0.05;
+  double shift_per_m = 0.0;
+  double turn_rad = 0.02;
+  double turn_per_m = 0.0;
+  double turn_per_rad = 0.0;
+};
 
 struct JointOptions {
   int rounds = 5;
@@ -24,7 +35,7 @@ struct JointOptions {
   double last_scale_m = 0.03;
   int first_stride = 2;              ///< every n-th point in all rounds but the last two
   int in_time = 4;                   ///< key frames that overlap as one was taken shortly after the other
-  double step_trust = 1.0;           ///< times 5 cm and 1.1 degrees, in the steps that the pose graph made
+  StepSpread steps = {};             ///< as the pose graph has them
   double point_information = 250.0;  ///< 1 / m^2; a tenth of what a 2 cm laser has, as beams err together
 };
 
@@ -33,7 +44,8 @@ struct JointOptions {
 /// by piece, for who has other things to do meanwhile: however the work is cut, the result is the same.
 class JointAlignment {
  public:
-  JointAlignment(Graph graph, JointOptions const& options);
+  /// `headings`: what is known of some key frames beside what they see of each other.
+  JointAlignment(Graph graph, JointOptions const& options, std::vector<HeldHeading> headings = {});
 
   [[nodiscard]] bool is_done() const { return round_ == options_.rounds; }
   /// Lays at most so many pairs of key frames on each other, some ten microseconds each, and moves all key frames when
@@ -52,11 +64,13 @@ class JointAlignment {
   [[nodiscard]] static BlockSystem system_for(Graph const& graph, std::vector<Pair> const& pairs);
   [[nodiscard]] Association association() const;
   void hold_steps();
+  void hold_headings();
   void move_all();
 
   JointOptions options_;
   Graph graph_;
   std::vector<Pose2> before_;
+  std::vector<HeldHeading> headings_;
   std::vector<Pair> pairs_;
   std::vector<PairTerm> terms_;  ///< of this round's pairs
   BlockSystem system_;

@@ -51,6 +51,36 @@ TEST(JointAlignment, StraightensACorridor) {
   }
 }
 
+TEST(JointAlignment, HoldsHeadingsThatAreKnown) {
+  // Scans that see nothing, of a robot that drove straight on and told a bend.
+  Graph graph;
+  std::vector<HeldHeading> headings;
+  for (int k = 0; k < 20; ++k) {
+    graph.frames.emplace_back();
+    graph.poses.push_back({0.5 * k, 0.0, 0.02 * k});
+    if (k % 5 == 4) headings.push_back({k, {0.0, 0.02}});
+  }
+  StepSpread const loose{.turn_rad = 0.05};
+  JointAlignment alignment(graph, {.steps = loose}, headings);
+  while (!alignment.is_done()) alignment.go_on(1, one_by_one);
+  auto const& poses = alignment.graph().poses;
+  for (auto const& held : headings) EXPECT_NEAR(poses[static_cast<std::size_t>(held.frame)].yaw, 0.0, 0.05);
+  refine_jointly(graph, {.steps = loose}, one_by_one);
+  EXPECT_NEAR(graph.poses.back().yaw, 0.02 * 19, 1e-6) << "without, the bend stays";
+}
+
+TEST(JointAlignment, HoldsStepsByTheirLength) {
+  Graph graph;
+  graph.frames.resize(3);
+  graph.poses = {{}, {0.0, 0.0, 1.0}, {2.0, 0.0, 1.0}};
+  // What the last one is to head elsewhere for is taken from the step that turned most.
+  StepSpread const by_turn{.turn_rad = 0.001, .turn_per_rad = 0.1};
+  JointAlignment alignment(graph, {.steps = by_turn}, {{2, {1.1, 1e-4}}});
+  while (!alignment.is_done()) alignment.go_on(1, one_by_one);
+  EXPECT_NEAR(alignment.graph().poses[1].yaw, 1.1, 0.01);
+  EXPECT_NEAR(alignment.graph().poses[2].yaw, 1.1, 0.01);
+}
+
 TEST(JointAlignment, IsTheSameHoweverItsWorkIsCut) {
   auto const drive = drive_to_and_fro();
   auto whole = bent(drive);

@@ -21,7 +21,6 @@ struct GatherOptions {
   double least_score = 0.45;
   double odometry_spread = 0.4;  ///< a few beams must not overrule wheels that are right
   double point_information = 150.0;
-  double step_trust = 1.0;
 };
 
 /// Whether one scan of that sensor shows too little to know a place by.
