@@ -241,6 +241,7 @@ Plan FloorPlanner::plan(Situation const& situation) {
   explore::Pose const pose{on_floor({situation.pose.x, situation.pose.y}), situation.pose.yaw};
   learn_way(situation, pose);
   if (std::holds_alternative<std::monostate>(errand_)) return {};
+  if (stands_at_first(situation.time_s)) return {.state = Plan::State::under_way};
   Plan plan;
   if (std::holds_alternative<ExploreErrand>(errand_)) {
     plan = explore(situation, pose);
@@ -257,6 +258,13 @@ Plan FloorPlanner::plan(Situation const& situation) {
   if (progress_.stalled_s(situation.time_s) > give_up_s()) return given_up(situation);
   if (auto way = recover(situation, plan)) plan.way = *std::move(way);
   return plan;
+}
+
+bool FloorPlanner::stands_at_first(double time_s) {
+  if (!options_.looks_round || !std::holds_alternative<ExploreErrand>(errand_)) return false;
+  if (!stands_since_s_) stands_since_s_ = time_s;
+  constexpr double until_still_s = 15.0;
+  return time_s - *stands_since_s_ < until_still_s;
 }
 
 Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose) {

@@ -93,6 +93,25 @@ TEST(FloorPlanner, GoesAsNearAsOneCanStand) {
   EXPECT_NEAR(plan.goal->x(), 2.75, 0.1);
 }
 
+TEST(FloorPlanner, OfFewSensorsStandsOnceBeforeItSetsOut) {
+  auto options = small();
+  options.looks_round = true;
+  FloorPlanner planner(options);
+  // What it has not seen of the room is its other half.
+  learn_all(planner, drawn(in_room, 0.5));
+  auto const sets_out = [&](double time_s) {
+    auto const plan = planner.plan({.time_s = time_s});
+    EXPECT_EQ(plan.state, State::under_way) << time_s;
+    return plan.way.yaw_rad.has_value() || !plan.way.points.empty();
+  };
+  ASSERT_TRUE(planner.begin(ExploreErrand{}));
+  EXPECT_FALSE(sets_out(100.0)) << "it learns its gyroscope's bias";
+  EXPECT_FALSE(sets_out(110.0));
+  EXPECT_TRUE(sets_out(116.0));
+  ASSERT_TRUE(planner.begin(ExploreErrand{}));
+  EXPECT_TRUE(sets_out(200.0)) << "it has stood";
+}
+
 TEST(FloorPlanner, TurnsWhereItHasComeToStandSoThatACameraLooksAtThePlace) {
   FloorPlanner planner(small());
   learn_all(planner, drawn(in_room));
