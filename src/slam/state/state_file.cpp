@@ -27,6 +27,8 @@ constexpr std::size_t head_bytes = magic.size() + 4 + 8 + 4;
 constexpr std::uint64_t most_sensors = 10'000;
 constexpr std::size_t most_beams = 20'000;
 constexpr std::uint64_t most_parameters = 1'000;
+/// Parameters that earlier builds had written and nothing goes by any more.
+constexpr std::array gone_parameters{std::string_view("gather.step_trust")};
 constexpr std::size_t most_name_bytes = 4'096;
 constexpr std::uint64_t most_memory = 1'000;  // of odometry's errors
 constexpr double most_place_m = 1e6;
@@ -151,6 +153,7 @@ class StateReader {
     for (std::uint64_t i = 0; i < parameters; ++i) {
       auto const name = from_.text();
       auto const value = from_.real();
+      if (std::ranges::find(gone_parameters, name) != gone_parameters.end()) continue;
       auto const found = std::ranges::find(all, name, &Parameter::name);
       if (!is(found != all.end(), "a parameter that is not known")) return false;
       if (!is(is_usable(*found, value), fmt::format("{} is {}", found->name, value))) return false;

@@ -10,6 +10,7 @@
 
 #include "base/crc32.hpp"
 #include "slam/mapper.hpp"
+#include "slam/mapper_parameters.hpp"
 #include "slam/state/bytes.hpp"
 #include "slam/testing/simulated_drive.hpp"
 
@@ -102,6 +103,28 @@ TEST(StateFile, ReadsTheVersionBefore) {
   auto const read = read_state("LWslam\r\n" + std::move(head).take() + payload);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(write_state(read->graph, read->memory), write_state(mapping().graph, memory));
+}
+
+/// Of a build that had this parameter, too.
+std::string state_with(std::string_view parameter) {
+  auto payload = state().substr(24);
+  ByteWriter more;
+  more.number(static_cast<std::uint32_t>(all_parameters().size() + 1));
+  more.text(parameter);
+  more.real(1.0);
+  payload.replace(0, 4, std::move(more).take());
+  ByteWriter head;
+  head.number(std::uint32_t{2});
+  head.number(std::uint64_t{payload.size()});
+  head.number(base::crc32(payload));
+  return "LWslam\r\n" + std::move(head).take() + payload;
+}
+
+TEST(StateFile, ReadsWhatABuildHasWrittenWithAParameterThatIsNoLongerThere) {
+  auto const read = read_state(state_with("gather.step_trust"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(write_state(read->graph, read->memory), state());
+  EXPECT_NE(error_of(state_with("gather.never_was")), "");
 }
 
 TEST(StateFile, SaysWhereItIsCutOff) {
