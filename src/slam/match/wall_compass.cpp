@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/assert.hpp"
+
 namespace lapwing::slam {
 namespace {
 
@@ -12,7 +14,6 @@ constexpr double quarter = 0.5 * std::numbers::pi;
 constexpr double degree = std::numbers::pi / 180.0;
 /// Of a key frame that was joined driving straight on.
 constexpr double usual_rad = 1.5 * degree;
-constexpr double reach_rad = 5.0 * degree;
 /// Directions are no nearer to each other, so that a robot that has drifted makes no new one.
 constexpr double apart_rad = 12.0 * degree;
 
@@ -88,7 +89,7 @@ std::optional<WallDirection> direction_of_walls(Frame const& frame) {
 }
 
 void WallCompass::learn(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses) {
-  if (known_.size() > frames.size()) known_.clear();
+  LAPWING_ASSERT(known_.size() <= frames.size(), known_.size(), frames.size());
   if (known_.size() == frames.size()) return;
   while (known_.size() < frames.size()) known_.push_back(direction_of_walls(frames[known_.size()].frame));
   if (!known_.back()) return;
@@ -103,6 +104,7 @@ void WallCompass::learn(std::vector<KeyFrame> const& frames, std::vector<Pose2> 
     angles.push_back({poses[k].yaw + known_[k]->rad, usual_rad * usual_rad / (sigma_rad * sigma_rad)});
     whole += angles.back().counts;
   }
+  constexpr double reach_rad = 5.0 * degree;
   constexpr double enough = 10.0;
   constexpr double common_share = 0.25;
   auto const middle = middle_near(angles, at_rad, reach_rad);

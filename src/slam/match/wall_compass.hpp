@@ -38,6 +38,7 @@ class WallCompass {
  public:
   /// What the walls say of where the robot heads that saw `frame` and was `expected` to head there; nothing where they
   /// say nothing. `frames`, `poses`: of all key frames so far, as they are known by now.
+  /// Precondition, here and below: none was let go since.
   [[nodiscard]] std::optional<Heading> heading(std::vector<KeyFrame> const& frames, std::vector<Pose2> const& poses,
                                                Frame const& frame, Heading const& expected);
   /// What they say of all key frames.

@@ -107,13 +107,5 @@ TEST(WallCompass, SaysNothingAtFirstAndOfWhatHasNoWalls) {
   EXPECT_FALSE(compass.heading(seen.frames, seen.poses, thicket(), {0.0, 2.0 * degree}));
 }
 
-TEST(WallCompass, KnowsNothingOfKeyFramesThatWereLetGo) {
-  Seen seen;
-  for (int i = 0; i < 20; ++i) seen.add(0.0, 0.0);
-  WallCompass compass;
-  EXPECT_TRUE(compass.heading(seen.frames, seen.poses, room_from(0.0), {0.0, 2.0 * degree}));
-  EXPECT_FALSE(compass.heading({}, {}, room_from(0.0), {0.0, 2.0 * degree}));
-}
-
 }  // namespace
 }  // namespace lapwing::slam
