@@ -41,9 +41,9 @@ RobotKind kind_of(ScanLog const& log, GatherOptions const& options) {
   RobotKind kind{.has_odometry = log.has_odometry, .has_times = log.has_times};
   std::vector<double> counts;
   for (auto const& scan : log.scans) {
-    auto const no_return = log.sensors[scan.sensor].no_return_m;
+    auto const& sensor = log.sensors[scan.sensor];
     counts.push_back(static_cast<double>(
-        std::ranges::count_if(scan.ranges_m, [&](float range) { return range > 0.0F && range < no_return; })));
+        std::ranges::count_if(scan.ranges_m, [&](float range) { return sensor.is_reading(range); })));
   }
   kind.is_sparse = !counts.empty() && middle_of(std::move(counts)) < options.few_readings;
   kind.scan_step_m = scan_step_m(log.scans);

@@ -24,10 +24,6 @@ constexpr int sectors = 12;             ///< of the full circle
 constexpr int enough_sectors = 5;       ///< two people who walk along are in fewer
 constexpr int enough_in_sector = 3;
 
-bool is_seen(float range_m, slam::Sensor const& sensor) {
-  return range_m > 0.0F && range_m < sensor.no_return_m;
-}
-
 double cross(Eigen::Vector2d const& a, Eigen::Vector2d const& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -51,7 +47,7 @@ std::vector<float> expected_after(slam::Pose2 const& motion, slam::Scan const& s
   };
   std::vector<float> expected(bearings.size(), 0.0F);
   for (std::size_t i = 1; i < bearings.size(); ++i) {
-    if (!is_seen(scan.ranges_m[i - 1], sensor) || !is_seen(scan.ranges_m[i], sensor)) continue;
+    if (!sensor.is_reading(scan.ranges_m[i - 1]) || !sensor.is_reading(scan.ranges_m[i])) continue;
     auto const from = from_there(i - 1);
     auto const to = from_there(i);
     Eigen::Vector2d const along = to - from;
@@ -81,7 +77,7 @@ bool stands_still(slam::Scan const& before, slam::Scan const& now, slam::Sensor 
   std::array<int, sectors> farther_off{};
   for (std::size_t i = 0; i < bearings.size(); ++i) {
     float const range_m = now.ranges_m[i];
-    bool const tells = if_driven[i] > 0.0F && if_standing[i] > 0.0F && is_seen(range_m, sensor) &&
+    bool const tells = if_driven[i] > 0.0F && if_standing[i] > 0.0F && sensor.is_reading(range_m) &&
                        std::abs(if_driven[i] - if_standing[i]) > telling_m;
     if (!tells) continue;
     ++telling;

@@ -83,8 +83,8 @@ slam::Scan without_who_walks(slam::Scan const& scan, slam::Sensor const& sensor,
   int all = 0;
   int gone = 0;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (!sensor.is_reading(scan.ranges_m[i])) continue;
     double const range_m = scan.ranges_m[i];
-    if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
     ++all;
     double const bearing = bearings[i];
     Eigen::Vector2d const end = mount + range_m * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));

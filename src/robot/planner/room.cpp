@@ -31,8 +31,8 @@ void Room::take(slam::Scan const& scan, slam::Sensor const& sensor) {
   if (looks_rad_ > looks_back_rad) looks_rad_ = std::numbers::pi;
   auto const& bearings = bearings_of(scan, sensor);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (!sensor.is_reading(scan.ranges_m[i])) continue;
     double const range_m = scan.ranges_m[i];
-    if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
     double const bearing = bearings[i];
     ends_.push_back(
         {.at = {range_m * std::cos(bearing) + sensor.mount_m.x(), range_m * std::sin(bearing) + sensor.mount_m.y()},

@@ -15,8 +15,8 @@ std::vector<Place> ends_of(slam::Scan const& scan, slam::Sensor const& sensor, s
   slam::Turn const turn(pose.yaw);
   Eigen::Vector2d const from = slam::place(pose) + turn * sensor.mount_m.cast<double>();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (!sensor.is_reading(scan.ranges_m[i])) continue;
     double const range_m = scan.ranges_m[i];
-    if (!(range_m > 0.0) || range_m >= sensor.no_return_m) continue;
     double const bearing = pose.yaw + double{bearings[i]};
     ends.emplace_back(from.x() + range_m * std::cos(bearing), from.y() + range_m * std::sin(bearing));
   }

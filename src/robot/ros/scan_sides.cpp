@@ -19,7 +19,7 @@ constexpr double half_cone_rad = 15.0 * std::numbers::pi / 180.0;
 explore::SideDistances sides_of(slam::Sensor const& sensor, std::vector<float> const& ranges) {
   explore::SideDistances sides{.left_m = side_m, .front_m = front_m, .right_m = side_m};
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    if (ranges[i] <= 0.0F || ranges[i] >= sensor.no_return_m) continue;
+    if (!sensor.is_reading(ranges[i])) continue;
     auto const is_towards = [&](double yaw_rad) {
       return std::abs(geo::wrap_pi(sensor.bearings_rad[i] - yaw_rad)) < half_cone_rad;
     };

@@ -18,6 +18,9 @@ struct Sensor {
   float no_return_m = 1e9F;
   /// Of a ring of sonars: half the angle of the cone in which each hears the nearest thing. 0: beams.
   float half_cone_rad = 0.0F;
+
+  /// Something came back from there; nothing did of what is too far, 0 or not a number.
+  [[nodiscard]] bool is_reading(float range_m) const { return range_m > 0.0F && range_m < no_return_m; }
   friend bool operator==(Sensor const&, Sensor const&) = default;
 };
 

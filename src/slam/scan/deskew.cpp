@@ -22,7 +22,7 @@ Scan deskewed(Scan scan, Sensor const& sensor, std::function<Pose2(std::size_t b
   for (std::size_t beam = 0; beam < count; ++beam) {
     constexpr double far_m = 1e3;  // where a beam that saw nothing ends
     auto const range = scan.ranges_m[beam];
-    bool const is_seen = range > 0.0F && range < sensor.no_return_m;
+    bool const is_seen = sensor.is_reading(range);
     double const reach = is_seen ? double{range} : far_m;
     double const bearing = sensor.bearings_rad[beam];
     Eigen::Vector2d const end = mount + reach * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
