@@ -2,7 +2,7 @@
 #
 # together.py decides which of them, none of a group declaring what another one declares, and decides again when one of them changed:
 # whoever names a function does not have to know what its neighbours call theirs.
-set(LAPWING_TOGETHER 6 CACHE STRING "Sources that are compiled as one at most; 1: each by itself")
+set(LAPWING_TOGETHER 12 CACHE STRING "Sources that are compiled as one at most; 1: each by itself")
 
 # lapwing_together(TARGET ...): may compile sources of these as one.
 function(lapwing_together)
