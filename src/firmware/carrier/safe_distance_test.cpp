@@ -190,6 +190,12 @@ TEST(Surroundings, ALaserSeesWhatNoSonarHearsAndNotTheBodyItself) {
   EXPECT_NEAR(surroundings.clearance(-0.2F).back_m, 0.3F, 1e-3F);
 }
 
+TEST(Surroundings, NothingComesNearerOnALongWayWithoutALaser) {
+  Surroundings const surroundings(testing::office_robot(), {});
+  EXPECT_EQ(surroundings.clearance(5'000).ahead_m, nothing_near_m);
+  EXPECT_EQ(surroundings.clearance(-5'000).back_m, nothing_near_m);
+}
+
 TEST(Surroundings, WallsAtTheSidesOfACorridorAreNotInTheWay) {
   auto const body = testing::office_robot();
   Surroundings surroundings(body, {});

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "firmware/board.hpp"
@@ -10,8 +11,8 @@
 
 namespace lapwing::firmware {
 
-/// No sensor sees anything on the way.
-float constexpr nothing_near_m = 1'000.0F;
+/// No sensor sees anything on the way: however far the body goes on, nothing comes nearer.
+float constexpr nothing_near_m = std::numeric_limits<float>::infinity();
 
 /// How far the hull can go straight on before it touches what is seen; below zero where that is inside of it.
 struct Clearance {
