@@ -1,7 +1,6 @@
 #include "host/robots/robots.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,17 +18,6 @@ namespace lapwing::host {
 namespace building = sim::building;
 
 namespace {
-
-/// Everything that is to be explored lies in a square around a start; a little more, so that its walls do, too.
-double side_around(building::Pose const& start, building::BuildingPlan const& plan, double usual_m) {
-  auto const extent = building::extent_of(plan);
-  if (!extent) return usual_m;
-  double const far_m =
-      std::max({std::abs(extent->least.x() - start.position.x()), std::abs(extent->most.x() - start.position.x()),
-                std::abs(extent->least.y() - start.position.y()), std::abs(extent->most.y() - start.position.y())});
-  constexpr double margin_m = 2.0;
-  return 2.0 * (far_m + margin_m);
-}
 
 building::RobotSettings settings_with(SimulatedRobots::Laser laser) {
   building::RobotSettings settings;
@@ -67,7 +55,6 @@ class Maker {
     for (std::size_t i = 0; i < simulated->building->robot_count(); ++i) {
       auto const start = simulated->building->robot(i).body().pose();
       auto spec = next_spec(simulated->site_from_floor * start);
-      spec.planning.side_m = side_around(start, *plan, spec.planning.side_m);
       if (request.laser == SimulatedRobots::Laser::none) spec.payload = {"Sonar"};
       spec.payload.emplace_back(robot::camera_payload);
       simulated->robots.push_back(spec.id);

@@ -41,34 +41,31 @@ explore::CarrierLimits carrier_limits(Limits const& limits) {
           .turn_rad_s = limits.turn_rad_s};
 }
 
-int cells_a_side(PlannerOptions const& options) {
-  return 2 * static_cast<int>(std::ceil(0.5 * options.side_m / options.cell_m));
-}
-
 }  // namespace
 
 FloorPlanner::FloorPlanner(PlannerOptions const& options)
-    : options_(options),
-      half_m_(0.5 * cells_a_side(options) * options.cell_m),
-      navigator_(carrier_limits(options.limits)) {
-  auto const cells = cells_a_side(options);
+    : options_(options), area_(options.cell_m), navigator_(carrier_limits(options.limits)) {
+  begin_anew();
+}
+
+void FloorPlanner::begin_anew() {
   known_ = std::make_unique<explore::KnownMap>(
-      cells, cells, options.cell_m,
+      area_.width(), area_.height(), options_.cell_m,
       explore::KnownMap::Distances{
-          .keep_off_m = options.limits.radius_m + options.limits.safe_distance_m + beyond_safe_m,
-          .wary_m = options.wary_m});
+          .keep_off_m = options_.limits.radius_m + options_.limits.safe_distance_m + beyond_safe_m,
+          .wary_m = options_.wary_m});
   roads_ = std::make_unique<explore::RoadMap>(*known_);
   search_ = std::make_unique<explore::GridSearch>(*known_);
   frontiers_ = std::make_unique<explore::Frontiers>(*known_);
   all_frontiers_ = std::make_unique<explore::Frontiers>(*known_);
-}
-
-explore::Place FloorPlanner::on_floor(Place const& place) const {
-  return {place.x() + half_m_, place.y() + half_m_};
-}
-
-Place FloorPlanner::on_map(explore::Place const& place) const {
-  return {place.x() - half_m_, place.y() - half_m_};
+  free_cells_ = 0;
+  track_ = {};
+  // All of these remember cells, which are others now.
+  if (auto const* const exploring = std::get_if<ExploreErrand>(&errand_))
+    strategy_ = explore::make_strategy(exploring->strategy).value();
+  order_ = {};
+  look_round_ = {};
+  navigator_.stop();
 }
 
 void FloorPlanner::learn(Cell cell, Knowledge knowledge) {
@@ -80,19 +77,26 @@ void FloorPlanner::learn(Cell cell, Knowledge knowledge) {
   known_->learn(cell, knowledge);
 }
 
-void FloorPlanner::learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed) {
-  auto const shift = known_->width() / 2;
-  for (auto const key : changed) {
-    auto const tile = grid.tiles().find(key);
-    int index = 0;
-    for (int y = 0; y < map::tile_cells; ++y) {
-      for (int x = 0; x < map::tile_cells; ++x, ++index) {
-        Cell const cell{key.x * map::tile_cells + x + shift, key.y * map::tile_cells + y + shift};
-        auto const evidence =
-            tile == grid.tiles().end() ? map::Evidence() : tile->second->cells[static_cast<std::size_t>(index)];
-        learn(cell, explore::knowledge_of(evidence));
-      }
+void FloorPlanner::learn(map::OccupancyGrid const& grid, map::TileKey key) {
+  if (!area_.contains(key)) return;
+  auto const tile = grid.tiles().find(key);
+  auto const lowest = area_.lowest_cell_of(key);
+  int index = 0;
+  for (int y = 0; y < map::tile_cells; ++y) {
+    for (int x = 0; x < map::tile_cells; ++x, ++index) {
+      auto const evidence =
+          tile == grid.tiles().end() ? map::Evidence() : tile->second->cells[static_cast<std::size_t>(index)];
+      learn(lowest + Cell{x, y}, explore::knowledge_of(evidence));
     }
+  }
+}
+
+void FloorPlanner::learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed) {
+  if (area_.grow(changed)) {
+    begin_anew();
+    for (auto const& [key, tile] : grid.tiles()) learn(grid, key);
+  } else {
+    for (auto const key : changed) learn(grid, key);
   }
   roads_->update(*known_, known_->take_changes());
 }

@@ -12,10 +12,11 @@
 #include "explore/path/navigator.hpp"
 #include "explore/strategy/strategy.hpp"
 #include "robot/planner/driven_track.hpp"
+#include "robot/planner/held_up/progress.hpp"
+#include "robot/planner/held_up/recovery.hpp"
+#include "robot/planner/held_up/refusals.hpp"
 #include "robot/planner/look_round.hpp"
-#include "robot/planner/progress.hpp"
-#include "robot/planner/recovery.hpp"
-#include "robot/planner/refusals.hpp"
+#include "robot/planner/planning_area.hpp"
 #include "robot/planner/room.hpp"
 #include "robot/planner/way.hpp"
 #include "slam/log/scan_log.hpp"
@@ -45,7 +46,6 @@ using Errand = std::variant<std::monostate, ExploreErrand, DriveErrand, LookErra
 struct PlannerOptions {
   Limits limits = {};
   double cell_m = 0.05;  ///< of the map
-  double side_m = 60.0;  ///< of the square around the start that the robot plans in
   double wary_m = 0.5;   ///< ways keep so far from walls where there is room
   /// It sees little at a time: where it sets out, and where it has come to, it turns round and looks.
   bool looks_round = false;
@@ -79,7 +79,7 @@ class FloorPlanner {
  public:
   explicit FloorPlanner(PlannerOptions const& options);
 
-  /// The tiles of the grid as they are now.
+  /// The tiles of the grid as they are now. Where it had no room for one, it plans anew in a larger area.
   void learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed);
   /// Error: invalid_input for a strategy that there is not. The errand before is dropped.
   [[nodiscard]] base::Result<> begin(Errand errand);
@@ -102,9 +102,11 @@ class FloorPlanner {
   [[nodiscard]] double home_m(Place const& from) const;
 
  private:
-  [[nodiscard]] explore::Place on_floor(Place const& place) const;
-  [[nodiscard]] Place on_map(explore::Place const& place) const;
+  [[nodiscard]] explore::Place on_floor(Place const& place) const { return area_.on_floor(place); }
+  [[nodiscard]] Place on_map(explore::Place const& place) const { return area_.on_map(place); }
   [[nodiscard]] explore::Cell cell_at(Place const& place) const { return known_->cell_at(on_floor(place)); }
+  /// On grids of the area's size on which nothing is known. What it is about it goes on with, by a new plan.
+  void begin_anew();
   [[nodiscard]] std::optional<explore::Cell> standable_near(Place const& place, double within_m) const;
   [[nodiscard]] std::vector<explore::Disc> obstacles(Situation const& situation) const;
   [[nodiscard]] Plan explore(Situation const& situation, explore::Pose const& pose);
@@ -117,6 +119,7 @@ class FloorPlanner {
   [[nodiscard]] double give_up_s() const;
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
+  void learn(map::OccupancyGrid const& grid, map::TileKey key);
   void learn(explore::Cell cell, explore::Knowledge knowledge);
   void learn_way(Situation const& situation, explore::Pose const& pose);
   void note_progress(Situation const& situation, explore::Pose const& pose, Plan const& plan);
@@ -130,7 +133,7 @@ class FloorPlanner {
   [[nodiscard]] Plan given_up(Situation const& situation) const;
 
   PlannerOptions options_;
-  double half_m_;  ///< of the square's side: what lies between the map's origin and the floor's
+  PlanningArea area_;
   // Pointers, so that a planner can be moved: they refer to each other's grids.
   std::unique_ptr<explore::KnownMap> known_;
   std::unique_ptr<explore::RoadMap> roads_;

@@ -39,12 +39,8 @@ bool in_room(double x, double y) {
   return std::abs(x) < 3.0 && std::abs(y) < 2.0;
 }
 
-PlannerOptions small() {
-  return {.side_m = 20.0};
-}
-
 TEST(FloorPlanner, DrivesToAPlaceOnFreeCellsAlone) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   // A wall across the room with a gap of 1 m at its upper end.
   auto const is_free = [](double x, double y) { return in_room(x, y) && (std::abs(x - 1.0) > 0.1 || y > 1.0); };
   learn_all(planner, drawn(is_free));
@@ -65,7 +61,7 @@ TEST(FloorPlanner, DrivesToAPlaceOnFreeCellsAlone) {
 }
 
 TEST(FloorPlanner, GivesTheWayFromWhereTheRobotHasCome) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
   (void)planner.plan({.pose = {-2.5, 0.0, 0.0}});
@@ -75,7 +71,7 @@ TEST(FloorPlanner, GivesTheWayFromWhereTheRobotHasCome) {
 }
 
 TEST(FloorPlanner, SaysWhyItCannotDriveThere) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(7.0, 0.0)}));
   auto const plan = planner.plan({});
@@ -84,7 +80,7 @@ TEST(FloorPlanner, SaysWhyItCannotDriveThere) {
 }
 
 TEST(FloorPlanner, GoesAsNearAsOneCanStand) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(3.0, 0.0), .within_m = 1.0}));
   auto const plan = planner.plan({});
@@ -94,7 +90,7 @@ TEST(FloorPlanner, GoesAsNearAsOneCanStand) {
 }
 
 TEST(FloorPlanner, OfFewSensorsStandsOnceBeforeItSetsOut) {
-  auto options = small();
+  PlannerOptions options;
   options.looks_round = true;
   FloorPlanner planner(options);
   // What it has not seen of the room is its other half.
@@ -113,7 +109,7 @@ TEST(FloorPlanner, OfFewSensorsStandsOnceBeforeItSetsOut) {
 }
 
 TEST(FloorPlanner, TurnsWhereItHasComeToStandSoThatACameraLooksAtThePlace) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   constexpr double left_rad = 0.87;
   ASSERT_TRUE(planner.begin(LookErrand{.from = Place(2.0, 1.0), .at = Place(2.0, 2.0), .bearing_rad = left_rad}));
@@ -131,7 +127,7 @@ TEST(FloorPlanner, TurnsWhereItHasComeToStandSoThatACameraLooksAtThePlace) {
 }
 
 TEST(FloorPlanner, DoesNotWaitLongForAPlaceToLookFrom) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(LookErrand{.from = Place(2.0, 0.0), .at = Place(2.0, 2.0)}));
   Plan plan = planner.plan({});
@@ -144,7 +140,7 @@ TEST(FloorPlanner, DoesNotWaitLongForAPlaceToLookFrom) {
 }
 
 TEST(FloorPlanner, ExploresTowardsWhatIsUnknownAndIsDoneWithoutIt) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room, 1.5));
   ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
   auto const plan = planner.plan({});
@@ -167,7 +163,7 @@ TEST(FloorPlanner, ExploresTowardsWhatIsUnknownAndIsDoneWithoutIt) {
 }
 
 TEST(FloorPlanner, DrivesAroundWhatStandsWhereItsMapIsFree) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
   Place const somebody(1.2, 0.0);
@@ -189,7 +185,7 @@ Room wide_room() {
 }
 
 TEST(FloorPlanner, GoesBackWhereItIsHeldUpAndThenAnotherWay) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
   EXPECT_GT(planner.plan({.time_s = 1.0}).way.speed_m_s, 0.0);
@@ -204,7 +200,7 @@ TEST(FloorPlanner, GoesBackWhereItIsHeldUpAndThenAnotherWay) {
 }
 
 TEST(FloorPlanner, KeepsOffWhatItsLaserShowsWhereItIsHeldUp) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
   Place const jamb(0.15, 0.2);  // beside where it looks, and so near that no disc around it would let a way begin
@@ -218,7 +214,7 @@ TEST(FloorPlanner, KeepsOffWhatItsLaserShowsWhereItIsHeldUp) {
 }
 
 TEST(FloorPlanner, GoesHomeAsItCameWhereItsMapHasClosedTheWay) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   // A doorway that is drawn 30 cm wide.
   auto const is_free = [](double x, double y) {
     return in_room(x, y) && (std::abs(x - 1.0) > 0.1 || std::abs(y) < 0.15);
@@ -238,7 +234,7 @@ TEST(FloorPlanner, GoesHomeAsItCameWhereItsMapHasClosedTheWay) {
 }
 
 TEST(FloorPlanner, LeavesTheReachOfAWallToBeginAWay) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(0.0, 0.0)}));
   std::array constexpr driven{slam::Pose2{2.0, 0.0, 0.0}, slam::Pose2{2.5, 0.0, 0.0}};
@@ -250,7 +246,7 @@ TEST(FloorPlanner, LeavesTheReachOfAWallToBeginAWay) {
 
 // Behind a desk there is hardly room: from cell to cell its nose would point another way each time.
 TEST(FloorPlanner, LooksAheadWhereItHardlyFits) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   // A passage of 0.5 m; the robot is 0.36 m wide and may stand where 0.56 m are free.
   learn_all(planner, drawn([](double x, double y) { return in_room(x, y) && (x > 1.0 || std::abs(y) < 0.25); }));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.0, 0.0)}));
@@ -260,7 +256,7 @@ TEST(FloorPlanner, LooksAheadWhereItHardlyFits) {
 }
 
 TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.0, 0.0)}));
   EXPECT_EQ(planner.plan({.time_s = 100.0}).state, State::under_way);
@@ -277,7 +273,7 @@ TEST(FloorPlanner, GivesUpWhenItDoesNotGetOn) {
 TEST(FloorPlanner, LeavesAPlaceAtWhoseSideNothingIsKnown) {
   // Of a quarter behind it, or ahead of it, its scanner says nothing.
   for (double const blind_rad : {0.0, 3.14}) {
-    FloorPlanner planner(small());
+    FloorPlanner planner(PlannerOptions{});
     auto const is_known = [&](double x, double y) {
       return std::abs(geo::wrap_pi(std::atan2(y, x) - blind_rad)) > 0.78;
     };
@@ -293,7 +289,7 @@ TEST(FloorPlanner, LeavesAPlaceAtWhoseSideNothingIsKnown) {
 }
 
 TEST(FloorPlanner, EndsAnExplorationThatDoesNotGetOnAndSaysWhatIsLeft) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room, 1.5));
   ASSERT_TRUE(planner.begin(ExploreErrand{"nearest"}));
   Plan plan;
@@ -307,7 +303,7 @@ TEST(FloorPlanner, EndsAnExplorationThatDoesNotGetOnAndSaysWhatIsLeft) {
 }
 
 TEST(FloorPlanner, CountsAsUnseenWhatItCannotReach) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   // A large room that is seen through a gap of 30 cm.
   auto const is_free = [](double x, double y) {
     return std::abs(x) < 3.9 && std::abs(y) < 3.9 && (std::abs(x + 3.0) > 0.1 || std::abs(y) < 0.15);
@@ -324,7 +320,7 @@ TEST(FloorPlanner, CountsAsUnseenWhatItCannotReach) {
 }
 
 TEST(FloorPlanner, ReturnsToWhereItsMapBegins) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   ASSERT_TRUE(planner.begin(ReturnErrand{}));
   auto const plan = planner.plan({.pose = {2.0, 1.0, 0.0}});
@@ -334,10 +330,63 @@ TEST(FloorPlanner, ReturnsToWhereItsMapBegins) {
 }
 
 TEST(FloorPlanner, StandsWithoutAnErrandAndRefusesAStrategyThatThereIsNot) {
-  FloorPlanner planner(small());
+  FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));
   EXPECT_EQ(planner.plan({}).state, State::idle);
   EXPECT_EQ(planner.begin(ExploreErrand{"left-hand"}).error().message, "there is no strategy `left-hand`");
+}
+
+/// A corridor along x, known as far as that.
+map::OccupancyGrid corridor(double from_x, double to_x, double known_to_x) {
+  map::OccupancyGrid grid(0.05);
+  for (int x = static_cast<int>(from_x / 0.05) - 4; x < static_cast<int>(std::min(to_x + 0.2, known_to_x) / 0.05);
+       ++x) {
+    for (int y = -20; y < 20; ++y) {
+      auto const at = grid.centre_of({x, y});
+      bool const is_free = std::abs(at.y()) < 0.8 && at.x() > from_x && at.x() < to_x;
+      grid.set({x, y}, map::Evidence::of_log_odds(is_free ? -3.0 : 3.0));
+    }
+  }
+  return grid;
+}
+
+TEST(FloorPlanner, PlansAsFarAsItsMapGoes) {
+  FloorPlanner planner(PlannerOptions{});
+  learn_all(planner, corridor(-60.0, 90.0, 100.0));
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(88.0, 0.0)}));
+  auto const plan = planner.plan({.pose = {80.0, 0.0, 0.0}});
+  ASSERT_EQ(plan.state, State::under_way);
+  ASSERT_FALSE(plan.way.points.empty());
+  EXPECT_GT(plan.way.points.back().x(), 85.0);
+  EXPECT_NEAR(planner.home_m({80.0, 0.0}), 80.0, 2.0);
+  EXPECT_NEAR(planner.home_m({-58.0, 0.0}), 58.0, 2.0);
+}
+
+TEST(FloorPlanner, GoesOnExploringWhereItsMapGrowsBeyondWhatItPlannedIn) {
+  FloorPlanner planner(PlannerOptions{});
+  ASSERT_TRUE(planner.begin(ExploreErrand{.strategy = "nearest"}));
+  double time_s = 0.0;
+  for (double known_to_x = 5.0; known_to_x < 70.0; known_to_x += 5.0) {
+    learn_all(planner, corridor(-1.0, 70.0, known_to_x));
+    auto const plan = planner.plan({.pose = {known_to_x - 3.0, 0.0, 0.0}, .time_s = time_s += 10.0});
+    ASSERT_EQ(plan.state, State::under_way) << known_to_x;
+    ASSERT_TRUE(plan.goal) << known_to_x;
+    EXPECT_NEAR(plan.goal->x(), known_to_x, 1.0);
+  }
+  learn_all(planner, corridor(-1.0, 70.0, 80.0));
+  EXPECT_EQ(planner.plan({.pose = {67.0, 0.0, 0.0}, .time_s = time_s + 10.0}).state, State::done);
+  EXPECT_EQ(planner.survey().coverage, 1.0);
+}
+
+TEST(FloorPlanner, SaysThatTheFloorGoesOnBeyondWhereItPlans) {
+  FloorPlanner planner(PlannerOptions{});
+  auto grid = drawn(in_room);
+  grid.set({2'000'000, 0}, map::Evidence::of_log_odds(-3.0));
+  learn_all(planner, grid);
+  ASSERT_TRUE(planner.begin(ExploreErrand{.strategy = "nearest"}));
+  auto const plan = planner.plan({});
+  EXPECT_EQ(plan.state, State::done);
+  EXPECT_EQ(plan.reason, "the floor goes on beyond the 51 by 51 m in which it plans");
 }
 
 }  // namespace

@@ -33,6 +33,11 @@ Plan FloorPlanner::done_exploring() const {
   Plan plan{.state = Plan::State::done, .reason = what_is_left(seen)};
   if (!plan.reason.empty())
     plan.reason += fmt::format(": it could not get to see {}", seen.frontiers.size() == 1 ? "it" : "them");
+  if (area_.is_cut_off()) {
+    if (!plan.reason.empty()) plan.reason += "; ";
+    plan.reason += fmt::format("the floor goes on beyond the {:.0f} by {:.0f} m in which it plans",
+                               area_.width() * options_.cell_m, area_.height() * options_.cell_m);
+  }
   return plan;
 }
 

@@ -108,7 +108,6 @@ TEST_F(RobotPlatformTest, DrivesToAPlaceWhateverItsBatterySays) {
 
 TEST_F(RobotPlatformTest, PutsWallsWhereTheRobotStartsInItsSite) {
   RobotSpec spec{.id = "robot2", .name = "robot 2", .site = "office", .start = {{50.0, -30.0}, 1.0}};
-  spec.planning.side_m = 40.0;
   auto const turned = platform.add(
       spec, std::make_unique<testing::SimpleBody>(loop, testing::small_office(), testing::SimpleBodyOptions{}));
   ASSERT_TRUE(turned);

@@ -144,7 +144,6 @@ struct AMavlinkRover : ::testing::Test {
     auto pipe = link::make_pipe(loop);
     rover = std::make_unique<testing::ScriptedRover>(loop, std::move(pipe.b), robot::testing::small_office());
     RobotSpec spec{.id = "robot1", .name = "robot 1", .site = "office"};
-    spec.planning.side_m = 40.0;
     robot = platform.add(std::move(spec), std::make_unique<RoverBody>(loop, std::move(pipe.a), RoverBodyOptions{}, log))
                 .value();
   }

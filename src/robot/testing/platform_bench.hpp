@@ -27,7 +27,6 @@ struct PlatformBench {
     auto made = std::make_unique<SimpleBody>(loop, small_office(), options);
     if (!body) body = made.get();
     RobotSpec spec{.id = id, .name = "robot " + id.substr(5), .site = "office"};
-    spec.planning.side_m = 40.0;
     spec.hold_up = std::move(hold_up);
     return platform.add(std::move(spec), std::move(made)).value();
   }

@@ -1,4 +1,4 @@
-#include "robot/planner/recovery.hpp"
+#include "robot/planner/held_up/recovery.hpp"
 
 #include <array>
 #include <cmath>

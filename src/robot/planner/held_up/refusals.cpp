@@ -1,4 +1,4 @@
-#include "robot/planner/refusals.hpp"
+#include "robot/planner/held_up/refusals.hpp"
 
 #include <algorithm>
 

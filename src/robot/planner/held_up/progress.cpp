@@ -1,4 +1,4 @@
-#include "robot/planner/progress.hpp"
+#include "robot/planner/held_up/progress.hpp"
 
 #include <algorithm>
 
