@@ -1,5 +1,5 @@
 """Buildings that nobody drew by hand: rooms round a ring of corridors, along an L, on three sides of a hall with pillars, round a
-lobby across which a scanner of 10 m does not see; their sizes, doors, signs, furniture and people by a seed.
+lobby across which a scanner of 10 m does not see, along both sides of a corridor of 80 m; their sizes, doors, signs, furniture and people by a seed.
 
     python3 bench/drawn_buildings.py DIR SEED...                # writes DIR/SEED.toml: a ring, an L or a hall by turns
     python3 bench/drawn_buildings.py DIR lobby SEED...          # writes DIR/lobby-SEED.toml: all of one kind
@@ -174,7 +174,21 @@ def lobby(dice: random.Random) -> Building:
     return building
 
 
-KINDS = {"ring": ring, "ell": ell, "hall": hall, "lobby": lobby}
+def corridor(dice: random.Random) -> Building:
+    building = Building("Corridor", dice)
+    deep, long, wide = 5.0, 80.0, dice.uniform(1.8, 2.6)
+    low, top = deep, deep + wide
+    building.outside((0, 0), (long, 0), (long, top + deep), (0, top + deep))
+    building.wall((0, low), (long, low))
+    building.wall((0, top), (long, top))
+    building.rooms_above(low, 0, (0, long), (5, 10), "S", 0, long)
+    building.rooms_above(top, top + deep, (0, long), (5, 10), "N", 0, long)
+    building.part("person", at=[long / 2, round(low + wide / 2, 2)], walks=True, speed_m_s=0.8)
+    building.part("start", at=[1.5, round(low + wide / 2, 2)], facing_deg=0)
+    return building
+
+
+KINDS = {"ring": ring, "ell": ell, "hall": hall, "lobby": lobby, "corridor": corridor}
 
 
 def main() -> None:
