@@ -1,7 +1,9 @@
 // On drawn grids: what is known beforehand is learnt as a whole, so that no sensor stands between.
 #include "robot/planner/floor_planner.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
