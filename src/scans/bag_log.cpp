@@ -1,9 +1,10 @@
 #include "scans/bag_log.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,10 +41,10 @@ base::Result<std::string> chosen(std::map<std::string, std::size_t> const& topic
               fmt::format("name one by {}", option));
 }
 
-/// What tells lasers apart that send on one topic: frame, angle_min, angle_increment, range_max and how many ranges.
-using Shape = std::tuple<std::string, float, float, float, std::size_t>;
-
+/// Several may send on one topic.
 struct Laser {
+  std::string frame;
+  float range_max_m = 0.0F;
   ScanReader reader;
   int sensor = 0;  ///< its number in the log
 };
@@ -116,14 +117,20 @@ class Converter {
 
   /// How scans like this one are read. Nothing where no laser sends such, or there are too many kinds of them.
   Laser const* laser_of(bus::LaserScan const& scan) {
-    Shape const shape{scan.header.frame_id, scan.angle_min, scan.angle_increment, scan.range_max, scan.ranges.size()};
-    if (auto const known = lasers_.find(shape); known != lasers_.end()) return &known->second;
+    auto const known = std::ranges::find_if(lasers_, [&](Laser const& laser) {
+      return laser.frame == scan.header.frame_id && laser.range_max_m == scan.range_max && laser.reader.fits(scan);
+    });
+    if (known != lasers_.end()) return &*known;
     if (lasers_.size() == slam::LogBuilder::most_sensors) return nullptr;
     auto reader = ScanReader::make(scan, mount_of(scan.header.frame_id));
     if (!reader) return nullptr;
     auto const number = builder_.sensor(reader->sensor());
     if (!number) return nullptr;
-    return &lasers_.emplace(shape, Laser{.reader = *std::move(reader), .sensor = *number}).first->second;
+    lasers_.push_back({.frame = scan.header.frame_id,
+                       .range_max_m = scan.range_max,
+                       .reader = *std::move(reader),
+                       .sensor = *number});
+    return &lasers_.back();
   }
 
   void add(BagContents::Scan& scan) {
@@ -162,7 +169,7 @@ class Converter {
   StaticFrames frames_;  ///< also those of /tf that never move
   std::string base_;     ///< the robot's frame
   std::optional<slam::PoseTrack> track_;
-  std::map<Shape, Laser> lasers_;
+  std::vector<Laser> lasers_;
   slam::LogBuilder builder_;
   BagLog made_;
   std::optional<std::string> without_mount_;  ///< the frame of a laser

@@ -32,14 +32,17 @@ struct BeamTimes {
     std::vector<float> ranges_m, slam::Sensor const& sensor, BeamTimes const& times,
     std::function<std::optional<slam::Pose2>(std::chrono::nanoseconds)> const& pose_at);
 
-/// Reads sensor_msgs/LaserScan of one laser, as the first of them describes it.
+/// Reads sensor_msgs/LaserScan of one laser, as the first of them describes it. Many a small scanner turns faster and
+/// slower, and gives a few beams more or less with each turn (LDS-02, RPLIDAR): these are laid on the first one's.
 class ScanReader {
  public:
   /// `mount`: where the laser is on the robot. Nothing for a scan that no laser sends: no beams, no step between them.
   [[nodiscard]] static std::optional<ScanReader> make(bus::LaserScan const& first, PlanarFrame const& mount);
 
   [[nodiscard]] slam::Sensor const& sensor() const { return sensor_; }
-  /// The ranges in the sensor's order; nothing when they are not as many.
+  /// It looks over the same angles, by half to twice as many beams: the same laser sends it.
+  [[nodiscard]] bool fits(bus::LaserScan const& scan) const;
+  /// The ranges in the sensor's order; nothing for a scan that does not fit.
   [[nodiscard]] std::optional<std::vector<float>> ranges(bus::LaserScan const& scan) const;
   /// `first`: when its first beam was taken, which is what its stamp says. All at once where its `time_increment` is
   /// none, or makes it take longer than lasers do.
@@ -49,6 +52,8 @@ class ScanReader {
   ScanReader() = default;
   slam::Sensor sensor_;
   bool is_reversed_ = false;
+  double first_rad_ = 0.0;  ///< where the first scan's beams look, as it says it
+  double step_rad_ = 0.0;
 };
 
 }  // namespace lapwing::scans

@@ -40,6 +40,77 @@ TEST(ScanReader, TakesWhatIsNoRangeForNothingMeasured) {
   EXPECT_FALSE(reader->ranges(a_scan({1.0F}))) << "another laser's";
 }
 
+/// Of a wall 2 m ahead and square to it, by a scanner that gives so many beams over three quarters of a circle.
+bus::LaserScan of_a_wall(int beams, double begins_rad = -0.75 * std::numbers::pi) {
+  double const step_rad = 1.5 * std::numbers::pi / beams;
+  bus::LaserScan scan{.angle_min = static_cast<float>(begins_rad),
+                      .angle_increment = static_cast<float>(step_rad),
+                      .range_min = 0.1F,
+                      .range_max = 8.0F,
+                      .ranges = {}};
+  for (int i = 0; i < beams; ++i) {
+    double const angle = begins_rad + i * step_rad;
+    bool const meets_it = std::abs(angle) < 1.2;
+    scan.ranges.push_back(meets_it ? static_cast<float>(2.0 / std::cos(angle)) : std::nanf(""));
+  }
+  return scan;
+}
+
+// As an LDS-02 does, whose motor is not regulated, and an RPLIDAR whose driver does not compensate angles.
+TEST(ScanReader, LaysScansOfMoreOrFewerBeamsOnThoseOfTheFirst) {
+  auto const reader = ScanReader::make(of_a_wall(270), {});
+  ASSERT_TRUE(reader);
+  auto const& bearings = reader->sensor().bearings_rad;
+  for (int const beams : {230, 269, 270, 271, 300}) {
+    auto const scan = of_a_wall(beams, -0.75 * std::numbers::pi + 0.01);
+    ASSERT_TRUE(reader->fits(scan)) << beams;
+    auto const ranges = reader->ranges(scan);
+    ASSERT_TRUE(ranges);
+    ASSERT_EQ(ranges->size(), 270U);
+    int measured = 0;
+    for (std::size_t i = 0; i < ranges->size(); ++i) {
+      if ((*ranges)[i] == 0.0F) continue;
+      ++measured;
+      if (std::abs(bearings[i]) > 1.18F) continue;  // the wall ends there: it has one neighbour
+      EXPECT_NEAR((*ranges)[i] * std::cos(bearings[i]), 2.0, 0.01) << beams << " beams, " << bearings[i];
+    }
+    EXPECT_NEAR(measured, 2.4 / (1.5 * std::numbers::pi) * 270, 3.0) << beams;
+  }
+}
+
+TEST(ScanReader, MakesNoSurfaceOfWhatLiesBetweenTwo) {
+  auto const reader = ScanReader::make(a_scan({1.0F, 3.0F, 3.0F}), {});
+  auto scan = a_scan({1.0F, 3.0F, 3.0F, 5.0F});
+  scan.angle_min -= 0.05F;
+  scan.angle_increment *= 0.75F;
+  auto const ranges = reader->ranges(scan);
+  ASSERT_TRUE(ranges);
+  for (float const range : *ranges) EXPECT_TRUE(range == 1.0F || range == 3.0F || range == 5.0F) << range;
+}
+
+TEST(ScanReader, SpreadsTheTimeOfATurnOverTheFirstOnesBeams) {
+  using namespace std::chrono_literals;
+  auto const reader = ScanReader::make(of_a_wall(270), {});
+  auto scan = of_a_wall(300);
+  scan.time_increment = 0.2F / 300.0F;
+  auto const times = reader->times(scan, 5s);
+  EXPECT_EQ(times.beams, 270U);
+  EXPECT_NEAR(std::chrono::duration<double>(times.end()).count(), 5.2, 0.002);
+}
+
+TEST(ScanReader, TakesAScanOfOtherAnglesForAnotherLasers) {
+  auto const reader = ScanReader::make(of_a_wall(270), {});
+  EXPECT_FALSE(reader->fits(of_a_wall(100)));
+  EXPECT_FALSE(reader->fits(of_a_wall(600)));
+  EXPECT_FALSE(reader->fits(of_a_wall(270, -2.0)));
+  auto scan = of_a_wall(270);
+  scan.angle_increment = -scan.angle_increment;
+  EXPECT_FALSE(reader->fits(scan));
+  scan.angle_increment = std::nanf("");
+  EXPECT_FALSE(reader->fits(scan));
+  EXPECT_FALSE(reader->ranges(scan));
+}
+
 TEST(ScanReader, KnowsWhenEachBeamWasTaken) {
   using namespace std::chrono_literals;
   auto scan = a_scan({1.0F, 2.0F, 3.0F});
