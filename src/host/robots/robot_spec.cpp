@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,7 +17,9 @@ constexpr int most_robots = 8;
 constexpr std::string_view ros_here = "ros2://";
 constexpr std::string_view ros_in_the_network = "ros2-lan://";
 constexpr std::string_view mavlink = "mavlink:";
-constexpr std::string_view laser_mark = ",laser=";
+constexpr std::string_view laser_mark = "laser=";
+constexpr std::string_view radius_mark = "radius=";
+constexpr double least_radius_m = 0.05;
 constexpr int most_system_id = 254;  ///< 255 is a ground station's
 
 std::unexpected<base::Error> refuse(std::string_view text, std::string_view why) {
@@ -38,16 +41,47 @@ std::optional<std::array<double, 3>> three_numbers(std::string_view text) {
   return values;
 }
 
+/// What stands behind an address.
+struct Extras {
+  std::optional<std::string_view> laser = std::nullopt;
+  std::optional<double> radius_m = std::nullopt;
+};
+
+/// Takes them off its end. Error: a radius that no robot has.
+base::Result<Extras> take_extras(std::string_view text, std::string_view& address) {
+  Extras extras;
+  for (auto comma = address.rfind(','); comma != std::string_view::npos; comma = address.rfind(',')) {
+    auto const word = address.substr(comma + 1);
+    if (word.starts_with(laser_mark)) {
+      extras.laser = word.substr(laser_mark.size());
+    } else if (word.starts_with(radius_mark)) {
+      auto const digits = word.substr(radius_mark.size());
+      double radius_m = 0.0;
+      auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), radius_m);
+      bool const is_number = error == std::errc() && end == digits.data() + digits.size();
+      if (!is_number || !(radius_m >= least_radius_m && radius_m <= robot::most_radius_m))
+        return refuse(text, fmt::format("'{}' is no radius of a robot from {} to {} m", digits, least_radius_m,
+                                        robot::most_radius_m));
+      extras.radius_m = radius_m;
+    } else {
+      break;
+    }
+    address = address.substr(0, comma);
+  }
+  return extras;
+}
+
 base::Result<RobotRequest> simulated(std::string_view text, std::string_view file) {
   SimulatedRobots request;
-  if (auto const comma = file.find(laser_mark); comma != std::string_view::npos) {
-    auto const named = file.substr(comma + laser_mark.size());
-    if (named != "none" && named != "ring")
+  auto const extras = take_extras(text, file);
+  if (!extras) return std::unexpected(extras.error());
+  request.radius_m = extras->radius_m.value_or(request.radius_m);
+  if (auto const named = extras->laser) {
+    if (*named != "none" && *named != "ring")
       return refuse(text, fmt::format("'{}' is no laser of a simulated robot: write ,laser=none for sonars alone, "
                                       ",laser=ring for four single rangers, or nothing for a scanner",
-                                      named));
-    request.laser = named == "none" ? SimulatedRobots::Laser::none : SimulatedRobots::Laser::ring;
-    file = file.substr(0, comma);
+                                      *named));
+    request.laser = *named == "none" ? SimulatedRobots::Laser::none : SimulatedRobots::Laser::ring;
   }
   auto const colon = file.rfind(':');
   if (colon != std::string_view::npos) {
@@ -75,16 +109,15 @@ base::Result<RobotRequest> on_ros(std::string_view text, std::string_view addres
 }
 
 /// Error: as of a robot on ROS; nothing where it is no address of ROS.
-std::optional<base::Result<RobotRequest>> by_ros(std::string_view text, std::string_view address,
-                                                 geo::Pose<geo::SiteFrame> const& start) {
-  if (address.starts_with(ros_here))
-    return on_ros(text, address.substr(ros_here.size()), {.is_local = true, .start = start});
-  if (address.starts_with(ros_in_the_network))
-    return on_ros(text, address.substr(ros_in_the_network.size()), {.is_local = false, .start = start});
-  return std::nullopt;
+std::optional<base::Result<RobotRequest>> by_ros(std::string_view text, std::string_view address, RosRobot request) {
+  request.is_local = address.starts_with(ros_here);
+  if (request.is_local) return on_ros(text, address.substr(ros_here.size()), std::move(request));
+  if (!address.starts_with(ros_in_the_network)) return std::nullopt;
+  return on_ros(text, address.substr(ros_in_the_network.size()), std::move(request));
 }
 
-base::Result<RobotRequest> over_mavlink(std::string_view text, std::string_view address, MavlinkRobot request) {
+base::Result<RobotRequest> over_mavlink(std::string_view text, std::string_view address,
+                                        std::optional<std::string_view> laser_at, MavlinkRobot request) {
   auto const colon = address.find(':');
   auto const digits = address.substr(0, colon);
   int system_id = 0;
@@ -95,14 +128,12 @@ base::Result<RobotRequest> over_mavlink(std::string_view text, std::string_view 
                                     digits, most_system_id));
   request.system_id = static_cast<std::uint8_t>(system_id);
   address = address.substr(colon + 1);
-  if (auto const comma = address.find(laser_mark); comma != std::string_view::npos) {
-    auto const named = address.substr(comma + laser_mark.size());
-    auto const laser = by_ros(text, named, {});
-    if (!laser) return refuse(text, fmt::format("'{}' is no laser on ROS 2: write ,laser=ros2://0/robot1", named));
+  if (laser_at) {
+    auto const laser = by_ros(text, *laser_at, {});
+    if (!laser) return refuse(text, fmt::format("'{}' is no laser on ROS 2: write ,laser=ros2://0/robot1", *laser_at));
     if (!*laser) return std::unexpected(laser->error());
     auto const& ros = std::get<RosRobot>(**laser);
     request.laser = {.domain = ros.domain, .name_space = ros.name_space, .is_local = ros.is_local};
-    address = address.substr(0, comma);
   }
   auto const url = link::parse_url(address);
   if (!url) return std::unexpected(url.error());
@@ -124,9 +155,15 @@ base::Result<RobotRequest> parse_robot(std::string_view text) {
     request.start = {{east_m, north_m}, yaw_deg * std::numbers::pi / 180.0};
     address = text.substr(0, at);
   }
-  if (auto const ros = by_ros(text, address, request.start)) return *ros;
+  auto const extras = take_extras(text, address);
+  if (!extras) return std::unexpected(extras.error());
+  double const radius_m = extras->radius_m.value_or(robot::Limits{}.radius_m);
   if (address.starts_with(mavlink))
-    return over_mavlink(text, address.substr(mavlink.size()), {.url = {}, .start = request.start});
+    return over_mavlink(text, address.substr(mavlink.size()), extras->laser,
+                        {.url = {}, .radius_m = radius_m, .start = request.start});
+  if (extras->laser) return refuse(text, "laser= is for simulated robots and MAVLink rovers");
+  if (auto const ros = by_ros(text, address, {.radius_m = radius_m, .start = request.start})) return *ros;
+  if (extras->radius_m) return refuse(text, "the board of such a robot says how large it is: leave radius= out");
   auto const url = link::parse_url(address);
   if (!url) return std::unexpected(url.error());
   request.url = *url;

@@ -52,6 +52,17 @@ TEST(RobotSpec, NamesAMavlinkRover) {
   EXPECT_EQ(whole.start.position, geo::Point<geo::SiteFrame>(1.0, 2.0));
 }
 
+TEST(RobotSpec, NamesHowLargeARobotIs) {
+  EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:a,b.toml:2,radius=0.3,laser=ring")),
+            (SimulatedRobots{"a,b.toml", 2, SimulatedRobots::Laser::ring, 0.3}));
+  EXPECT_EQ(std::get<RosRobot>(*parse_robot("ros2://0/robot1,radius=0.25@1,2,0")),
+            (RosRobot{.name_space = "/robot1", .radius_m = 0.25, .start = {{1.0, 2.0}, 0.0}}));
+  auto const rover = std::get<MavlinkRobot>(*parse_robot("mavlink:1:udpin://0.0.0.0:14560,radius=0.4,laser=ros2://7"));
+  EXPECT_EQ(rover.radius_m, 0.4);
+  EXPECT_EQ(rover.laser, (robot::rover::LaserOnRos{.domain = 7, .name_space = "", .is_local = true}));
+  EXPECT_EQ(std::get<RosRobot>(*parse_robot("ros2://0")).radius_m, 0.18);
+}
+
 TEST(RobotSpec, SaysWhatIsWrong) {
   auto const wrong = [](std::string_view text) { return parse_robot(text).error().message; };
   EXPECT_EQ(wrong("sim:"), "--robot sim:: it names no building");
@@ -77,6 +88,14 @@ TEST(RobotSpec, SaysWhatIsWrong) {
   EXPECT_EQ(wrong("mavlink:1:udpin://0.0.0.0:14560,laser=/dev/ttyUSB0"),
             "--robot mavlink:1:udpin://0.0.0.0:14560,laser=/dev/ttyUSB0: '/dev/ttyUSB0' is no laser on ROS 2: write "
             ",laser=ros2://0/robot1");
+  EXPECT_EQ(wrong("ros2://0,radius=5"), "--robot ros2://0,radius=5: '5' is no radius of a robot from 0.05 to 1 m");
+  EXPECT_EQ(wrong("sim:a.toml,radius=nan"),
+            "--robot sim:a.toml,radius=nan: 'nan' is no radius of a robot from 0.05 to 1 m");
+  EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200,radius=0.3"),
+            "--robot serial:///dev/ttyUSB0:115200,radius=0.3: the board of such a robot says how large it is: leave "
+            "radius= out");
+  EXPECT_EQ(wrong("ros2://0,laser=ring"),
+            "--robot ros2://0,laser=ring: laser= is for simulated robots and MAVLink rovers");
   EXPECT_FALSE(parse_robot("mavlink:1:"));
   EXPECT_FALSE(parse_robot("mavlink:1:udpin://0.0.0.0:14560,laser=ros2://500"));
   EXPECT_FALSE(parse_robot("office"));

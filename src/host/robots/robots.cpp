@@ -19,10 +19,10 @@ namespace building = sim::building;
 
 namespace {
 
-building::RobotSettings settings_with(SimulatedRobots::Laser laser) {
-  building::RobotSettings settings;
-  if (laser == SimulatedRobots::Laser::ring) settings.laser = building::tof_ring();
-  if (laser == SimulatedRobots::Laser::none) settings.laser.beams = 0;
+building::RobotSettings settings_of(SimulatedRobots const& request) {
+  auto settings = building::RobotSettings::of_radius(request.radius_m);
+  if (request.laser == SimulatedRobots::Laser::ring) settings.laser = building::tof_ring();
+  if (request.laser == SimulatedRobots::Laser::none) settings.laser.beams = 0;
   return settings;
 }
 
@@ -45,8 +45,8 @@ class Maker {
     if (!text) return std::unexpected(text.error());
     auto plan = building::building_of(request.file, *std::move(text));
     if (!plan) return std::unexpected(plan.error());
-    auto made = building::Building::make(
-        *plan, {.seed = seed_, .robots = request.count, .robot = settings_with(request.laser)});
+    auto made =
+        building::Building::make(*plan, {.seed = seed_, .robots = request.count, .robot = settings_of(request)});
     if (!made) return std::unexpected(made.error());
     auto simulated = std::make_unique<SimulatedBuilding>();
     simulated->building = *std::move(made);
@@ -76,9 +76,12 @@ class Maker {
 
   base::Result<> operator()(RosRobot const& request) {
     auto spec = next_spec(request.start);
-    auto body = robot::ros::RosBody::open(
-        loop_, {.domain = request.domain, .name_space = request.name_space, .is_local = request.is_local},
-        log_.named(spec.id));
+    auto body = robot::ros::RosBody::open(loop_,
+                                          {.domain = request.domain,
+                                           .name_space = request.name_space,
+                                           .is_local = request.is_local,
+                                           .radius_m = request.radius_m},
+                                          log_.named(spec.id));
     if (!body) return std::unexpected(body.error());
     robots_.push_back({.spec = std::move(spec), .body = *std::move(body), .anchor = anchor_});
     return add_cameras(
@@ -90,7 +93,8 @@ class Maker {
     if (!link) return std::unexpected(link.error());
     auto spec = next_spec(request.start);
     auto body = std::make_unique<robot::rover::RoverBody>(
-        loop_, *std::move(link), robot::rover::RoverBodyOptions{.system_id = request.system_id, .origin = anchor_},
+        loop_, *std::move(link),
+        robot::rover::RoverBodyOptions{.system_id = request.system_id, .origin = anchor_, .radius_m = request.radius_m},
         log_.named(spec.id));
     if (request.laser)
       if (auto used = body->use(*request.laser); !used) return used;

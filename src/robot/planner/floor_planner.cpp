@@ -25,6 +25,8 @@ constexpr double mind_within_m = 2.5;  ///< what moves farther away may be gone 
 constexpr std::size_t most_obstacles = 200;
 /// Farther than the board's own safe distance, which would stop a robot that only just fits.
 constexpr double beyond_safe_m = 0.05;
+/// A large robot is wary of walls farther off than it keeps.
+constexpr double wary_beyond_m = 0.15;
 /// So long it does not get on before it does something about it, and from one such try to the next.
 constexpr double help_after_s = 4.0;
 constexpr double measure_every_s = 0.5;
@@ -32,28 +34,19 @@ constexpr double measure_every_s = 0.5;
 constexpr double refuses_within_m = 0.12;
 constexpr double refuses_aside_rad = 1.2;
 
-explore::CarrierLimits carrier_limits(Limits const& limits) {
-  return {.radius_m = limits.radius_m,
-          .safe_distance_m = limits.safe_distance_m,
-          .speed_m_s = limits.speed_m_s,
-          .near_speed_m_s = limits.near_speed_m_s,
-          .acceleration_m_s2 = limits.acceleration_m_s2,
-          .turn_rad_s = limits.turn_rad_s};
-}
-
 }  // namespace
 
 FloorPlanner::FloorPlanner(PlannerOptions const& options)
-    : options_(options), area_(options.cell_m), navigator_(carrier_limits(options.limits)) {
+    : options_(options), area_(options.cell_m), navigator_(options.limits) {
   begin_anew();
 }
 
 void FloorPlanner::begin_anew() {
+  double const keep_off_m = options_.limits.radius_m + options_.limits.safe_distance_m + beyond_safe_m;
   known_ = std::make_unique<explore::KnownMap>(
       area_.width(), area_.height(), options_.cell_m,
-      explore::KnownMap::Distances{
-          .keep_off_m = options_.limits.radius_m + options_.limits.safe_distance_m + beyond_safe_m,
-          .wary_m = options_.wary_m});
+      explore::KnownMap::Distances{.keep_off_m = keep_off_m,
+                                   .wary_m = std::max(options_.wary_m, keep_off_m + wary_beyond_m)});
   roads_ = std::make_unique<explore::RoadMap>(*known_);
   search_ = std::make_unique<explore::GridSearch>(*known_);
   frontiers_ = std::make_unique<explore::Frontiers>(*known_);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "explore/path/motion.hpp"
 #include "geo/point.hpp"
 #include "map/grid/occupancy_grid.hpp"
 
@@ -21,15 +22,10 @@ struct Motion {
   friend bool operator==(Motion const&, Motion const&) = default;
 };
 
-/// What the robot can do and what it keeps off (docs of seed 001; a TurtleBot 2's disc).
-struct Limits {
-  double radius_m = 0.18;
-  double safe_distance_m = 0.05;
-  double speed_m_s = 0.3;
-  double near_speed_m_s = 0.16;  ///< near walls
-  double acceleration_m_s2 = 0.3;
-  double turn_rad_s = 1.0;
-};
+/// How large the robot is, what it can do and what it keeps off.
+using Limits = explore::CarrierLimits;
+/// Nobody drives a larger one between walls.
+inline constexpr double most_radius_m = 1.0;
 
 /// Where to go next: along points, or by a heading.
 struct Way {

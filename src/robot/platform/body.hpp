@@ -42,6 +42,8 @@ class Body {
   /// What it maps by: its laser or, without one, its sonars or single rangers. Null until it has said so; scans come
   /// only afterwards.
   [[nodiscard]] virtual slam::Sensor const* sensor() const = 0;
+  /// How large it is and what it can do; to be asked when the sensor is known.
+  [[nodiscard]] virtual Limits limits() const = 0;
   /// Over what it is reached, for people.
   [[nodiscard]] virtual std::string link() const = 0;
 

@@ -1,5 +1,6 @@
 #include "robot/platform/linked_body.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,22 @@ explore::SideDistances sides_of(WallDistances const& walls) {
   return {walls.left_m.value_or(side_m), walls.front_m.value_or(front_m), walls.right_m.value_or(side_m)};
 }
 
+/// Of a disc around the axle's middle that covers the hull, which is round enough to turn on the spot wherever it
+/// stands. What a board does not say is as with most.
+Limits limits_of(firmware::Description const& board) {
+  Limits limits;
+  double const reaches_m =
+      std::max({double{board.hull.front_m}, double{board.hull.back_m}, double{board.hull.half_width_m}});
+  if (reaches_m > 0.0) limits.radius_m = reaches_m;
+  if (board.top_speed_m_s > 0.0F) {
+    limits.speed_m_s = std::min(limits.speed_m_s, double{board.top_speed_m_s});
+    limits.near_speed_m_s = std::min(limits.near_speed_m_s, limits.speed_m_s);
+  }
+  if (board.braking_m_s2 > 0.0F)
+    limits.acceleration_m_s2 = std::min(limits.acceleration_m_s2, double{board.braking_m_s2});
+  return limits;
+}
+
 }  // namespace
 
 LinkedBody::LinkedBody(base::Loop& loop, std::unique_ptr<link::ByteLink> link, base::Logger log)
@@ -33,12 +50,21 @@ LinkedBody::LinkedBody(base::Loop& loop, std::unique_ptr<link::ByteLink> link, b
 }
 
 void LinkedBody::meet(firmware::Hello const& hello) {
-  // A board that starts anew begins a new frame where it stands; how its laser looks must stay, as the map is made by
-  // it.
+  // A board that starts anew begins a new frame where it stands; how its laser looks and how large it is must stay, as
+  // the map is made by the one and plans by the other.
   auto const here = odometry_ ? odometry_->pose() : slam::Pose2{};
   description_ = hello.description;
   odometry_.emplace(hello.description, here);
   scan_.reset();
+  if (auto const limits = limits_of(hello.description); limits.radius_m > most_radius_m) {
+    log_.error(
+        fmt::format("the board says that its body reaches {:.2f} m from its axle's middle; {} m is the most: the "
+                    "robot stands",
+                    limits.radius_m, most_radius_m));
+    return;
+  } else if (!sensor_) {
+    limits_ = limits;
+  }
   bool const has_laser = hello.description.laser.beams > 0;
   if (!sensor_ && has_laser) sensor_ = sensor_of(hello.description.laser);
   if (!sensor_) sensor_ = sensor_of(hello.description.sonar_places());

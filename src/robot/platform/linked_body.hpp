@@ -19,6 +19,7 @@ class LinkedBody final : public Body {
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* sensor() const override { return sensor_ ? &*sensor_ : nullptr; }
+  [[nodiscard]] Limits limits() const override { return limits_; }
   [[nodiscard]] std::string link() const override { return link_->name(); }
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;
@@ -37,6 +38,7 @@ class LinkedBody final : public Body {
   Listener listener_;
   std::optional<firmware::Description> description_;
   std::optional<BoardOdometry> odometry_;
+  Limits limits_;
   std::optional<slam::Sensor> sensor_;
   std::optional<LaserRanges> scan_;  ///< that odometry has not caught up with
   bool is_told_to_stand_ = false;

@@ -66,14 +66,12 @@ Robot::Robot(RobotSpec spec, std::unique_ptr<Body> body, Surroundings surroundin
       around_(std::move(surroundings)),
       site_from_map_(place_of(spec_)),
       map_from_site_(site_from_map_.inverse()),
-      follower_(spec_.planning.limits),
       health_({.loop = around_.loop,
                .body = *body_,
                .name = spec_.name,
                .log = around_.log,
                .communication = around_.communication,
                .points_of_interest = around_.points_of_interest}),
-      home_charge_(spec_.planning.limits.speed_m_s),
       scanned_(around_.loop),
       planned_(around_.loop),
       aligning_(around_.loop),
@@ -165,13 +163,20 @@ base::Task<> Robot::watch_link() {
 
 // ---- what it thinks
 
+/// Its body is known now.
+void Robot::begin_to_think() {
+  auto planning = spec_.planning;
+  planning.limits = body_->limits();
+  follower_ = Follower(planning.limits);
+  home_charge_ = HomeCharge(planning.limits.speed_m_s);
+  thoughts_ = std::make_unique<Thoughts>(*body_->sensor(), mapping_options(spec_), planning);
+  has_thoughts_ = true;
+}
+
 base::Task<> Robot::keep_thinking() {
   for (;;) {
     while (scans_.empty()) co_await scanned_.wait();
-    if (!has_thoughts_) {
-      thoughts_ = std::make_unique<Thoughts>(*body_->sensor(), mapping_options(spec_), spec_.planning);
-      has_thoughts_ = true;
-    }
+    if (!has_thoughts_) begin_to_think();
     auto mapping = map_scans();
     auto map = co_await std::move(mapping);
     auto planning = plan(std::move(map));

@@ -36,7 +36,7 @@ struct RobotSpec {
   geo::Pose<geo::SiteFrame> start = {};
   std::vector<std::string> payload = {"Laser"};
   MappingOptions mapping = {};
-  PlannerOptions planning = {};
+  PlannerOptions planning = {};  ///< its limits are those of the body
   /// Awaited before mapping and planning work: has the module hang for as long, in tests and exercises. Empty: none.
   std::function<base::Task<>(Module)> hold_up = {};
 };
@@ -163,6 +163,7 @@ class Robot {
   [[nodiscard]] std::uint16_t mapping_code() const;
   void use(PlanResult result);
   void give(Errand errand);
+  void begin_to_think();
   base::Task<> keep_thinking();
   base::Task<> keep_aligning();
   base::Task<> watch_link();
@@ -189,7 +190,7 @@ class Robot {
   Surroundings around_;
   geo::Transform<geo::SiteFrame, map::GridFrame> site_from_map_;
   geo::Transform<map::GridFrame, geo::SiteFrame> map_from_site_;
-  Follower follower_;
+  Follower follower_{Limits{}};
   RobotHealth health_;
   PoseCheck pose_check_;
   bool is_pose_lost_ = false;
@@ -202,7 +203,7 @@ class Robot {
   std::optional<base::TimePoint> scanned_at_;
   Room room_;
   double driven_m_ = 0.0;
-  HomeCharge home_charge_;
+  HomeCharge home_charge_{Limits{}.speed_m_s};
   Motion asked_;
   std::optional<base::TimePoint> moved_at_;  ///< when it was last asked to move
 

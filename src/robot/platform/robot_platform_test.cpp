@@ -75,6 +75,16 @@ TEST_F(RobotPlatformTest, ExploresWithAScannerThatLooksNoWayBack) {
   }
 }
 
+TEST_F(RobotPlatformTest, KeepsOffWallsByHowLargeItIs) {
+  auto* const large = add("robot30", {.radius_m = 0.3});
+  ASSERT_TRUE(run_until([&] { return large->here().has_value(); }, 5s));
+  auto const run = start({ExploreStep{"tour"}, ReturnStep{}}, "robot30");
+  ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();
+  EXPECT_EQ(run->state(), RunState::done) << run->error();
+  EXPECT_GE(large->survey()->coverage, 0.98) << "doors are 90 cm wide";
+  EXPECT_EQ(added_body->collisions(), 0);
+}
+
 TEST_F(RobotPlatformTest, ExploresWithFourRangers) {
   auto* const other = add("robot4", {.beams = 4, .laser_m = 4.0});
   ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));

@@ -19,8 +19,9 @@ namespace lapwing::robot::ros {
 
 struct RosBodyOptions {
   std::uint32_t domain = 0;
-  std::string name_space = {};  ///< "/robot1", before the names of its topics; empty: none
-  bool is_local = true;         ///< its ROS is on this machine
+  std::string name_space = {};          ///< "/robot1", before the names of its topics; empty: none
+  bool is_local = true;                 ///< its ROS is on this machine
+  double radius_m = Limits{}.radius_m;  ///< of a disc around its middle that covers it
 };
 
 /// A body that ROS 2 drives (docs/reference/ros.md): a base with wheels and a laser that publish `odom`
@@ -42,6 +43,7 @@ class RosBody final : public Body {
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* sensor() const override { return laser_ ? laser_->sensor() : nullptr; }
+  [[nodiscard]] Limits limits() const override { return {.radius_m = options_.radius_m}; }
   [[nodiscard]] std::string link() const override;
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;

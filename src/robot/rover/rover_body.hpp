@@ -25,6 +25,7 @@ struct RoverBodyOptions {
   /// Where its estimator's origin is put when nothing else gives it one; nothing: nowhere.
   std::optional<geo::Wgs84> origin = std::nullopt;
   HelmTimes helm = {};
+  double radius_m = Limits{}.radius_m;  ///< of a disc around its middle that covers it
 };
 
 /// A body whose carrier is a MAVLink rover: ArduPilot's, skid-steered (docs/reference/mavlink-rover.md).
@@ -47,6 +48,7 @@ class RoverBody final : public Body {
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* sensor() const override;
+  [[nodiscard]] Limits limits() const override { return {.radius_m = options_.radius_m}; }
   [[nodiscard]] std::string link() const override;
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override;
   void drive(Motion motion) override;

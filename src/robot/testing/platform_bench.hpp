@@ -25,7 +25,8 @@ struct PlatformBench {
   Robot* add(std::string const& id, SimpleBodyOptions const& options = {},
              std::function<base::Task<>(Module)> hold_up = {}) {
     auto made = std::make_unique<SimpleBody>(loop, small_office(), options);
-    if (!body) body = made.get();
+    added_body = made.get();
+    if (!body) body = added_body;
     RobotSpec spec{.id = id, .name = "robot " + id.substr(5), .site = "office"};
     spec.hold_up = std::move(hold_up);
     return platform.add(std::move(spec), std::move(made)).value();
@@ -53,8 +54,9 @@ struct PlatformBench {
   map::LiveMap live_map{[this] { return loop.utc_now(); }};
   RobotPlatform platform{{loop, registry, authority, live_map}, log};
   RobotControl control{platform, {loop, authority}, log};
-  SimpleBody* body = nullptr;  ///< of the first robot
-  Robot* robot = nullptr;      ///< the first
+  SimpleBody* body = nullptr;        ///< of the first robot
+  SimpleBody* added_body = nullptr;  ///< of the last one
+  Robot* robot = nullptr;            ///< the first
 };
 
 }  // namespace lapwing::robot::testing

@@ -47,6 +47,7 @@ class SimpleBody final : public Body {
 
   void listen(Listener listener) override { listener_ = std::move(listener); }
   [[nodiscard]] slam::Sensor const* sensor() const override { return &laser_; }
+  [[nodiscard]] Limits limits() const override { return {.radius_m = options_.radius_m}; }
   [[nodiscard]] std::string link() const override { return "test://"; }
   [[nodiscard]] std::optional<std::uint16_t> take_carrier_code() override {
     return is_silent ? std::nullopt : std::optional(carrier_code);

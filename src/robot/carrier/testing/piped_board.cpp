@@ -3,14 +3,12 @@
 #include <chrono>
 #include <utility>
 
-#include "firmware/testing/rig.hpp"
-
 namespace lapwing::robot::testing {
 
 using namespace std::chrono_literals;
 
-PipedBoard::PipedBoard(base::Loop& loop, link::ByteLink& link)
-    : body(firmware::testing::office_robot(), {}), loop_(loop), link_(link), started_(loop.now()), scope_(loop) {
+PipedBoard::PipedBoard(base::Loop& loop, link::ByteLink& link, firmware::Description const& description)
+    : body(description, {}), loop_(loop), description_(description), link_(link), started_(loop.now()), scope_(loop) {
   start_anew();
   link_.start([this](link::Peer, link::Bytes bytes) {
     if (is_unplugged) return;
@@ -25,7 +23,7 @@ PipedBoard::PipedBoard(base::Loop& loop, link::ByteLink& link)
 
 void PipedBoard::start_anew() {
   body.to_board.clear();
-  program_ = std::make_unique<firmware::Program>(body, firmware::testing::office_robot());
+  program_ = std::make_unique<firmware::Program>(body, description_);
   started_ = loop_.now();
 }
 

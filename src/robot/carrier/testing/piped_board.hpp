@@ -4,6 +4,7 @@
 
 #include "base/async/scope.hpp"
 #include "firmware/program.hpp"
+#include "firmware/testing/rig.hpp"
 #include "firmware/testing/wheel_body.hpp"
 #include "link/byte_link.hpp"
 
@@ -12,7 +13,8 @@ namespace lapwing::robot::testing {
 /// A body whose program runs on the loop, at the far end of a byte link.
 class PipedBoard {
  public:
-  PipedBoard(base::Loop& loop, link::ByteLink& link);
+  PipedBoard(base::Loop& loop, link::ByteLink& link,
+             firmware::Description const& description = firmware::testing::office_robot());
 
   firmware::testing::WheelBody body;
   /// Neither way does a byte arrive.
@@ -27,6 +29,7 @@ class PipedBoard {
   base::Task<> run();
 
   base::Loop& loop_;
+  firmware::Description description_;
   link::ByteLink& link_;
   std::unique_ptr<firmware::Program> program_;
   base::TimePoint started_;

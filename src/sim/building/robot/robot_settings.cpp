@@ -6,10 +6,19 @@
 
 namespace lapwing::sim::building {
 
-std::vector<SonarSettings> RobotSettings::seed_sonars() {
+RobotSettings RobotSettings::of_radius(double radius_m) {
+  RobotSettings settings;
+  double const times = radius_m / settings.drive.radius_m;
+  settings.drive.radius_m = radius_m;
+  settings.drive.wheel_base_m *= times;
+  settings.sonars = seed_sonars(radius_m);
+  return settings;
+}
+
+std::vector<SonarSettings> RobotSettings::seed_sonars(double radius_m) {
   constexpr double ahead_m = 7.5;
   constexpr double aside_m = 5.0;
-  double const rim_m = DriveSettings{}.radius_m - 0.01;
+  double const rim_m = radius_m - 0.01;
   std::vector<SonarSettings> sonars;
   for (double const degrees : {0.0, 30.0, -30.0, 90.0, -90.0}) {
     double const angle = degrees * std::numbers::pi / 180.0;

@@ -14,7 +14,7 @@ namespace lapwing::sim::building {
 /// What a simulated robot is made of. The defaults are the robot of seed 001 with a scanner and a camera.
 struct RobotSettings {
   DriveSettings drive;
-  std::vector<SonarSettings> sonars = seed_sonars();
+  std::vector<SonarSettings> sonars = seed_sonars(drive.radius_m);
   double sonar_period_s = 0.02;  ///< they fire in turn, so that none hears another
   LaserSettings laser;
   ImuSettings imu;
@@ -26,8 +26,10 @@ struct RobotSettings {
   double battery_empty_v = 10.5;
   double battery_lasts_s = 25'200.0;  ///< seven hours: a Kobuki with its large battery
 
+  /// The same robot, larger or smaller.
+  [[nodiscard]] static RobotSettings of_radius(double radius_m);
   /// Ahead up to 7.5 m, 30 and 90 degrees to both sides up to 5 m; from the hull's rim.
-  [[nodiscard]] static std::vector<SonarSettings> seed_sonars();
+  [[nodiscard]] static std::vector<SonarSettings> seed_sonars(double radius_m);
   /// Four like the one that looks ahead, to the sides: 50 degrees off straight ahead, which see walls early and aslant,
   /// and 103 degrees, which see them when the robot has come past.
   [[nodiscard]] static std::vector<CameraSettings> seed_side_cameras();
