@@ -151,6 +151,18 @@ struct Description<Twist> {
   static constexpr auto fields = std::tuple{Field{"linear", &Twist::linear}, Field{"angular", &Twist::angular}};
 };
 
+struct TwistStamped {
+  Header header = {};
+  Twist twist = {};
+  friend bool operator==(TwistStamped const&, TwistStamped const&) = default;
+};
+template <>
+struct Description<TwistStamped> {
+  static constexpr std::string_view name = "geometry_msgs/msg/TwistStamped";
+  static constexpr auto fields =
+      std::tuple{Field{"header", &TwistStamped::header}, Field{"twist", &TwistStamped::twist}};
+};
+
 struct TwistWithCovariance {
   Twist twist = {};
   Covariance covariance = {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -110,7 +112,37 @@ std::string dds_type(std::string_view type) {
   return fmt::format("{}dds_::{}_", name, rest);
 }
 
+namespace {
+
+/// Who reads what elsewhere. Written by the middleware's threads, read by ours.
+class ReadersElsewhere final : public dds::DomainParticipantListener {
+ public:
+  void on_subscriber_discovery(dds::DomainParticipant* /*participant*/, rtps::ReaderDiscoveryInfo&& found) override {
+    std::lock_guard const lock(mutex_);
+    if (found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER)
+      readers_.erase(found.info.guid());
+    else
+      readers_[found.info.guid()] = {found.info.topicName().c_str(), found.info.typeName().c_str()};
+  }
+  [[nodiscard]] bool read(std::string const& topic, std::string const& type) const {
+    std::lock_guard const lock(mutex_);
+    return std::ranges::any_of(readers_,
+                               [&](auto const& it) { return it.second.topic == topic && it.second.type == type; });
+  }
+
+ private:
+  struct Read {
+    std::string topic;
+    std::string type;
+  };
+  std::mutex mutable mutex_;
+  std::map<rtps::GUID_t, Read> readers_;
+};
+
+}  // namespace
+
 struct Bus::Parts {
+  ReadersElsewhere elsewhere;
   dds::DomainParticipant* participant = nullptr;
   dds::Publisher* publisher = nullptr;
   dds::Subscriber* subscriber = nullptr;
@@ -131,8 +163,11 @@ struct Bus::Parts {
     auto const type = dds_type(ros_type);
     if (auto const known = topics.find(*name); known != topics.end()) {
       if (known->second->get_type_name() == type) return known->second;
-      return base::fail(ErrorKind::invalid_input,
-                        fmt::format("{} has the type {} already", ros_name, known->second->get_type_name()));
+      auto const other_type = known->second->get_type_name();
+      // Refused while anything here writes or reads it.
+      if (participant->delete_topic(known->second) != Done::RETCODE_OK)
+        return base::fail(ErrorKind::invalid_input, fmt::format("{} has the type {} already", ros_name, other_type));
+      topics.erase(known);
     }
     dds::TypeSupport const support(new internal::RawType(type));  // which owns it
     bool const is_known = !participant->find_type(type).empty();  // by another topic
@@ -290,7 +325,8 @@ base::Result<std::unique_ptr<Bus>> Bus::open(base::Loop& loop, BusOptions const&
   qos.name(options.name);
   if (options.is_local) keep_to_this_machine(qos, options.domain);
   auto parts = std::make_unique<Parts>();
-  parts->participant = dds::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos);
+  parts->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
+      options.domain, qos, &parts->elsewhere, dds::StatusMask::none());
   if (parts->participant) {
     parts->publisher = parts->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     parts->subscriber = parts->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
@@ -299,6 +335,11 @@ base::Result<std::unique_ptr<Bus>> Bus::open(base::Loop& loop, BusOptions const&
     return base::fail(ErrorKind::io, fmt::format("the bus does not open in domain {}", options.domain),
                       "other programs may have all of its ports; what Fast DDS says stands above");
   return std::unique_ptr<Bus>(new Bus(loop, std::move(parts)));
+}
+
+bool Bus::is_read_as(std::string_view topic, std::string_view type) const {
+  auto const name = dds_topic(topic);
+  return name && parts_->elsewhere.read(*name, dds_type(type));
 }
 
 base::Result<std::unique_ptr<Bus::Writer>> Bus::write_to(std::string_view topic, std::string_view type, Profile profile,

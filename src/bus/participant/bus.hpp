@@ -87,12 +87,15 @@ class Bus {
   using Heard = std::function<void(Sample const& sample)>;
 
   /// `topic` as ROS names it, "/robot1/scan"; `type` likewise, "sensor_msgs/msg/LaserScan". Errors: invalid_input for a
-  /// name that is none, and for a topic that has another type already; io.
+  /// name that is none, and for a topic that is written or read here by another type; io.
   [[nodiscard]] base::Result<std::unique_ptr<Writer>> write_to(std::string_view topic, std::string_view type,
                                                                Profile profile, Lane lane = Lane::topic);
   /// `heard` must not destroy the reader.
   [[nodiscard]] base::Result<std::unique_ptr<Reader>> read_from(std::string_view topic, std::string_view type,
                                                                 Profile profile, Heard heard, Lane lane = Lane::topic);
+
+  /// Another participant reads the topic by that type, as far as is known by now: finding each other takes a moment.
+  [[nodiscard]] bool is_read_as(std::string_view topic, std::string_view type) const;
 
  private:
   struct Parts;

@@ -94,6 +94,27 @@ TEST_F(BusTest, ATopicHasOneType) {
   EXPECT_NE(other.error().message.find("already"), std::string::npos) << other.error().message;
 }
 
+TEST_F(BusTest, ATopicMayHaveAnotherTypeWhenNothingHereUsesItAnyMore) {
+  auto first = one->write_to("/map", "nav_msgs/msg/OccupancyGrid", Profile::standard);
+  ASSERT_TRUE(first);
+  first->reset();
+  EXPECT_TRUE(one->write_to("/map", "std_msgs/msg/String", Profile::standard));
+}
+
+TEST_F(BusTest, KnowsByWhichTypeOthersReadATopic) {
+  constexpr auto text = Description<String>::name;
+  constexpr auto number = Description<Float64>::name;
+  EXPECT_FALSE(one->is_read_as("/chatter", text));
+  auto reading = Subscription<String>::open(*two, "/chatter", Profile::standard, [](String const&) {});
+  ASSERT_TRUE(reading);
+  EXPECT_TRUE(comes_true([&] { return one->is_read_as("/chatter", text); }));
+  EXPECT_FALSE(one->is_read_as("/chatter", number));
+  EXPECT_FALSE(one->is_read_as("/other", text));
+  EXPECT_FALSE(one->is_read_as("no topic", text));
+  reading = base::fail(base::ErrorKind::cancelled, "gone");
+  EXPECT_TRUE(comes_true([&] { return !one->is_read_as("/chatter", text); }));
+}
+
 TEST_F(BusTest, NothingComesAfterAReaderHasGone) {
   int heard = 0;
   auto reading = Subscription<String>::open(*two, "/chatter", Profile::standard, [&](String const&) { ++heard; });

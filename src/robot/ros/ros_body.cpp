@@ -23,6 +23,7 @@ constexpr base::Duration kill_period = 50ms;
 constexpr auto remembered = 3s;  ///< of where it was: more than a scan takes
 /// A base that says nothing for so long is away.
 constexpr base::Duration base_is_away = 500ms;
+constexpr base::Duration readers_come_within = 2s;
 constexpr double low_battery = 0.15;
 
 bool is_finite(slam::Pose2 const& pose) {
@@ -59,7 +60,7 @@ base::Result<> RosBody::open_topics() {
   };
   auto const named = [&](std::string_view topic) { return fmt::format("{}/{}", options_.name_space, topic); };
   using enum bus::Profile;
-  auto commands = bus::Publisher<bus::Twist>::open(*bus_, named("cmd_vel"), standard);
+  auto commands = DriveCommands::open(*bus_, named("cmd_vel"));
   if (!commands) return std::unexpected(commands.error());
   commands_.emplace(*std::move(commands));
   if (auto done = open.operator()<bus::Odometry>(odometry_, named("odom"), sensor_data,
@@ -94,7 +95,8 @@ void RosBody::take(bus::Odometry const& odometry) {
                       .pose = {pose.position.x, pose.position.y, scans::yaw_of(pose.orientation)},
                       .speed_m_s = odometry.twist.twist.linear.x};
   if (!is_finite(moment.pose) || !std::isfinite(moment.speed_m_s)) return;
-  laser_->set_base_frame(odometry.child_frame_id);
+  base_frame_ = odometry.child_frame_id;
+  laser_->set_base_frame(base_frame_);
   track_.add({.stamp = moment.stamp, .pose = moment.pose});
   track_.forget_before(moment.stamp - remembered);
   now_ = moment;
@@ -119,6 +121,7 @@ void RosBody::tell_scan() {
 
 void RosBody::tell_reading() {
   told_at_ = loop_.now();
+  commands_->follow_readers();
   if (listener_.on_reading)
     listener_.on_reading({.at = told_at_,
                           .odometry = now_->pose,
@@ -131,6 +134,7 @@ void RosBody::tell_reading() {
 std::optional<std::uint16_t> RosBody::take_carrier_code() {
   if (!now_ || loop_.now() - told_at_ >= base_is_away) return code::board_away;
   if (std::exchange(carrier_told_, told_at_) == told_at_) return std::nullopt;
+  if (is_driving_unread()) return code::nobody_drives;
   if (battery_ && *battery_ <= low_battery) return code::battery_low;
   return is_killed_ ? code::killed : code::none;
 }
@@ -138,7 +142,17 @@ std::optional<std::uint16_t> RosBody::take_carrier_code() {
 // ---- out
 
 void RosBody::send(Motion motion) {
-  commands_->publish({.linear = {.x = motion.speed_m_s}, .angular = {.z = motion.turn_rad_s}});
+  is_driving_ = motion != Motion{};
+  commands_->send(motion, base_frame_);
+}
+
+/// For longer than it takes to find each other.
+bool RosBody::is_driving_unread() {
+  if (!is_driving_ || commands_->is_read())
+    unread_since_.reset();
+  else if (!unread_since_)
+    unread_since_ = loop_.now();
+  return unread_since_ && loop_.now() - *unread_since_ >= readers_come_within;
 }
 
 void RosBody::drive(Motion motion) {

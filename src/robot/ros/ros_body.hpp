@@ -12,6 +12,7 @@
 #include "bus/messages/navigation.hpp"
 #include "bus/participant/topics.hpp"
 #include "robot/platform/body.hpp"
+#include "robot/ros/drive_commands.hpp"
 #include "robot/ros/ros_laser.hpp"
 #include "slam/log/pose_track.hpp"
 
@@ -26,7 +27,7 @@ struct RosBodyOptions {
 
 /// A body that ROS 2 drives (docs/reference/ros.md): a base with wheels and a laser that publish `odom`
 /// (nav_msgs/Odometry), `scan` (sensor_msgs/LaserScan) and, if it has one, `battery_state`, and listen to `cmd_vel`
-/// (geometry_msgs/Twist), as a TurtleBot does. Where the laser sits is read from /tf_static.
+/// (geometry_msgs/Twist or TwistStamped), as a TurtleBot does. Where the laser sits is read from /tf_static.
 ///
 /// A command is sent for each reading, ten times a second. While it stands nothing is sent, so that somebody else may
 /// drive it; while it is killed, zero is, again and again. A base that stands by itself when no command comes is up to
@@ -58,6 +59,7 @@ class RosBody final : public Body {
   void tell_reading();
   void tell_scan();
   void send(Motion motion);
+  [[nodiscard]] bool is_driving_unread();
   base::Task<> keep_killed();
 
   struct Moment {
@@ -70,7 +72,7 @@ class RosBody final : public Body {
   RosBodyOptions options_;
   base::Logger log_;
   std::unique_ptr<bus::Bus> bus_;
-  std::optional<bus::Publisher<bus::Twist>> commands_;
+  std::optional<DriveCommands> commands_;
   std::optional<bus::Subscription<bus::Odometry>> odometry_;
   std::optional<bus::Subscription<bus::BatteryState>> batteries_;
   std::unique_ptr<RosLaser> laser_;
@@ -84,6 +86,9 @@ class RosBody final : public Body {
   base::TimePoint told_at_{};
   base::TimePoint carrier_told_{};  ///< of which reading the carrier's code was told last
   int stood_ = 0;                   ///< zeros that were sent since it drove
+  std::string base_frame_;
+  bool is_driving_ = false;
+  std::optional<base::TimePoint> unread_since_;  ///< while it drives: nobody listens to its commands
   bool is_killed_ = false;
   base::Scope scope_;
 };

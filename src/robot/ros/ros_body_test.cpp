@@ -87,7 +87,8 @@ struct RosBodyTest : ::testing::Test {
   bus::Publisher<bus::TFMessage> frames =
       bus::Publisher<bus::TFMessage>::open(*ros, "/tf_static", bus::Profile::latched).value();
   std::vector<bus::Twist> driven;
-  bus::Subscription<bus::Twist> commands =
+  /// Its driver.
+  std::optional<bus::Subscription<bus::Twist>> commands =
       bus::Subscription<bus::Twist>::open(*ros, "/r1/cmd_vel", bus::Profile::standard, [this](bus::Twist const& twist) {
         driven.push_back(twist);
       }).value();
@@ -185,6 +186,60 @@ TEST_F(RosBodyTest, StandsWhenItGoes) {
   body.reset();
   ASSERT_TRUE(comes_true([&] { return driven.size() == 2; }));
   EXPECT_EQ(driven.back(), bus::Twist{});
+}
+
+// As most drivers want it since ROS 2 Jazzy.
+TEST_F(RosBodyTest, DrivesABaseThatTakesStampedCommands) {
+  commands.reset();
+  std::vector<bus::TwistStamped> stamped;
+  auto const elsewhere = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
+  auto const driver =
+      bus::Subscription<bus::TwistStamped>::open(*elsewhere, "/r1/cmd_vel", bus::Profile::standard,
+                                                 [&](bus::TwistStamped const& command) { stamped.push_back(command); });
+  ASSERT_TRUE(driver);
+  ASSERT_TRUE(comes_true([&] {
+    be_at(10, 0.0);
+    body->drive({.speed_m_s = 0.2, .turn_rad_s = -0.5});
+    return !stamped.empty();
+  }));
+  EXPECT_EQ(stamped.back().twist.linear.x, 0.2);
+  EXPECT_EQ(stamped.back().twist.angular.z, -0.5);
+  EXPECT_EQ(stamped.back().header.frame_id, "base_link");
+  EXPECT_EQ(stamped.back().header.stamp, bus::Time{}) << "which drivers take for now";
+  body->kill();
+  EXPECT_TRUE(comes_true([&] { return stamped.back().twist == bus::Twist{}; }));
+}
+
+TEST_F(RosBodyTest, KeepsToADriverOfOneTypeWhoeverWatchesByTheOther) {
+  auto const elsewhere = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
+  auto const watching = bus::Subscription<bus::TwistStamped>::open(*elsewhere, "/r1/cmd_vel", bus::Profile::standard,
+                                                                   [](bus::TwistStamped const&) {});
+  ASSERT_TRUE(watching);
+  auto const knows_of_it = bus::Bus::open(loop, {.domain = bus::testing::own_domain()}).value();
+  ASSERT_TRUE(comes_true([&] {
+    return knows_of_it->is_read_as("/r1/cmd_vel", bus::Description<bus::TwistStamped>::name) &&
+           knows_of_it->is_read_as("/r1/cmd_vel", bus::Description<bus::Twist>::name);
+  }));
+  driven.clear();
+  body->drive({.speed_m_s = 0.1});
+  EXPECT_TRUE(comes_true([&] { return !driven.empty(); }));
+}
+
+TEST_F(RosBodyTest, SaysThatNobodyListensToItsCommands) {
+  commands.reset();
+  std::optional<std::uint16_t> said;
+  EXPECT_TRUE(comes_true([&] {
+    be_at(10, 0.0);
+    body->drive({.speed_m_s = 0.2});
+    if (auto const now = body->take_carrier_code()) said = now;
+    return said == code::nobody_drives;
+  }));
+  body->drive({});
+  EXPECT_TRUE(comes_true([&] {
+    be_at(10, 0.0);
+    if (auto const now = body->take_carrier_code()) said = now;
+    return said == code::none;
+  })) << "it is not driven";
 }
 
 }  // namespace

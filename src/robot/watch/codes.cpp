@@ -50,6 +50,8 @@ auto constexpr table = std::to_array<CodeEntry>({
      "Look at the cable, its length and the baud rate."},
     {code::not_let_drive, Module::carrier, degraded, "The autopilot does not let it drive.",
      "The log has its reason: a check before arming, a place that it does not know, somebody else who drives it."},
+    {code::nobody_drives, Module::carrier, degraded, "Nobody listens to its drive commands.",
+     "Start the base's driver, with the robot's namespace. Its topic cmd_vel must take Twist or TwistStamped."},
 
     {code::no_scans, Module::mapping, degraded, "No scan has come for a second; the pose goes on by odometry.",
      "Look at the laser's supply and whether it turns."},

@@ -44,6 +44,7 @@ std::uint16_t constexpr too_near = 207;
 std::uint16_t constexpr battery_low = 208;
 std::uint16_t constexpr line_damaged = 209;
 std::uint16_t constexpr not_let_drive = 210;
+std::uint16_t constexpr nobody_drives = 211;
 std::uint16_t constexpr no_scans = 301;
 std::uint16_t constexpr pose_lost = 302;
 std::uint16_t constexpr mapping_slow = 303;
