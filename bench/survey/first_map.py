@@ -18,8 +18,8 @@ sys.path.insert(0, str(ROOT / "tests/support"))
 
 import drone  # noqa: E402
 import survey  # noqa: E402
-from drone_faults.played_survey import OccupancyGrid  # noqa: E402
 from ros_drone import RosDrone  # noqa: E402
+from ros_robot import OccupancyGrid  # noqa: E402
 
 PATIENCE_S = 60
 

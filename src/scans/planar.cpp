@@ -25,6 +25,10 @@ double yaw_of(bus::Quaternion const& q) {
   return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
 }
 
+bus::Quaternion rotation_to(double yaw_rad) {
+  return {.z = std::sin(yaw_rad / 2.0), .w = std::cos(yaw_rad / 2.0)};
+}
+
 PlanarFrame planar(bus::Transform const& transform) {
   auto const& q = transform.rotation;
   double const z_axis_up = 1.0 - 2.0 * (q.x * q.x + q.y * q.y);

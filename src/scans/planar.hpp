@@ -20,6 +20,8 @@ struct PlanarFrame {
 
 /// The heading of the x axis, counterclockwise from that of the frame around it.
 [[nodiscard]] double yaw_of(bus::Quaternion const& rotation);
+/// The rotation that turns to that heading.
+[[nodiscard]] bus::Quaternion rotation_to(double yaw_rad);
 [[nodiscard]] PlanarFrame planar(bus::Transform const& transform);
 
 /// The frames that do not move against each other, as /tf_static tells them.

@@ -11,7 +11,7 @@ from cyclonedds.idl.types import array, float32, float64, int8, int16, int64, se
 from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
-from ros_robot import Header, Point, Pose, Quaternion, Vector3, message
+from ros_robot import Header, Point, Pose, PoseStamped, Quaternion, Vector3, message
 
 
 def service(package: str, name: str):
@@ -31,12 +31,6 @@ class String(IdlStruct, **message("std_msgs", "String")):
 @dataclass
 class Float64(IdlStruct, **message("std_msgs", "Float64")):
     data: float64
-
-
-@dataclass
-class PoseStamped(IdlStruct, **message("geometry_msgs", "PoseStamped")):
-    header: Header
-    pose: Pose
 
 
 @dataclass

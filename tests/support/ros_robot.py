@@ -19,7 +19,7 @@ os.environ["CYCLONEDDS_URI"] = f"file://{_file.name}"
 from cyclonedds.core import Policy, Qos  # noqa: E402  (reads its configuration when it is imported)
 from cyclonedds.domain import DomainParticipant  # noqa: E402
 from cyclonedds.idl import IdlStruct  # noqa: E402
-from cyclonedds.idl.types import array, float32, float64, int32, sequence, uint8, uint32  # noqa: E402
+from cyclonedds.idl.types import array, float32, float64, int8, int32, sequence, uint8, uint32  # noqa: E402
 from cyclonedds.pub import DataWriter  # noqa: E402
 from cyclonedds.sub import DataReader  # noqa: E402
 from cyclonedds.topic import Topic  # noqa: E402
@@ -84,6 +84,12 @@ class Twist(IdlStruct, **message("geometry_msgs", "Twist")):
 
 
 @dataclass
+class TwistStamped(IdlStruct, **message("geometry_msgs", "TwistStamped")):
+    header: Header
+    twist: Twist
+
+
+@dataclass
 class TwistWithCovariance(IdlStruct, **message("geometry_msgs", "TwistWithCovariance")):
     twist: Twist
     covariance: array[float64, 36]
@@ -113,6 +119,40 @@ class Odometry(IdlStruct, **message("nav_msgs", "Odometry")):
     child_frame_id: str
     pose: PoseWithCovariance
     twist: TwistWithCovariance
+
+
+@dataclass
+class PoseStamped(IdlStruct, **message("geometry_msgs", "PoseStamped")):
+    header: Header
+    pose: Pose
+
+
+@dataclass
+class Path(IdlStruct, **message("nav_msgs", "Path")):
+    header: Header
+    poses: sequence[PoseStamped]
+
+
+@dataclass
+class PoseWithCovarianceStamped(IdlStruct, **message("geometry_msgs", "PoseWithCovarianceStamped")):
+    header: Header
+    pose: PoseWithCovariance
+
+
+@dataclass
+class MapMetaData(IdlStruct, **message("nav_msgs", "MapMetaData")):
+    map_load_time: Time
+    resolution: float32
+    width: uint32
+    height: uint32
+    origin: Pose
+
+
+@dataclass
+class OccupancyGrid(IdlStruct, **message("nav_msgs", "OccupancyGrid")):
+    header: Header
+    info: MapMetaData
+    data: sequence[int8]
 
 
 @dataclass
@@ -151,9 +191,10 @@ def _turned(yaw: float) -> Quaternion:
 
 class RosRobot:
     """Drives until it is closed, in a thread of its own. `walls`: pieces ((x, y), (x, y)) in metres; it begins at the origin and looks
-    along x. `picture`: what its camera sees wherever it is, a JPEG file; empty: it has no camera."""
+    along x. `picture`: what its camera sees wherever it is, a JPEG file; empty: it has no camera. `of_today`: its driver takes stamped commands, its
+    frames are told in its own namespace, and its laser counts angles from 0 and gives other numbers of beams from turn to turn."""
 
-    def __init__(self, domain: int, namespace: str, walls, picture: bytes = b""):
+    def __init__(self, domain: int, namespace: str, walls, picture: bytes = b"", of_today: bool = False):
         self.walls = walls
         self.x = self.y = self.yaw = 0.0
         self.driven_m = 0.0
@@ -162,10 +203,11 @@ class RosRobot:
         participant = DomainParticipant(domain)
         self._odometry = DataWriter(participant, Topic(participant, f"rt{namespace}/odom", Odometry), qos=_STANDARD)
         self._scans = DataWriter(participant, Topic(participant, f"rt{namespace}/scan", LaserScan), qos=_SENSOR)
-        self._frames = DataWriter(participant, Topic(participant, "rt/tf_static", TFMessage), qos=_LATCHED)
+        self._frames = DataWriter(participant, Topic(participant, f"rt{namespace if of_today else ''}/tf_static", TFMessage), qos=_LATCHED)
         self._picture = list(picture)
         self._pictures = picture and DataWriter(participant, Topic(participant, f"rt{namespace}/image_raw/compressed", CompressedImage), qos=_SENSOR)
-        self._commands = DataReader(participant, Topic(participant, f"rt{namespace}/cmd_vel", Twist), qos=_STANDARD)
+        self._commands = DataReader(participant, Topic(participant, f"rt{namespace}/cmd_vel", TwistStamped if of_today else Twist), qos=_STANDARD)
+        self._is_of_today = of_today
         self._speed = self._turn = 0.0
         self._commanded = 0.0
         self._ends = threading.Event()
@@ -190,7 +232,8 @@ class RosRobot:
     def _live(self):
         step = 0
         while not self._ends.wait(_STEP_S):
-            for twist in self._commands.take(10):
+            for command in self._commands.take(10):
+                twist = command.twist if isinstance(command, TwistStamped) else command
                 if isinstance(twist, Twist):
                     self._speed, self._turn = twist.linear.x, twist.angular.z
                     self._commanded = time.monotonic()
@@ -201,7 +244,7 @@ class RosRobot:
             self._tell_odometry()
             step += 1
             if step % 2 == 0:
-                self._tell_scan()
+                self._tell_scan(_BEAMS + (step % 7 - 3 if self._is_of_today else 0))
             if self._pictures and step % 4 == 0:
                 self._pictures.write(CompressedImage(Header(self._stamp(), "camera"), "jpeg", self._picture))
 
@@ -219,12 +262,45 @@ class RosRobot:
         twist = Twist(Vector3(self._speed, 0.0, 0.0), Vector3(0.0, 0.0, self._turn))
         self._odometry.write(Odometry(Header(self._stamp(), "odom"), "base_link", PoseWithCovariance(pose, none), TwistWithCovariance(twist, none)))
 
-    def _tell_scan(self):
+    def _tell_scan(self, beams: int):
         at = (self.x + _LASER_AHEAD_M * math.cos(self.yaw), self.y + _LASER_AHEAD_M * math.sin(self.yaw))
-        step = 2 * math.pi / _BEAMS
+        step = 2 * math.pi / beams
+        first = 0.0 if self._is_of_today else -math.pi
         # It hangs upside down: what it takes for its left is the robot's right.
-        ranges = [_range(at, self.yaw - (-math.pi + i * step), self.walls) for i in range(_BEAMS)]
-        self._scans.write(LaserScan(Header(self._stamp(), "laser"), -math.pi, math.pi - step, step, 0.0, 0.1, 0.05, 8.0, ranges, []))
+        ranges = [_range(at, self.yaw - (first + i * step), self.walls) for i in range(beams)]
+        self._scans.write(LaserScan(Header(self._stamp(), "laser"), first, first + 2 * math.pi - step, step, 0.0, 0.1, 0.05, 8.0, ranges, []))
+
+
+class Onlooker:
+    """Who looks on with RViz: reads what is told of a robot, and keeps it until it is asked for."""
+
+    def __init__(self, domain: int, namespace: str, tf_topic: str):
+        participant = DomainParticipant(domain)
+
+        def reader(topic: str, kind, qos):
+            return DataReader(participant, Topic(participant, f"rt{topic}", kind), qos=qos)
+
+        self._maps = reader(f"{namespace}/map", OccupancyGrid, _LATCHED)
+        many = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepAll)
+        self._poses = reader(f"{namespace}/pose", PoseWithCovarianceStamped, many)
+        self._ways = reader(f"{namespace}/plan", Path, many)
+        self._frames = reader(tf_topic, TFMessage, many)
+
+    @staticmethod
+    def _taken(reader, kind):
+        return [one for one in reader.take(100_000) if isinstance(one, kind)]
+
+    def maps(self) -> list[OccupancyGrid]:
+        return self._taken(self._maps, OccupancyGrid)
+
+    def poses(self) -> list[PoseWithCovarianceStamped]:
+        return self._taken(self._poses, PoseWithCovarianceStamped)
+
+    def ways(self) -> list[Path]:
+        return self._taken(self._ways, Path)
+
+    def frames(self) -> list[TransformStamped]:
+        return [frame for told in self._taken(self._frames, TFMessage) for frame in told.transforms]
 
 
 def _distance(point, wall) -> float:

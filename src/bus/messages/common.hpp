@@ -128,6 +128,18 @@ struct Description<PoseWithCovariance> {
       std::tuple{Field{"pose", &PoseWithCovariance::pose}, Field{"covariance", &PoseWithCovariance::covariance}};
 };
 
+struct PoseWithCovarianceStamped {
+  Header header = {};
+  PoseWithCovariance pose = {};
+  friend bool operator==(PoseWithCovarianceStamped const&, PoseWithCovarianceStamped const&) = default;
+};
+template <>
+struct Description<PoseWithCovarianceStamped> {
+  static constexpr std::string_view name = "geometry_msgs/msg/PoseWithCovarianceStamped";
+  static constexpr auto fields =
+      std::tuple{Field{"header", &PoseWithCovarianceStamped::header}, Field{"pose", &PoseWithCovarianceStamped::pose}};
+};
+
 struct PoseStamped {
   Header header = {};
   Pose pose = {};

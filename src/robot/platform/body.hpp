@@ -4,9 +4,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "base/time.hpp"
 #include "explore/strategy/strategy.hpp"
+#include "map/grid/occupancy_grid.hpp"
 #include "robot/planner/way.hpp"
 #include "slam/log/scan_log.hpp"
 
@@ -23,6 +27,13 @@ struct Reading {
   bool is_too_near = false;        ///< something is nearer than its safe distance: it backs away from that
   bool is_waiting = false;         ///< its watchdog stands it still: no command has come lately
   std::uint16_t sensors_code = 0;  ///< what is wrong with the sensors, of watch/codes.hpp
+};
+
+/// Where a robot is on its map.
+struct PoseOnMap {
+  slam::Pose2 pose = {};
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of x, y and yaw along the map's axes, in m^2 and rad^2
+  slam::Pose2 odometry = {};                             ///< where its body says that it is
 };
 
 /// A robot's hardware as the platform sees it, whatever link leads to it: readings and scans in, motions out.
@@ -56,6 +67,15 @@ class Body {
   /// Stands at once, whatever it is told, until `release`.
   virtual void kill() = 0;
   virtual void release() = 0;
+
+  // ---- what the robot has made of it all, for those who look on at the body's own end; most have nobody there
+
+  /// With each reading, once it has a place.
+  virtual void show_pose(PoseOnMap const& /*here*/) {}
+  /// When it has changed, twice a second at most.
+  virtual void show_map(map::OccupancyGrid const& /*grid*/) {}
+  /// Empty: it follows none.
+  virtual void show_way(std::vector<Place> const& /*points*/) {}
 };
 
 }  // namespace lapwing::robot

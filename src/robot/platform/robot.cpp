@@ -254,6 +254,7 @@ void Robot::use(PlanResult result) {
   if (result.errand == last_errand_) {
     plan_ = std::move(result.plan);
     follower_.take(plan_.way);
+    body_->show_way(plan_.way.points);
     planned_.notify_all();
   }
   tell_of_moves(result.map.shifts);
@@ -285,8 +286,9 @@ void Robot::write_map(MapResult& result) {
     unwritten_.insert(result.changed.begin(), result.changed.end());
   }
   bool const is_due = !unwritten_.empty() && around_.loop.now() - written_at_ >= write_period;
-  if (!is_due || !around_.on_map) return;
-  around_.on_map(*grid_, {unwritten_.begin(), unwritten_.end()});
+  if (!is_due) return;
+  body_->show_map(*grid_);
+  if (around_.on_map) around_.on_map(*grid_, {unwritten_.begin(), unwritten_.end()});
   unwritten_.clear();
   written_at_ = around_.loop.now();
 }
@@ -309,6 +311,7 @@ void Robot::give(Errand errand) {
   next_errand_ = NewErrand{.number = ++last_errand_, .errand = std::move(errand)};
   plan_ = {.state = Plan::State::under_way};
   follower_.stop();
+  body_->show_way({});
 }
 
 // ---- what it does

@@ -22,6 +22,7 @@ void Robot::show_reading(Reading const& reading, bool is_first) {
   RobotMoment moment{.reading = reading, .asked = asked_, .stands = stands(), .driven_m = driven_m_};
   if (here_) {
     auto const pose = pose_now(reading.odometry);
+    body_->show_pose({.pose = pose, .covariance = here_->covariance, .odometry = reading.odometry});
     auto const at = on_site({pose.x, pose.y});
     moment.pose = vehicle::SitePose{.site = spec_.site,
                                     .floor = spec_.floor,

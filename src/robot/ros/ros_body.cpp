@@ -1,5 +1,6 @@
 #include "robot/ros/ros_body.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -25,6 +26,9 @@ constexpr auto remembered = 3s;  ///< of where it was: more than a scan takes
 constexpr base::Duration base_is_away = 500ms;
 constexpr base::Duration readers_come_within = 2s;
 constexpr double low_battery = 0.15;
+/// A battery is told from 0 to 1, a full one now and then as a little more. Some drivers (a Kobuki's, a TurtleBot 3's)
+/// tell percent.
+constexpr double surely_percent = 1.5;
 
 bool is_finite(slam::Pose2 const& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
@@ -72,7 +76,7 @@ base::Result<> RosBody::open_topics() {
       !done)
     return done;
   auto laser = RosLaser::open(
-      loop_, *bus_, named("scan"),
+      loop_, *bus_, options_.name_space,
       [this](RosLaser::Seen seen) {
         waiting_ = std::move(seen);
         tell_scan();
@@ -80,6 +84,9 @@ base::Result<> RosBody::open_topics() {
       log_);
   if (!laser) return std::unexpected(laser.error());
   laser_ = *std::move(laser);
+  auto shown = RosShown::open(loop_, *bus_, options_.name_space);
+  if (!shown) return std::unexpected(shown.error());
+  shown_ = *std::move(shown);
   return {};
 }
 
@@ -96,6 +103,7 @@ void RosBody::take(bus::Odometry const& odometry) {
                       .speed_m_s = odometry.twist.twist.linear.x};
   if (!is_finite(moment.pose) || !std::isfinite(moment.speed_m_s)) return;
   base_frame_ = odometry.child_frame_id;
+  shown_->set_odometry(moment.stamp, odometry.header.frame_id);
   laser_->set_base_frame(base_frame_);
   track_.add({.stamp = moment.stamp, .pose = moment.pose});
   track_.forget_before(moment.stamp - remembered);
@@ -105,7 +113,10 @@ void RosBody::take(bus::Odometry const& odometry) {
 }
 
 void RosBody::take(bus::BatteryState const& battery) {
-  if (battery.percentage >= 0.0F && battery.percentage <= 1.0F) battery_ = battery.percentage;
+  double const told = battery.percentage;
+  if (!(told >= 0.0)) return;  // also what is no number
+  is_told_in_percent_ = is_told_in_percent_ || told > surely_percent;
+  battery_ = std::min(is_told_in_percent_ ? told / 100.0 : told, 1.0);
 }
 
 // ---- on to the robot
@@ -169,6 +180,10 @@ void RosBody::drive(Motion motion) {
 void RosBody::kill() {
   is_killed_ = true;
   send({});
+}
+
+void RosBody::show_pose(PoseOnMap const& here) {
+  shown_->show_pose(here, laser_->has_own_frames() ? options_.name_space + "/tf" : "/tf");
 }
 
 base::Task<> RosBody::keep_killed() {

@@ -14,6 +14,7 @@
 #include "robot/platform/body.hpp"
 #include "robot/ros/drive_commands.hpp"
 #include "robot/ros/ros_laser.hpp"
+#include "robot/ros/ros_shown.hpp"
 #include "slam/log/pose_track.hpp"
 
 namespace lapwing::robot::ros {
@@ -50,6 +51,9 @@ class RosBody final : public Body {
   void drive(Motion motion) override;
   void kill() override;
   void release() override { is_killed_ = false; }
+  void show_pose(PoseOnMap const& here) override;
+  void show_map(map::OccupancyGrid const& grid) override { shown_->show_map(grid); }
+  void show_way(std::vector<Place> const& points) override { shown_->show_way(points); }
 
  private:
   RosBody(base::Loop& loop, RosBodyOptions const& options, std::unique_ptr<bus::Bus> bus, base::Logger log);
@@ -76,11 +80,13 @@ class RosBody final : public Body {
   std::optional<bus::Subscription<bus::Odometry>> odometry_;
   std::optional<bus::Subscription<bus::BatteryState>> batteries_;
   std::unique_ptr<RosLaser> laser_;
+  std::unique_ptr<RosShown> shown_;
   Listener listener_;
 
   slam::PoseTrack track_;  ///< of the last seconds
   std::optional<Moment> now_;
   std::optional<double> battery_;
+  bool is_told_in_percent_ = false;
   std::optional<RosLaser::Seen> waiting_;  ///< a scan that odometry has not caught up with
   explore::SideDistances sides_{.left_m = 5.0, .front_m = 7.5, .right_m = 5.0};
   base::TimePoint told_at_{};

@@ -242,5 +242,20 @@ TEST_F(RosBodyTest, SaysThatNobodyListensToItsCommands) {
   })) << "it is not driven";
 }
 
+TEST_F(RosBodyTest, KnowsItsBatteryFromZeroToOneAndInPercent) {
+  auto battery = bus::Publisher<bus::BatteryState>::open(*ros, "/r1/battery_state", bus::Profile::sensor_data).value();
+  auto const shows = [&](float told, double wanted) {
+    return comes_true([&] {
+      battery.publish({.percentage = told});
+      be_at(10, 0.0);
+      return !readings.empty() && std::abs(readings.back().battery.value_or(-1.0) - wanted) < 1e-6;
+    });
+  };
+  EXPECT_TRUE(shows(0.25F, 0.25));
+  EXPECT_TRUE(shows(1.02F, 1.0)) << "a full one";
+  EXPECT_TRUE(shows(40.0F, 0.4)) << "as a Kobuki's driver tells it";
+  EXPECT_TRUE(shows(1.0F, 0.01)) << "which is nearly empty, then";
+}
+
 }  // namespace
 }  // namespace lapwing::robot::ros

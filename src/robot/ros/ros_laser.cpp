@@ -17,15 +17,22 @@ constexpr base::Duration frames_come_within = 3s;
 
 }  // namespace
 
-base::Result<std::unique_ptr<RosLaser>> RosLaser::open(base::Loop& loop, bus::Bus& bus, std::string const& topic,
+base::Result<std::unique_ptr<RosLaser>> RosLaser::open(base::Loop& loop, bus::Bus& bus, std::string const& name_space,
                                                        OnScan on_scan, base::Logger log) {
   auto laser = std::unique_ptr<RosLaser>(new RosLaser(loop, std::move(on_scan), std::move(log)));
   // Frames are told before what is measured in them.
-  auto frames = bus::Subscription<bus::TFMessage>::open(
-      bus, "/tf_static", bus::Profile::latched, [self = laser.get()](auto const& told) { self->frames_.take(told); });
-  if (!frames) return std::unexpected(frames.error());
-  laser->frames_heard_.emplace(*std::move(frames));
-  auto scans = bus::Subscription<bus::LaserScan>::open(bus, topic, bus::Profile::sensor_data,
+  std::vector<std::string> own{""};
+  if (!name_space.empty()) own.push_back(name_space);
+  for (auto const& in : own) {
+    auto frames = bus::Subscription<bus::TFMessage>::open(bus, in + "/tf_static", bus::Profile::latched,
+                                                          [self = laser.get(), is_own = !in.empty()](auto const& told) {
+                                                            self->frames_.take(told);
+                                                            self->has_own_frames_ = self->has_own_frames_ || is_own;
+                                                          });
+    if (!frames) return std::unexpected(frames.error());
+    laser->frames_heard_.push_back(*std::move(frames));
+  }
+  auto scans = bus::Subscription<bus::LaserScan>::open(bus, name_space + "/scan", bus::Profile::sensor_data,
                                                        [self = laser.get()](auto const& scan) { self->take(scan); });
   if (!scans) return std::unexpected(scans.error());
   laser->laser_.emplace(*std::move(scans));

@@ -16,7 +16,7 @@
 namespace lapwing::robot::ros {
 
 /// The laser of a robot as its driver publishes it on ROS 2: sensor_msgs/LaserScan, and where the laser sits on the
-/// robot from /tf_static.
+/// robot from /tf_static, or the topic of that name in the robot's own namespace.
 class RosLaser {
  public:
   struct Seen {
@@ -25,9 +25,9 @@ class RosLaser {
   };
   using OnScan = std::function<void(Seen)>;
 
-  /// `topic`: "/robot1/scan". The bus outlives it. Errors: those of the topics.
+  /// `name_space`: "/robot1" of "/robot1/scan"; empty: none. The bus outlives it. Errors: those of the topics.
   [[nodiscard]] static base::Result<std::unique_ptr<RosLaser>> open(base::Loop& loop, bus::Bus& bus,
-                                                                    std::string const& topic, OnScan on_scan,
+                                                                    std::string const& name_space, OnScan on_scan,
                                                                     base::Logger log);
   RosLaser(RosLaser const&) = delete;
   RosLaser& operator=(RosLaser const&) = delete;
@@ -36,6 +36,9 @@ class RosLaser {
   void set_base_frame(std::string const& frame) { base_frame_ = frame; }
   /// Null until the first scan whose place is known, or is taken for granted.
   [[nodiscard]] slam::Sensor const* sensor() const { return scans_ ? &scans_->sensor() : nullptr; }
+
+  /// Its frames are told in its own namespace, and not on /tf_static.
+  [[nodiscard]] bool has_own_frames() const { return has_own_frames_; }
 
  private:
   RosLaser(base::Loop& loop, OnScan on_scan, base::Logger log)
@@ -50,7 +53,8 @@ class RosLaser {
   scans::StaticFrames frames_;
   std::optional<scans::ScanReader> scans_;
   std::optional<base::TimePoint> since_;
-  std::optional<bus::Subscription<bus::TFMessage>> frames_heard_;
+  bool has_own_frames_ = false;
+  std::vector<bus::Subscription<bus::TFMessage>> frames_heard_;
   std::optional<bus::Subscription<bus::LaserScan>> laser_;
 };
 

@@ -71,7 +71,7 @@ base::Result<> RoverBody::use(LaserOnRos const& laser) {
   if (!bus) return std::unexpected(bus.error());
   bus_ = *std::move(bus);
   auto opened = ros::RosLaser::open(
-      loop_, *bus_, laser.name_space + "/scan",
+      loop_, *bus_, laser.name_space,
       [this](ros::RosLaser::Seen seen) {
         // A scan comes when its last beam has been taken.
         auto const end = laser_clock_.here(seen.times.end(), loop_.now());

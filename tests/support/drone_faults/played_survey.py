@@ -1,30 +1,10 @@
 """Vision and planner of a survey drone, played by a program on a foreign middleware. Not a test itself."""
 
 import threading
-from dataclasses import dataclass
 
 import ros_robot
-from cyclonedds.idl import IdlStruct
-from cyclonedds.idl.types import float32, int8, sequence, uint32
 from ros_drone import Bool, DiagnosticStatus, PoseStamped, RosDrone
-from ros_robot import Header, Point, Pose, Quaternion, Time, message
-
-
-@dataclass
-class MapMetaData(IdlStruct, **message("nav_msgs", "MapMetaData")):
-    map_load_time: Time
-    resolution: float32
-    width: uint32
-    height: uint32
-    origin: Pose
-
-
-@dataclass
-class OccupancyGrid(IdlStruct, **message("nav_msgs", "OccupancyGrid")):
-    header: Header
-    info: MapMetaData
-    data: sequence[int8]
-
+from ros_robot import Header, OccupancyGrid, Pose, Quaternion
 
 NO_TURN = Quaternion(0.0, 0.0, 0.0, 1.0)
 

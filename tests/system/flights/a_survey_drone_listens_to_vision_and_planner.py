@@ -5,9 +5,9 @@ import math
 import time
 
 from drone import Drone, Operator, take_off
-from drone_faults.played_survey import NO_TURN, MapMetaData, OccupancyGrid, Survey, header
+from drone_faults.played_survey import NO_TURN, Survey, header
 from ros_drone import RosDrone
-from ros_robot import Point, Pose, Time
+from ros_robot import MapMetaData, OccupancyGrid, Point, Pose, Time
 
 
 def far_m(heartbeat: dict, x: float, y: float) -> float:

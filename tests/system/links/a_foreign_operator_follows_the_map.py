@@ -6,9 +6,9 @@ import time
 
 import harness
 from drone import READY_S, Drone, Operator
-from drone_faults.played_survey import NO_TURN, MapMetaData, OccupancyGrid, header
+from drone_faults.played_survey import NO_TURN, header
 from ros_drone import RosDrone
-from ros_robot import Point, Pose, Time
+from ros_robot import MapMetaData, OccupancyGrid, Point, Pose, Time
 from schema import Schema
 
 schema = Schema("operator-map.schema.json")
