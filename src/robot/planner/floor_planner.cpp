@@ -27,6 +27,7 @@ constexpr std::size_t most_obstacles = 200;
 constexpr double beyond_safe_m = 0.05;
 /// A large robot is wary of walls farther off than it keeps.
 constexpr double wary_beyond_m = 0.15;
+constexpr double set_out_m = 1.0;
 /// So long it does not get on before it does something about it, and from one such try to the next.
 constexpr double help_after_s = 4.0;
 constexpr double measure_every_s = 0.5;
@@ -113,7 +114,26 @@ base::Result<> FloorPlanner::begin(Errand errand) {
 }
 
 /// Where it has driven it can drive again, and where it is it can be.
+/// Who set it down left it room: what nobody has seen around it and on to its laser is free until it has set out. A
+/// laser at the front that looks ahead never sees where the robot stands.
+void FloorPlanner::learn_start(explore::Pose const& pose) {
+  explore::Shift const ahead(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad));
+  double const room_m = known_->keep_off_m() + 2.0 * options_.cell_m;  // cells are taken whole, at both ends
+  double const reach_m = room_m + options_.laser_ahead_m;
+  auto const low = known_->cell_at(pose.position - explore::Shift(reach_m, reach_m));
+  auto const high = known_->cell_at(pose.position + explore::Shift(reach_m, reach_m));
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      auto const place = known_->middle({x, y});
+      double const along_m = std::clamp((place - pose.position).v.dot(ahead.v), 0.0, options_.laser_ahead_m);
+      bool const is_room = geo::distance_m(place, pose.position + along_m * ahead) <= room_m;
+      if (is_room && known_->at({x, y}) == Knowledge::unknown) learn(Cell{x, y}, Knowledge::free);
+    }
+  }
+}
+
 void FloorPlanner::learn_way(Situation const& situation, explore::Pose const& pose) {
+  if (situation.driven_m < set_out_m) learn_start(pose);
   std::vector<explore::Place> places;
   places.reserve(situation.driven.size() + 1);
   for (auto const& at : situation.driven) places.push_back(on_floor({at.x, at.y}));

@@ -49,6 +49,7 @@ struct PlannerOptions {
   double wary_m = 0.5;   ///< ways keep so far from walls where there is room
   /// It sees little at a time: where it sets out, and where it has come to, it turns round and looks.
   bool looks_round = false;
+  double laser_ahead_m = 0.0;  ///< of the robot's middle; 0 where it sits behind
   double give_up_s =
       180.0;  ///< without getting on, an errand is over: an exploration with what it has, others have failed
 };
@@ -121,6 +122,7 @@ class FloorPlanner {
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
   void learn(map::OccupancyGrid const& grid, map::TileKey key);
   void learn(explore::Cell cell, explore::Knowledge knowledge);
+  void learn_start(explore::Pose const& pose);
   void learn_way(Situation const& situation, explore::Pose const& pose);
   void note_progress(Situation const& situation, explore::Pose const& pose, Plan const& plan);
   [[nodiscard]] std::optional<double> left_m(explore::Pose const& pose) const;

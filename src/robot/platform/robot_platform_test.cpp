@@ -63,15 +63,21 @@ TEST_F(RobotPlatformTest, MapsTheWholeFloorAndComesBack) {
 }
 
 TEST_F(RobotPlatformTest, ExploresWithAScannerThatLooksNoWayBack) {
-  // Most scanners see three quarters of a circle, some a half.
-  for (double const view_rad : {1.5 * std::numbers::pi, std::numbers::pi}) {
-    auto const id = fmt::format("robot{:.0f}", 100.0 * view_rad);
-    auto* const other = add(id, {.beams = 270, .view_rad = view_rad});
+  // Most scanners see three quarters of a circle, some a half, from the middle or the front of the robot.
+  struct Looks {
+    double view_rad;
+    double laser_x_m;
+  };
+  for (auto const [view_rad, laser_x_m] :
+       {Looks{1.5 * std::numbers::pi, 0.0}, {std::numbers::pi, 0.0}, {std::numbers::pi, 0.15}}) {
+    auto const id = fmt::format("robot{:.0f}", 100.0 * view_rad + 1000.0 * laser_x_m);
+    auto* const other = add(id, {.beams = 270, .view_rad = view_rad, .laser_x_m = laser_x_m});
     ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));
     auto const run = start({ExploreStep{"tour"}, ReturnStep{}}, id);
     ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();
     EXPECT_EQ(run->state(), RunState::done) << run->error();
     EXPECT_GE(other->survey()->coverage, 0.95) << view_rad << ": " << other->drives().back()->remark;
+    EXPECT_GE(other->survey()->free_m2, 0.9 * testing::small_office_m2) << view_rad << ", " << laser_x_m;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@ struct Thoughts {
  private:
   [[nodiscard]] static PlannerOptions for_sensor(PlannerOptions planning, slam::Sensor const& sensor) {
     planning.looks_round = planning.looks_round || slam::is_sparse(sensor);
+    planning.laser_ahead_m = std::max(0.0, double{sensor.mount_m.x()});
     return planning;
   }
 };

@@ -67,6 +67,7 @@ Walls small_office() {
 SimpleBody::SimpleBody(base::Loop& loop, Walls walls, SimpleBodyOptions const& options)
     : loop_(loop), walls_(std::move(walls)), options_(options), random_(options.seed), pose_(options.start) {
   laser_.no_return_m = static_cast<float>(options.laser_m);
+  laser_.mount_m.x() = static_cast<float>(options.laser_x_m);
   for (int b = 0; b < options.beams; ++b)
     laser_.bearings_rad.push_back(static_cast<float>(options.view_rad * (1.0 * b / options.beams - 0.5)));
   life_ = live();
@@ -132,7 +133,7 @@ void SimpleBody::look() {
   scan.time = slam::LogTime(base::to_seconds(loop_.now().time_since_epoch()));
   scan.odometry = odometry_;
   for (auto const bearing : laser_.bearings_rad) {
-    double range = range_m(slam::place(pose_), pose_.yaw + double{bearing});
+    double range = range_m(slam::place(pose_ * slam::Pose2{options_.laser_x_m, 0.0, 0.0}), pose_.yaw + double{bearing});
     if (range < options_.laser_m) range = std::max(0.02, range + noise(options_.range_noise_m));
     scan.ranges_m.push_back(static_cast<float>(range));
   }

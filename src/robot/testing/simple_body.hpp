@@ -31,6 +31,7 @@ struct SimpleBodyOptions {
   int beams = 360;
   double view_rad = 2.0 * std::numbers::pi;  ///< of the laser; half to each side of ahead
   double laser_m = 10.0;
+  double laser_x_m = 0.0;  ///< ahead of its middle
   double range_noise_m = 0.01;
   double shift_noise = 0.03;  ///< of odometry: standard deviation of a step, per metre
   double turn_noise = 0.02;   ///< per radian
