@@ -28,6 +28,7 @@ constexpr double beyond_safe_m = 0.05;
 /// A large robot is wary of walls farther off than it keeps.
 constexpr double wary_beyond_m = 0.15;
 constexpr double set_out_m = 1.0;
+constexpr double find_sharers_every_s = 1.0;
 /// So long it does not get on before it does something about it, and from one such try to the next.
 constexpr double help_after_s = 4.0;
 constexpr double measure_every_s = 0.5;
@@ -52,6 +53,7 @@ void FloorPlanner::begin_anew() {
   search_ = std::make_unique<explore::GridSearch>(*known_);
   frontiers_ = std::make_unique<explore::Frontiers>(*known_);
   all_frontiers_ = std::make_unique<explore::Frontiers>(*known_);
+  theirs_.reset();
   free_cells_ = 0;
   track_ = {};
   // All of these remember cells, which are others now.
@@ -80,19 +82,65 @@ void FloorPlanner::learn(map::OccupancyGrid const& grid, map::TileKey key) {
     for (int x = 0; x < map::tile_cells; ++x, ++index) {
       auto const evidence =
           tile == grid.tiles().end() ? map::Evidence() : tile->second->cells[static_cast<std::size_t>(index)];
-      learn(lowest + Cell{x, y}, explore::knowledge_of(evidence));
+      auto const cell = lowest + Cell{x, y};
+      bool const is_theirs = theirs_ && !evidence.is_seen();
+      learn(cell, is_theirs ? (*theirs_)[cell] : explore::knowledge_of(evidence));
     }
   }
 }
 
+void FloorPlanner::learn_all(map::OccupancyGrid const& grid) {
+  for (auto const& [key, tile] : grid.tiles()) learn(grid, key);
+}
+
 void FloorPlanner::learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed) {
-  if (area_.grow(changed)) {
+  bool const has_grown = area_.grow(changed);
+  bool const forgets = std::exchange(learns_anew_, false);
+  if (has_grown || forgets) {
     begin_anew();
-    for (auto const& [key, tile] : grid.tiles()) learn(grid, key);
+    learn_all(grid);
+    learn_theirs(grid, companions_.tiles());
   } else {
     for (auto const key : changed) learn(grid, key);
   }
   roads_->update(*known_, known_->take_changes());
+}
+
+void FloorPlanner::meet(std::vector<Companion> companions, map::OccupancyGrid const& grid) {
+  auto const known = companions_.all().size();
+  if (companions.empty() && known == 0) return;
+  companions_.take(std::move(companions));
+  // A strategy counts the robots: with one more, others are who they were not.
+  if (auto const* const exploring = std::get_if<ExploreErrand>(&errand_);
+      exploring && companions_.all().size() != known)
+    strategy_ = explore::make_strategy(exploring->strategy).value();
+  auto changed = companions_.take_changes();
+  if (area_.grow(changed)) {
+    begin_anew();
+    learn_all(grid);
+    changed = companions_.tiles();
+  }
+  learn_theirs(grid, changed);
+  roads_->update(*known_, known_->take_changes());
+}
+
+void FloorPlanner::learn_theirs(map::OccupancyGrid const& own, std::vector<map::TileKey> const& tiles) {
+  if (tiles.empty()) return;
+  if (!theirs_) theirs_.emplace(area_.width(), area_.height(), Knowledge::unknown);
+  for (auto const key : tiles) {
+    if (!area_.contains(key)) continue;
+    auto const lowest = area_.lowest_cell_of(key);
+    auto const tile = own.tiles().find(key);
+    std::size_t index = 0;
+    for (int y = 0; y < map::tile_cells; ++y) {
+      for (int x = 0; x < map::tile_cells; ++x, ++index) {
+        if (tile != own.tiles().end() && tile->second->cells[index].is_seen()) continue;
+        auto const cell = lowest + Cell{x, y};
+        (*theirs_)[cell] = companions_.at(on_map(known_->middle(cell)));
+        learn(cell, (*theirs_)[cell]);
+      }
+    }
+  }
 }
 
 base::Result<> FloorPlanner::begin(Errand errand) {
@@ -101,6 +149,8 @@ base::Result<> FloorPlanner::begin(Errand errand) {
     if (!made) return std::unexpected(made.error());
     strategy_ = *std::move(made);
     frontiers_ = std::make_unique<explore::Frontiers>(*known_);
+    learns_anew_ = !companions_.all().empty();
+    companions_.clear();
   }
   errand_ = std::move(errand);
   order_ = {};
@@ -113,7 +163,6 @@ base::Result<> FloorPlanner::begin(Errand errand) {
   return {};
 }
 
-/// Where it has driven it can drive again, and where it is it can be.
 /// Who set it down left it room: what nobody has seen around it and on to its laser is free until it has set out. A
 /// laser at the front that looks ahead never sees where the robot stands.
 void FloorPlanner::learn_start(explore::Pose const& pose) {
@@ -132,6 +181,7 @@ void FloorPlanner::learn_start(explore::Pose const& pose) {
   }
 }
 
+/// Where it has driven it can drive again, and where it is it can be.
 void FloorPlanner::learn_way(Situation const& situation, explore::Pose const& pose) {
   if (situation.driven_m < set_out_m) learn_start(pose);
   std::vector<explore::Place> places;
@@ -284,7 +334,57 @@ bool FloorPlanner::stands_at_first(double time_s) {
   return time_s - *stands_since_s_ < until_still_s;
 }
 
+explore::Pose FloorPlanner::pose_of(Companion const& companion) const {
+  auto const at = companion.origin * companion.pose;
+  return {on_floor({at.x, at.y}), at.yaw};
+}
+
+/// Who explores behind a door that is shut to this one has frontiers of its own.
+void FloorPlanner::find_sharers(explore::Pose const& pose, double time_s) {
+  auto const& companions = companions_.all();
+  if (shares_.size() == companions.size() && time_s < sharers_found_s_ + find_sharers_every_s) return;
+  sharers_found_s_ = time_s;
+  shares_.assign(companions.size(), false);
+  auto const here = roads_->node_near(known_->cell_at(pose.position));
+  if (companions.empty() || !here) return;
+  auto const tree = roads_->from(*here);
+  for (std::size_t i = 0; i < companions.size(); ++i) {
+    auto const there = roads_->node_near(known_->cell_at(pose_of(companions[i]).position));
+    shares_[i] = companions[i].explores && there && tree.reaches(*there);
+  }
+}
+
+std::pair<std::vector<explore::RobotView>, std::size_t> FloorPlanner::views(explore::RobotView own) const {
+  std::vector<explore::RobotView> all;
+  std::size_t mine = 0;
+  for (std::size_t i = 0; i < companions_.all().size(); ++i) {
+    auto const& companion = companions_.all()[i];
+    explore::RobotView view;
+    view.pose = pose_of(companion);
+    view.start = {on_floor({companion.origin.x, companion.origin.y}), companion.origin.yaw};
+    view.is_out = !shares_[i];
+    if (companion.goal) {
+      auto const goal = companion.origin * slam::Pose2{companion.goal->x(), companion.goal->y(), 0.0};
+      view.goal = cell_at({goal.x, goal.y});
+    }
+    all.push_back(std::move(view));
+    mine += companion.id < options_.id ? 1 : 0;
+  }
+  all.insert(all.begin() + static_cast<std::ptrdiff_t>(mine), std::move(own));
+  return {std::move(all), mine};
+}
+
+/// It goes home meanwhile, where it is in nobody's way.
+Plan FloorPlanner::wait_for_companions(Situation const& situation, explore::Pose const& pose) {
+  progress_.begin(situation.time_s);
+  auto plan = drive(situation, pose, Place(0.0, 0.0), home_within_m);
+  plan.state = Plan::State::under_way;
+  plan.waits = true;
+  return plan;
+}
+
 Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose) {
+  if (learns_anew_) return {.state = Plan::State::under_way};
   bool const has_come = is_new_ || navigator_.state() == explore::Navigator::State::arrived;
   if (options_.looks_round && has_come) look_round_.arrive(*known_, pose);
   if (auto const yaw_rad = look_round_.next(pose.yaw_rad)) {
@@ -294,17 +394,21 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   double const stalled_s =
       is_new_ ? 0.0 : std::min(progress_.stalled_s(situation.time_s), situation.time_s - goal_since_s_);
   bool const has_stood = stalled_s > blocked_after_s;
-  explore::RobotView const view{.pose = pose,
-                                .start = {on_floor({0.0, 0.0}), 0.0},
-                                .sides = [&situation] { return situation.sides; },
-                                .goal = navigator_.goal(),
-                                .has_arrived = navigator_.state() == explore::Navigator::State::arrived,
-                                .is_blocked = has_stood || navigator_.state() == explore::Navigator::State::blocked,
-                                .is_out = false,
-                                .driven_m = situation.driven_m};
-  frontiers_->set_moment(situation.time_s, {pose.position});
-  auto const orders = strategy_->decide({*known_, *roads_, *frontiers_, {&view, 1}, situation.time_s});
-  auto const& order = orders.front();
+  explore::RobotView view{.pose = pose,
+                          .start = {on_floor({0.0, 0.0}), 0.0},
+                          .sides = [&situation] { return situation.sides; },
+                          .goal = navigator_.goal(),
+                          .has_arrived = navigator_.state() == explore::Navigator::State::arrived,
+                          .is_blocked = has_stood || navigator_.state() == explore::Navigator::State::blocked,
+                          .is_out = false,
+                          .driven_m = situation.driven_m};
+  find_sharers(pose, situation.time_s);
+  auto const [robots, mine] = views(std::move(view));
+  std::vector<explore::Place> places;
+  for (auto const& robot : robots) places.push_back(robot.pose.position);
+  frontiers_->set_moment(situation.time_s, std::move(places));
+  auto const orders = strategy_->decide({*known_, *roads_, *frontiers_, robots, situation.time_s});
+  auto const& order = orders[mine];
   if (order.kind != explore::Order::Kind::keep) order_ = order;
   switch (order.kind) {
     case explore::Order::Kind::go:
@@ -318,6 +422,8 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
   if (order_.kind == explore::Order::Kind::home) {
     // Whoever stood in the way may leave it: it waits for that where it is.
     if (frontiers_->is_any_put_off(*known_)) return {.state = Plan::State::under_way};
+    if (std::ranges::any_of(companions_.all(), [](Companion const& one) { return one.explores && !one.waits; }))
+      return wait_for_companions(situation, pose);
     return done_exploring();
   }
   if (order_.kind == explore::Order::Kind::steer) {

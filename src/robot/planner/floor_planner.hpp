@@ -5,12 +5,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/error.hpp"
 #include "explore/path/navigator.hpp"
 #include "explore/strategy/strategy.hpp"
+#include "robot/planner/companions.hpp"
 #include "robot/planner/driven_track.hpp"
 #include "robot/planner/held_up/progress.hpp"
 #include "robot/planner/held_up/recovery.hpp"
@@ -44,6 +46,7 @@ struct ReturnErrand {};
 using Errand = std::variant<std::monostate, ExploreErrand, DriveErrand, LookErrand, ReturnErrand>;
 
 struct PlannerOptions {
+  std::string id = {};  ///< of the robot among its companions
   Limits limits = {};
   double cell_m = 0.05;  ///< of the map
   double wary_m = 0.5;   ///< ways keep so far from walls where there is room
@@ -69,6 +72,7 @@ struct Plan {
   enum class State { idle, under_way, done, failed };
   State state = State::idle;
   std::string reason = {};  ///< why it failed, or what it is done without
+  bool waits = false;       ///< for what its companions open: it has nothing left to explore
   Way way = {};
   std::optional<Place> goal = {};
 };
@@ -82,6 +86,9 @@ class FloorPlanner {
 
   /// The tiles of the grid as they are now. Where it had no room for one, it plans anew in a larger area.
   void learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed);
+  /// Who explores the floor as well, as they are now: what they have seen need not be seen again, and frontiers are
+  /// shared out among all. `grid` as above, without a change. They are forgotten when it begins to explore anew.
+  void meet(std::vector<Companion> companions, map::OccupancyGrid const& grid);
   /// Error: invalid_input for a strategy that there is not. The errand before is dropped.
   [[nodiscard]] base::Result<> begin(Errand errand);
 
@@ -111,6 +118,13 @@ class FloorPlanner {
   [[nodiscard]] std::optional<explore::Cell> standable_near(Place const& place, double within_m) const;
   [[nodiscard]] std::vector<explore::Disc> obstacles(Situation const& situation) const;
   [[nodiscard]] Plan explore(Situation const& situation, explore::Pose const& pose);
+  void learn_theirs(map::OccupancyGrid const& own, std::vector<map::TileKey> const& tiles);
+  [[nodiscard]] explore::Pose pose_of(Companion const& companion) const;
+  void find_sharers(explore::Pose const& pose, double time_s);
+  /// Of all who share the floor out, in the order of their ids, which is the same to each of them; and which is this
+  /// one.
+  [[nodiscard]] std::pair<std::vector<explore::RobotView>, std::size_t> views(explore::RobotView own) const;
+  [[nodiscard]] Plan wait_for_companions(Situation const& situation, explore::Pose const& pose);
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
   [[nodiscard]] Plan look(Situation const& situation, explore::Pose const& pose, LookErrand const& looking);
   /// Before it sets out for the first time a robot that sees little stands until its gyroscope's bias is known: until
@@ -120,6 +134,7 @@ class FloorPlanner {
   [[nodiscard]] double give_up_s() const;
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
+  void learn_all(map::OccupancyGrid const& grid);
   void learn(map::OccupancyGrid const& grid, map::TileKey key);
   void learn(explore::Cell cell, explore::Knowledge knowledge);
   void learn_start(explore::Pose const& pose);
@@ -143,6 +158,11 @@ class FloorPlanner {
   std::unique_ptr<explore::Frontiers> frontiers_;
   std::unique_ptr<explore::Frontiers> all_frontiers_;  ///< nothing is given up in these
   std::unique_ptr<explore::Strategy> strategy_;
+  CompanionMaps companions_;
+  std::optional<explore::DenseGrid<explore::Knowledge>> theirs_;  ///< what they have seen, where any has
+  std::vector<bool> shares_;  ///< a companion: has a way to what is open to this one
+  double sharers_found_s_ = 0.0;
+  bool learns_anew_ = false;  ///< its own map alone
   explore::Navigator navigator_;
   Errand errand_;
   explore::Order order_;

@@ -20,6 +20,7 @@ constexpr std::size_t most_waiting_scans = 50;  ///< then the oldest go: seconds
 constexpr base::Duration scan_is_old = 1s;      ///< nobody drives by what was seen before
 constexpr base::Duration survey_period = 2s;
 constexpr base::Duration walls_period = 5s;
+constexpr base::Duration meet_period = 1s;
 constexpr base::Duration write_period = 500ms;
 constexpr base::Duration left_out_lately = 5s;
 constexpr base::Duration eyes_silent_after = 10s;  ///< the seed's override ends then
@@ -166,6 +167,7 @@ base::Task<> Robot::watch_link() {
 /// Its body is known now.
 void Robot::begin_to_think() {
   auto planning = spec_.planning;
+  planning.id = spec_.id;
   planning.limits = body_->limits();
   follower_ = Follower(planning.limits);
   home_charge_ = HomeCharge(planning.limits.speed_m_s);
@@ -224,6 +226,10 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
                   .time_s = now_s};
   input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
   input.wants_walls = around_.loop.now() - walls_at_ >= walls_period;
+  if (is_exploring_ && around_.companions && around_.loop.now() - met_at_ >= meet_period) {
+    input.companions = around_.companions();
+    met_at_ = around_.loop.now();
+  }
   input.may_align = !is_aligning_ && aligned_.empty();
   input.aligns_soon = aligns_soon_;
   auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
@@ -305,6 +311,7 @@ void Robot::give(Errand errand) {
     planner_code_ = code::none;
     wheel_spin_.forget();
   }
+  is_exploring_ = std::holds_alternative<ExploreErrand>(errand);
   is_looking_ = std::holds_alternative<LookErrand>(errand);
   around_.registry.edit(id()).mode.set(mode_for(errand), around_.loop.now());
   around_.registry.touch(id());

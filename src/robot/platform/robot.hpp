@@ -99,6 +99,8 @@ class Robot {
     /// What is wrong with its eyes, likewise; nothing where it has none, and while they do not answer.
     std::function<std::optional<std::uint16_t>()> points_of_interest;
     SecondLooks second_looks;
+    /// Who explores the same floor now, beside it; empty: it is alone.
+    std::function<std::vector<Companion>()> companions;
     /// Whether what it maps is kept on the disk; empty: nobody keeps it.
     std::function<bool()> is_map_kept;
     base::Logger log;
@@ -139,6 +141,8 @@ class Robot {
   [[nodiscard]] std::optional<Located> const& here() const { return here_; }
   /// Nothing before it has a place.
   [[nodiscard]] std::optional<PoseSpread> spread() const;
+  /// What those may know of it that explore the same floor, in the frame of its own map; nothing unless it explores.
+  [[nodiscard]] std::optional<Companion> exploring() const;
   /// The way that it follows now, in the site's frame; empty: none.
   [[nodiscard]] std::vector<geo::Point<geo::SiteFrame>> way() const;
   [[nodiscard]] slam::LoopCounts const& loops() const { return loops_; }
@@ -216,6 +220,7 @@ class Robot {
   std::optional<NewErrand> next_errand_;
   std::uint64_t last_errand_ = 0;   ///< that was given
   std::uint64_t known_errand_ = 0;  ///< that the planner has
+  bool is_exploring_ = false;       ///< the last errand is that
   bool is_looking_ = false;         ///< the last errand is its eyes' alone, and nobody misses it
   Plan plan_;                       ///< of the last errand
   std::optional<Located> here_;
@@ -223,6 +228,7 @@ class Robot {
   std::optional<Survey> survey_;
   base::TimePoint surveyed_at_{};
   base::TimePoint walls_at_{};  ///< when they were looked for
+  base::TimePoint met_at_{};    ///< when companions were asked for
   slam::LoopCounts loops_;
   std::optional<map::OccupancyGrid> grid_;
   std::set<map::TileKey> unwritten_;

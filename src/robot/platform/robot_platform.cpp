@@ -115,6 +115,7 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       },
       .points_of_interest = [this, id = spec.id] { return trouble_of_eyes({id}); },
       .second_looks = second_looks_of({spec.id}),
+      .companions = [this, spec] { return companions_of(spec); },
       .is_map_kept = [this] { return !is_map_kept_ || is_map_kept_(); },
       .log = log_};
   forget_walls(spec);
@@ -142,6 +143,25 @@ std::optional<std::uint16_t> RobotPlatform::trouble_of_eyes(VehicleId const& id)
   auto const found = sights_.find(id);
   if (found == sights_.end() || !found->second.eyes.trouble) return std::nullopt;
   return found->second.eyes.trouble();
+}
+
+std::vector<Companion> RobotPlatform::companions_of(RobotSpec const& spec) const {
+  constexpr double one_place_m = 0.2;
+  std::vector<Companion> companions;
+  auto const pose_of = [](geo::Pose<geo::SiteFrame> const& start) {
+    return slam::Pose2{start.position.x(), start.position.y(), start.yaw_rad};
+  };
+  for (auto const& robot : robots_) {
+    auto const& other = robot->spec();
+    bool const is_beside = other.id != spec.id && other.site == spec.site && other.floor == spec.floor;
+    // Nobody has said where the two begin: neither knows where the other's map lies.
+    if (!is_beside || geo::distance_m(other.start.position, spec.start.position) < one_place_m) continue;
+    auto exploring = robot->exploring();
+    if (!exploring) continue;
+    exploring->origin = slam::between(pose_of(spec.start), pose_of(other.start));
+    companions.push_back(*std::move(exploring));
+  }
+  return companions;
 }
 
 Robot::SecondLooks RobotPlatform::second_looks_of(VehicleId const& id) {

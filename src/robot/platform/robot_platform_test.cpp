@@ -91,6 +91,58 @@ TEST_F(RobotPlatformTest, KeepsOffWallsByHowLargeItIs) {
   EXPECT_EQ(added_body->collisions(), 0);
 }
 
+TEST_F(RobotPlatformTest, SharesAFloorWithWhoeverExploresItToo) {
+  auto const alone = start({ExploreStep{"nearest"}});
+  ASSERT_TRUE(run_until([&] { return alone->state() != RunState::in_progress; }, 30min)) << alone->progress();
+  double const alone_m = body->driven_m();
+
+  testing::PlatformBench both;
+  // At the corridor's other end, and turned about: its own map lies the other way round.
+  slam::Pose2 const there{12.0, 0.0, std::numbers::pi};
+  auto* const other = both.add("robot2", {.start = there}, {}, {{there.x, there.y}, there.yaw});
+  ASSERT_TRUE(both.run_until([&] { return both.robot->here() && other->here(); }, 5s));
+  auto const one = both.start({ExploreStep{"nearest"}, ReturnStep{}});
+  auto const two = both.start({ExploreStep{"nearest"}, ReturnStep{}}, "robot2");
+  auto const have_ended = [&] {
+    return one->state() != RunState::in_progress && two->state() != RunState::in_progress;
+  };
+  ASSERT_TRUE(both.run_until(have_ended, 30min)) << one->progress() << "; " << two->progress();
+  EXPECT_EQ(one->state(), RunState::done) << one->error();
+  EXPECT_EQ(two->state(), RunState::done) << two->error();
+  EXPECT_EQ(both.body->collisions() + both.added_body->collisions(), 0);
+  // Each has the whole floor, of which it has seen a part itself.
+  for (auto const* robot : {both.robot, other}) {
+    EXPECT_GE(robot->survey()->coverage, 0.97) << robot->spec().id;
+    EXPECT_NEAR(robot->survey()->free_m2, testing::small_office_m2, 0.08 * testing::small_office_m2);
+  }
+  EXPECT_LT(both.body->driven_m(), 0.8 * alone_m);
+  EXPECT_LT(both.added_body->driven_m(), 0.8 * alone_m);
+}
+
+TEST_F(RobotPlatformTest, ExploresAgainWhatOthersHaveSeenWhenItIsToldTo) {
+  auto* const other = add("robot2", {.start = {12.0, 0.0, std::numbers::pi}}, {}, {{12.0, 0.0}, std::numbers::pi});
+  ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));
+  auto const one = start({ExploreStep{"nearest"}});
+  auto const two = start({ExploreStep{"nearest"}}, "robot2");
+  ASSERT_TRUE(
+      run_until([&] { return one->state() != RunState::in_progress && two->state() != RunState::in_progress; }, 30min));
+  double const shared_m = body->driven_m();
+  auto const again = start({ExploreStep{"nearest"}});
+  ASSERT_TRUE(run_until([&] { return again->state() != RunState::in_progress; }, 30min));
+  EXPECT_GT(body->driven_m(), shared_m + 5.0) << "what the other has seen it looks at now";
+  EXPECT_NEAR(robot->survey()->free_m2, testing::small_office_m2, 0.06 * testing::small_office_m2);
+}
+
+TEST_F(RobotPlatformTest, KnowsNothingOfTheMapOfARobotThatIsSaidToStandWhereItDoes) {
+  auto* const other = add("robot2", {.start = {12.0, 0.0, std::numbers::pi}});
+  ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));
+  auto const one = start({ExploreStep{"nearest"}});
+  auto const two = start({ExploreStep{"nearest"}}, "robot2");
+  ASSERT_TRUE(run_until([&] { return one->state() != RunState::in_progress; }, 30min));
+  EXPECT_GE(robot->survey()->coverage, 0.97);
+  EXPECT_NEAR(robot->survey()->free_m2, testing::small_office_m2, 0.06 * testing::small_office_m2);
+}
+
 TEST_F(RobotPlatformTest, ExploresWithFourRangers) {
   auto* const other = add("robot4", {.beams = 4, .laser_m = 4.0});
   ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));

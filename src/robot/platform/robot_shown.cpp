@@ -51,6 +51,11 @@ std::optional<PoseSpread> Robot::spread() const {
                     .yaw_rad = std::sqrt(std::max(0.0, here_->covariance(2, 2)))};
 }
 
+std::optional<Companion> Robot::exploring() const {
+  if (!is_exploring_ || !is_driving() || !is_under_way() || !here_ || !grid_) return std::nullopt;
+  return Companion{.id = spec_.id, .grid = *grid_, .pose = here_->pose, .goal = plan_.goal, .waits = plan_.waits};
+}
+
 std::vector<geo::Point<geo::SiteFrame>> Robot::way() const {
   std::vector<geo::Point<geo::SiteFrame>> way;
   constexpr std::size_t every = 5;  // a point a quarter of a metre is as much as anybody sees

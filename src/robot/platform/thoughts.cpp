@@ -48,7 +48,7 @@ MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> sc
 PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
   auto& planner = map.thoughts->planner;
   auto& floor = map.thoughts->map;
-  if (map.grid) planner.learn(*map.grid, map.changed);
+  planner.learn(floor.grid(), map.changed);
   PlanResult result;
   result.errand = errand;
   std::optional<base::Error> refused;
@@ -56,6 +56,7 @@ PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
     result.errand = input.errand->number;
     if (auto begun = planner.begin(std::move(input.errand->errand)); !begun) refused = begun.error();
   }
+  if (input.companions) planner.meet(*std::move(input.companions), floor.grid());
   if (refused) {
     result.plan = {.state = Plan::State::failed, .reason = refused->message};
   } else {

@@ -52,6 +52,7 @@ struct PlanInput {
   explore::SideDistances sides = {};
   double driven_m = 0.0;
   double time_s = 0.0;
+  std::optional<std::vector<Companion>> companions = {};  ///< when they are asked for
   bool wants_survey = false;
   bool wants_walls = false;  ///< which costs more than all the rest
   bool may_align = false;    ///< no alignment is under way

@@ -22,13 +22,15 @@ struct PlatformBench {
     robot = add("robot1", {}, std::move(hold_up));
   }
 
+  /// `start`: where it is said to stand.
   Robot* add(std::string const& id, SimpleBodyOptions const& options = {},
-             std::function<base::Task<>(Module)> hold_up = {}) {
+             std::function<base::Task<>(Module)> hold_up = {}, geo::Pose<geo::SiteFrame> const& start = {}) {
     auto made = std::make_unique<SimpleBody>(loop, small_office(), options);
     added_body = made.get();
     if (!body) body = added_body;
     RobotSpec spec{.id = id, .name = "robot " + id.substr(5), .site = "office"};
     spec.hold_up = std::move(hold_up);
+    spec.start = start;
     return platform.add(std::move(spec), std::move(made)).value();
   }
   void run_for(base::Duration time) {
