@@ -1,5 +1,6 @@
 #include "host/robots/robot_spec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -20,6 +21,10 @@ constexpr std::string_view mavlink = "mavlink:";
 constexpr std::string_view laser_mark = "laser=";
 constexpr std::string_view radius_mark = "radius=";
 constexpr double least_radius_m = 0.05;
+constexpr std::array<std::pair<std::string_view, SimulatedRobots::Laser>, 3> lasers{
+    {{"half", SimulatedRobots::Laser::half},
+     {"ring", SimulatedRobots::Laser::ring},
+     {"none", SimulatedRobots::Laser::none}}};
 constexpr int most_system_id = 254;  ///< 255 is a ground station's
 
 std::unexpected<base::Error> refuse(std::string_view text, std::string_view why) {
@@ -77,11 +82,13 @@ base::Result<RobotRequest> simulated(std::string_view text, std::string_view fil
   if (!extras) return std::unexpected(extras.error());
   request.radius_m = extras->radius_m.value_or(request.radius_m);
   if (auto const named = extras->laser) {
-    if (*named != "none" && *named != "ring")
+    auto const found = std::ranges::find(lasers, *named, &std::pair<std::string_view, SimulatedRobots::Laser>::first);
+    if (found == lasers.end())
       return refuse(text, fmt::format("'{}' is no laser of a simulated robot: write ,laser=none for sonars alone, "
-                                      ",laser=ring for four single rangers, or nothing for a scanner",
+                                      ",laser=ring for four single rangers, ,laser=half for half a circle ahead, or "
+                                      "nothing for a scanner",
                                       *named));
-    request.laser = *named == "none" ? SimulatedRobots::Laser::none : SimulatedRobots::Laser::ring;
+    request.laser = found->second;
   }
   auto const colon = file.rfind(':');
   if (colon != std::string_view::npos) {

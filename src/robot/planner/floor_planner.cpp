@@ -29,6 +29,7 @@ constexpr double beyond_safe_m = 0.05;
 constexpr double wary_beyond_m = 0.15;
 constexpr double set_out_m = 1.0;
 constexpr double find_sharers_every_s = 1.0;
+constexpr double stands_by_s = 30.0;
 /// So long it does not get on before it does something about it, and from one such try to the next.
 constexpr double help_after_s = 4.0;
 constexpr double measure_every_s = 0.5;
@@ -374,9 +375,11 @@ std::pair<std::vector<explore::RobotView>, std::size_t> FloorPlanner::views(expl
   return {std::move(all), mine};
 }
 
-/// It goes home meanwhile, where it is in nobody's way.
+/// First where it is, as others mostly open something soon; then it goes home, where it is in nobody's way.
 Plan FloorPlanner::wait_for_companions(Situation const& situation, explore::Pose const& pose) {
   progress_.begin(situation.time_s);
+  if (!waits_since_s_) waits_since_s_ = situation.time_s;
+  if (situation.time_s - *waits_since_s_ < stands_by_s) return {.state = Plan::State::under_way, .waits = true};
   auto plan = drive(situation, pose, Place(0.0, 0.0), home_within_m);
   plan.state = Plan::State::under_way;
   plan.waits = true;
@@ -426,6 +429,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
       return wait_for_companions(situation, pose);
     return done_exploring();
   }
+  waits_since_s_.reset();
   if (order_.kind == explore::Order::Kind::steer) {
     bool const is_near = known_->is_near_wall(known_->cell_at(pose.position));
     double const speed = is_near ? options_.limits.near_speed_m_s : options_.limits.speed_m_s;

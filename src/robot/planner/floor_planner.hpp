@@ -162,6 +162,7 @@ class FloorPlanner {
   std::optional<explore::DenseGrid<explore::Knowledge>> theirs_;  ///< what they have seen, where any has
   std::vector<bool> shares_;  ///< a companion: has a way to what is open to this one
   double sharers_found_s_ = 0.0;
+  std::optional<double> waits_since_s_;
   bool learns_anew_ = false;  ///< its own map alone
   explore::Navigator navigator_;
   Errand errand_;

@@ -6,6 +6,15 @@
 
 namespace lapwing::sim::building {
 
+LaserSettings half_scanner(double x_m) {
+  return {.beams = 180,
+          .x_m = x_m,
+          .first_angle_rad = -std::numbers::pi / 2.0,
+          .step_rad = std::numbers::pi / 179.0,
+          .range_m = 8.0,
+          .duration_s = 0.05};
+}
+
 LaserSettings tof_ring() {
   return {.beams = 4,
           .first_angle_rad = 0.0,

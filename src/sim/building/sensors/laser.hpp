@@ -26,6 +26,9 @@ struct LaserSettings {
   double lost_on_dark = 0.5;   ///< the same from something dark at half the range; nearer less, farther more
 };
 
+/// A scanner at the front, `x_m` ahead, that sees half a circle before it up to 8 m.
+[[nodiscard]] LaserSettings half_scanner(double x_m);
+
 /// Four time-of-flight sensors, ahead, to the left, back and to the right, up to 4 m.
 [[nodiscard]] LaserSettings tof_ring();
 
