@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 #include <utility>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -114,29 +113,47 @@ std::string dds_type(std::string_view type) {
 
 namespace {
 
-/// Who reads what elsewhere. Written by the middleware's threads, read by ours.
+/// Who reads what elsewhere. The middleware's threads find it out, and post it.
 class ReadersElsewhere final : public dds::DomainParticipantListener {
  public:
-  void on_subscriber_discovery(dds::DomainParticipant* /*participant*/, rtps::ReaderDiscoveryInfo&& found) override {
-    std::lock_guard const lock(mutex_);
-    if (found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER)
-      readers_.erase(found.info.guid());
-    else
-      readers_[found.info.guid()] = {found.info.topicName().c_str(), found.info.typeName().c_str()};
+  explicit ReadersElsewhere(base::Loop& loop)
+      : inbox_(loop, most_waiting, base::Overflow::drop_newest), post_(inbox_.post()), scope_(loop) {
+    scope_.spawn(take());
   }
-  [[nodiscard]] bool read(std::string const& topic, std::string const& type) const {
-    std::lock_guard const lock(mutex_);
+  void on_subscriber_discovery(dds::DomainParticipant* /*participant*/, rtps::ReaderDiscoveryInfo&& found) override {
+    (void)post_({.reader = found.info.guid(),
+                 .is_gone = found.status == rtps::ReaderDiscoveryInfo::REMOVED_READER,
+                 .topic = found.info.topicName().c_str(),
+                 .type = found.info.typeName().c_str()});
+  }
+  [[nodiscard]] bool read(std::string_view topic, std::string_view type) const {
     return std::ranges::any_of(readers_,
                                [&](auto const& it) { return it.second.topic == topic && it.second.type == type; });
   }
 
  private:
-  struct Read {
+  static constexpr std::size_t most_waiting = 10'000;
+  struct Found {
+    rtps::GUID_t reader;
+    bool is_gone = false;
     std::string topic;
     std::string type;
   };
-  std::mutex mutable mutex_;
-  std::map<rtps::GUID_t, Read> readers_;
+  base::Task<> take() {
+    for (;;) {
+      auto const found = co_await inbox_.receive(std::chrono::hours(1));
+      if (!found) continue;
+      if (found->is_gone)
+        readers_.erase(found->reader);
+      else
+        readers_[found->reader] = *found;
+    }
+  }
+
+  base::Inbox<Found> inbox_;
+  base::Inbox<Found>::Post post_;
+  std::map<rtps::GUID_t, Found> readers_;
+  base::Scope scope_;
 };
 
 }  // namespace
@@ -148,7 +165,7 @@ struct Bus::Parts {
   dds::Subscriber* subscriber = nullptr;
   std::map<std::string, dds::Topic*, std::less<>> topics = {};
 
-  Parts() = default;
+  explicit Parts(base::Loop& loop) : elsewhere(loop) {}
   Parts(Parts const&) = delete;
   Parts& operator=(Parts const&) = delete;
   ~Parts() {
@@ -324,7 +341,7 @@ base::Result<std::unique_ptr<Bus>> Bus::open(base::Loop& loop, BusOptions const&
   dds::DomainParticipantQos qos;
   qos.name(options.name);
   if (options.is_local) keep_to_this_machine(qos, options.domain);
-  auto parts = std::make_unique<Parts>();
+  auto parts = std::make_unique<Parts>(loop);
   parts->participant = dds::DomainParticipantFactory::get_instance()->create_participant(
       options.domain, qos, &parts->elsewhere, dds::StatusMask::none());
   if (parts->participant) {

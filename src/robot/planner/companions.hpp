@@ -1,13 +1,13 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "explore/known/known_map.hpp"
+#include "map/grid/occupancy_grid.hpp"
 #include "robot/planner/planning_area.hpp"
 #include "slam/pose2.hpp"
 

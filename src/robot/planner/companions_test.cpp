@@ -1,6 +1,8 @@
 #include "robot/planner/companions.hpp"
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -56,15 +56,15 @@ void LinkedBody::meet(firmware::Hello const& hello) {
   description_ = hello.description;
   odometry_.emplace(hello.description, here);
   scan_.reset();
-  if (auto const limits = limits_of(hello.description); limits.radius_m > most_radius_m) {
+  auto const limits = limits_of(hello.description);
+  if (limits.radius_m > most_radius_m) {
     log_.error(
         fmt::format("the board says that its body reaches {:.2f} m from its axle's middle; {} m is the most: the "
                     "robot stands",
                     limits.radius_m, most_radius_m));
     return;
-  } else if (!sensor_) {
-    limits_ = limits;
   }
+  if (!sensor_) limits_ = limits;
   bool const has_laser = hello.description.laser.beams > 0;
   if (!sensor_ && has_laser) sensor_ = sensor_of(hello.description.laser);
   if (!sensor_) sensor_ = sensor_of(hello.description.sonar_places());

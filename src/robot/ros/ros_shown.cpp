@@ -1,8 +1,10 @@
 #include "robot/ros/ros_shown.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "base/async/pool.hpp"
