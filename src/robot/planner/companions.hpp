@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,12 +15,11 @@ namespace lapwing::robot {
 /// Another robot that explores the same floor at the same time.
 struct Companion {
   std::string id = {};
-  map::OccupancyGrid grid;         ///< what it has mapped, in its own frame
-  slam::Pose2 origin = {};         ///< of that frame in ours, as those say who have put the two down
-  slam::Pose2 pose = {};           ///< where it is, in its own frame
-  std::optional<Place> goal = {};  ///< likewise
-  bool waits = false;              ///< nothing is left for it: it goes on when something opens
-  bool explores = true;            ///< still
+  map::OccupancyGrid grid;  ///< what it has mapped, in its own frame
+  slam::Pose2 origin = {};  ///< of that frame in ours, as those say who have put the two down
+  slam::Pose2 pose = {};    ///< where it is, in its own frame
+  bool waits = false;       ///< nothing is left for it: it goes on when something opens
+  bool explores = true;     ///< still
 };
 
 /// What companions have seen of the floor, looked up in their own maps: where this robot has seen nothing itself, that

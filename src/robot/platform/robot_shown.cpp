@@ -53,7 +53,7 @@ std::optional<PoseSpread> Robot::spread() const {
 
 std::optional<Companion> Robot::exploring() const {
   if (!is_exploring_ || !is_driving() || !is_under_way() || !here_ || !grid_) return std::nullopt;
-  return Companion{.id = spec_.id, .grid = *grid_, .pose = here_->pose, .goal = plan_.goal, .waits = plan_.waits};
+  return Companion{.id = spec_.id, .grid = *grid_, .pose = here_->pose, .waits = plan_.waits};
 }
 
 std::vector<geo::Point<geo::SiteFrame>> Robot::way() const {
