@@ -114,6 +114,7 @@ base::Result<> FloorPlanner::begin(Errand errand) {
     frontiers_ = std::make_unique<explore::Frontiers>(*known_);
     learns_anew_ = !companions_.all().empty();
     companions_.clear();
+    waits_since_s_.reset();
   }
   errand_ = std::move(errand);
   order_ = {};

@@ -391,5 +391,31 @@ TEST(FloorPlanner, SaysThatTheFloorGoesOnBeyondWhereItPlans) {
   EXPECT_EQ(plan.reason, "the floor goes on beyond the 51 by 51 m in which it plans");
 }
 
+TEST(FloorPlanner, WaitsForItsCompanionsWhereItIsAndThenAtHomeEachTimeThatItExplores) {
+  FloorPlanner planner({.id = "robot1"});
+  auto const room = drawn(in_room);
+  auto const at = [&](double time_s) {
+    return planner.plan({.pose = {2.0, 0.0, 0.0}, .driven_m = 9.0, .time_s = time_s});
+  };
+  auto const meet = [&](bool waits) {
+    learn_all(planner, room);
+    planner.meet({{.id = "robot2", .grid = map::OccupancyGrid(0.05), .waits = waits}}, room);
+  };
+  for (double const begun_s : {0.0, 100.0}) {
+    ASSERT_TRUE(planner.begin(ExploreErrand{}));
+    meet(false);
+    auto const stands_by = at(begun_s + 1.0);
+    EXPECT_EQ(stands_by.state, State::under_way);
+    EXPECT_TRUE(stands_by.waits);
+    EXPECT_TRUE(stands_by.way.points.empty()) << begun_s;
+    auto const goes_home = at(begun_s + 35.0);
+    EXPECT_TRUE(goes_home.waits);
+    ASSERT_FALSE(goes_home.way.points.empty());
+    EXPECT_LT(goes_home.way.points.back().x(), 1.0);
+    meet(true);
+    EXPECT_EQ(at(begun_s + 40.0).state, State::done) << "all wait";
+  }
+}
+
 }  // namespace
 }  // namespace lapwing::robot
