@@ -65,9 +65,7 @@ using RobotRequest = std::variant<SimulatedRobots, LinkedRobot, RosRobot, Mavlin
 [[nodiscard]] base::Result<RobotRequest> parse_robot(std::string_view text);
 inline constexpr auto robot_help =
     "A robot (may be repeated): sim:BUILDING.toml[:COUNT][,laser=half|ring|none][,radius=M] in a simulated building, "
-    "its "
-    "link, "
-    "serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, "
+    "its link, serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, "
     "ros2://DOMAIN[/NAMESPACE][,radius=M][@...], "
     "ros2-lan:// beyond this machine, or a MAVLink rover, "
     "mavlink:SYSTEM:LINK[,laser=ros2://DOMAIN[/NAMESPACE]][,radius=M][@...]";
