@@ -406,12 +406,23 @@ base::Task<base::Result<std::string>> Robot::explore(std::string strategy) {
   double const way_m = driven_m_ - began_m;
   auto looking = look_again(std::max(looks_at_least_m, looks_of_way * way_m),
                             std::max(looks_at_least_m, likely_looks_of_way * way_m));
-  bool const has_seen_all = co_await std::move(looking);
+  co_await std::move(looking);
   auto const say = [&](std::string const& more) { *explored += (explored->empty() ? "" : "; ") + more; };
   auto const unread = looks.unread();
   if (unread > 0) say(fmt::format("{} could not be read", unread == 1 ? "1 sign" : fmt::format("{} signs", unread)));
-  if (!has_seen_all) say("doorways are left whose signs no camera may have seen: explore() again goes on");
+  auto leaving = walls_left();
+  if (auto const left = co_await std::move(leaving); !left.empty()) say(left);
   co_return explored;
+}
+
+base::Task<std::string> Robot::walls_left() const {
+  auto likely = around_.second_looks.is_any_left(WallChoice::likely);
+  if (co_await std::move(likely))
+    co_return "doorways are left whose signs no camera may have seen: explore() again goes on";
+  auto any = around_.second_looks.is_any_left(WallChoice::any);
+  if (co_await std::move(any))
+    co_return "walls without a doorway are left that no camera looked at from near: explore() again goes on";
+  co_return std::string();
 }
 
 std::string Robot::turned_home() const {
@@ -419,19 +430,18 @@ std::string Robot::turned_home() const {
   return fmt::format("its battery takes it home and little farther{}{}", left.empty() ? "" : ": ", left);
 }
 
-base::Task<bool> Robot::look_again(double any_m, double likely_m) {
+base::Task<> Robot::look_again(double any_m, double likely_m) {
   double const began_m = driven_m_;
   for (;;) {
     double const way_m = driven_m_ - began_m;
-    bool const is_over = way_m >= likely_m || home_charge_.is_due();
-    auto choosing = around_.second_looks.next(way_m >= any_m || is_over ? WallChoice::likely : WallChoice::any);
+    if (way_m >= likely_m || home_charge_.is_due()) co_return;
+    auto choosing = around_.second_looks.next(way_m >= any_m ? WallChoice::likely : WallChoice::any);
     auto const view = co_await std::move(choosing);
-    if (!view) co_return true;
-    if (is_over) co_return false;
+    if (!view) co_return;
     give(LookErrand{.from = on_map(view->from), .at = on_map(view->at), .bearing_rad = view->bearing_rad});
     auto driving = see_through(Reach::keeps_way_home);
     auto const driven = co_await std::move(driving);
-    if (is_under_way()) co_return false;
+    if (is_under_way()) co_return;
     if (!driven) continue;  // there may be another place to see it from
     auto const until = around_.loop.now() + eyes_silent_after;
     while (!around_.second_looks.has_looked() && around_.loop.now() < until)

@@ -79,6 +79,7 @@ class Robot {
   /// none.
   struct SecondLooks {
     std::function<base::Task<std::optional<Viewpoint>>(WallChoice which)> next;
+    std::function<base::Task<bool>(WallChoice which)> is_any_left;
     std::function<bool()> has_looked;
     std::function<std::size_t()> unread;
   };
@@ -176,8 +177,10 @@ class Robot {
   [[nodiscard]] base::Task<base::Result<std::string>> carry_out(Step step);
   [[nodiscard]] base::Task<base::Result<std::string>> explore(std::string strategy);
   /// Drives before what its eyes could not read, and stands there until they have looked: `any_m` of way for any wall,
-  /// `likely_m` for those on which most likely a sign is. Whether none of these is left.
-  [[nodiscard]] base::Task<bool> look_again(double any_m, double likely_m);
+  /// `likely_m` for those on which most likely a sign is.
+  base::Task<> look_again(double any_m, double likely_m);
+  /// What is to be said of those that no camera looked at; empty: nothing.
+  [[nodiscard]] base::Task<std::string> walls_left() const;
   enum class Reach {
     any,
     keeps_way_home,  ///< it may end with the plan still under way, when its battery takes it home and little farther

@@ -65,6 +65,10 @@ base::Task<std::optional<Viewpoint>> nowhere() {
   co_return std::nullopt;
 }
 
+base::Task<bool> nothing() {
+  co_return false;
+}
+
 }  // namespace
 
 RobotPlatform::RobotPlatform(Surroundings around, base::Logger log)
@@ -170,6 +174,7 @@ Robot::SecondLooks RobotPlatform::second_looks_of(VehicleId const& id) {
     return found == sights_.end() ? nullptr : found->second.tags.get();
   };
   return {.next = [finder](WallChoice which) { return finder() ? finder()->next_view(which) : nowhere(); },
+          .is_any_left = [finder](WallChoice which) { return finder() ? finder()->is_any_left(which) : nothing(); },
           .has_looked = [finder] { return !finder() || finder()->has_looked(); },
           .unread = [finder] { return finder() ? finder()->unread() : std::size_t{0}; }};
 }

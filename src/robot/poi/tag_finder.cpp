@@ -293,35 +293,54 @@ base::Task<std::optional<Viewpoint>> TagFinder::next_view(WallChoice which) {
   auto const* const grid = pose ? grid_of(*pose) : nullptr;
   if (!grid) co_return std::nullopt;
   map::SitePoint const here(pose->position.x(), pose->position.y());
-  auto next = next_tag(*grid, here);
-  if (!next) {
-    auto looking = next_wall(*grid, here, which);
-    next = co_await std::move(looking);
+  retake_ = next_tag(*grid, here);
+  if (!retake_) {
+    auto looking = nearest_wall(*grid, here, which);
+    auto const wall = co_await std::move(looking);
+    if (!wall) co_return std::nullopt;
+    looks_.give_up(wall->piece);
+    retake_ = Retake{.view = wall->view};
   }
-  retake_ = next;
-  co_return next ? std::optional(next->view) : std::nullopt;
+  co_return retake_->view;
 }
 
-base::Task<std::optional<TagFinder::Retake>> TagFinder::next_wall(map::OccupancyGrid grid, map::SitePoint here,
-                                                                  WallChoice which) {
+base::Task<bool> TagFinder::is_any_left(WallChoice which) {
+  auto const pose = pose_now();
+  auto const* const grid = pose ? grid_of(*pose) : nullptr;
+  if (!grid) co_return false;
+  auto const wanted = wanted_tags();
+  if (std::ranges::any_of(wanted, [&](Entry const* tag) { return !views_of(*tag, *grid).empty(); })) co_return true;
+  auto looking = nearest_wall(*grid, {pose->position.x(), pose->position.y()}, which);
+  auto const wall = co_await std::move(looking);
+  co_return wall.has_value();
+}
+
+base::Task<std::optional<WallView>> TagFinder::nearest_wall(map::OccupancyGrid grid, map::SitePoint here,
+                                                            WallChoice which) {
   auto cameras = mounts();
-  auto const wall = co_await loop_.on_pool(
+  co_return co_await loop_.on_pool(
       [](LookBook const& looks, map::OccupancyGrid const& on, std::vector<CameraMount> const& with,
          map::SitePoint const& from, WallChoice of) { return next_wall_view(looks, on, with, from, of); },
       looks_, std::move(grid), std::move(cameras), here, which);
-  if (!wall) co_return std::nullopt;
-  looks_.give_up(wall->piece);
-  co_return Retake{.view = wall->view};
 }
 
-std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here) {
+std::vector<TagFinder::Entry const*> TagFinder::wanted_tags() const {
   std::vector<Entry const*> wanted;
   for (auto const& tag : book_.tags())
     if (wants_a_look(tag) && tries_of(tag.number).begun < most_tries) wanted.push_back(&tag);
+  return wanted;
+}
+
+std::vector<Viewpoint> TagFinder::views_of(Entry const& tag, map::OccupancyGrid const& grid) const {
+  return viewpoints_for({.position = tag.position, .height_m = tag.height_m, .facing_rad = tag.facing_rad}, grid,
+                        mounts());
+}
+
+std::optional<TagFinder::Retake> TagFinder::next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here) {
+  auto wanted = wanted_tags();
   std::ranges::sort(wanted, {}, [&](Entry const* tag) { return geo::distance_m(tag->position, here); });
   for (auto const* tag : wanted) {
-    auto const views = viewpoints_for(
-        {.position = tag->position, .height_m = tag->height_m, .facing_rad = tag->facing_rad}, grid, mounts());
+    auto const views = views_of(*tag, grid);
     auto const nth = static_cast<std::size_t>(tries_[tag->number].begun++);
     if (!views.empty()) return Retake{.tag = tag->number, .view = views[std::min(nth, views.size() - 1)]};
   }

@@ -15,6 +15,7 @@
 #include "robot/views/look_book.hpp"
 #include "robot/views/seen_walls.hpp"
 #include "robot/views/viewpoint.hpp"
+#include "robot/views/wall_views.hpp"
 #include "vehicle/registry.hpp"
 
 namespace lapwing::robot {
@@ -49,6 +50,8 @@ class TagFinder {
   /// Nothing: there is no more to be looked at, or nowhere to stand. Walls are compared beside the loop, which may take
   /// half a second. One call at a time.
   [[nodiscard]] base::Task<std::optional<Viewpoint>> next_view(WallChoice which = WallChoice::any);
+  /// That there is something which `next_view` would give.
+  [[nodiscard]] base::Task<bool> is_any_left(WallChoice which);
   [[nodiscard]] bool has_looked() const { return !retake_; }
   /// The map has moved: what hangs on its walls goes with them.
   void move(MapMove const& moved);
@@ -84,7 +87,10 @@ class TagFinder {
   void take_in(TagBook::Joined const& joined);
   void note_passed(vehicle::SitePose const& pose);
   [[nodiscard]] std::optional<Retake> next_tag(map::OccupancyGrid const& grid, map::SitePoint const& here);
-  base::Task<std::optional<Retake>> next_wall(map::OccupancyGrid grid, map::SitePoint here, WallChoice which);
+  base::Task<std::optional<WallView>> nearest_wall(map::OccupancyGrid grid, map::SitePoint here, WallChoice which);
+  /// Those that may be looked at once more.
+  [[nodiscard]] std::vector<Entry const*> wanted_tags() const;
+  [[nodiscard]] std::vector<Viewpoint> views_of(Entry const& tag, map::OccupancyGrid const& grid) const;
   [[nodiscard]] std::vector<CameraMount> mounts() const;
   [[nodiscard]] bool is_there(Retake const& retake, vehicle::SitePose const& pose) const;
   [[nodiscard]] Tries tries_of(std::uint32_t number) const;

@@ -50,6 +50,7 @@ struct TagFinderAtAWall : ::testing::Test {
             }};
   }
   std::optional<Viewpoint> next_view(TagFinder& finds) { return loop.run_until_done(finds.next_view()); }
+  bool is_any_left(TagFinder& finds, WallChoice which) { return loop.run_until_done(finds.is_any_left(which)); }
   /// As the robot does for it: false when it asks for nothing.
   bool go_and_look(TagFinder& finds) {
     auto const view = next_view(finds);
@@ -296,6 +297,8 @@ TEST_F(TagFinderAtAWall, GoesBackToAWallBesideADoorwayThatItsCamerasDidNotFace) 
   auto const finds = finder();
   pass(3s);
   EXPECT_EQ(finds->pictures(), 0);
+  EXPECT_TRUE(is_any_left(*finds, WallChoice::likely));
+  EXPECT_TRUE(is_any_left(*finds, WallChoice::likely)) << "who asks does not look";
   auto const view = next_view(*finds);
   ASSERT_TRUE(view);
   EXPECT_NEAR(view->at.y(), 2.0, 0.05);
@@ -323,7 +326,10 @@ TEST_F(TagFinderAtAWall, LooksAtWallsFarFromDoorwaysThatItsCamerasDidNotFaceAndA
   pass(3s);
   EXPECT_EQ(finds->pictures(), 0);
   int looks = 0;
+  EXPECT_TRUE(is_any_left(*finds, WallChoice::any));
+  EXPECT_FALSE(is_any_left(*finds, WallChoice::likely)) << "there is no doorway";
   while (looks < 20 && go_and_look(*finds)) ++looks;
+  EXPECT_FALSE(is_any_left(*finds, WallChoice::any));
   EXPECT_GE(looks, 3);
   EXPECT_LE(looks, 8) << "7 m of wall came before it, and a picture shows more than one";
 }
