@@ -31,6 +31,7 @@ constexpr double set_out_m = 1.0;
 constexpr double stands_by_s = 30.0;
 /// So long it does not get on before it does something about it, and from one such try to the next.
 constexpr double help_after_s = 4.0;
+constexpr double help_beside_s = 30.0;  ///< a companion: one of the two makes room sooner
 constexpr double measure_every_s = 0.5;
 /// What refuses the robot stands within that of its hull, and no farther to the side of where it looks.
 constexpr double refuses_within_m = 0.12;
@@ -39,7 +40,7 @@ constexpr double refuses_aside_rad = 1.2;
 }  // namespace
 
 FloorPlanner::FloorPlanner(PlannerOptions const& options)
-    : options_(options), area_(options.cell_m), navigator_(options.limits) {
+    : options_(options), area_(options.cell_m), aside_(options.limits), navigator_(options.limits) {
   begin_anew();
 }
 
@@ -62,6 +63,8 @@ void FloorPlanner::begin_anew() {
   order_ = {};
   look_round_ = {};
   navigator_.stop();
+  aside_.stop();
+  company_ = {};
 }
 
 void FloorPlanner::learn(Cell cell, Knowledge knowledge) {
@@ -230,7 +233,9 @@ std::optional<Way> FloorPlanner::recover(Situation const& situation, Plan const&
   }
   bool const has_way = plan.state == Plan::State::under_way && !plan.way.points.empty();
   bool const is_due = situation.time_s - recovered_s_ > help_after_s;
-  if (!has_way || !is_due || progress_.stalled_s(situation.time_s) < help_after_s) return std::nullopt;
+  double const after_s =
+      company_.is_beside(on_floor({situation.pose.x, situation.pose.y})) ? help_beside_s : help_after_s;
+  if (!has_way || !is_due || progress_.stalled_s(situation.time_s) < after_s) return std::nullopt;
   refusals_.note(what_refuses(situation), situation.time_s);
   progress_.allow_detour();
   recovery_.begin(now);
@@ -288,6 +293,7 @@ Plan FloorPlanner::plan(Situation const& situation) {
   if (plan.state != Plan::State::under_way) return plan;
   if (progress_.stalled_s(situation.time_s) > give_up_s()) return given_up(situation);
   if (auto way = recover(situation, plan)) plan.way = *std::move(way);
+  mind_company(situation, pose, plan);
   return plan;
 }
 
@@ -317,9 +323,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
     progress_.begin(situation.time_s);
     return {.state = Plan::State::under_way, .way = {.yaw_rad = yaw_rad, .turn_rad_s = LookRound::turn_rad_s}};
   }
-  double const stalled_s =
-      is_new_ ? 0.0 : std::min(progress_.stalled_s(situation.time_s), situation.time_s - goal_since_s_);
-  bool const has_stood = stalled_s > blocked_after_s;
+  bool const has_stood = stalled_s(situation.time_s) > blocked_after_s;
   explore::RobotView view{.pose = pose,
                           .start = {on_floor({0.0, 0.0}), 0.0},
                           .sides = [&situation] { return situation.sides; },
@@ -359,7 +363,7 @@ Plan FloorPlanner::explore(Situation const& situation, explore::Pose const& pose
     return {.state = Plan::State::under_way,
             .way = {.yaw_rad = order_.yaw_rad, .speed_m_s = std::min(speed, order_.speed_m_s)}};
   }
-  auto plan = follow(situation, pose);
+  auto plan = follow(navigator_, situation, pose);
   plan.state = Plan::State::under_way;  // what cannot be reached is the strategy's to give up
   return plan;
 }
@@ -394,12 +398,19 @@ Plan FloorPlanner::drive(Situation const& situation, explore::Pose const& pose, 
   } else {
     navigator_.go_to(*goal);
   }
-  return follow(situation, pose);
+  return follow(navigator_, situation, pose);
 }
 
 double FloorPlanner::give_up_s() const {
   return std::holds_alternative<LookErrand>(errand_) ? std::min(give_up_look_s, options_.give_up_s)
                                                      : options_.give_up_s;
+}
+
+double FloorPlanner::stalled_s(double time_s) const {
+  if (is_new_) return 0.0;
+  double const stalled_s = progress_.stalled_s(time_s);
+  bool const explores = std::holds_alternative<ExploreErrand>(errand_);
+  return explores ? std::min(stalled_s, time_s - goal_since_s_) : stalled_s;
 }
 
 Plan FloorPlanner::look(Situation const& situation, explore::Pose const& pose, LookErrand const& looking) {
@@ -416,31 +427,31 @@ Plan FloorPlanner::look(Situation const& situation, explore::Pose const& pose, L
   return {.state = Plan::State::under_way, .way = {.yaw_rad = yaw_rad}};
 }
 
-Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose) {
+Plan FloorPlanner::follow(explore::Navigator& navigator, Situation const& situation, explore::Pose const& pose) {
   using State = explore::Navigator::State;
-  if (!navigator_.goal()) return {.state = Plan::State::under_way};
+  if (!navigator.goal()) return {.state = Plan::State::under_way};
   explore::Roads const roads{*known_, *roads_, *search_};
   auto const closed = obstacles(situation);
-  navigator_.plan(roads, pose, closed, {});
+  navigator.plan(roads, pose, closed, {});
   // By another way where the nearest one is closed; where all are, it goes up to what stands there and waits.
-  if (navigator_.state() == State::blocked && !closed.empty()) navigator_.plan(roads, pose, closed);
-  if (navigator_.state() == State::blocked && !closed.empty()) navigator_.plan(roads, pose, {});
-  Plan plan{.state = Plan::State::under_way, .goal = on_map(known_->middle(*navigator_.goal()))};
-  if (navigator_.state() == State::arrived) {
+  if (navigator.state() == State::blocked && !closed.empty()) navigator.plan(roads, pose, closed);
+  if (navigator.state() == State::blocked && !closed.empty()) navigator.plan(roads, pose, {});
+  Plan plan{.state = Plan::State::under_way, .goal = on_map(known_->middle(*navigator.goal()))};
+  if (navigator.state() == State::arrived) {
     plan.state = Plan::State::done;
     return plan;
   }
-  if (navigator_.state() == State::blocked) return plan;
+  if (navigator.state() == State::blocked) return plan;
   bool const is_near = known_->is_near_wall(known_->cell_at(pose.position));
   plan.way.speed_m_s = is_near ? options_.limits.near_speed_m_s : options_.limits.speed_m_s;
   // It keeps count of what has been passed, and so sees when the way is at its end.
-  (void)navigator_.steer(*known_, pose, plan.way.speed_m_s);
-  if (navigator_.state() == State::arrived) {
+  (void)navigator.steer(*known_, pose, plan.way.speed_m_s);
+  if (navigator.state() == State::arrived) {
     plan.state = Plan::State::done;
     return plan;
   }
   // What lies behind it is left out: the path was made some metres ago.
-  auto const& path = navigator_.path();
+  auto const& path = navigator.path();
   auto const here = std::ranges::min_element(
       path, {}, [&](Cell cell) { return geo::distance_m(known_->middle(cell), pose.position); });
   for (auto const cell : std::ranges::subrange(here, path.end()))
@@ -456,7 +467,7 @@ Plan FloorPlanner::follow(Situation const& situation, explore::Pose const& pose)
   plan.way.clear_to = 0;
   for (auto to = here; to != path.end() && explore::is_line_clear(from, *to, can_stand); ++to)
     plan.way.clear_to = static_cast<std::size_t>(to - here);
-  plan.way.is_to_the_end = !path.empty() && path.back() == *navigator_.goal();
+  plan.way.is_to_the_end = !path.empty() && path.back() == *navigator.goal();
   return plan;
 }
 

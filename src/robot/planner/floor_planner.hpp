@@ -12,7 +12,8 @@
 #include "base/error.hpp"
 #include "explore/path/navigator.hpp"
 #include "explore/strategy/strategy.hpp"
-#include "robot/planner/companions.hpp"
+#include "robot/planner/company/companions.hpp"
+#include "robot/planner/company/company.hpp"
 #include "robot/planner/driven_track.hpp"
 #include "robot/planner/held_up/progress.hpp"
 #include "robot/planner/held_up/recovery.hpp"
@@ -75,6 +76,7 @@ struct Plan {
   bool waits = false;       ///< for what its companions open: it has nothing left to explore
   Way way = {};
   std::optional<Place> goal = {};
+  Intent intent = {};  ///< to be told to its companions
 };
 
 /// Plans on the map as it grows: where to go for an errand and how to get there. It keeps to cells that are known to be
@@ -86,8 +88,10 @@ class FloorPlanner {
 
   /// The tiles of the grid as they are now. Where it had no room for one, it plans anew in a larger area.
   void learn(map::OccupancyGrid const& grid, std::vector<map::TileKey> const& changed);
-  /// Who explores the floor as well, as they are now: what they have seen need not be seen again, and frontiers are
-  /// shared out among all. `grid` as above, without a change. They are forgotten when it begins to explore anew.
+  /// Who is about something on the floor as well, as they are now. Where one of them stands in its way, or it in
+  /// theirs, one makes room. While it explores, what those who explore, too, have seen need not be seen again, and
+  /// frontiers are shared out among all; that is forgotten when it begins to explore anew. `grid` as above, without a
+  /// change.
   void meet(std::vector<Companion> companions, map::OccupancyGrid const& grid);
   /// Error: invalid_input for a strategy that there is not. The errand before is dropped.
   [[nodiscard]] base::Result<> begin(Errand errand);
@@ -118,12 +122,16 @@ class FloorPlanner {
   [[nodiscard]] std::optional<explore::Cell> standable_near(Place const& place, double within_m) const;
   [[nodiscard]] std::vector<explore::Disc> obstacles(Situation const& situation) const;
   [[nodiscard]] Plan explore(Situation const& situation, explore::Pose const& pose);
+  void share(std::vector<Companion> companions, map::OccupancyGrid const& grid);
   void learn_theirs(map::OccupancyGrid const& own, std::vector<map::TileKey> const& tiles);
   [[nodiscard]] explore::Pose pose_of(Companion const& companion) const;
   void find_sharers(explore::Pose const& pose, double time_s);
   /// Of all who share the floor out, in the order of their ids, which is the same to each of them; and which is this
   /// one.
   [[nodiscard]] std::pair<std::vector<explore::RobotView>, std::size_t> views(explore::RobotView own) const;
+  [[nodiscard]] std::vector<explore::Place> wanted_way(explore::Pose const& pose, Plan const& plan) const;
+  /// Says in the plan what its companions are to be told; and where it is to make room itself, its way is there.
+  void mind_company(Situation const& situation, explore::Pose const& pose, Plan& plan);
   [[nodiscard]] Plan wait_for_companions(Situation const& situation, explore::Pose const& pose);
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
   [[nodiscard]] Plan look(Situation const& situation, explore::Pose const& pose, LookErrand const& looking);
@@ -132,8 +140,10 @@ class FloorPlanner {
   /// degree a minute after 15 s, and a degree after two.
   [[nodiscard]] bool stands_at_first(double time_s);
   [[nodiscard]] double give_up_s() const;
+  /// Since when it has not got on with what it is about now.
+  [[nodiscard]] double stalled_s(double time_s) const;
   /// What the navigator has to say of its goal.
-  [[nodiscard]] Plan follow(Situation const& situation, explore::Pose const& pose);
+  [[nodiscard]] Plan follow(explore::Navigator& navigator, Situation const& situation, explore::Pose const& pose);
   void learn_all(map::OccupancyGrid const& grid);
   void learn(map::OccupancyGrid const& grid, map::TileKey key);
   void learn(explore::Cell cell, explore::Knowledge knowledge);
@@ -162,6 +172,8 @@ class FloorPlanner {
   std::optional<explore::DenseGrid<explore::Knowledge>> theirs_;  ///< what they have seen, where any has
   std::vector<bool> shares_;  ///< a companion: has a way to what is open to this one
   double sharers_found_s_ = 0.0;
+  Company company_;
+  explore::Navigator aside_;  ///< to where it makes room
   std::optional<double> waits_since_s_;
   bool learns_anew_ = false;  ///< its own map alone
   explore::Navigator navigator_;

@@ -72,6 +72,46 @@ TEST(FloorPlanner, GivesTheWayFromWhereTheRobotHasCome) {
   EXPECT_NEAR(later.way.points.front().x(), 1.0, 0.1);
 }
 
+TEST(FloorPlanner, GoesAsideWhileACompanionAsksItToAndThenOn) {
+  FloorPlanner planner(PlannerOptions{.id = "robot2"});
+  auto const grid = drawn(in_room);
+  learn_all(planner, grid);
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(2.5, 0.0)}));
+  Companion other{.id = "robot1", .grid = grid, .pose = {0.0, 0.0, 0.0}, .explores = false};
+  other.intent.asks = {{"robot2", Place(-2.0, 1.0)}};
+  planner.meet({other}, grid);
+  auto const aside = planner.plan({.pose = {-1.0, 0.0, 0.0}});
+  ASSERT_FALSE(aside.way.points.empty());
+  EXPECT_LT(geo::distance_m(aside.way.points.back(), Place(-2.0, 1.0)), 0.1);
+  ASSERT_FALSE(aside.intent.way.empty()) << "it says where it wants to go on";
+  EXPECT_NEAR(aside.intent.way.back().x(), 2.5, 0.1);
+  EXPECT_TRUE(aside.intent.asks.empty()) << "another decides";
+  // For as long as it takes: that does not count against its errand.
+  for (double time_s = 1.0; time_s < 1000.0; time_s += 1.0)
+    ASSERT_EQ(planner.plan({.pose = {-2.0, 1.0, 0.0}, .time_s = time_s}).state, State::under_way) << time_s;
+  other.intent.asks.clear();
+  planner.meet({other}, grid);
+  auto const on = planner.plan({.pose = {-2.0, 1.0, 0.0}, .time_s = 1001.0});
+  ASSERT_FALSE(on.way.points.empty());
+  EXPECT_NEAR(on.way.points.back().x(), 2.5, 0.1);
+}
+
+TEST(FloorPlanner, AsksACompanionThatStandsInItsWayToMakeRoom) {
+  // A corridor for one, with a room to its right at the far end.
+  auto const is_free = [](double x, double y) {
+    return (std::abs(x) < 3.5 && std::abs(y) < 0.5) || (x > 1.0 && x < 2.5 && y > -2.0 && y < 0.0);
+  };
+  FloorPlanner planner(PlannerOptions{.id = "robot1"});
+  auto const grid = drawn(is_free);
+  learn_all(planner, grid);
+  ASSERT_TRUE(planner.begin(DriveErrand{.to = Place(3.0, 0.0)}));
+  planner.meet({{.id = "robot2", .grid = grid, .pose = {0.5, 0.0, 0.0}, .explores = false}}, grid);
+  EXPECT_TRUE(planner.plan({.pose = {-0.2, 0.0, 0.0}}).intent.asks.empty()) << "it has not stood there yet";
+  auto const plan = planner.plan({.pose = {-0.2, 0.0, 0.0}, .time_s = 6.0});
+  ASSERT_TRUE(plan.intent.asks.contains("robot2"));
+  EXPECT_LT(plan.intent.asks.at("robot2").y(), -0.5);
+}
+
 TEST(FloorPlanner, SaysWhyItCannotDriveThere) {
   FloorPlanner planner(PlannerOptions{});
   learn_all(planner, drawn(in_room));

@@ -207,10 +207,11 @@ base::Task<> Robot::keep_aligning() {
 base::Task<MapResult> Robot::map_scans() {
   health_.begin_work(Module::mapping);
   if (spec_.hold_up) co_await spec_.hold_up(Module::mapping);
-  std::vector<slam::Scan> scans{std::make_move_iterator(scans_.begin()), std::make_move_iterator(scans_.end())};
+  MapInput input{.scans = {std::make_move_iterator(scans_.begin()), std::make_move_iterator(scans_.end())},
+                 .aligned = std::exchange(aligned_, {})};
+  if (around_.others) input.others = around_.others();
   scans_.clear();
-  auto result =
-      co_await around_.loop.on_pool(&take_in, std::move(thoughts_), std::move(scans), std::exchange(aligned_, {}));
+  auto result = co_await around_.loop.on_pool(&take_in, std::move(thoughts_), std::move(input));
   is_pose_lost_ = pose_check_.feed(base::to_seconds(around_.loop.now().time_since_epoch()), result.misfit);
   health_.say(Module::mapping, ModuleState::ready, mapping_code());
   co_return result;
@@ -226,7 +227,8 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
                   .time_s = now_s};
   input.wants_survey = !survey_ || around_.loop.now() - surveyed_at_ >= survey_period;
   input.wants_walls = around_.loop.now() - walls_at_ >= walls_period;
-  if (is_exploring_ && around_.companions && around_.loop.now() - met_at_ >= meet_period) {
+  bool const is_about_something = !std::holds_alternative<std::monostate>(errand_);
+  if (is_about_something && around_.companions && around_.loop.now() - met_at_ >= meet_period) {
     input.companions = around_.companions();
     met_at_ = around_.loop.now();
   }
@@ -234,7 +236,8 @@ base::Task<PlanResult> Robot::plan(MapResult map) {
   input.aligns_soon = aligns_soon_;
   auto result = co_await around_.loop.on_pool(&plan_on, std::move(map), known_errand_, std::move(input));
   bool const has_failed = result.errand == last_errand_ && result.plan.state == Plan::State::failed;
-  if (has_failed && !is_looking_) planner_code_ = code::no_way;
+  // Looks are its eyes' alone, and nobody misses one.
+  if (has_failed && !std::holds_alternative<LookErrand>(errand_)) planner_code_ = code::no_way;
   bool const spins = wheel_spin_.feed(now_s, result.map.odometry, result.map.here.pose);
   health_.say(Module::planner, ModuleState::ready, spins ? code::not_moving : planner_code_);
   co_return result;
@@ -311,10 +314,9 @@ void Robot::give(Errand errand) {
     planner_code_ = code::none;
     wheel_spin_.forget();
   }
-  is_exploring_ = std::holds_alternative<ExploreErrand>(errand);
-  is_looking_ = std::holds_alternative<LookErrand>(errand);
   around_.registry.edit(id()).mode.set(mode_for(errand), around_.loop.now());
   around_.registry.touch(id());
+  errand_ = errand;
   next_errand_ = NewErrand{.number = ++last_errand_, .errand = std::move(errand)};
   plan_ = {.state = Plan::State::under_way};
   follower_.stop();

@@ -100,8 +100,10 @@ class Robot {
     /// What is wrong with its eyes, likewise; nothing where it has none, and while they do not answer.
     std::function<std::optional<std::uint16_t>()> points_of_interest;
     SecondLooks second_looks;
-    /// Who explores the same floor now, beside it; empty: it is alone.
+    /// Who is about something on the same floor now, beside it; empty: it is alone.
     std::function<std::vector<Companion>()> companions;
+    /// Who is on the same floor, about something or not, on its own map; empty: it is alone.
+    std::function<std::vector<OtherRobot>()> others;
     /// Whether what it maps is kept on the disk; empty: nobody keeps it.
     std::function<bool()> is_map_kept;
     base::Logger log;
@@ -140,10 +142,13 @@ class Robot {
   [[nodiscard]] std::vector<std::shared_ptr<DriveRecord const>> const& drives() const { return drives_; }
   [[nodiscard]] std::optional<Survey> const& survey() const { return survey_; }
   [[nodiscard]] std::optional<Located> const& here() const { return here_; }
+  /// On its own map, at this moment; nothing before it has a place.
+  [[nodiscard]] std::optional<slam::Pose2> pose() const;
+  [[nodiscard]] double radius_m() const { return body_->limits().radius_m; }
   /// Nothing before it has a place.
   [[nodiscard]] std::optional<PoseSpread> spread() const;
-  /// What those may know of it that explore the same floor, in the frame of its own map; nothing unless it explores.
-  [[nodiscard]] std::optional<Companion> exploring() const;
+  /// What those on the same floor may know of it, in the frame of its own map; nothing unless it is about something.
+  [[nodiscard]] std::optional<Companion> as_companion() const;
   /// The way that it follows now, in the site's frame; empty: none.
   [[nodiscard]] std::vector<geo::Point<geo::SiteFrame>> way() const;
   [[nodiscard]] slam::LoopCounts const& loops() const { return loops_; }
@@ -223,9 +228,8 @@ class Robot {
   std::optional<NewErrand> next_errand_;
   std::uint64_t last_errand_ = 0;   ///< that was given
   std::uint64_t known_errand_ = 0;  ///< that the planner has
-  bool is_exploring_ = false;       ///< the last errand is that
-  bool is_looking_ = false;         ///< the last errand is its eyes' alone, and nobody misses it
-  Plan plan_;                       ///< of the last errand
+  Errand errand_;                   ///< the last one
+  Plan plan_;                       ///< of that
   std::optional<Located> here_;
   slam::Pose2 odometry_here_;
   std::optional<Survey> survey_;

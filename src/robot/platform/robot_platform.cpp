@@ -120,6 +120,7 @@ base::Result<Robot*> RobotPlatform::add(RobotSpec spec, std::unique_ptr<Body> bo
       .points_of_interest = [this, id = spec.id] { return trouble_of_eyes({id}); },
       .second_looks = second_looks_of({spec.id}),
       .companions = [this, spec] { return companions_of(spec); },
+      .others = [this, spec] { return others_of(spec); },
       .is_map_kept = [this] { return !is_map_kept_ || is_map_kept_(); },
       .log = log_};
   forget_walls(spec);
@@ -149,23 +150,39 @@ std::optional<std::uint16_t> RobotPlatform::trouble_of_eyes(VehicleId const& id)
   return found->second.eyes.trouble();
 }
 
-std::vector<Companion> RobotPlatform::companions_of(RobotSpec const& spec) const {
+std::vector<RobotPlatform::Beside> RobotPlatform::beside(RobotSpec const& spec) const {
   constexpr double one_place_m = 0.2;
-  std::vector<Companion> companions;
   auto const pose_of = [](geo::Pose<geo::SiteFrame> const& start) {
     return slam::Pose2{start.position.x(), start.position.y(), start.yaw_rad};
   };
+  std::vector<Beside> found;
   for (auto const& robot : robots_) {
     auto const& other = robot->spec();
     bool const is_beside = other.id != spec.id && other.site == spec.site && other.floor == spec.floor;
     // Nobody has said where the two begin: neither knows where the other's map lies.
     if (!is_beside || geo::distance_m(other.start.position, spec.start.position) < one_place_m) continue;
-    auto exploring = robot->exploring();
-    if (!exploring) continue;
-    exploring->origin = slam::between(pose_of(spec.start), pose_of(other.start));
-    companions.push_back(*std::move(exploring));
+    found.push_back({robot.get(), slam::between(pose_of(spec.start), pose_of(other.start))});
+  }
+  return found;
+}
+
+std::vector<Companion> RobotPlatform::companions_of(RobotSpec const& spec) const {
+  std::vector<Companion> companions;
+  for (auto const& [robot, origin] : beside(spec)) {
+    auto companion = robot->as_companion();
+    if (!companion) continue;
+    companion->origin = origin;
+    companions.push_back(*std::move(companion));
   }
   return companions;
+}
+
+std::vector<OtherRobot> RobotPlatform::others_of(RobotSpec const& spec) const {
+  std::vector<OtherRobot> others;
+  for (auto const& [robot, origin] : beside(spec))
+    if (auto const pose = robot->pose())
+      others.push_back({.at = slam::place(origin * *pose), .radius_m = robot->radius_m()});
+  return others;
 }
 
 Robot::SecondLooks RobotPlatform::second_looks_of(VehicleId const& id) {

@@ -81,7 +81,14 @@ class RobotPlatform final : public tasks::Platform {
   void forget_walls(RobotSpec const& spec);
   [[nodiscard]] base::Task<base::Result<std::string>> photograph(vehicle::VehicleId id);
   void move_what_it_saw(vehicle::VehicleId const& id, MapMove const& moved);
+  /// Another robot on a floor, and where the frame of its map lies in that of the map of whom it is beside.
+  struct Beside {
+    Robot const* robot = nullptr;
+    slam::Pose2 origin = {};
+  };
+  [[nodiscard]] std::vector<Beside> beside(RobotSpec const& spec) const;
   [[nodiscard]] std::vector<Companion> companions_of(RobotSpec const& spec) const;
+  [[nodiscard]] std::vector<OtherRobot> others_of(RobotSpec const& spec) const;
   [[nodiscard]] Robot::SecondLooks second_looks_of(vehicle::VehicleId const& id);
   [[nodiscard]] std::optional<std::uint16_t> trouble_of_eyes(vehicle::VehicleId const& id) const;
   base::Task<> pass_on(Robot& robot);

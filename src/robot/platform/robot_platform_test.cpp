@@ -143,6 +143,35 @@ TEST_F(RobotPlatformTest, KnowsNothingOfTheMapOfARobotThatIsSaidToStandWhereItDo
   EXPECT_NEAR(robot->survey()->free_m2, testing::small_office_m2, 0.06 * testing::small_office_m2);
 }
 
+TEST_F(RobotPlatformTest, PassesWhoeverComesTowardsItWhereThereIsRoomForOneAlone) {
+  walls = testing::narrow_corridor();
+  slam::Pose2 const there{8.0, 0.0, std::numbers::pi};
+  auto* const left = add("robot2");
+  auto* const left_body = added_body;
+  auto* const right = add("robot3", {.start = there}, {}, {{there.x, there.y}, there.yaw});
+  auto* const right_body = added_body;
+  ASSERT_TRUE(run_until([&] { return left->here() && right->here(); }, 5s));
+  for (auto const* id : {"robot2", "robot3"}) {
+    auto const run = start({ExploreStep{"nearest"}, ReturnStep{}}, id);
+    ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 5min)) << run->progress();
+  }
+  left_body->others_there = {right_body};
+  right_body->others_there = {left_body};
+  auto const* const site = live_map.site("office");
+  auto const place = [&](double x) { return site->place_of(geo::Point3<geo::SiteFrame>(x, 0.0, 0.0)); };
+  auto const one = start({DriveToPlaceStep{place(8.0)}}, "robot2");
+  auto const two = start({DriveToPlaceStep{place(0.0)}}, "robot3");
+  auto const have_ended = [&] {
+    return one->state() != RunState::in_progress && two->state() != RunState::in_progress;
+  };
+  ASSERT_TRUE(run_until(have_ended, 10min)) << one->progress() << "; " << two->progress();
+  EXPECT_EQ(one->state(), RunState::done) << one->error();
+  EXPECT_EQ(two->state(), RunState::done) << two->error();
+  EXPECT_EQ(left_body->collisions() + right_body->collisions(), 0);
+  EXPECT_NEAR(left_body->truth().x, 8.0, 0.5);
+  EXPECT_NEAR(right_body->truth().x, 0.0, 0.5);
+}
+
 TEST_F(RobotPlatformTest, ExploresWithFourRangers) {
   auto* const other = add("robot4", {.beams = 4, .laser_m = 4.0});
   ASSERT_TRUE(run_until([&] { return other->here().has_value(); }, 5s));

@@ -38,6 +38,11 @@ void Robot::show_reading(Reading const& reading, bool is_first) {
   }
 }
 
+std::optional<slam::Pose2> Robot::pose() const {
+  if (!here_ || !last_reading_) return std::nullopt;
+  return pose_now(last_reading_->odometry);
+}
+
 std::optional<PoseSpread> Robot::spread() const {
   if (!here_) return std::nullopt;
   Eigen::Matrix2d const turn = Eigen::Rotation2Dd(site_from_map_.yaw_rad()).toRotationMatrix();
@@ -51,9 +56,15 @@ std::optional<PoseSpread> Robot::spread() const {
                     .yaw_rad = std::sqrt(std::max(0.0, here_->covariance(2, 2)))};
 }
 
-std::optional<Companion> Robot::exploring() const {
-  if (!is_exploring_ || !is_driving() || !is_under_way() || !here_ || !grid_) return std::nullopt;
-  return Companion{.id = spec_.id, .grid = *grid_, .pose = here_->pose, .waits = plan_.waits};
+std::optional<Companion> Robot::as_companion() const {
+  bool const is_about_something = is_driving() && is_under_way() && !std::holds_alternative<std::monostate>(errand_);
+  if (!is_about_something || !here_ || !grid_) return std::nullopt;
+  return Companion{.id = spec_.id,
+                   .grid = *grid_,
+                   .pose = here_->pose,
+                   .intent = plan_.intent,
+                   .waits = plan_.waits,
+                   .explores = std::holds_alternative<ExploreErrand>(errand_)};
 }
 
 std::vector<geo::Point<geo::SiteFrame>> Robot::way() const {

@@ -25,14 +25,15 @@ std::vector<Place> ends_of(slam::Scan const& scan, slam::Sensor const& sensor, s
 
 }  // namespace
 
-MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans, std::vector<slam::Pose2> aligned) {
+MapResult take_in(std::unique_ptr<Thoughts> thoughts, MapInput input) {
   auto& map = thoughts->map;
   MapResult result;
-  auto const last = scans.back();
-  if (!aligned.empty()) map.take(aligned);
-  for (auto& scan : scans) {
+  auto const last = input.scans.back();
+  if (!input.aligned.empty()) map.take(input.aligned);
+  for (auto& scan : input.scans) {
     thoughts->room.take(scan, map.sensor());
-    map.add(std::move(scan));
+    auto const pose = map.here().pose * slam::between(map.odometry(), scan.odometry);
+    map.add(without_robots(std::move(scan), map.sensor(), pose, input.others));
   }
   result.changed = map.take_changes();
   if (!result.changed.empty()) result.grid = map.grid();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "robot/mapping/floor_map.hpp"
+#include "robot/mapping/other_robots.hpp"
 #include "robot/mapping/wall_book.hpp"
 #include "robot/planner/floor_planner.hpp"
 
@@ -69,10 +70,15 @@ struct PlanResult {
   std::unique_ptr<slam::JointAlignment> alignment = {};  ///< that has begun; what comes of it is for `take_in`
 };
 
-/// A pure function for `Loop::on_pool`: takes the scans into the map; in the order of time, at least one. `aligned`:
-/// what has come of an alignment, nothing if none has ended.
-[[nodiscard]] MapResult take_in(std::unique_ptr<Thoughts> thoughts, std::vector<slam::Scan> scans,
-                                std::vector<slam::Pose2> aligned);
+struct MapInput {
+  std::vector<slam::Scan> scans;  ///< in the order of time, at least one
+  /// What has come of an alignment; nothing if none has ended.
+  std::vector<slam::Pose2> aligned = {};
+  std::vector<OtherRobot> others = {};  ///< on its map, which shows none of them
+};
+
+/// A pure function for `Loop::on_pool`: takes the scans into the map.
+[[nodiscard]] MapResult take_in(std::unique_ptr<Thoughts> thoughts, MapInput input);
 /// The same: plans on what has come of that. `errand`: the one that the planner has.
 [[nodiscard]] PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input);
 /// The same: a piece of it, short enough not to hold up mapping. Precondition: not done.

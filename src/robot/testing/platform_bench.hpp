@@ -25,7 +25,7 @@ struct PlatformBench {
   /// `start`: where it is said to stand.
   Robot* add(std::string const& id, SimpleBodyOptions const& options = {},
              std::function<base::Task<>(Module)> hold_up = {}, geo::Pose<geo::SiteFrame> const& start = {}) {
-    auto made = std::make_unique<SimpleBody>(loop, small_office(), options);
+    auto made = std::make_unique<SimpleBody>(loop, walls, options);
     added_body = made.get();
     if (!body) body = added_body;
     RobotSpec spec{.id = id, .name = "robot " + id.substr(5), .site = "office"};
@@ -48,6 +48,7 @@ struct PlatformBench {
   }
   [[nodiscard]] vehicle::VehicleState const& state() const { return *registry.find({"robot1"}); }
 
+  Walls walls = small_office();  ///< of the next one
   base::LogHub hub;
   base::Loop loop;
   base::Logger log{hub, "test"};

@@ -32,6 +32,14 @@ double distance_m(Wall const& wall, Eigen::Vector2d const& point) {
   return (wall.from + share * along - point).norm();
 }
 
+double cast(SimpleBody const& other, Eigen::Vector2d const& from, Eigen::Vector2d const& direction, double most) {
+  Eigen::Vector2d const to = slam::place(other.truth()) - from;
+  double const along = to.dot(direction);
+  double const aside2 = to.squaredNorm() - along * along;
+  double const in2 = other.limits().radius_m * other.limits().radius_m - aside2;
+  return along > 0.0 && in2 > 0.0 ? std::clamp(along - std::sqrt(in2), 0.0, most) : most;
+}
+
 double towards(double from, double to, double most) {
   return from + std::clamp(to - from, -most, most);
 }
@@ -62,6 +70,12 @@ Walls small_office() {
     line(last, side, right, side);
   }
   return walls;
+}
+
+Walls narrow_corridor() {
+  return {{{-1.0, -0.5}, {9.0, -0.5}}, {{9.0, -0.5}, {9.0, 0.5}},  {{9.0, 0.5}, {5.2, 0.5}},
+          {{5.2, 0.5}, {5.2, 1.7}},    {{5.2, 1.7}, {4.0, 1.7}},   {{4.0, 1.7}, {4.0, 0.5}},
+          {{4.0, 0.5}, {-1.0, 0.5}},   {{-1.0, 0.5}, {-1.0, -0.5}}};
 }
 
 SimpleBody::SimpleBody(base::Loop& loop, Walls walls, SimpleBodyOptions const& options)
@@ -117,7 +131,12 @@ void SimpleBody::move() {
   odometry_ = odometry_ * Pose2{length * (1.0 + options_.scale_bias) + noise(options_.shift_noise * std::abs(length)),
                                 0.0, turn + noise(options_.turn_noise * std::abs(turn))};
   auto const hits = [&](Wall const& wall) { return distance_m(wall, slam::place(pose_)) < options_.radius_m; };
-  if (std::ranges::any_of(walls_, hits) || std::ranges::any_of(put_in_the_way, hits)) ++collisions_;
+  auto const touches = [&](SimpleBody const* other) {
+    return slam::distance_m(pose_, other->pose_) < options_.radius_m + other->options_.radius_m;
+  };
+  if (std::ranges::any_of(walls_, hits) || std::ranges::any_of(put_in_the_way, hits) ||
+      std::ranges::any_of(others_there, touches))
+    ++collisions_;
 }
 
 double SimpleBody::range_m(Eigen::Vector2d const& from, double yaw) const {
@@ -125,6 +144,7 @@ double SimpleBody::range_m(Eigen::Vector2d const& from, double yaw) const {
   double range = options_.laser_m;
   for (auto const& wall : walls_) range = cast(wall, from, direction, range);
   for (auto const& wall : put_in_the_way) range = cast(wall, from, direction, range);
+  for (auto const* other : others_there) range = cast(*other, from, direction, range);
   return range;
 }
 

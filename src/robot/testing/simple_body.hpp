@@ -25,6 +25,9 @@ using Walls = std::vector<Wall>;
 [[nodiscard]] Walls small_office();
 /// How much of it can be seen from inside, m^2.
 inline constexpr double small_office_m2 = 14.0 * 2.0 + 6 * 4.0 * 3.5;
+/// A corridor of 10 by 1 m, in which no two robots pass each other, with a bay of 1.2 m in its upper side that begins 4
+/// m from the origin. That is 1 m from the corridor's left end, in its middle.
+[[nodiscard]] Walls narrow_corridor();
 
 struct SimpleBodyOptions {
   slam::Pose2 start = {};
@@ -72,7 +75,8 @@ class SimpleBody final : public Body {
   double drain_per_s = 0.0;  ///< of the battery, moving or not
   std::uint16_t carrier_code = 0;
   std::uint16_t sensors_code = 0;
-  std::vector<Wall> put_in_the_way = {};  ///< seen and hit like walls
+  std::vector<Wall> put_in_the_way = {};             ///< seen and hit like walls
+  std::vector<SimpleBody const*> others_there = {};  ///< seen and hit as they stand
 
  private:
   base::Task<> live();

@@ -15,7 +15,8 @@ constexpr double find_sharers_every_s = 1.0;
 
 }  // namespace
 
-void FloorPlanner::meet(std::vector<Companion> companions, map::OccupancyGrid const& grid) {
+void FloorPlanner::share(std::vector<Companion> companions, map::OccupancyGrid const& grid) {
+  std::erase_if(companions, [](Companion const& one) { return !one.explores; });
   auto const known = companions_.all().size();
   if (companions.empty() && known == 0) return;
   companions_.take(std::move(companions));

@@ -12,14 +12,23 @@
 
 namespace lapwing::robot {
 
-/// Another robot that explores the same floor at the same time.
+/// What a robot is about to do, as it tells those beside it; in its own frame.
+struct Intent {
+  /// Where it wants to go on for the next metres, as if nobody else were there; empty: it is where it wants to be.
+  std::vector<Place> way = {};
+  double stood_s = 0.0;                    ///< so long it has not got on
+  std::map<std::string, Place> asks = {};  ///< whom it asks to make room, by their ids, and where to go for that
+};
+
+/// Another robot that is about something on the same floor at the same time.
 struct Companion {
   std::string id = {};
   map::OccupancyGrid grid;  ///< what it has mapped, in its own frame
   slam::Pose2 origin = {};  ///< of that frame in ours, as those say who have put the two down
   slam::Pose2 pose = {};    ///< where it is, in its own frame
-  bool waits = false;       ///< nothing is left for it: it goes on when something opens
-  bool explores = true;     ///< still
+  Intent intent = {};
+  bool waits = false;    ///< nothing is left for it: it goes on when something opens
+  bool explores = true;  ///< and does not only drive somewhere
 };
 
 /// What companions have seen of the floor, looked up in their own maps: where this robot has seen nothing itself, that

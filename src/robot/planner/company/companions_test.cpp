@@ -1,4 +1,4 @@
-#include "robot/planner/companions.hpp"
+#include "robot/planner/company/companions.hpp"
 
 #include <algorithm>
 #include <numbers>
