@@ -21,8 +21,9 @@ constexpr std::string_view mavlink = "mavlink:";
 constexpr std::string_view laser_mark = "laser=";
 constexpr std::string_view radius_mark = "radius=";
 constexpr double least_radius_m = 0.05;
-constexpr std::array<std::pair<std::string_view, SimulatedRobots::Laser>, 3> lasers{
-    {{"half", SimulatedRobots::Laser::half},
+constexpr std::array<std::pair<std::string_view, SimulatedRobots::Laser>, 4> lasers{
+    {{"wide", SimulatedRobots::Laser::wide},
+     {"half", SimulatedRobots::Laser::half},
      {"ring", SimulatedRobots::Laser::ring},
      {"none", SimulatedRobots::Laser::none}}};
 constexpr int most_system_id = 254;  ///< 255 is a ground station's
@@ -85,8 +86,8 @@ base::Result<RobotRequest> simulated(std::string_view text, std::string_view fil
     auto const found = std::ranges::find(lasers, *named, &std::pair<std::string_view, SimulatedRobots::Laser>::first);
     if (found == lasers.end())
       return refuse(text, fmt::format("'{}' is no laser of a simulated robot: write ,laser=none for sonars alone, "
-                                      ",laser=ring for four single rangers, ,laser=half for half a circle ahead, or "
-                                      "nothing for a scanner",
+                                      ",laser=ring for four single rangers, ,laser=half for half a circle ahead, "
+                                      ",laser=wide for beams that edges cut in two, or nothing for a scanner",
                                       *named));
     request.laser = found->second;
   }

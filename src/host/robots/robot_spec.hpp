@@ -17,9 +17,10 @@ namespace lapwing::host {
 
 /// Robots in a simulated building: `sim:examples/buildings/office.toml`, `sim:office.toml:2` for two;
 /// `sim:office.toml,laser=none` for one that has its five sonars alone, `,laser=ring` for one with four single rangers,
-/// `,laser=half` for one whose scanner sees half a circle ahead; `,radius=0.3` for one of another size.
+/// `,laser=half` for one whose scanner sees half a circle ahead, `,laser=wide` for one whose beams have a width, so
+/// that edges cut them in two; `,radius=0.3` for one of another size.
 struct SimulatedRobots {
-  enum class Laser { scanner, half, ring, none };
+  enum class Laser { scanner, wide, half, ring, none };
   std::string file;
   int count = 1;
   Laser laser = Laser::scanner;
@@ -64,7 +65,8 @@ using RobotRequest = std::variant<SimulatedRobots, LinkedRobot, RosRobot, Mavlin
 /// What `--robot` says. Errors: invalid_input, with an example.
 [[nodiscard]] base::Result<RobotRequest> parse_robot(std::string_view text);
 inline constexpr auto robot_help =
-    "A robot (may be repeated): sim:BUILDING.toml[:COUNT][,laser=half|ring|none][,radius=M] in a simulated building, "
+    "A robot (may be repeated): sim:BUILDING.toml[:COUNT][,laser=wide|half|ring|none][,radius=M] in a simulated "
+    "building, "
     "its link, serial:///dev/ttyUSB0:115200[@EAST,NORTH,YAW], metres and degrees in the site, "
     "ros2://DOMAIN[/NAMESPACE][,radius=M][@...], "
     "ros2-lan:// beyond this machine, or a MAVLink rover, "

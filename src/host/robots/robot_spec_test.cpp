@@ -20,6 +20,8 @@ TEST(RobotSpec, NamesWhatTheRobotsInASimulatedBuildingMeasureBy) {
             (SimulatedRobots{"office.toml", 2, Laser::ring}));
   EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:office.toml,laser=half")),
             (SimulatedRobots{"office.toml", 1, Laser::half}));
+  EXPECT_EQ(std::get<SimulatedRobots>(*parse_robot("sim:office.toml,laser=wide")),
+            (SimulatedRobots{"office.toml", 1, Laser::wide}));
 }
 
 TEST(RobotSpec, NamesALinkAndWhereTheRobotStands) {
@@ -72,7 +74,8 @@ TEST(RobotSpec, SaysWhatIsWrong) {
   EXPECT_EQ(wrong("sim:a.toml:x"), "--robot sim:a.toml:x: 'x' is no number of robots from 1 to 8");
   EXPECT_EQ(wrong("sim:a.toml,laser=red"),
             "--robot sim:a.toml,laser=red: 'red' is no laser of a simulated robot: write ,laser=none for sonars alone, "
-            ",laser=ring for four single rangers, ,laser=half for half a circle ahead, or nothing for a scanner");
+            ",laser=ring for four single rangers, ,laser=half for half a circle ahead, ,laser=wide for beams that "
+            "edges cut in two, or nothing for a scanner");
   EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,2"),
             "--robot serial:///dev/ttyUSB0:115200@1,2: '1,2' is not EAST,NORTH,YAW");
   EXPECT_EQ(wrong("serial:///dev/ttyUSB0:115200@1,2,3,4"),

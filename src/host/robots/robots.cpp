@@ -21,6 +21,7 @@ namespace {
 
 building::RobotSettings settings_of(SimulatedRobots const& request) {
   auto settings = building::RobotSettings::of_radius(request.radius_m);
+  if (request.laser == SimulatedRobots::Laser::wide) settings.laser = building::wide_scanner();
   if (request.laser == SimulatedRobots::Laser::half) settings.laser = building::half_scanner(0.6 * request.radius_m);
   if (request.laser == SimulatedRobots::Laser::ring) settings.laser = building::tof_ring();
   if (request.laser == SimulatedRobots::Laser::none) settings.laser.beams = 0;

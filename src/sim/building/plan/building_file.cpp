@@ -112,10 +112,13 @@ class Parts {
 };
 
 void read_material(Parts& parts, ConfigReader& reader, Material& into) {
-  parts.choice<Material>(
-      reader, "material",
-      {{"plaster", Material::plaster}, {"wood", Material::wood}, {"cloth", Material::cloth}, {"dark", Material::dark}},
-      into);
+  parts.choice<Material>(reader, "material",
+                         {{"plaster", Material::plaster},
+                          {"wood", Material::wood},
+                          {"cloth", Material::cloth},
+                          {"dark", Material::dark},
+                          {"glass", Material::glass}},
+                         into);
 }
 
 void read_wall(Parts& parts, Placed<ConfigReader>& part, double thickness_m, BuildingPlan& plan) {

@@ -23,6 +23,7 @@ enum class Material {
   wood,
   cloth,  ///< people, chairs, curtains: scatters sound, and swallows some
   dark,   ///< a laser's light is often swallowed
+  glass,  ///< as smooth as plaster to a sonar; a laser's light goes through but where it is met squarely
 };
 
 struct Colour {

@@ -3,8 +3,43 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace lapwing::sim::building {
+
+namespace {
+
+/// Met more aslant than this glass lets the light through, and what stands behind it is seen (Wang and Wang 2017,
+/// "Detecting glass in simultaneous localisation and mapping": some degrees about the normal are left).
+constexpr double most_aslant_on_glass_rad = 0.09;
+constexpr int most_panes = 8;
+/// Ranges of neighbouring beams on one surface are not so far apart but where it is met very aslant.
+constexpr int edge_mm = 100;
+
+/// The first thing that sends light back.
+std::optional<Hit> cast_light(Place from, Shift const& way, double range_m, Surroundings const& around) {
+  double before_m = 0.0;
+  for (int panes = 0; panes <= most_panes; ++panes) {
+    auto hit = around.cast(from, way, range_m - before_m);
+    if (!hit) return std::nullopt;
+    before_m += hit->range_m;
+    bool const goes_through =
+        hit->material == Material::glass && -way.dot(hit->normal) < std::cos(most_aslant_on_glass_rad);
+    if (!goes_through) {
+      hit->range_m = before_m;
+      return hit;
+    }
+    constexpr double inside_m = 1e-6;
+    from = from + (hit->range_m + inside_m) * way;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+LaserSettings wide_scanner() {
+  return {.spot_rad = 0.005};
+}
 
 LaserSettings half_scanner(double x_m) {
   return {.beams = 180,
@@ -31,7 +66,7 @@ Laser::Laser(LaserSettings const& settings, std::uint64_t seed, std::uint32_t ro
     : settings_(settings), noise_(seed, "laser", robot) {}
 
 std::uint16_t Laser::range_mm(Place const& from, double yaw_rad, Surroundings const& around) {
-  auto const hit = around.cast(from, {std::cos(yaw_rad), std::sin(yaw_rad)}, settings_.range_m);
+  auto const hit = cast_light(from, {std::cos(yaw_rad), std::sin(yaw_rad)}, settings_.range_m, around);
   // Chance is asked alike whatever was hit, so that one thing more in the building changes few beams.
   double const luck = noise_.uniform();
   double const error = noise_.gaussian();
@@ -45,6 +80,15 @@ std::uint16_t Laser::range_mm(Place const& from, double yaw_rad, Surroundings co
   return static_cast<std::uint16_t>(std::lround(range_m * 1e3));
 }
 
+std::uint16_t Laser::mixed_mm(std::uint16_t last_mm, std::uint16_t range_mm) {
+  double const luck = noise_.uniform();
+  double const share = noise_.uniform();
+  bool const is_edge_between = last_mm > 0 && range_mm > 0 && std::abs(last_mm - range_mm) > edge_mm;
+  // The edge is anywhere between the two; this often it is within the beam.
+  if (!is_edge_between || luck * settings_.step_rad >= settings_.spot_rad) return range_mm;
+  return static_cast<std::uint16_t>(std::lround(last_mm + share * (range_mm - last_mm)));
+}
+
 bool Laser::sense(double now_s, Pose const& body, Surroundings const& around) {
   if (settings_.beams == 0) return false;
   Shift const ahead(std::cos(body.yaw_rad), std::sin(body.yaw_rad));
@@ -56,7 +100,9 @@ bool Laser::sense(double now_s, Pose const& body, Surroundings const& around) {
          begun_.time_s + a_beam_s * static_cast<double>(begun_.ranges_mm.size()) <= now_s + tolerance_s) {
     double const yaw =
         body.yaw_rad + settings_.first_angle_rad + settings_.step_rad * static_cast<double>(begun_.ranges_mm.size());
-    begun_.ranges_mm.push_back(range_mm(from, yaw, around));
+    if (begun_.ranges_mm.empty()) last_mm_ = 0;
+    auto const next_mm = range_mm(from, yaw, around);
+    begun_.ranges_mm.push_back(mixed_mm(std::exchange(last_mm_, next_mm), next_mm));
   }
   if (begun_.ranges_mm.size() < settings_.beams) return false;
   std::swap(whole_, begun_);

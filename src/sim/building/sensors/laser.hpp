@@ -24,7 +24,13 @@ struct LaserSettings {
   double noise_per_m = 0.001;  ///< more for each metre
   double lost = 0.002;         ///< probability that a beam comes back from nothing
   double lost_on_dark = 0.5;   ///< the same from something dark at half the range; nearer less, farther more
+  /// So wide is a beam: of one that an edge cuts in two comes back what lies anywhere between (mixed pixels: Ye and
+  /// Borenstein 2002, "Characterization of a 2-D laser scanner").
+  double spot_rad = 0.0;
 };
+
+/// One whose beams are 5 mrad wide.
+[[nodiscard]] LaserSettings wide_scanner();
 
 /// A scanner at the front, `x_m` ahead, that sees half a circle before it up to 8 m.
 [[nodiscard]] LaserSettings half_scanner(double x_m);
@@ -47,13 +53,17 @@ class Laser {
   /// The last whole one.
   [[nodiscard]] Scan const& scan() const { return whole_; }
 
-  /// One beam, without waiting for it.
+  /// One beam, without waiting for it and without a width.
   [[nodiscard]] std::uint16_t range_mm(Place const& from, double yaw_rad, Surroundings const& around);
 
  private:
+  /// What comes back of a beam that an edge between it and the last one may cut in two.
+  [[nodiscard]] std::uint16_t mixed_mm(std::uint16_t last_mm, std::uint16_t range_mm);
+
   LaserSettings settings_;
   Noise noise_;
   Scan begun_;
+  std::uint16_t last_mm_ = 0;  ///< of the beam before, as if it had no width
   Scan whole_;
 };
 

@@ -67,6 +67,48 @@ TEST(Laser, MissesDarkThingsTheMoreTheFartherTheyAre) {
   EXPECT_NEAR(lost_at(9.0), 0.9, 0.03);
 }
 
+TEST(Laser, SeesThroughGlassButWhereItMeetsItSquarely) {
+  // A pane 1 cm thick before a wall.
+  auto const seen = [](double yaw_rad) {
+    FaceIndex const pane({{.from = {2.0, 5.0}, .to = {2.0, -5.0}, .material = Material::glass},
+                          {.from = {2.01, -5.0}, .to = {2.01, 5.0}, .material = Material::glass},
+                          {.from = {3.0, 5.0}, .to = {3.0, -5.0}}});
+    Laser laser({.noise_m = 0.0, .noise_per_m = 0.0, .lost = 0.0}, 1, 0);
+    return std::cos(yaw_rad) * laser.range_mm({0, 0}, yaw_rad, {.fixed = pane});
+  };
+  EXPECT_NEAR(seen(0.0), 2000.0, 1.0);
+  EXPECT_NEAR(seen(0.05), 2000.0, 1.0);
+  EXPECT_NEAR(seen(0.15), 3000.0, 1.0);
+  EXPECT_NEAR(seen(-0.8), 3000.0, 1.0);
+}
+
+TEST(Laser, HasNowAndThenSomethingBetweenTheTwoSidesOfAnEdge) {
+  // To the left of straight ahead a wall is 2 m away, to the right one 4 m.
+  FaceIndex const edge({{.from = {2.0, 5.0}, .to = {2.0, 0.005}}, {.from = {4.0, 5.0}, .to = {4.0, -5.0}}});
+  LaserSettings const settings{.beams = 3,
+                               .first_angle_rad = -0.0175,
+                               .step_rad = 0.0175,
+                               .period_s = 0.1,
+                               .duration_s = 0.0,
+                               .noise_m = 0.0,
+                               .noise_per_m = 0.0,
+                               .lost = 0.0,
+                               .spot_rad = 0.005};
+  Laser laser(settings, 1, 0);
+  int between = 0;
+  constexpr int scans = 2000;
+  for (int i = 0; i < scans; ++i) {
+    ASSERT_TRUE(laser.sense(0.1 * i, {}, {.fixed = edge}));
+    auto const& ranges = laser.scan().ranges_mm;
+    EXPECT_NEAR(ranges[0], 4000, 3);
+    EXPECT_NEAR(ranges[1], 4000, 3);
+    EXPECT_GE(ranges[2], 2000);
+    EXPECT_LE(ranges[2], 4000);
+    between += ranges[2] > 2010 ? 1 : 0;
+  }
+  EXPECT_NEAR(between / double{scans}, 0.005 / 0.0175, 0.04) << "as often as the edge lies within the beam";
+}
+
 TEST(Laser, SeesNothingBeyondItsRange) {
   auto const wall = wall_ahead(4.2);
   Laser ring(tof_ring(), 1, 0);
@@ -114,7 +156,9 @@ TEST(Sonar, IsMirroredAwayByASmoothWallMetAslant) {
   auto const aslant = wall_ahead(2.0, 0.8);
   auto const cloth = wall_ahead(2.0, 0.8, Material::cloth);
   auto const far_cloth = wall_ahead(3.5, 0.0, Material::cloth);
+  auto const glass = wall_ahead(2.0, 0.2, Material::glass);
   EXPECT_GT(echo_us(sonar, {0, 0}, 0.0, {.fixed = straight}, noise), 0);
+  EXPECT_GT(echo_us(sonar, {0, 0}, 0.0, {.fixed = glass}, noise), 0);
   EXPECT_EQ(echo_us(sonar, {0, 0}, 0.0, {.fixed = aslant}, noise), 0);
   EXPECT_GT(echo_us(sonar, {0, 0}, 0.0, {.fixed = cloth}, noise), 0);
   EXPECT_EQ(echo_us(sonar, {0, 0}, 0.0, {.fixed = far_cloth}, noise), 0);

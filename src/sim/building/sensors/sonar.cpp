@@ -28,7 +28,8 @@ Shift unit(double yaw_rad) {
 bool sends_back(Hit const& hit, Shift const& way, double range_m) {
   if (hit.material == Material::cloth) return hit.range_m < cloth_range * range_m;
   if (hit.to_edge_m < edge_m && hit.range_m < edge_range * range_m) return true;
-  double const most = hit.material == Material::plaster ? most_aslant_on_plaster_rad : most_aslant_on_wood_rad;
+  bool const is_smooth = hit.material == Material::plaster || hit.material == Material::glass;
+  double const most = is_smooth ? most_aslant_on_plaster_rad : most_aslant_on_wood_rad;
   return -way.dot(hit.normal) > std::cos(most);
 }
 
