@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/async/pool.hpp"
+#include "robot/mapping/mixed_pixels.hpp"
 #include "robot/watch/codes.hpp"
 
 namespace lapwing::robot {
@@ -113,12 +114,13 @@ void Robot::take(Reading const& reading) {
 
 void Robot::take(slam::Scan const& scan) {
   scanned_at_ = around_.loop.now();
-  room_.take(scan, *body_->sensor());
+  auto clean = without_mixed_pixels(scan, *body_->sensor());
+  room_.take(clean, *body_->sensor());
   if (scans_.size() == most_waiting_scans) {
     scans_.pop_front();
     left_out_at_ = around_.loop.now();
   }
-  scans_.push_back(scan);
+  scans_.push_back(std::move(clean));
   scanned_.notify_all();
 }
 
