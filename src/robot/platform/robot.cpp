@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/async/pool.hpp"
-#include "robot/mapping/mixed_pixels.hpp"
 #include "robot/watch/codes.hpp"
 
 namespace lapwing::robot {
@@ -114,13 +113,12 @@ void Robot::take(Reading const& reading) {
 
 void Robot::take(slam::Scan const& scan) {
   scanned_at_ = around_.loop.now();
-  auto clean = without_mixed_pixels(scan, *body_->sensor());
-  room_.take(clean, *body_->sensor());
+  room_.take(scan, *body_->sensor());
   if (scans_.size() == most_waiting_scans) {
     scans_.pop_front();
     left_out_at_ = around_.loop.now();
   }
-  scans_.push_back(std::move(clean));
+  scans_.push_back(scan);
   scanned_.notify_all();
 }
 

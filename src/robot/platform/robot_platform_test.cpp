@@ -182,7 +182,7 @@ TEST_F(RobotPlatformTest, ExploresWithFourRangers) {
 }
 
 TEST_F(RobotPlatformTest, EndsAnExplorationWhileItsBatteryTakesItHome) {
-  body->battery = 0.45;
+  body->battery = 0.5;
   body->drain_per_s = 1.0 / 300.0;
   auto const run = start({ExploreStep{"tour"}, ReturnStep{}});
   ASSERT_TRUE(run_until([&] { return run->state() != RunState::in_progress; }, 30min)) << run->progress();
@@ -191,7 +191,7 @@ TEST_F(RobotPlatformTest, EndsAnExplorationWhileItsBatteryTakesItHome) {
       << robot->drives().back()->remark;
   EXPECT_LT(robot->survey()->coverage, 0.95) << "there was more to see";
   EXPECT_LT(std::hypot(body->truth().x, body->truth().y), 0.6) << "where it began";
-  EXPECT_GT(body->battery, 0.0) << "it came home on what it had";
+  EXPECT_GT(body->battery, 0.05) << "the margin";
 }
 
 TEST_F(RobotPlatformTest, DrivesToAPlaceWhateverItsBatterySays) {
