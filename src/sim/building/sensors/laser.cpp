@@ -81,6 +81,7 @@ std::uint16_t Laser::range_mm(Place const& from, double yaw_rad, Surroundings co
 }
 
 std::uint16_t Laser::mixed_mm(std::uint16_t last_mm, std::uint16_t range_mm) {
+  if (settings_.spot_rad == 0.0) return range_mm;
   double const luck = noise_.uniform();
   double const share = noise_.uniform();
   bool const is_edge_between = last_mm > 0 && range_mm > 0 && std::abs(last_mm - range_mm) > edge_mm;
