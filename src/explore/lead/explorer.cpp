@@ -84,26 +84,12 @@ void Explorer::give_orders(KnownMap const& map) {
 }
 
 std::vector<Place> Explorer::way_of(KnownMap const& map, Member const& member) const {
-  constexpr double looked_ahead_m = 8.0;
-  constexpr double steered_m = 1.5;
   auto const& here = member.pose.position;
-  if (member.order.kind == Order::Kind::steer)
-    return {here, here + steered_m * Shift(std::cos(member.order.yaw_rad), std::sin(member.order.yaw_rad))};
+  if (member.order.kind == Order::Kind::steer) return way_ahead(here, member.order.yaw_rad);
   auto const goal = member.order.kind == Order::Kind::home ? home_of(map, member) : std::optional(member.order.goal);
   if (!goal || !member.navigator.goal()) return {};
   if (!member.is_aside && member.navigator.state() == Navigator::State::arrived) return {};
-  auto const root = roads_.node_near(map.cell_at(here));
-  auto const end = roads_.node_near(*goal);
-  if (!root || !end) return {};
-  std::vector<Place> way = {here};
-  double so_far_m = 0.0;
-  for (auto const node : roads_.way(*root, *end, {})) {
-    so_far_m += distance_m(way.back(), map.middle(roads_.place_of(node)));
-    way.push_back(map.middle(roads_.place_of(node)));
-    if (so_far_m > looked_ahead_m) return way;
-  }
-  way.push_back(map.middle(*goal));
-  return way;
+  return way_ahead(map, roads_, here, *goal);
 }
 
 void Explorer::make_room(KnownMap const& map) {

@@ -1,6 +1,7 @@
 #include "explore/lead/giving_way.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace lapwing::explore {
@@ -36,6 +37,28 @@ std::vector<Place> filled(std::span<Place const> way, double step_m) {
 }
 
 }  // namespace
+
+std::vector<Place> way_ahead(KnownMap const& map, RoadMap const& roads, Place const& from, Cell to) {
+  constexpr double looked_ahead_m = 8.0;
+  auto const root = roads.node_near(map.cell_at(from));
+  auto const end = roads.node_near(to);
+  if (!root || !end) return {};
+  std::vector<Place> way = {from};
+  double so_far_m = 0.0;
+  for (auto const node : roads.way(*root, *end, {})) {
+    auto const next = map.middle(roads.place_of(node));
+    so_far_m += distance_m(way.back(), next);
+    way.push_back(next);
+    if (so_far_m > looked_ahead_m) return way;
+  }
+  way.push_back(map.middle(to));
+  return way;
+}
+
+std::vector<Place> way_ahead(Place const& from, double yaw_rad) {
+  constexpr double steered_m = 1.5;
+  return {from, from + steered_m * Shift(std::cos(yaw_rad), std::sin(yaw_rad))};
+}
 
 bool GivingWay::is_busy() const {
   return std::ranges::any_of(aside_, [](std::optional<Aside> const& aside) { return aside.has_value(); });

@@ -10,6 +10,11 @@
 
 namespace lapwing::explore {
 
+/// Where a robot wants to go on that has a goal, or only a heading: the next metres, as if nobody else were there.
+/// Empty where no road leads there.
+[[nodiscard]] std::vector<Place> way_ahead(KnownMap const& map, RoadMap const& roads, Place const& from, Cell to);
+[[nodiscard]] std::vector<Place> way_ahead(Place const& from, double yaw_rad);
+
 /// Robots that stand before each other where there is no way around: one goes on, and whoever stands in its way makes
 /// room, and whoever stands in the way of those (priority inheritance). Where that cannot be, because the only way out
 /// leads past the one that wants on, that one makes room for the other first. They take turns in going first. Where

@@ -92,7 +92,7 @@ class FloorPlanner {
   /// theirs, one makes room. While it explores, what those who explore, too, have seen need not be seen again, and
   /// frontiers are shared out among all; that is forgotten when it begins to explore anew. `grid` as above, without a
   /// change.
-  void meet(std::vector<Companion> companions, map::OccupancyGrid const& grid);
+  void meet(std::vector<Companion> const& companions, map::OccupancyGrid const& grid);
   /// Error: invalid_input for a strategy that there is not. The errand before is dropped.
   [[nodiscard]] base::Result<> begin(Errand errand);
 
@@ -129,8 +129,9 @@ class FloorPlanner {
   /// Of all who share the floor out, in the order of their ids, which is the same to each of them; and which is this
   /// one.
   [[nodiscard]] std::pair<std::vector<explore::RobotView>, std::size_t> views(explore::RobotView own) const;
-  [[nodiscard]] std::vector<explore::Place> wanted_way(explore::Pose const& pose, Plan const& plan) const;
-  /// Says in the plan what its companions are to be told; and where it is to make room itself, its way is there.
+  [[nodiscard]] std::vector<explore::Place> wanted_way(explore::Place const& here) const;
+  /// Precondition: the plan is under way. Says in it what its companions are to be told; and where it is to make room
+  /// itself, its way is there.
   void mind_company(Situation const& situation, explore::Pose const& pose, Plan& plan);
   [[nodiscard]] Plan wait_for_companions(Situation const& situation, explore::Pose const& pose);
   [[nodiscard]] Plan drive(Situation const& situation, explore::Pose const& pose, Place const& to, double within_m);
@@ -140,7 +141,7 @@ class FloorPlanner {
   /// degree a minute after 15 s, and a degree after two.
   [[nodiscard]] bool stands_at_first(double time_s);
   [[nodiscard]] double give_up_s() const;
-  /// Since when it has not got on with what it is about now.
+  /// For how long it has not got on with what it is about now.
   [[nodiscard]] double stalled_s(double time_s) const;
   /// What the navigator has to say of its goal.
   [[nodiscard]] Plan follow(explore::Navigator& navigator, Situation const& situation, explore::Pose const& pose);

@@ -57,7 +57,7 @@ PlanResult plan_on(MapResult map, std::uint64_t errand, PlanInput input) {
     result.errand = input.errand->number;
     if (auto begun = planner.begin(std::move(input.errand->errand)); !begun) refused = begun.error();
   }
-  if (input.companions) planner.meet(*std::move(input.companions), floor.grid());
+  if (input.companions) planner.meet(*input.companions, floor.grid());
   if (refused) {
     result.plan = {.state = Plan::State::failed, .reason = refused->message};
   } else {

@@ -5,18 +5,7 @@
 
 namespace lapwing::robot {
 
-namespace {
-
 using explore::GivingWay;
-
-bool is_held_up(GivingWay::Member const& member, std::span<GivingWay::Member const> all) {
-  if (member.way.empty() || member.stood_s < GivingWay::stands_s) return false;
-  return std::ranges::any_of(all, [&](GivingWay::Member const& other) {
-    return &other != &member && geo::distance_m(other.at, member.at) < GivingWay::before_m;
-  });
-}
-
-}  // namespace
 
 void Company::take(std::vector<Neighbour> neighbours) {
   neighbours_ = std::move(neighbours);
@@ -48,9 +37,6 @@ Company::Decision Company::decide(explore::KnownMap const& map, explore::RoadMap
     ruled_ = std::move(ids);
   }
   Decision decision;
-  bool const is_any_held_up =
-      std::ranges::any_of(members, [&](GivingWay::Member const& member) { return is_held_up(member, members); });
-  if (!rule_.is_busy() && !is_any_held_up) return decision;
   auto const cells = rule_.decide(map, roads, members, radius_m, time_s);
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (cells[i]) decision.asks[ruled_[i]] = map.middle(*cells[i]);
