@@ -76,6 +76,9 @@ TEST_F(RobotsInABuilding, MapTheFloorAndComeBack) {
   EXPECT_EQ(robot["robot"]["drives"][0]["name"], "Rooms");
   EXPECT_EQ(robot["robot"]["drives"][0]["outcome"], "done");
   EXPECT_EQ(robot["robot"]["drives"][0]["error"], "");
+  // That no camera looked at each piece of wall from near is all that may be left.
+  auto const remark = robot["robot"]["drives"][0].value("remark", std::string());
+  EXPECT_TRUE(remark.empty() || remark.starts_with("explore: walls without a doorway are left")) << remark;
 
   // On the map where the building stands, and told to the page.
   auto const& grid = session.live_map.grids().at({"default", "", "robot 1"}).grid;
